@@ -1,0 +1,21 @@
+# How all code of the project is compiled. Floating point is never contracted or reordered, so that
+# pictures are the same to the bit on every machine.
+add_library(burin_flags INTERFACE)
+target_include_directories(burin_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(burin_flags INTERFACE
+    -ffp-contract=off
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion
+    -Wold-style-cast -Wnon-virtual-dtor -Wimplicit-fallthrough -Wundef
+    -Wno-restrict)  # g++ 12 sees overlaps in every "text" + string (GCC bug 105651)
+if(BURIN_WERROR)
+    target_compile_options(burin_flags INTERFACE -Werror)
+endif()
+if(BURIN_SANITIZE)
+    # g++ 12 reports false uninitialised values inside library headers under sanitizers.
+    add_compile_options(-fsanitize=${BURIN_SANITIZE} -fno-sanitize-recover=all
+        -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+    add_link_options(-fsanitize=${BURIN_SANITIZE})
+endif()
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+    target_compile_definitions(burin_flags INTERFACE _GLIBCXX_ASSERTIONS)
+endif()
