@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace burin {
+
+/// Number of threads to use for a request of `threads`; 0 asks for all cores.
+int resolve_thread_count(int threads);
+
+/// Calls work(index, worker) once for every index in [0, count), on `threads` threads
+/// (`worker` in [0, threads) tells which), and returns when all are done.
+///
+/// Indices are handed out in increasing order. Nothing may depend on which worker gets which index.
+/// The first exception stops the others and is rethrown. An interrupt throws `Interrupted`.
+void parallel_for(std::size_t count, int threads,
+                  const std::function<void(std::size_t index, int worker)>& work);
+
+}  // namespace burin

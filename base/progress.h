@@ -1,0 +1,49 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace burin {
+
+/// How progress is shown.
+enum class ProgressStyle : std::uint8_t {
+    none,
+    bar,  ///< one line on standard error, redrawn, with the time left
+    alf,  ///< lines "ALF_PROGRESS n%" on standard output, as render farms read them
+};
+
+/// Shows how far a job is. Any thread may call advance(); the screen is touched a few times a
+/// second at most.
+class Progress {
+  public:
+    explicit Progress(ProgressStyle style) : style_(style) {}
+    ~Progress() { finish(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// Starts a phase of `steps` steps. `label` is shown in front of the bar.
+    void begin(std::string label, std::uint64_t steps);
+    void advance(std::uint64_t steps = 1);
+    /// Clears the bar from the screen, or reports 100 %. Idempotent.
+    void finish();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void show(std::uint64_t done);
+
+    ProgressStyle style_;
+    std::mutex mutex_;  // guards everything below but done_
+    std::string label_;
+    std::uint64_t steps_ = 0;
+    std::atomic<std::uint64_t> done_{0};
+    Clock::time_point start_{};
+    std::atomic<Clock::rep> next_show_{0};
+    int last_percent_ = -1;
+    bool bar_visible_ = false;
+    bool any_phase_ = false;
+};
+
+}  // namespace burin
