@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/polygon_soup.h"
+#include "mesh/subdivide.h"
+
+namespace burin {
+
+struct MeshOptions {
+    int subdivision_levels = 0;
+    SubdivisionScheme scheme = SubdivisionScheme::automatic;
+};
+
+/// Turns the polygons of a file into one Mesh per object that has polygons left.
+///
+/// In this order: coordinates are rounded to single precision (relative to a common origin where
+/// the model lies far from 0), vertices with equal coordinates of one object are welded, repeated
+/// corners in a row collapse, polygons without three distinct corners or without area are dropped,
+/// duplicates of an earlier polygon (the same corners, in any direction) are dropped, the rest is
+/// subdivided if asked for, triangulated, and linked along its edges. Everything else is kept:
+/// open, non-manifold, self-crossing and inconsistently wound surfaces.
+///
+/// Each object that has polygons in the soup gives a mesh of its name, in order; a mesh whose
+/// polygons were all dropped is empty.
+std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& options);
+
+}  // namespace burin

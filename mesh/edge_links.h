@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace burin {
+
+/// Links the half-edges of triangles that join the same two vertices into rings, in increasing
+/// order (see Mesh::next_on_edge). Winding plays no part. Linear in the number of triangles.
+std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                 std::size_t vertex_count);
+
+/// The border edges of a mesh that is linked.
+BorderIndex index_borders(const Mesh& mesh);
+
+}  // namespace burin

@@ -1,0 +1,38 @@
+#include "mesh/mesh.h"
+
+namespace burin {
+
+glm::dvec3 Mesh::polygon_area_vector(std::uint32_t triangle) const {
+    if (!polygon_normals.empty()) return glm::dvec3(polygon_normals[polygon_of(triangle)]);
+    const auto& [a, b, c] = triangles[triangle];
+    const glm::dvec3 p(positions[a]);
+    return glm::cross(glm::dvec3(positions[b]) - p, glm::dvec3(positions[c]) - p);
+}
+
+EdgeCounts count_edges(const Mesh& mesh) {
+    EdgeCounts counts;
+    const auto half_edges = static_cast<HalfEdge>(mesh.next_on_edge.size());
+    for (HalfEdge h = 0; h < half_edges; ++h) {
+        std::uint64_t ring = 1;
+        bool is_first = true;
+        for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
+            is_first = is_first && h < g;
+            ++ring;
+        }
+        if (!is_first) continue;
+        const bool is_diagonal =
+            ring == 2 && mesh.polygon_of(h / 3) == mesh.polygon_of(mesh.next_on_edge[h] / 3);
+        if (is_diagonal) continue;
+        ++counts.edges;
+        counts.border += ring == 1;
+        counts.non_manifold += ring > 2;
+        counts.marked += mesh.is_marked(h);
+    }
+    for (const BorderIndex::Segment& s : mesh.borders.segments()) {
+        const glm::dvec3 middle = 0.5 * (glm::dvec3(s.a) + glm::dvec3(s.b));
+        counts.seam += mesh.borders.seam_partner(s.half_edge, middle).has_value();
+    }
+    return counts;
+}
+
+}  // namespace burin

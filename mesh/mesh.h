@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "mesh/border_index.h"
+
+namespace burin {
+
+/// Half-edge k of triangle t (HalfEdge number 3t + k) runs from corner k to corner (k + 1) % 3.
+constexpr HalfEdge kNoHalfEdge = 0xFFFFFFFFu;
+
+/// What was done to the polygons of the input on the way to a Mesh.
+struct MeshRepairs {
+    std::uint64_t input_polygons = 0;
+    std::uint64_t input_triangles = 0;  ///< a polygon of n corners counts as n - 2
+    std::uint64_t degenerate_polygons = 0;  ///< dropped: under 3 distinct corners, or no area
+    std::uint64_t duplicate_polygons = 0;   ///< dropped: the same corners as an earlier polygon
+    std::uint64_t welded_vertices = 0;      ///< vertices merged into one with equal coordinates
+};
+
+/// One object's surface: welded vertices and triangulated polygons, with its neighbours.
+///
+/// Vertices with equal coordinates are one vertex; vertices that no polygon uses are left out.
+/// A polygon stays one polygon: its triangles share a number, and the diagonals between them are
+/// no edges of the model. Surfaces are two-sided, so winding carries no meaning by itself.
+struct Mesh {
+    std::string name;
+
+    /// Coordinates are origin + position. The origin is 0 unless the model lies so far from 0
+    /// that single precision would blur it.
+    glm::dvec3 origin{0.0};
+    std::vector<glm::vec3> positions;
+
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< vertex numbers
+    std::vector<std::uint32_t> triangle_polygon;  ///< empty: triangle i is polygon i
+    std::uint32_t polygon_count = 0;
+    /// Area vectors (Newell) of the polygons; empty if and only if all polygons are triangles.
+    std::vector<glm::vec3> polygon_normals;
+    std::vector<std::uint32_t> polygon_material;  ///< empty: all have material 0
+
+    /// The other half-edges on the same two vertices, as a ring: itself at a border, the partner
+    /// on a two-manifold edge, a longer ring where more than two triangles meet.
+    std::vector<HalfEdge> next_on_edge;
+    /// Per half-edge, whether the user or the file marked its edge; empty: none is marked.
+    std::vector<bool> marked;
+    /// The border half-edges, findable by place (in the coordinates of `positions`).
+    BorderIndex borders;
+
+    MeshRepairs repairs;
+
+    std::uint32_t polygon_of(std::uint32_t triangle) const {
+        return triangle_polygon.empty() ? triangle : triangle_polygon[triangle];
+    }
+    std::uint32_t material_of(std::uint32_t triangle) const {
+        return polygon_material.empty() ? 0 : polygon_material[polygon_of(triangle)];
+    }
+    bool is_marked(HalfEdge h) const { return !marked.empty() && marked[h]; }
+    glm::dvec3 position(std::uint32_t vertex) const {
+        return origin + glm::dvec3(positions[vertex]);
+    }
+    /// Area vector of the polygon that the triangle belongs to (any length, never used as 0).
+    glm::dvec3 polygon_area_vector(std::uint32_t triangle) const;
+};
+
+/// What kinds of edges a mesh has.
+struct EdgeCounts {
+    std::uint64_t edges = 0;  ///< between two vertices, without triangulation diagonals
+    std::uint64_t border = 0;
+    std::uint64_t non_manifold = 0;
+    std::uint64_t seam = 0;  ///< border edges with an unstitched neighbour at their middle
+    std::uint64_t marked = 0;
+};
+EdgeCounts count_edges(const Mesh& mesh);
+
+}  // namespace burin

@@ -1,0 +1,87 @@
+#include "mesh/model.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <new>
+#include <utility>
+
+#include "base/error.h"
+#include "mesh/gltf.h"
+#include "mesh/readers.h"
+
+namespace burin {
+namespace {
+
+std::string lower_extension(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+Model model_of(PolygonSoup soup, const MeshOptions& options) {
+    Model model;
+    model.meshes = build_meshes(soup, options);
+    for (std::uint32_t i = 0; i < model.meshes.size(); ++i) {
+        model.objects.push_back({model.meshes[i].name, i, glm::dmat4(1.0)});
+    }
+    model.materials = std::move(soup.materials);
+    return model;
+}
+
+Model model_of(GltfScene scene, const MeshOptions& options) {
+    Model model;
+    constexpr std::uint32_t kNoMesh = 0xFFFFFFFFu;
+    std::vector<std::uint32_t> mesh_number(scene.meshes.size(), kNoMesh);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        std::vector<Mesh> built = build_meshes(scene.meshes[i], options);
+        scene.meshes[i] = PolygonSoup();
+        if (built.empty()) continue;
+        mesh_number[i] = static_cast<std::uint32_t>(model.meshes.size());
+        model.meshes.push_back(std::move(built.front()));
+    }
+    for (GltfObject& object : scene.objects) {
+        const std::uint32_t mesh = mesh_number[object.mesh];
+        if (mesh != kNoMesh) model.objects.push_back({std::move(object.name), mesh, object.to_world});
+    }
+    for (GltfCamera& c : scene.cameras) {
+        model.cameras.push_back({std::move(c.name), c.orthographic, c.fov_deg, c.height, c.to_world});
+    }
+    model.materials = std::move(scene.materials);
+    model.skipped_primitives = scene.skipped_primitives;
+    return model;
+}
+
+Model read_by_extension(const std::string& path, const MeshOptions& options) {
+    const std::string extension = lower_extension(path);
+    if (extension == ".obj") return model_of(read_obj(path), options);
+    if (extension == ".ply") return model_of(read_ply(path), options);
+    if (extension == ".stl") return model_of(read_stl(path), options);
+    if (extension == ".off") return model_of(read_off(path), options);
+    if (extension == ".gltf" || extension == ".glb") return model_of(read_gltf(path), options);
+    throw InputError(path + ": unknown kind of model '" + extension +
+                     "'; burin reads .obj .ply .stl .off .gltf .glb");
+}
+
+}  // namespace
+
+bool is_model_file(const std::string& path) {
+    static constexpr const char* kExtensions[] = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
+    const std::string extension = lower_extension(path);
+    return std::any_of(std::begin(kExtensions), std::end(kExtensions),
+                       [&](const char* known) { return extension == known; });
+}
+
+Model read_model(const std::string& path, const MeshOptions& options) {
+    Model model = read_by_extension(path, options);
+    const bool has_triangles = std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
+        return !model.meshes[o.mesh].triangles.empty();
+    });
+    if (!has_triangles) {
+        throw InputError(path + ": no polygon with an area is in it; burin draws the lines of surfaces");
+    }
+    return model;
+}
+
+}  // namespace burin

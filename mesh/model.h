@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "mesh/build_meshes.h"
+#include "mesh/mesh.h"
+#include "mesh/polygon_soup.h"
+
+namespace burin {
+
+/// A mesh at its place in the model: an object.
+struct ModelObject {
+    std::string name;
+    std::uint32_t mesh = 0;
+    glm::dmat4 to_world{1.0};
+};
+
+/// A camera of the file. It looks down its own -Z, with +Y up.
+struct ModelCamera {
+    std::string name;
+    bool orthographic = false;
+    double fov_deg = 0;  ///< vertical, perspective only
+    double height = 0;   ///< full visible height in world units, orthographic only
+    glm::dmat4 to_world{1.0};
+};
+
+/// All that one file holds. Several objects may show one mesh (instances).
+struct Model {
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<ModelObject> objects;
+    std::vector<ModelCamera> cameras;
+    std::uint64_t skipped_primitives = 0;  ///< points and lines of a glTF
+};
+
+/// True if the extension names a format that read_model can read.
+bool is_model_file(const std::string& path);
+
+/// Reads .obj, .ply, .stl, .off, .gltf or .glb, whichever the extension says (in any case).
+/// Throws InputError when the file cannot be read or no polygon with an area is in it.
+Model read_model(const std::string& path, const MeshOptions& options);
+
+}  // namespace burin

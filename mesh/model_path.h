@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace burin {
+
+/// The path of the file that a model names by `reference`, relative to the model's folder.
+/// Empty when the reference is absolute, or leads out of the folder, also by a symbolic link.
+std::string path_inside_model_folder(const std::string& model_path, std::string_view reference);
+
+}  // namespace burin

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace burin {
+
+/// One object's polygons after welding and dropping, before triangulation: what subdivision works
+/// on. Corners are numbers into `positions`.
+struct PolygonMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> ends;              ///< empty: all polygons are triangles
+    std::vector<std::uint32_t> polygon_material;  ///< empty: all have material 0
+    std::vector<std::array<std::uint32_t, 2>> marked_edges;
+
+    std::size_t polygon_count() const { return ends.empty() ? corners.size() / 3 : ends.size(); }
+    std::span<const std::uint32_t> polygon(std::size_t i) const {
+        if (ends.empty()) return {corners.data() + 3 * i, 3};
+        const std::size_t begin = i == 0 ? 0 : ends[i - 1];
+        return {corners.data() + begin, ends[i] - begin};
+    }
+};
+
+}  // namespace burin

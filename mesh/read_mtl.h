@@ -1,0 +1,18 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesh/polygon_soup.h"
+
+namespace burin {
+
+/// Colours (`Kd`) and opacities (`d`, `Tr`) from the MTL files that an OBJ names.
+///
+/// Only files in the OBJ's own folder or below are read. A file that is missing or broken is left
+/// out: materials then keep the default colour, and the lines are the same.
+std::map<std::string, Material, std::less<>> read_material_files(
+    const std::string& obj_path, const std::vector<std::string>& file_names);
+
+}  // namespace burin

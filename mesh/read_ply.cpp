@@ -1,0 +1,443 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "base/interrupt.h"
+#include "base/mapped_file.h"
+#include "mesh/ply_header.h"
+#include "mesh/readers.h"
+#include "mesh/text_scan.h"
+
+namespace burin {
+namespace {
+
+/// Values of an ASCII body, in order. The values of one item stand on one line by convention, but
+/// readers everywhere take any white space, so this does too.
+class AsciiValues {
+  public:
+    AsciiValues(std::string_view body, std::size_t first_line)
+        : p_(body.data()), end_(body.data() + body.size()), line_(first_line) {}
+
+    bool number(PlyType, double& value) {
+        skip_space();
+        const char* const next = scan_number(p_, end_, value);
+        return accept(next);
+    }
+    bool integer(PlyType type, std::int64_t& value) {
+        if (type >= PlyType::float32) {
+            double number_value = 0;
+            if (!number(type, number_value) || std::abs(number_value) > 9e15) return false;
+            value = static_cast<std::int64_t>(number_value);
+            return true;
+        }
+        skip_space();
+        if (p_ < end_ && is_digit(*p_)) {
+            // Nearly all numbers here are short and without a sign.
+            const char* q = p_;
+            std::int64_t v = 0;
+            while (q < end_ && is_digit(*q) && q - p_ < 18) v = 10 * v + (*q++ - '0');
+            if (q == end_ || !is_digit(*q)) {
+                value = v;
+                return accept(q);
+            }
+        }
+        return accept(scan_integer(p_, end_, value));
+    }
+    bool skip(PlyType, std::uint64_t count) {
+        for (; count > 0; --count) {
+            skip_space();
+            if (p_ == end_) return false;
+            while (p_ < end_ && !is_space(*p_)) ++p_;
+        }
+        return true;
+    }
+    /// How many values the rest can hold at most: each takes a character and a space.
+    std::uint64_t room() const { return static_cast<std::uint64_t>(end_ - p_ + 1) / 2; }
+    bool at_end() {
+        skip_space();
+        return p_ == end_;
+    }
+    std::size_t line() const { return line_; }
+
+  private:
+    static bool is_space(char c) { return is_blank(c) || c == '\n'; }
+    void skip_space() {
+        while (p_ < end_ && static_cast<unsigned char>(*p_) <= ' ' && is_space(*p_)) {
+            line_ += *p_++ == '\n';
+        }
+    }
+    bool accept(const char* next) {
+        if (next == nullptr || (next < end_ && !is_space(*next))) return false;
+        p_ = next;
+        return true;
+    }
+
+    const char* p_;
+    const char* end_;
+    std::size_t line_;
+};
+
+/// Values of a binary body, in order.
+class BinaryValues {
+  public:
+    BinaryValues(std::string_view body, bool big_endian)
+        : p_(body.data()), end_(body.data() + body.size()), big_endian_(big_endian) {}
+
+    bool number(PlyType type, double& value) {
+        if (room_bytes() < size_of(type)) return false;
+        switch (type) {
+            case PlyType::int8: value = load<std::int8_t>(); break;
+            case PlyType::uint8: value = load<std::uint8_t>(); break;
+            case PlyType::int16: value = load<std::int16_t>(); break;
+            case PlyType::uint16: value = load<std::uint16_t>(); break;
+            case PlyType::int32: value = load<std::int32_t>(); break;
+            case PlyType::uint32: value = load<std::uint32_t>(); break;
+            case PlyType::float32: value = static_cast<double>(load<float>()); break;
+            case PlyType::float64: value = load<double>(); break;
+        }
+        return true;
+    }
+    bool integer(PlyType type, std::int64_t& value) {
+        double number_value = 0;  // 32-bit integers fit exactly
+        if (!number(type, number_value) || !(std::abs(number_value) <= 9e15)) return false;
+        value = static_cast<std::int64_t>(number_value);
+        return true;
+    }
+    bool skip(PlyType type, std::uint64_t count) {
+        if (count > room_bytes() / size_of(type)) return false;
+        p_ += count * size_of(type);
+        return true;
+    }
+    std::uint64_t room() const { return room_bytes(); }
+    bool at_end() const { return p_ == end_; }
+    std::size_t line() const { return 0; }
+
+  private:
+    std::size_t room_bytes() const { return static_cast<std::size_t>(end_ - p_); }
+    template <typename T>
+    T load() {
+        char bytes[sizeof(T)];
+        std::memcpy(bytes, p_, sizeof(T));
+        p_ += sizeof(T);
+        const bool swap = big_endian_ == (std::endian::native == std::endian::little);
+        if (swap) {
+            for (std::size_t i = 0; i < sizeof(T) / 2; ++i) {
+                std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+            }
+        }
+        T value;
+        std::memcpy(&value, bytes, sizeof(T));
+        return value;
+    }
+
+    const char* p_;
+    const char* end_;
+    bool big_endian_;
+};
+
+template <typename Values>
+class BodyReader {
+  public:
+    BodyReader(const std::string& path, const PlyHeader& header, Values values)
+        : path_(path), header_(header), values_(values) {}
+
+    PolygonSoup read() {
+        for (const PlyElement& element : header_.elements) {
+            check_room(element);
+            element_ = &element;
+            if (element.name == "vertex") {
+                read_vertices(element);
+            } else if (element.name == "face") {
+                read_faces(element);
+            } else if (element.name == "tristrips") {
+                read_strips(element);
+            } else if (element.name == "edge" && element.find("vertex1") >= 0 &&
+                       element.find("vertex2") >= 0) {
+                read_edges(element);
+            } else {
+                for (item_ = 0; item_ < element.count; ++item_) skip_properties(element, 0);
+            }
+        }
+        if (soup_.positions.empty()) {
+            throw InputError(path_ + ": the file has no vertices; burin draws the lines of surfaces");
+        }
+        if (soup_.polygon_count() == 0) {
+            throw InputError(path_ + ": the file has no polygons; burin draws the lines of surfaces");
+        }
+        check_references();
+        return std::move(soup_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& message) const {
+        const std::string item =
+            values_.line() > 0 ? "" : element_->name + " " + std::to_string(item_) + ": ";
+        throw InputError({path_, values_.line()}, item + message);
+    }
+    [[noreturn]] void fail_value() {
+        if (values_.at_end()) {
+            fail("the file ends in the middle of element '" + printable(element_->name) +
+                 "'; was it written completely?");
+        }
+        fail("a value of element '" + printable(element_->name) + "' is no number of its type; " +
+             "repair or re-export the file");
+    }
+
+    /// Refuses counts that the file has no room for, before anything is allocated.
+    void check_room(const PlyElement& element) const {
+        const std::uint64_t values_each =
+            header_.encoding == PlyEncoding::ascii ? element.properties.size()
+                                                   : element.smallest_binary_size();
+        if (element.count > 0 && values_each == 0) {
+            throw InputError(path_ + ": element '" + printable(element.name) +
+                             "' has a count but no properties; repair the file");
+        }
+        if (element.count > 0 && values_.room() / values_each < element.count) {
+            throw InputError(path_ + ": the header promises " + std::to_string(element.count) +
+                             " of element '" + printable(element.name) +
+                             "', the file has room for at most " +
+                             std::to_string(values_.room() / values_each) +
+                             "; was it written completely?");
+        }
+        if (element.name == "vertex" && element.count > 0xFFFFFFFFu) {
+            throw InputError(path_ + ": more than 4 billion vertices; split the model");
+        }
+    }
+
+    void poll() const {
+        if ((item_ & 0xFFFF) == 0) throw_if_interrupted();
+    }
+
+    double number(const PlyProperty& property) {
+        double value = 0;
+        if (!values_.number(property.type, value)) fail_value();
+        return value;
+    }
+
+    /// The length of a list that starts here; at most what the file has room for.
+    std::uint64_t list_length(const PlyProperty& property) {
+        std::int64_t length = 0;
+        if (!values_.integer(property.count_type, length)) fail_value();
+        if (length < 0 || static_cast<std::uint64_t>(length) > values_.room()) {
+            fail("a list of " + std::to_string(length) + " values does not fit the file; " +
+                 "repair or re-export it");
+        }
+        return static_cast<std::uint64_t>(length);
+    }
+
+    void skip_property(const PlyProperty& property) {
+        const std::uint64_t count = property.is_list ? list_length(property) : 1;
+        if (!values_.skip(property.type, count)) fail_value();
+    }
+    void skip_properties(const PlyElement& element, std::size_t first) {
+        poll();
+        for (std::size_t i = first; i < element.properties.size(); ++i) {
+            skip_property(element.properties[i]);
+        }
+    }
+
+    void read_vertices(const PlyElement& element) {
+        const int axis_property[3] = {element.find("x"), element.find("y"), element.find("z")};
+        std::vector<int> axis_of(element.properties.size(), -1);
+        for (int axis = 0; axis < 3; ++axis) {
+            const int p = axis_property[axis];
+            if (p < 0 || element.properties[static_cast<std::size_t>(p)].is_list) {
+                throw InputError(path_ + ": element 'vertex' has no property '" + "xyz"[axis] +
+                                 "'; repair or re-export the file");
+            }
+            axis_of[static_cast<std::size_t>(p)] = axis;
+        }
+        soup_.positions.reserve(soup_.positions.size() + element.count);
+        for (item_ = 0; item_ < element.count; ++item_) {
+            poll();
+            glm::dvec3 position;
+            for (std::size_t i = 0; i < axis_of.size(); ++i) {
+                if (axis_of[i] < 0) {
+                    skip_property(element.properties[i]);
+                } else {
+                    position[axis_of[i]] = number(element.properties[i]);
+                }
+            }
+            const double largest =
+                std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+            if (!(largest <= kLargestCoordinate) || std::isnan(position.x + position.y + position.z)) {
+                fail("a coordinate is not finite or beyond 1e30; repair or re-export the file");
+            }
+            soup_.positions.push_back(position);
+        }
+    }
+
+    /// One value of a vertex number list. Faces may stand before the vertices, so the upper bound
+    /// is checked when all is read.
+    std::int64_t list_index(const PlyProperty& property) {
+        std::int64_t index = 0;
+        if (!values_.integer(property.type, index)) fail_value();
+        if (index > largest_index_) {
+            largest_index_ = index;
+            largest_index_line_ = values_.line();
+            largest_index_item_ = item_;
+        }
+        return index;
+    }
+
+    std::uint32_t vertex_index(const PlyProperty& property) {
+        const std::int64_t index = list_index(property);
+        if (index < 0 || index > std::int64_t{0xFFFFFFFF}) {
+            fail("vertex " + std::to_string(index) + " does not exist; repair or re-export the file");
+        }
+        return static_cast<std::uint32_t>(index);
+    }
+
+    void read_faces(const PlyElement& element) {
+        const int list = element.find("vertex_indices", "vertex_index");
+        if (list < 0 || !element.properties[static_cast<std::size_t>(list)].is_list) {
+            throw InputError(path_ + ": element 'face' has no list 'vertex_indices'; " +
+                             "repair or re-export the file");
+        }
+        soup_.corners.reserve(3 * element.count);
+        bool all_triangles = soup_.polygon_ends.empty();
+        for (item_ = 0; item_ < element.count; ++item_) {
+            poll();
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const PlyProperty& property = element.properties[i];
+                if (i != static_cast<std::size_t>(list)) {
+                    skip_property(property);
+                    continue;
+                }
+                const std::uint64_t length = list_length(property);
+                if (all_triangles && length != 3) {
+                    all_triangles = false;
+                    list_all_triangle_ends();
+                }
+                for (std::uint64_t k = 0; k < length; ++k) {
+                    soup_.corners.push_back(vertex_index(property));
+                }
+                check_corner_count();
+                if (!all_triangles) {
+                    soup_.polygon_ends.push_back(static_cast<std::uint32_t>(soup_.corners.size()));
+                }
+            }
+        }
+    }
+
+    void read_strips(const PlyElement& element) {
+        const int list = element.find("vertex_indices", "vertex_index");
+        if (list < 0 || !element.properties[static_cast<std::size_t>(list)].is_list) {
+            throw InputError(path_ + ": element 'tristrips' has no list 'vertex_indices'; " +
+                             "repair or re-export the file");
+        }
+        for (item_ = 0; item_ < element.count; ++item_) {
+            poll();
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                if (i == static_cast<std::size_t>(list)) {
+                    read_strip(element.properties[i]);
+                } else {
+                    skip_property(element.properties[i]);
+                }
+            }
+        }
+    }
+
+    /// Strips follow each other in one list, separated by -1; every second triangle is turned.
+    void read_strip(const PlyProperty& property) {
+        const std::uint64_t length = list_length(property);
+        std::uint32_t previous[2] = {0, 0};
+        std::uint64_t in_strip = 0;
+        for (std::uint64_t k = 0; k < length; ++k) {
+            if ((k & 0xFFFF) == 0) throw_if_interrupted();
+            const std::int64_t index = list_index(property);
+            if (index == -1) {
+                in_strip = 0;
+                continue;
+            }
+            if (index < 0 || index > std::int64_t{0xFFFFFFFF}) {
+                fail("vertex " + std::to_string(index) + " does not exist; repair the file");
+            }
+            const auto vertex = static_cast<std::uint32_t>(index);
+            if (in_strip >= 2) {
+                const std::size_t turned = in_strip % 2;
+                const std::uint32_t corners[3] = {previous[turned], previous[1 - turned], vertex};
+                soup_.corners.insert(soup_.corners.end(), corners, corners + 3);
+                check_corner_count();
+                if (!soup_.polygon_ends.empty()) {
+                    soup_.polygon_ends.push_back(static_cast<std::uint32_t>(soup_.corners.size()));
+                }
+            }
+            previous[0] = previous[1];
+            previous[1] = vertex;
+            ++in_strip;
+        }
+    }
+
+    void read_edges(const PlyElement& element) {
+        const auto first = static_cast<std::size_t>(element.find("vertex1"));
+        const auto second = static_cast<std::size_t>(element.find("vertex2"));
+        for (item_ = 0; item_ < element.count; ++item_) {
+            poll();
+            std::array<std::uint32_t, 2> edge{};
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const PlyProperty& property = element.properties[i];
+                if (property.is_list || (i != first && i != second)) {
+                    skip_property(property);
+                } else {
+                    edge[i == first ? 0 : 1] = vertex_index(property);
+                }
+            }
+            soup_.marked_edges.push_back(edge);
+        }
+    }
+
+    void list_all_triangle_ends() {
+        for (std::size_t end = 3; end <= soup_.corners.size(); end += 3) {
+            soup_.polygon_ends.push_back(static_cast<std::uint32_t>(end));
+        }
+    }
+    void check_corner_count() const {
+        if (soup_.corners.size() > PolygonSoup::kMaxCorners) {
+            fail("more than 4 billion polygon corners; split the model");
+        }
+    }
+    void check_references() const {
+        if (largest_index_ < static_cast<std::int64_t>(soup_.positions.size())) return;
+        const std::string item =
+            largest_index_line_ > 0 ? "" : "item " + std::to_string(largest_index_item_) + ": ";
+        throw InputError({path_, largest_index_line_},
+                         item + "vertex " + std::to_string(largest_index_) +
+                             " does not exist (the file has " +
+                             std::to_string(soup_.positions.size()) +
+                             ", counted from 0); repair or re-export the file");
+    }
+
+    const std::string& path_;
+    const PlyHeader& header_;
+    Values values_;
+    PolygonSoup soup_;
+    const PlyElement* element_ = nullptr;
+    std::uint64_t item_ = 0;
+    std::int64_t largest_index_ = -1;
+    std::size_t largest_index_line_ = 0;
+    std::uint64_t largest_index_item_ = 0;
+};
+
+}  // namespace
+
+PolygonSoup read_ply(const std::string& path) {
+    const MappedFile file(path);
+    const PlyHeader header = read_ply_header(path, file.bytes());
+    const std::string_view body = file.bytes().substr(header.size);
+    PolygonSoup soup;
+    if (header.encoding == PlyEncoding::ascii) {
+        soup = BodyReader(path, header, AsciiValues(body, header.lines + 1)).read();
+    } else {
+        const bool big_endian = header.encoding == PlyEncoding::big_endian;
+        soup = BodyReader(path, header, BinaryValues(body, big_endian)).read();
+    }
+    soup.object_names = {std::filesystem::path(path).stem().string()};
+    soup.materials = {Material{}};
+    return soup;
+}
+
+}  // namespace burin

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "mesh/polygon_soup.h"
+
+namespace burin {
+
+/// Readers of the single-mesh formats. Each takes the path of a file and returns its polygons.
+///
+/// All of them read bounded amounts of mapped memory: a count in the file is believed only as far
+/// as the file has room for it. They throw InputError ("file:line: what; what to do") for text that
+/// does not parse, vertex numbers out of range, and coordinates that are not finite or beyond 1e30.
+/// Polygons with fewer than three corners are passed on, to be counted and dropped by build_meshes.
+
+/// Wavefront OBJ. `o` names start objects (`g` names, in a file without any `o`), `usemtl` sets the
+/// material, `l` marks edges. Texture coordinates, normals, free-form surfaces, points are skipped.
+/// Colours and opacities come from the `mtllib` files that lie in the model's folder or below.
+PolygonSoup read_obj(const std::string& path);
+
+/// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
+/// `element edge` marks edges; other elements and properties are skipped.
+PolygonSoup read_ply(const std::string& path);
+
+/// STL, ASCII and binary. Each `solid` of an ASCII file is an object.
+PolygonSoup read_stl(const std::string& path);
+
+/// OFF as text, with or without the prefixes for colours, normals and texture coordinates.
+PolygonSoup read_off(const std::string& path);
+
+}  // namespace burin

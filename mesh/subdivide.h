@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "mesh/polygon_mesh.h"
+
+namespace burin {
+
+enum class SubdivisionScheme : std::uint8_t {
+    automatic,      ///< Loop if all polygons are triangles, else Catmull–Clark
+    loop,           ///< Loop 1987: triangles become four
+    catmull_clark,  ///< Catmull and Clark 1978: an n-gon becomes n quadrilaterals
+};
+
+/// Subdivides the control mesh `levels` times. Materials and edge marks go to the children. The
+/// result's polygons are the small ones.
+///
+/// Throws InputError if the surface is not two-manifold or not wound consistently (subdivision has
+/// no meaning there), if Loop is asked for polygons that are not triangles, or if more than
+/// 2^28 polygons would result. `object_name` is for messages.
+PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
+                      const std::string& object_name);
+
+}  // namespace burin

@@ -1,0 +1,222 @@
+#include "mesh/triangulate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/interrupt.h"
+
+namespace burin {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+/// Twice the signed area of a triangle; positive when it turns left.
+double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return cross(b - a, c - a); }
+
+/// The polygon in its own plane, turning left, scaled to about 1 so that products stay finite.
+std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners) {
+    const glm::dvec3 normal = area_vector(corners);
+    const glm::dvec3 size = glm::abs(normal);
+    // Leaving out the axis closest to the normal keeps the coordinates exact.
+    const int drop = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    const int u = (drop + 1) % 3;
+    const int v = (drop + 2) % 3;
+    const double flip = normal[drop] < 0 ? -1.0 : 1.0;
+    double extent = 0;
+    for (const glm::dvec3& c : corners) {
+        const glm::dvec3 d = glm::abs(c - corners[0]);
+        extent = std::max({extent, d.x, d.y, d.z});
+    }
+    const double scale = extent > 0 ? 1 / extent : 1;
+    std::vector<glm::dvec2> flat;
+    flat.reserve(corners.size());
+    for (const glm::dvec3& c : corners) {
+        const glm::dvec3 d = (c - corners[0]) * scale;
+        flat.emplace_back(d[u] * flip, d[v]);
+    }
+    return flat;
+}
+
+/// The corners where the polygon turns right, findable by place.
+class ReflexGrid {
+  public:
+    ReflexGrid(const std::vector<glm::dvec2>& points, const std::vector<bool>& is_reflex) {
+        std::size_t count = 0;
+        low_ = high_ = points[0];
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            low_ = glm::min(low_, points[i]);
+            high_ = glm::max(high_, points[i]);
+            count += is_reflex[i];
+        }
+        side_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(count))));
+        cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (is_reflex[i]) {
+                cells_[cell(column(points[i].x), row(points[i].y))].push_back(
+                    static_cast<std::uint32_t>(i));
+            }
+        }
+    }
+
+    /// True if test(i) holds for any reflex corner in the box.
+    template <typename Test>
+    bool any_in_box(glm::dvec2 low, glm::dvec2 high, const Test& test) const {
+        for (int y = row(low.y); y <= row(high.y); ++y) {
+            for (int x = column(low.x); x <= column(high.x); ++x) {
+                for (const std::uint32_t i : cells_[cell(x, y)]) {
+                    if (test(i)) return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    void remove(std::uint32_t i, glm::dvec2 p) {
+        std::erase(cells_[cell(column(p.x), row(p.y))], i);
+    }
+
+  private:
+    int place(double value, double low, double high) const {
+        if (!(high > low)) return 0;
+        return std::clamp(static_cast<int>((value - low) / (high - low) * side_), 0, side_ - 1);
+    }
+    int column(double x) const { return place(x, low_.x, high_.x); }
+    int row(double y) const { return place(y, low_.y, high_.y); }
+    std::size_t cell(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) +
+               static_cast<std::size_t>(x);
+    }
+
+    glm::dvec2 low_, high_;
+    int side_;
+    std::vector<std::vector<std::uint32_t>> cells_;
+};
+
+class EarClipper {
+  public:
+    explicit EarClipper(std::span<const glm::dvec3> corners)
+        : points_(flattened(corners)),
+          next_(corners.size()),
+          previous_(corners.size()),
+          is_reflex_(find_reflex_corners()),
+          grid_(points_, is_reflex_) {}
+
+    void clip(std::vector<Triangle>& triangles) {
+        auto left = static_cast<std::uint32_t>(points_.size());
+        std::uint32_t at = 0;
+        std::uint32_t refused = 0;  // corners in a row that were no ears
+        for (std::uint64_t step = 0; left > 3; ++step) {
+            if ((step & 0xFFFF) == 0) throw_if_interrupted();
+            // A polygon that crosses itself may run out of ears: then any corner is cut off.
+            if (refused < left && !is_ear(at)) {
+                at = next_[at];
+                ++refused;
+                continue;
+            }
+            triangles.push_back({previous_[at], at, next_[at]});
+            at = cut_off(at);
+            --left;
+            refused = 0;
+        }
+        triangles.push_back({previous_[at], at, next_[at]});
+    }
+
+  private:
+    std::vector<bool> find_reflex_corners() {
+        const auto n = static_cast<std::uint32_t>(points_.size());
+        std::vector<bool> reflex(n);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            next_[i] = (i + 1) % n;
+            previous_[i] = (i + n - 1) % n;
+        }
+        for (std::uint32_t i = 0; i < n; ++i) reflex[i] = turn_at(i) <= 0;
+        return reflex;
+    }
+
+    double turn_at(std::uint32_t i) const {
+        return turn(points_[previous_[i]], points_[i], points_[next_[i]]);
+    }
+
+    /// An ear is a corner whose triangle holds no other corner. Only reflex corners can be in it.
+    bool is_ear(std::uint32_t i) const {
+        if (is_reflex_[i]) return false;
+        const std::uint32_t before = previous_[i];
+        const std::uint32_t after = next_[i];
+        const glm::dvec2 a = points_[before], b = points_[i], c = points_[after];
+        return !grid_.any_in_box(
+            glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), [&](std::uint32_t k) {
+                if (k == before || k == i || k == after) return false;
+                const glm::dvec2 p = points_[k];
+                // A repeated corner (the cut to a hole) does not block.
+                if (p == a || p == b || p == c) return false;
+                return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+            });
+    }
+
+    /// Removes corner i and returns where to go on: two corners further, which avoids slivers.
+    std::uint32_t cut_off(std::uint32_t i) {
+        const std::uint32_t before = previous_[i];
+        const std::uint32_t after = next_[i];
+        if (is_reflex_[i]) grid_.remove(i, points_[i]);
+        next_[before] = after;
+        previous_[after] = before;
+        for (const std::uint32_t k : {before, after}) {
+            if (is_reflex_[k] && turn_at(k) > 0) {
+                is_reflex_[k] = false;
+                grid_.remove(k, points_[k]);
+            }
+        }
+        return next_[after];
+    }
+
+    std::vector<glm::dvec2> points_;
+    std::vector<std::uint32_t> next_, previous_;
+    std::vector<bool> is_reflex_;
+    ReflexGrid grid_;
+};
+
+/// Cuts a quadrilateral along its shorter diagonal, or the only one inside if a corner is reflex.
+void triangulate_quad(std::span<const glm::dvec3> c, std::vector<Triangle>& triangles) {
+    const glm::dvec3 normal = area_vector(c);
+    const auto side = [&](int a, int b, int d) {
+        const auto at = [&](int i) { return c[static_cast<std::size_t>(i)]; };
+        return glm::dot(glm::cross(at(b) - at(a), at(d) - at(a)), normal);
+    };
+    const bool cut_02_fits = side(0, 1, 2) > 0 && side(0, 2, 3) > 0;
+    const bool cut_13_fits = side(1, 2, 3) > 0 && side(1, 3, 0) > 0;
+    const glm::dvec3 d02 = c[2] - c[0];
+    const glm::dvec3 d13 = c[3] - c[1];
+    const bool prefer_02 = glm::dot(d02, d02) <= glm::dot(d13, d13);
+    const bool cut_02 = cut_02_fits == cut_13_fits ? prefer_02 : cut_02_fits;
+    if (cut_02) {
+        triangles.push_back({0, 1, 2});
+        triangles.push_back({0, 2, 3});
+    } else {
+        triangles.push_back({1, 2, 3});
+        triangles.push_back({1, 3, 0});
+    }
+}
+
+}  // namespace
+
+glm::dvec3 area_vector(std::span<const glm::dvec3> corners) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+        sum += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+    }
+    return sum;
+}
+
+void triangulate_polygon(std::span<const glm::dvec3> corners, std::vector<Triangle>& triangles) {
+    if (corners.size() == 3) {
+        triangles.push_back({0, 1, 2});
+    } else if (corners.size() == 4) {
+        triangulate_quad(corners, triangles);
+    } else {
+        EarClipper(corners).clip(triangles);
+    }
+}
+
+}  // namespace burin
