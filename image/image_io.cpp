@@ -1,0 +1,129 @@
+#include "image/image_io.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "image/half.h"
+#include "image/oiio_module.h"
+
+namespace burin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the module can be: beside the program, or where it was installed.
+std::vector<fs::path> module_candidates() {
+    const char* const name = "burin_oiio.so";
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    std::vector<fs::path> candidates;
+    if (!error) {
+        candidates.push_back(program.parent_path() / name);
+        candidates.push_back(program.parent_path().parent_path() / "lib" / "burin" / name);
+    }
+    candidates.emplace_back(name);  // the loader's own search path
+    return candidates;
+}
+
+template <typename Function>
+Function* module_function(const char* name) {
+    static void* const module = [] {
+        void* handle = nullptr;
+        for (const fs::path& candidate : module_candidates()) {
+            if (handle == nullptr) handle = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
+        }
+        return handle;
+    }();
+    void* const symbol = module != nullptr ? dlsym(module, name) : nullptr;
+    if (symbol == nullptr) {
+        const char* const reason = dlerror();
+        throw InputError(std::string("cannot load burin_oiio.so, which writes PNG and TIFF: ") +
+                         (reason != nullptr ? reason : "not found") +
+                         "; keep it beside the burin program, or write EXR");
+    }
+    return reinterpret_cast<Function*>(symbol);
+}
+
+std::uint16_t code_value(float unit) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(unit, 0.0f, 1.0f) * 65535.0f));
+}
+
+}  // namespace
+
+float srgb_from_linear(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear
+                                : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+float linear_from_srgb(float code) {
+    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+}
+
+DisplayImage to_display(const Image& image, std::optional<glm::vec3> background) {
+    DisplayImage result;
+    result.width = image.display().width();
+    result.height = image.display().height();
+    result.channels = background ? 3 : 4;
+    const auto channels = static_cast<std::size_t>(result.channels);
+    const auto pixel_count =
+        static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
+    result.pixels.resize(pixel_count * channels);
+
+    const glm::vec3 paper = background.value_or(glm::vec3(0.0f));
+    const Channel* const rgba[4] = {image.find("R"), image.find("G"), image.find("B"),
+                                    image.find("A")};
+    const int dx = image.data().x0 - image.display().x0;
+    const int dy = image.data().y0 - image.display().y0;
+    for (int y = 0; y < result.height; ++y) {
+        for (int x = 0; x < result.width; ++x) {
+            const std::size_t out = (static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) +
+                                     static_cast<std::size_t>(x)) * channels;
+            const int sx = x - dx, sy = y - dy;
+            const bool has_data = sx >= 0 && sy >= 0 && sx < image.width() && sy < image.height();
+            float color[4] = {0, 0, 0, 0};
+            for (int c = 0; c < 4 && has_data; ++c) {
+                color[c] = static_cast<float>(image.value(*rgba[c], sx, sy));
+            }
+            const float alpha = color[3];
+            for (int c = 0; c < 3; ++c) {
+                float linear = color[c] + (1 - alpha) * paper[c];
+                if (!background && alpha > 0) linear = color[c] / alpha;
+                result.pixels[out + static_cast<std::size_t>(c)] = code_value(srgb_from_linear(linear));
+            }
+            if (!background) result.pixels[out + 3] = code_value(alpha);
+        }
+    }
+    return result;
+}
+
+void write_display_image(const std::string& path, const DisplayImage& image, int bits) {
+    auto* const write = module_function<decltype(burin_oiio_write)>("burin_oiio_write");
+    AtomicFile file(path);
+    const char* const failure = write(file.temporary_path().c_str(), image.width, image.height,
+                                      image.channels, bits, image.pixels.data());
+    if (failure != nullptr) {
+        throw InputError(path + ": cannot write: " + failure + "; is the disk full?");
+    }
+    file.commit();
+}
+
+DisplayImage read_display_image(const std::string& path) {
+    auto* const read = module_function<decltype(burin_oiio_read)>("burin_oiio_read");
+    DisplayImage image;
+    const auto allocate = [](void* context, unsigned long long count) {
+        auto& pixels = *static_cast<std::vector<std::uint16_t>*>(context);
+        pixels.resize(count);
+        return pixels.data();
+    };
+    const char* const failure =
+        read(path.c_str(), &image.width, &image.height, &image.channels, allocate, &image.pixels);
+    if (failure != nullptr) throw InputError(path + ": cannot read: " + failure);
+    return image;
+}
+
+}  // namespace burin

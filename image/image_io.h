@@ -1,0 +1,37 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace burin {
+
+/// A picture for the screen: rows from the top, 3 or 4 values per pixel, sRGB-encoded, 0..65535,
+/// alpha not multiplied in.
+struct DisplayImage {
+    int width = 0;
+    int height = 0;
+    int channels = 3;
+    std::vector<std::uint16_t> pixels;
+};
+
+/// sRGB transfer function (IEC 61966-2-1): linear light 0..1 to code value 0..1, and back.
+float srgb_from_linear(float linear);
+float linear_from_srgb(float code);
+
+/// The channels R, G, B, A (premultiplied, linear) as a picture over `background` (linear), or, if
+/// there is none, with an alpha channel. The display window is filled; pixels outside of the data
+/// window are background.
+DisplayImage to_display(const Image& image, std::optional<glm::vec3> background);
+
+/// Writes a PNG or TIFF (by extension) with 8 or 16 bits per value. The file appears under its name
+/// only when it is complete. Throws InputError.
+void write_display_image(const std::string& path, const DisplayImage& image, int bits);
+
+/// Reads a PNG or TIFF. Throws InputError. For tests and tools.
+DisplayImage read_display_image(const std::string& path);
+
+}  // namespace burin
