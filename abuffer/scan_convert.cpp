@@ -1,0 +1,63 @@
+#include "abuffer/scan_convert.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace burin {
+namespace {
+
+std::int64_t ceil_divide(std::int64_t a, std::int64_t positive_b) {
+    return a >= 0 ? (a + positive_b - 1) / positive_b : -(-a / positive_b);
+}
+
+// In units of 1 / (2 * 256 * s) pixel, sample number i lies at 512 i + 256.
+constexpr std::int64_t kPitch = 2 * kSubpixelsPerPixel;
+constexpr std::int64_t kHalfPitch = kSubpixelsPerPixel;
+
+/// The first sample at or behind a position.
+int first_sample_from(std::int64_t position) {
+    return static_cast<int>(ceil_divide(position - kHalfPitch, kPitch));
+}
+
+}  // namespace
+
+ScanConverter::ScanConverter(const ScreenPolygon& polygon, int samples_per_pixel) {
+    if (polygon.count == 0) return;
+    const std::int64_t scale = 2 * samples_per_pixel;
+    std::int64_t low_x = std::numeric_limits<std::int64_t>::max(), high_x = -low_x;
+    std::int64_t low_y = low_x, high_y = high_x;
+    for (int i = 0; i < polygon.count; ++i) {
+        const SubpixelPoint a = polygon.corners[static_cast<std::size_t>(i)];
+        const SubpixelPoint b = polygon.corners[static_cast<std::size_t>((i + 1) % polygon.count)];
+        const std::int64_t ax = scale * a.x, ay = scale * a.y;
+        const std::int64_t bx = scale * b.x, by = scale * b.y;
+        low_x = std::min(low_x, ax);
+        high_x = std::max(high_x, ax);
+        low_y = std::min(low_y, ay);
+        high_y = std::max(high_y, ay);
+        if (ay == by) continue;
+        edges_[static_cast<std::size_t>(edge_count_++)] = ay < by ? Edge{ax, ay, bx, by} : Edge{bx, by, ax, ay};
+    }
+    first_row_ = first_sample_from(low_y);
+    end_row_ = first_sample_from(high_y);
+    first_column_ = first_sample_from(low_x);
+    end_column_ = first_sample_from(high_x);
+}
+
+SampleSpan ScanConverter::span(int row) const {
+    const std::int64_t y = kPitch * row + kHalfPitch;
+    SampleSpan span{std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};
+    for (int i = 0; i < edge_count_; ++i) {
+        const Edge& e = edges_[static_cast<std::size_t>(i)];
+        if (y < e.y0 || y >= e.y1) continue;
+        // The edge meets the row at x = x0 + (y - y0) (x1 - x0) / (y1 - y0).
+        const std::int64_t dy = e.y1 - e.y0;
+        const std::int64_t x_times_dy = (e.x0 - kHalfPitch) * dy + (y - e.y0) * (e.x1 - e.x0);
+        const int sample = static_cast<int>(ceil_divide(x_times_dy, kPitch * dy));
+        span.begin = std::min(span.begin, sample);
+        span.end = std::max(span.end, sample);
+    }
+    return span;
+}
+
+}  // namespace burin

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+#include "abuffer/screen_polygon.h"
+
+namespace burin {
+
+/// Samples [begin, end) of one row.
+struct SampleSpan {
+    int begin = 0;
+    int end = 0;
+};
+
+/// Finds the samples that a polygon covers, row by row.
+///
+/// The samples form one grid over the whole image, `samples_per_pixel` to a pixel along each axis:
+/// sample (column c, row r) lies at ((c + 1/2) / s, (r + 1/2) / s) pixels. All arithmetic is exact.
+///
+/// A sample is covered if it lies inside; on the boundary it belongs to the polygon below or to the
+/// right of it (the top-left rule). So polygons that share an edge cover each sample along it once.
+class ScanConverter {
+  public:
+    ScanConverter(const ScreenPolygon& polygon, int samples_per_pixel);
+
+    int first_row() const { return first_row_; }
+    int end_row() const { return end_row_; }
+    int first_column() const { return first_column_; }
+    int end_column() const { return end_column_; }
+
+    /// The covered samples of a row in [first_row(), end_row()).
+    SampleSpan span(int row) const;
+
+  private:
+    struct Edge {  // from its upper to its lower end, in units of 1 / (2 * 256 * s) pixel
+        std::int64_t x0, y0, x1, y1;
+    };
+    int edge_count_ = 0;
+    std::array<Edge, ScreenPolygon::kMaxCorners> edges_;  // the others are horizontal
+    int first_row_ = 0, end_row_ = 0, first_column_ = 0, end_column_ = 0;
+};
+
+}  // namespace burin

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace burin {
+
+/// Screen positions are snapped once, to 1/256 pixel, and exact from then on (24.8 fixed point).
+constexpr int kSubpixelsPerPixel = 256;
+
+/// A position on the screen in 1/256 pixel: x to the right, y down, (0, 0) the upper left corner of
+/// the upper left pixel.
+struct SubpixelPoint {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    bool operator==(const SubpixelPoint&) const = default;
+};
+
+/// Rounds a coordinate in pixels to the nearest 1/256 pixel. The result is in 1/256 pixel, still a
+/// floating point number, so that any size of input is fine.
+inline double snap_to_subpixels(double coordinate_px) {
+    return std::floor(coordinate_px * kSubpixelsPerPixel + 0.5);
+}
+
+}  // namespace burin

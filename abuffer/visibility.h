@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abuffer/depth_plane.h"
+#include "abuffer/fragment_lists.h"
+
+namespace burin {
+
+/// Which fragment is in front at every sample of a pixel's extended mask.
+template <typename Mask>
+struct VisibleSamples {
+    static constexpr int kSamples = mask_side<Mask> * mask_side<Mask>;
+    /// Per sample (side * row + column) the number of the front fragment in the pixel's list, or the
+    /// list's length for the background.
+    std::array<std::uint32_t, static_cast<std::size_t>(kSamples)> owner;
+    /// Per fragment, and last for the background, the samples it owns. They are disjoint.
+    std::vector<Mask> masks;
+};
+
+/// Resolves visibility sample by sample: the nearest plane wins, so surfaces that pass through each
+/// other do so inside the pixel. This is Carpenter's (1984) question with the exact answer that
+/// Jouppi and Chang's Z3 (1999) gives.
+///
+/// Where several are equally near, as far as rounded coordinates can tell, the first in the list
+/// wins: coincident surfaces do not fight. `plane_of(fragment)` gives a fragment's DepthPlane.
+template <typename Mask, typename PlaneOf>
+void resolve_visibility(std::span<const Fragment<Mask>> fragments, const ExtendedGrid& grid, int x,
+                        int y, const PlaneOf& plane_of, VisibleSamples<Mask>& visible) {
+    constexpr int kSide = mask_side<Mask>;
+    const auto background = static_cast<std::uint32_t>(fragments.size());
+    visible.owner.fill(background);
+    visible.masks.assign(fragments.size() + 1, Mask{});
+    std::array<double, static_cast<std::size_t>(VisibleSamples<Mask>::kSamples)> nearest;
+    bool has_ties = false;
+
+    const auto for_each_sample = [&](const Mask& mask, const auto& action) {
+        for (int row = 0; row < kSide; ++row) {
+            for (unsigned bits = MaskGrid<Mask>::row(mask, row); bits != 0; bits &= bits - 1) {
+                const int column = std::countr_zero(bits);
+                action(static_cast<std::size_t>(kSide * row + column),
+                       grid.position(x, y, row, column));
+            }
+        }
+    };
+    for (std::uint32_t i = 0; i < background; ++i) {
+        const DepthPlane& plane = plane_of(fragments[i]);
+        for_each_sample(fragments[i].mask, [&](std::size_t sample, glm::dvec2 position) {
+            const double nearness = plane.nearness(position);
+            const std::uint32_t rival = visible.owner[sample];
+            if (rival == background) {
+                nearest[sample] = nearness;
+                visible.owner[sample] = i;
+                return;
+            }
+            const double tolerance =
+                plane.tolerance(nearness) + plane_of(fragments[rival]).tolerance(nearest[sample]);
+            has_ties = has_ties || std::abs(nearness - nearest[sample]) <= tolerance;
+            if (nearness > nearest[sample]) {
+                nearest[sample] = nearness;
+                visible.owner[sample] = i;
+            }
+        });
+    }
+    if (has_ties) {
+        // The first of those that are as near as the nearest. Going backwards, it comes last.
+        const auto winners = visible.owner;
+        for (std::uint32_t i = background; i-- > 0;) {
+            const DepthPlane& plane = plane_of(fragments[i]);
+            for_each_sample(fragments[i].mask, [&](std::size_t sample, glm::dvec2 position) {
+                const double nearness = plane.nearness(position);
+                const double tolerance = plane.tolerance(nearness) +
+                                         plane_of(fragments[winners[sample]]).tolerance(nearest[sample]);
+                if (nearest[sample] - nearness <= tolerance) visible.owner[sample] = i;
+            });
+        }
+    }
+    for (int row = 0; row < kSide; ++row) {
+        for (int column = 0; column < kSide; ++column) {
+            const std::uint32_t owner = visible.owner[static_cast<std::size_t>(kSide * row + column)];
+            MaskGrid<Mask>::set_row(visible.masks[owner], row, 1u << column);
+        }
+    }
+}
+
+}  // namespace burin
