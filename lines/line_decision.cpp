@@ -1,0 +1,231 @@
+#include "lines/line_decision.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace burin {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The two points with the ways over their surfaces towards each other.
+class Decider {
+  public:
+    Decider(const SurfaceSet& surfaces, const VisiblePoint& a, const VisiblePoint& b,
+            const LineCriteria& criteria)
+        : surfaces_(surfaces), criteria_(criteria), points_{a, b} {}
+
+    LineDecision decide() {
+        for (const int i : {0, 1}) {
+            if (other(i).surface.is_background()) {
+                walks_[i] = walk(i);
+                return ended(walks_[i]) ? end_of_surface(i, kInfinity, false) : unexplained(i, kInfinity);
+            }
+        }
+        for (const int i : {0, 1}) {
+            walks_[i] = walk(i);
+            if (walks_[i].end == WalkEnd::arrived && walks_[i].surface == other(i).surface) {
+                return connected(i);
+            }
+        }
+        const bool ends[2] = {ended(walks_[0]), ended(walks_[1])};
+        if (!ends[0] && !ends[1]) return overlap();
+        double gap[2] = {0, 0};
+        bool in_front[2] = {false, false};
+        for (const int i : {0, 1}) {
+            if (!ends[i]) continue;
+            gap[i] = gap_behind_end(i);
+            in_front[i] = gap[i] >= -tolerance_at_end(i);
+        }
+        if (in_front[0] && in_front[1]) return end_at(std::abs(gap[0]) <= std::abs(gap[1]) ? 0 : 1, gap);
+        if (in_front[0]) return end_at(0, gap);
+        if (in_front[1]) return end_at(1, gap);
+        // One ends behind the other: they change places before that.
+        return overlap();
+    }
+
+  private:
+    static bool ended(const SurfaceWalk& w) {
+        return w.end == WalkEnd::fold || w.end == WalkEnd::border;
+    }
+    const VisiblePoint& other(int i) const { return points_[1 - i]; }
+    glm::dvec2 place(int i, double fraction) const {
+        return glm::mix(points_[i].pixel, other(i).pixel, fraction);
+    }
+    SurfaceWalk walk(int i) const {
+        return walk_surface(surfaces_, points_[i].surface, points_[i].pixel, other(i).pixel, criteria_);
+    }
+    double distance(SurfaceId s, glm::dvec2 at) const {
+        return distance_of(surfaces_.projection, surfaces_.plane(s).nearness(at));
+    }
+    double extended_distance(SurfaceId s, glm::dvec2 at) const {
+        return distance_of(surfaces_.projection, surfaces_.plane(s).extended_to(at));
+    }
+
+    /// From where point i's surface ends: how much farther is the other surface there?
+    double gap_behind_end(int i) {
+        const glm::dvec2 end = place(i, walks_[i].fraction);
+        const double own = distance(walks_[i].surface, end);
+        const SurfaceWalk to_end =
+            walk_surface(surfaces_, other(i).surface, other(i).pixel, end, criteria_);
+        behind_[i] = to_end.surface;
+        if (to_end.end == WalkEnd::arrived) return distance(to_end.surface, end) - own;
+        // It ends as well, or is not understood: extend the planes, and take the smaller gap.
+        const glm::dvec2 other_end = glm::mix(other(i).pixel, end, to_end.fraction);
+        const double gap_here = extended_distance(to_end.surface, end) - own;
+        const double gap_there =
+            distance(to_end.surface, other_end) - extended_distance(walks_[i].surface, other_end);
+        return std::abs(gap_here) <= std::abs(gap_there) ? gap_here : gap_there;
+    }
+    double tolerance_at_end(int i) const {
+        const glm::dvec2 end = place(i, walks_[i].fraction);
+        return depth_tolerance(surfaces_, distance(walks_[i].surface, end),
+                               surfaces_.plane(behind_[i]));
+    }
+
+    LineDecision with_fraction(LineDecision decision, int i, double fraction) const {
+        decision.front = i;
+        decision.fraction = i == 0 ? fraction : 1 - fraction;
+        return decision;
+    }
+
+    LineDecision connected(int i) const {
+        const SurfaceWalk& w = walks_[i];
+        LineDecision decision;
+        decision.classes = w.crossed;
+        decision.reason = w.crossed.empty() ? LineReason::smooth : LineReason::feature_edge;
+        decision.edge = w.crossed_edge;
+        return with_fraction(decision, i, w.crossed.empty() ? 0.5 : w.crossed_fraction);
+    }
+
+    LineDecision end_at(int i, const double (&gap)[2]) const {
+        return end_of_surface(i, gap[i], gap[i] <= tolerance_at_end(i));
+    }
+
+    /// Point i's surface ends, in front of the other or (`touching`) in contact with it.
+    LineDecision end_of_surface(int i, double gap, bool touching) const {
+        const SurfaceWalk& w = walks_[i];
+        const SurfaceEdge edge{w.surface, w.half_edge};
+        LineDecision decision;
+        decision.edge = edge;
+        decision.classes = edge_classes(surfaces_, edge, criteria_);
+        decision.gap_px = in_pixels(gap, i);
+        if (touching) {
+            decision.classes |= contact_classes(surfaces_, w.surface, behind_[i],
+                                                place(i, w.fraction), criteria_);
+        }
+        if (w.end == WalkEnd::fold) {
+            decision.classes |= LineClass::silhouette;
+            decision.reason = LineReason::turns_away;
+        } else if (touching) {
+            decision.reason = decision.classes.empty() ? LineReason::touches_smoothly : LineReason::touches;
+        } else {
+            const auto seam = seam_neighbour(surfaces_, w, points_[i].pixel, other(i).pixel);
+            if (seam && seam->continues) {
+                decision.classes |= contact_classes(surfaces_, w.surface, seam->surface,
+                                                    place(i, w.fraction), criteria_);
+                decision.reason = LineReason::crack;
+            } else {
+                decision.classes |= seam ? LineClass::silhouette : LineClass::border;
+                decision.reason = seam ? LineReason::turns_away : LineReason::ends_at_border;
+            }
+        }
+        return with_fraction(decision, i, w.fraction);
+    }
+
+    double in_pixels(double gap, int i) const {
+        const double at = distance(walks_[i].surface, place(i, walks_[i].fraction));
+        return gap / surfaces_.projection.pixel_size(at);
+    }
+
+    /// Both surfaces go on behind each other (or could not be followed).
+    LineDecision overlap() const {
+        double gap[2];
+        double tolerance[2];
+        bool coincident = true;
+        bool followed = true;
+        for (const int i : {0, 1}) {
+            // The other's surface, at point i.
+            const SurfaceWalk& w = walks_[1 - i];
+            const DepthPlane plane = surfaces_.plane(w.surface);
+            const glm::dvec2 at = points_[i].pixel;
+            const double own_nearness = surfaces_.plane(points_[i].surface).nearness(at);
+            const double own = distance_of(surfaces_.projection, own_nearness);
+            gap[i] = distance_of(surfaces_.projection, plane.extended_to(at)) - own;
+            tolerance[i] = depth_tolerance(surfaces_, own, plane);
+            const double nearness_gap = std::abs(plane.extended_to(at) - own_nearness);
+            coincident = coincident && nearness_gap <= 4 * plane.tolerance(own_nearness);
+            followed = followed && w.end != WalkEnd::lost;
+        }
+        const double smaller_gap = std::min(std::abs(gap[0]), std::abs(gap[1]));
+        LineDecision decision;
+        decision.front = gap[0] >= gap[1] ? 0 : 1;
+        const glm::dvec2 middle = glm::mix(points_[0].pixel, points_[1].pixel, 0.5);
+        const LineClassSet contact = contact_classes(surfaces_, points_[0].surface,
+                                                     points_[1].surface, middle, criteria_);
+        if (!followed && smaller_gap > std::max(tolerance[0], tolerance[1])) {
+            return unexplained(decision.front, gap[decision.front]);
+        }
+        if (coincident || !followed) {
+            // A walk is lost in a crowd of tiny triangles: nothing can be said about creases there.
+            const bool one_object =
+                surfaces_.object_id(points_[0].surface) == surfaces_.object_id(points_[1].surface);
+            if (followed || !one_object) decision.classes = contact;
+            decision.reason =
+                decision.classes.empty() ? LineReason::touches_smoothly : LineReason::touches;
+            return decision;
+        }
+        decision.classes = LineClass::intersection | (contact & (LineClass::object | LineClass::material));
+        decision.reason = LineReason::passes_through;
+        const double total = std::abs(gap[0]) + std::abs(gap[1]);
+        if (std::isfinite(total) && total > 0) decision.fraction = std::abs(gap[0]) / total;
+        return decision;
+    }
+
+    LineDecision unexplained(int front, double gap) const {
+        LineDecision decision;
+        decision.classes = LineClass::silhouette;
+        decision.reason = LineReason::unexplained;
+        decision.front = front;
+        decision.gap_px = in_pixels(gap, front);
+        return decision;
+    }
+
+    const SurfaceSet& surfaces_;
+    const LineCriteria& criteria_;
+    VisiblePoint points_[2];
+    SurfaceWalk walks_[2];
+    SurfaceId behind_[2];
+};
+
+}  // namespace
+
+std::string_view describe(LineReason reason) {
+    switch (reason) {
+        case LineReason::same_surface: return "no line: one surface";
+        case LineReason::smooth: return "no line: the surface goes on without a feature";
+        case LineReason::feature_edge: return "line: a feature edge of the surface";
+        case LineReason::turns_away: return "line: the front surface turns away";
+        case LineReason::ends_at_border: return "line: the front surface ends at a border";
+        case LineReason::crack: return "the front surface goes on behind a crack in its mesh";
+        case LineReason::touches: return "line: the surfaces touch and differ";
+        case LineReason::touches_smoothly: return "no line: the surfaces touch and do not differ";
+        case LineReason::passes_through: return "line: the surfaces pass through each other";
+        case LineReason::unexplained: return "line: the surfaces are apart";
+    }
+    return "";
+}
+
+LineDecision decide_line(const SurfaceSet& surfaces, const VisiblePoint& a, const VisiblePoint& b,
+                         const LineCriteria& criteria) {
+    if (a.surface == b.surface) return LineDecision{};
+    if (a.surface < b.surface) return Decider(surfaces, a, b, criteria).decide();
+    // One order of the two, so that swapping them cannot change the answer.
+    LineDecision decision = Decider(surfaces, b, a, criteria).decide();
+    decision.front = 1 - decision.front;
+    decision.fraction = 1 - decision.fraction;
+    return decision;
+}
+
+}  // namespace burin

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "abuffer/depth_plane.h"
+#include "abuffer/projection.h"
+#include "abuffer/screen_polygon.h"
+#include "mesh/mesh.h"
+
+namespace burin {
+
+/// A triangle of an instance. Ordered by instance (that is, by object), then by triangle.
+struct SurfaceId {
+    static constexpr std::uint32_t kNoInstance = 0xFFFFFFFFu;
+    std::uint32_t instance = kNoInstance;
+    std::uint32_t triangle = 0;
+
+    bool is_background() const { return instance == kNoInstance; }
+    auto operator<=>(const SurfaceId&) const = default;
+};
+constexpr SurfaceId kBackground{};
+
+/// A mesh placed in front of the camera, with its numbers in the scene.
+struct SurfaceInstance {
+    const Mesh* mesh = nullptr;
+    glm::dmat4 to_view{1.0};        ///< takes Mesh::positions (the origin included) to view space
+    glm::dmat3 normal_to_view{1.0}; ///< takes area vectors to view space
+    std::uint32_t object_id = 0;    ///< from 1
+    std::uint32_t first_polygon_id = 0;        ///< id of the mesh's polygon 0; ids start from 1
+    std::vector<std::uint32_t> material_ids;   ///< id per material number of the mesh, from 1
+};
+
+/// All surfaces of a frame as the camera sees them: the one source of geometry for visibility and
+/// lines. Nothing is copied per instance; corners are projected when asked for, always to the same
+/// bits.
+struct SurfaceSet {
+    Projection projection;
+    glm::dmat3 view_to_world{1.0};  ///< rotation, for normals
+    std::vector<SurfaceInstance> instances;
+    double coordinate_error = 0;  ///< how exact coordinates are, in world units
+
+    const SurfaceInstance& instance_of(SurfaceId s) const { return instances[s.instance]; }
+    const Mesh& mesh_of(SurfaceId s) const { return *instances[s.instance].mesh; }
+
+    glm::dvec3 view_position(std::uint32_t instance, std::uint32_t vertex) const {
+        const SurfaceInstance& i = instances[instance];
+        const glm::dvec3 p(i.mesh->positions[vertex]);
+        return glm::dvec3(i.to_view[0]) * p.x + glm::dvec3(i.to_view[1]) * p.y +
+               (glm::dvec3(i.to_view[2]) * p.z + glm::dvec3(i.to_view[3]));
+    }
+    void view_corners(SurfaceId s, glm::dvec3 (&corners)[3]) const {
+        const auto& t = mesh_of(s).triangles[s.triangle];
+        for (int k = 0; k < 3; ++k) {
+            corners[k] = view_position(s.instance, t[static_cast<std::size_t>(k)]);
+        }
+    }
+    DepthPlane plane(SurfaceId s) const {
+        glm::dvec3 corners[3];
+        view_corners(s, corners);
+        return depth_plane(projection, corners, coordinate_error);
+    }
+    ScreenPolygon screen_polygon(SurfaceId s) const {
+        glm::dvec3 corners[3];
+        view_corners(s, corners);
+        return project_triangle(projection, corners);
+    }
+    /// Unit normal of the polygon in view space, in the direction of its winding.
+    glm::dvec3 view_normal(SurfaceId s) const {
+        const glm::dvec3 n = instance_of(s).normal_to_view * mesh_of(s).polygon_area_vector(s.triangle);
+        return n / std::max(glm::length(n), 1e-300);
+    }
+
+    std::uint32_t object_id(SurfaceId s) const {
+        return s.is_background() ? 0 : instance_of(s).object_id;
+    }
+    std::uint32_t polygon_id(SurfaceId s) const {
+        return s.is_background() ? 0
+                                 : instance_of(s).first_polygon_id + mesh_of(s).polygon_of(s.triangle);
+    }
+    std::uint32_t material_id(SurfaceId s) const {
+        return s.is_background() ? 0 : instance_of(s).material_ids[mesh_of(s).material_of(s.triangle)];
+    }
+    std::uint64_t triangle_count() const {
+        std::uint64_t count = 0;
+        for (const SurfaceInstance& i : instances) count += i.mesh->triangles.size();
+        return count;
+    }
+};
+
+}  // namespace burin

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "lines/line_class.h"
+#include "lines/surface_set.h"
+
+namespace burin {
+
+/// What makes an edge between two polygons a line.
+struct LineCriteria {
+    LineClassSet classes = kDefaultLineClasses;  ///< the classes asked for
+    double cos_crease_angle = 0.7660444431;      ///< of 40 degrees
+};
+
+/// An edge as one of its triangles sees it.
+struct SurfaceEdge {
+    SurfaceId surface;
+    HalfEdge half_edge = kNoHalfEdge;  ///< of surface's mesh; kNoHalfEdge: none
+};
+
+/// How a walk over a surface ended.
+enum class WalkEnd : std::uint8_t {
+    arrived,  ///< the surface goes on to the goal
+    fold,     ///< the surface turns away from the eye, at an edge whose polygons face apart
+    border,   ///< the surface ends, at an edge of one polygon
+    lost,     ///< too many triangles on the way, or a start beside its triangle
+};
+
+struct SurfaceWalk {
+    WalkEnd end = WalkEnd::lost;
+    SurfaceId surface;                      ///< the triangle where the walk ended
+    HalfEdge half_edge = kNoHalfEdge;       ///< its edge that stopped the walk (fold, border)
+    double along_edge = 0;                  ///< where on that edge, 0 = its start, 1 = its end
+    double fraction = 1;                    ///< how far it came, 0 = start, 1 = goal
+    LineClassSet crossed;                   ///< classes of the edges on the way
+    SurfaceEdge crossed_edge;               ///< the first of them that has a class
+    double crossed_fraction = 0;            ///< where that is
+};
+
+/// Follows the surface of triangle `start` along the straight line on the screen from `from` (a
+/// position on that triangle) to `to`, from neighbour to neighbour, as the eye sees it: in space,
+/// along the curve in which the plane through the eye and the line cuts the mesh.
+///
+/// Folds that turn back by less than 1/64 pixel, and not by more than the depth tolerance, are
+/// walked over: they are slivers between the triangles of one surface, not contours.
+SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from,
+                         glm::dvec2 to, const LineCriteria& criteria);
+
+/// The classes of the edge between two polygons as such: mark, material, crease, polygon. For a
+/// border edge that can only be mark.
+LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
+                          const LineCriteria& criteria);
+
+/// Where the border edge that stopped a walk runs along another patch's border without being
+/// stitched to it: the triangle on the other side of that seam, if there is one.
+struct SeamNeighbour {
+    SurfaceId surface;
+    /// Whether it carries on beyond the seam as the eye sees it, less than a pixel away and about
+    /// as far from the eye; else it turns back.
+    bool continues = false;
+};
+std::optional<SeamNeighbour> seam_neighbour(const SurfaceSet& surfaces, const SurfaceWalk& walk,
+                                            glm::dvec2 from, glm::dvec2 to);
+
+/// The classes of a place where two visible surfaces touch: object, or, within one object, material,
+/// crease, polygon. `at` is the position on the screen.
+LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
+                             const LineCriteria& criteria);
+
+/// How far two surfaces must be apart in distance from the eye to be two: two pixels' width at that
+/// distance, and what the rounding of screen positions does to a steep plane.
+double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane);
+
+/// Distance from the eye of a nearness that may lie behind the horizon.
+double distance_of(const Projection& projection, double nearness);
+
+}  // namespace burin
