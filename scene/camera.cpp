@@ -1,0 +1,207 @@
+#include "scene/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace burin {
+namespace {
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+struct Bounds {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+    bool is_empty() const { return low.x > high.x; }
+    glm::dvec3 center() const { return is_empty() ? glm::dvec3(0.0) : 0.5 * (low + high); }
+    double radius() const { return is_empty() ? 0.0 : 0.5 * glm::distance(low, high); }
+};
+
+Bounds bounds_of(const PointSource& points) {
+    Bounds bounds;
+    points([&](const glm::dvec3& p) {
+        bounds.low = glm::min(bounds.low, p);
+        bounds.high = glm::max(bounds.high, p);
+    });
+    return bounds;
+}
+
+/// Where the front of a model usually is: +Z if it stands along Y, -Y if it stands along Z.
+glm::dvec3 front_of(const glm::dvec3& up) {
+    const glm::dvec3 size = glm::abs(up);
+    return size.z > std::max(size.x, size.y) ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 0, 1);
+}
+
+/// Three quarters from the right, a little from above: what shows most of an unknown model.
+glm::dvec3 default_direction(const glm::dvec3& up) {
+    glm::dvec3 front = front_of(up);
+    front = glm::normalize(front - up * glm::dot(front, up));
+    const glm::dvec3 right = glm::cross(up, front);
+    return glm::normalize(0.55 * right + 0.4 * up + 0.9 * front);
+}
+
+/// Turns a camera so that it looks along -`back`, with `up` above.
+glm::dmat3 orientation(const glm::dvec3& back, const glm::dvec3& up) {
+    const glm::dvec3 right = glm::normalize(glm::cross(up, back));
+    return {right, glm::cross(back, right), back};
+}
+
+/// Places a perspective camera with orientation `axes` so that all points just fit, centred.
+///
+/// In camera axes, a point p is inside if |p.x - e.x| <= kx (e.z - p.z), and the same in y. Each of
+/// these is linear in the eye e, so only four maxima over the points matter.
+glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double kx, double ky) {
+    const glm::dmat3 to_axes = glm::transpose(axes);
+    glm::dvec4 most(-std::numeric_limits<double>::infinity());
+    points([&](const glm::dvec3& p) {
+        const glm::dvec3 q = to_axes * p;
+        most = glm::max(most, glm::dvec4(q.x + kx * q.z, -q.x + kx * q.z, q.y + ky * q.z,
+                                         -q.y + ky * q.z));
+    });
+    const double z = std::max((most[0] + most[1]) / (2 * kx), (most[2] + most[3]) / (2 * ky));
+    return axes * glm::dvec3((most[0] - most[1]) / 2, (most[2] - most[3]) / 2, z);
+}
+
+/// The distance from a target, along a direction, from which all points fit.
+double fitted_distance(const PointSource& points, const glm::dvec3& target, const glm::dmat3& axes,
+                       double kx, double ky) {
+    const glm::dmat3 to_axes = glm::transpose(axes);
+    double distance = 0;
+    points([&](const glm::dvec3& p) {
+        const glm::dvec3 q = to_axes * (p - target);
+        distance = std::max({distance, std::abs(q.x) / kx + q.z, std::abs(q.y) / ky + q.z});
+    });
+    return distance;
+}
+
+void check(const CameraSettings& s) {
+    for (const auto& v : {s.eye, s.target, s.up, s.direction}) {
+        if (v && !is_finite(*v)) {
+            throw InputError("the camera has a coordinate that is not finite; give finite numbers");
+        }
+    }
+    if (!s.orthographic && !(s.fov_deg > 0 && s.fov_deg < 180)) {
+        throw InputError("the camera's field of view must lie between 0 and 180 degrees");
+    }
+    if (s.height && !(*s.height > 0 && std::isfinite(*s.height))) {
+        throw InputError("the camera's visible height must be positive");
+    }
+    if (!(s.fit > 0 && s.fit <= 1)) {
+        throw InputError("the camera's fit must be greater than 0 and at most 1");
+    }
+    if (s.up && glm::length(*s.up) == 0) {
+        throw InputError("the camera's up vector is zero; give a direction");
+    }
+    if (s.direction && glm::length(*s.direction) == 0) {
+        throw InputError("the camera's direction is zero; give a vector towards the eye");
+    }
+}
+
+glm::dmat4 rigid(const glm::dmat3& axes, const glm::dvec3& eye) {
+    glm::dmat4 matrix(axes);
+    matrix[3] = glm::dvec4(eye, 1.0);
+    return matrix;
+}
+
+/// A camera given by a matrix: its scale is dropped.
+Camera from_matrix(const CameraSettings& s) {
+    const glm::dmat4& m = *s.to_world;
+    const glm::dvec3 back(m[2]);
+    const glm::dvec3 up(m[1]);
+    const glm::dvec3 side = glm::cross(up, back);
+    if (!is_finite(back) || !is_finite(up) || !is_finite(glm::dvec3(m[3])) || glm::length(side) == 0) {
+        throw InputError("camera '" + s.name + "' has a matrix that defines no view");
+    }
+    Camera camera;
+    camera.orthographic = s.orthographic;
+    camera.to_world = rigid(orientation(glm::normalize(back), glm::normalize(up)), glm::dvec3(m[3]));
+    camera.fov_deg = s.fov_deg;
+    camera.height = s.height.value_or(1);
+    return camera;
+}
+
+}  // namespace
+
+glm::dmat4 Camera::to_view() const {
+    const glm::dmat3 axes(to_world);
+    const glm::dmat3 inverse = glm::transpose(axes);
+    return rigid(inverse, -(inverse * eye()));
+}
+
+Projection Camera::projection(int width, int height_px, double near_distance) const {
+    Projection p;
+    p.orthographic = orthographic;
+    p.center_px = {0.5 * width, 0.5 * height_px};
+    p.focal_px = orthographic ? height_px / height
+                              : 0.5 * height_px / std::tan(glm::radians(fov_deg) / 2);
+    p.near_distance = near_distance;
+    return p;
+}
+
+Camera resolve_camera(const CameraSettings& settings, const PointSource& points, double aspect) {
+    check(settings);
+    if (settings.to_world) return from_matrix(settings);
+
+    const bool fits = !settings.eye || (settings.orthographic && !settings.height);
+    const bool needs_bounds = fits || !settings.target;
+    const Bounds bounds = needs_bounds ? bounds_of(points) : Bounds{};
+    const glm::dvec3 up = glm::normalize(settings.up.value_or(glm::dvec3(0, 1, 0)));
+    const glm::dvec3 target = settings.target.value_or(bounds.center());
+
+    glm::dvec3 back = settings.direction ? *settings.direction : default_direction(up);
+    if (settings.eye) {
+        back = *settings.eye - target;
+        if (!(glm::length(back) > 0) || !is_finite(back)) {
+            throw InputError("the camera's eye and target are the same place; move one of them");
+        }
+    }
+    back = glm::normalize(back);
+    if (!(glm::length(glm::cross(up, back)) > 1e-9)) {
+        throw InputError("the camera's up vector points along the view; choose another one");
+    }
+    const glm::dmat3 axes = orientation(back, up);
+    if (fits && !(bounds.radius() > 0)) {
+        throw InputError("the scene has no extent that a camera could be fitted to; "
+                         "give eye and target");
+    }
+
+    Camera camera;
+    camera.orthographic = settings.orthographic;
+    camera.fov_deg = settings.fov_deg;
+    const double half_y = settings.fit * std::tan(glm::radians(settings.fov_deg) / 2);
+    if (settings.orthographic) {
+        const glm::dmat3 to_axes = glm::transpose(axes);
+        glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+        if (!settings.height || !settings.eye) {
+            points([&](const glm::dvec3& p) {
+                low = glm::min(low, glm::dvec2(to_axes * p));
+                high = glm::max(high, glm::dvec2(to_axes * p));
+            });
+        }
+        const glm::dvec2 center = settings.target || settings.eye
+                                      ? glm::dvec2(to_axes * settings.eye.value_or(target))
+                                      : 0.5 * (low + high);
+        const glm::dvec2 reach = glm::max(high - center, center - low);
+        camera.height = settings.height.value_or(2 * std::max(reach.y, reach.x / aspect) / settings.fit);
+        const double depth = (to_axes * bounds.center()).z + 2 * bounds.radius();
+        const glm::dvec3 eye = settings.eye.value_or(axes * glm::dvec3(center, depth));
+        camera.to_world = rigid(axes, eye);
+    } else if (settings.eye) {
+        camera.to_world = rigid(axes, *settings.eye);
+    } else if (settings.target) {
+        const double distance = fitted_distance(points, target, axes, half_y * aspect, half_y);
+        camera.to_world = rigid(axes, target + back * distance);
+    } else {
+        camera.to_world = rigid(axes, fitted_eye(points, axes, half_y * aspect, half_y));
+    }
+    if (!is_finite(camera.eye()) || !(camera.height > 0)) {
+        throw InputError("the camera cannot be fitted to the scene; give eye and target");
+    }
+    return camera;
+}
+
+}  // namespace burin

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+#include "abuffer/projection.h"
+
+namespace burin {
+
+/// What is said about a camera, in a scene or on the command line. What is not said is chosen so
+/// that the scene fills the picture.
+struct CameraSettings {
+    std::string name;
+    bool orthographic = false;
+    std::optional<glm::dvec3> eye;
+    std::optional<glm::dvec3> target;     ///< default: the middle of the scene
+    std::optional<glm::dvec3> up;         ///< default: +Y
+    std::optional<glm::dvec3> direction;  ///< from the scene towards the eye, if there is no eye
+    double fov_deg = 35;                  ///< vertical, perspective only
+    std::optional<double> height;         ///< full visible height in world units, orthographic only
+    double fit = 0.95;                    ///< part of the picture that the scene fills, if fitted
+    std::optional<glm::dmat4> to_world;   ///< instead of eye, target, up (cameras of glTF files)
+};
+
+/// A camera with nothing left open.
+struct Camera {
+    bool orthographic = false;
+    glm::dmat4 to_world{1.0};  ///< rigid: the columns are right, up, back and the eye's position
+    double fov_deg = 35;       ///< perspective only
+    double height = 1;         ///< orthographic only
+
+    glm::dvec3 eye() const { return glm::dvec3(to_world[3]); }
+    /// World to view space.
+    glm::dmat4 to_view() const;
+    /// How view space falls on a picture of width x height pixels. `near_distance` in world units.
+    Projection projection(int width, int height, double near_distance) const;
+};
+
+/// All points that the camera should see: calls its argument for each. May be run several times.
+using PointSource = std::function<void(const std::function<void(const glm::dvec3&)>&)>;
+
+/// Fills in what the settings leave open. `aspect` is width / height of the picture.
+///
+/// Throws InputError (message without a place) for settings that define no view: eye = target, up
+/// along the view, a field of view outside of (0, 180), a height that is not positive, anything
+/// that is not finite, and a scene without extent that the camera should be fitted to.
+Camera resolve_camera(const CameraSettings& settings, const PointSource& points, double aspect);
+
+}  // namespace burin

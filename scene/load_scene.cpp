@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "mesh/model.h"
+#include "scene/scene_description.h"
+
+namespace burin {
+namespace {
+
+bool is_finite(const glm::dmat4& m) {
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) {
+            if (!(std::abs(m[c][r]) <= 1e60)) return false;
+        }
+    }
+    return true;
+}
+
+/// A model as it arrived in the scene: where its meshes and materials start.
+struct LoadedModel {
+    std::vector<ModelObject> objects;
+    std::uint32_t first_mesh = 0;
+    std::uint32_t first_material = 0;
+    std::uint32_t material_count = 0;
+};
+
+class SceneLoader {
+  public:
+    explicit SceneLoader(SceneDescription description) : from_(std::move(description)) {
+        scene_.materials = from_.materials;
+        scene_.cameras = from_.cameras;
+        scene_.picture = from_.picture;
+        scene_.lines = from_.lines;
+        scene_.surfaces = from_.surfaces;
+        scene_.patel = from_.patel;
+    }
+
+    Scene load() {
+        for (ObjectDescription& object : from_.objects) place(object, model_of(object));
+        if (scene_.cameras.empty()) scene_.cameras = std::move(file_cameras_);
+        if (scene_.cameras.empty()) scene_.cameras.emplace_back();
+        return std::move(scene_);
+    }
+
+  private:
+    const LoadedModel& model_of(ObjectDescription& object) {
+        const MeshOptions options{object.subdivide, object.scheme};
+        if (object.file.empty()) {
+            Model model;
+            model.meshes = build_meshes(object.shape, options);
+            model.materials = object.shape.materials;
+            model.objects.push_back({object.name, 0, glm::dmat4(1.0)});
+            object.shape = PolygonSoup();
+            shapes_.push_back(adopt(std::move(model)));
+            return shapes_.back();
+        }
+        const auto key = std::tuple(object.file, object.subdivide, object.scheme);
+        const auto known = files_.find(key);
+        if (known != files_.end()) return known->second;
+        Model model = read_model(object.file, options);
+        for (const ModelCamera& c : model.cameras) {
+            CameraSettings camera;
+            camera.name = c.name;
+            camera.orthographic = c.orthographic;
+            camera.fov_deg = c.fov_deg;
+            if (c.orthographic) camera.height = c.height;
+            camera.to_world = object.to_world * object.instances.front() * c.to_world;
+            file_cameras_.push_back(camera);
+        }
+        return files_.emplace(key, adopt(std::move(model))).first->second;
+    }
+
+    /// Moves a model's meshes and materials into the scene.
+    LoadedModel adopt(Model model) {
+        LoadedModel loaded;
+        loaded.first_mesh = static_cast<std::uint32_t>(scene_.meshes.size());
+        loaded.first_material = static_cast<std::uint32_t>(scene_.materials.size());
+        loaded.material_count = static_cast<std::uint32_t>(model.materials.size());
+        for (Mesh& mesh : model.meshes) scene_.meshes.push_back(std::move(mesh));
+        for (Material& material : model.materials) scene_.materials.push_back(std::move(material));
+        loaded.objects = std::move(model.objects);
+        scene_.skipped_primitives += model.skipped_primitives;
+        return loaded;
+    }
+
+    void place(const ObjectDescription& object, const LoadedModel& model) {
+        std::vector<std::uint32_t> materials(model.material_count);
+        if (object.material.empty()) {
+            std::iota(materials.begin(), materials.end(), model.first_material);
+        } else {
+            const auto it = std::find_if(from_.materials.begin(), from_.materials.end(),
+                                         [&](const Material& m) { return m.name == object.material; });
+            std::fill(materials.begin(), materials.end(),
+                      static_cast<std::uint32_t>(it - from_.materials.begin()));
+        }
+        for (std::size_t i = 0; i < object.instances.size(); ++i) {
+            for (const ModelObject& part : model.objects) {
+                SceneObject placed;
+                placed.name = name_of(object, part, i);
+                placed.mesh = model.first_mesh + part.mesh;
+                placed.to_world = object.to_world * object.instances[i] * part.to_world;
+                placed.materials = materials;
+                if (!is_finite(placed.to_world)) {
+                    throw InputError(object.where, "object '" + placed.name +
+                                                       "' has a transform that is not finite or far too large");
+                }
+                scene_.objects.push_back(std::move(placed));
+            }
+        }
+    }
+
+    static std::string name_of(const ObjectDescription& object, const ModelObject& part,
+                               std::size_t instance) {
+        std::string name = object.name;
+        if (!object.file.empty() && !part.name.empty()) name += (name.empty() ? "" : "/") + part.name;
+        if (object.instances.size() > 1) name += "#" + std::to_string(instance + 1);
+        return name;
+    }
+
+    SceneDescription from_;
+    Scene scene_;
+    std::map<std::tuple<std::string, int, SubdivisionScheme>, LoadedModel> files_;
+    std::vector<LoadedModel> shapes_;
+    std::vector<CameraSettings> file_cameras_;
+};
+
+}  // namespace
+
+Scene load_scene(SceneDescription description) { return SceneLoader(std::move(description)).load(); }
+
+PointSource scene_points(const Scene& scene) {
+    return [&scene](const std::function<void(const glm::dvec3&)>& visit) {
+        for (const SceneObject& object : scene.objects) {
+            const Mesh& mesh = scene.meshes[object.mesh];
+            for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+                visit(glm::dvec3(object.to_world * glm::dvec4(mesh.position(v), 1.0)));
+            }
+        }
+    };
+}
+
+}  // namespace burin

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/subdivide.h"
+#include "scene/camera.h"
+#include "shading/line_style.h"
+#include "shading/surface_shader.h"
+
+namespace burin {
+
+/// The picture as a whole.
+struct PictureSettings {
+    int width = 1920;
+    int height = 1080;
+    std::optional<glm::vec3> background;  ///< linear RGB
+    bool transparent = false;  ///< PNG and TIFF get an alpha channel instead of white paper
+};
+
+/// Which lines are drawn, and how.
+struct LineSettings {
+    LineClassSet classes = kDefaultLineClasses;
+    double crease_angle_deg = 40;
+    LineStyle style;
+};
+
+/// What only the method `patel` looks at.
+struct PatelSettings {
+    int mask_bits = 64;  ///< 16, 64 or 256
+    HaloShape halo = HaloShape::four;
+};
+
+/// An object of the finished scene: a mesh at its place.
+struct SceneObject {
+    std::string name;
+    std::uint32_t mesh = 0;
+    glm::dmat4 to_world{1.0};
+    std::vector<std::uint32_t> materials;  ///< per material number of the mesh: scene's material
+};
+
+/// Everything that a picture is made of. Describes and computes nothing.
+struct Scene {
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<SceneObject> objects;
+    std::vector<CameraSettings> cameras;  ///< at least one; the first is the default
+    PictureSettings picture;
+    LineSettings lines;
+    SurfaceStyle surfaces;
+    PatelSettings patel;
+    std::uint64_t skipped_primitives = 0;
+};
+
+/// All vertices of all objects in world space, for fitting cameras.
+PointSource scene_points(const Scene& scene);
+
+}  // namespace burin

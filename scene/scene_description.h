@@ -1,0 +1,55 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/error.h"
+#include "mesh/polygon_soup.h"
+#include "scene/scene.h"
+
+namespace burin {
+
+/// One object of a scene file: a model file or a built-in shape, and where it stands.
+struct ObjectDescription {
+    std::string name;
+    std::string file;             ///< path, already relative to where the program runs; or empty
+    PolygonSoup shape;            ///< if there is no file
+    int subdivide = 0;
+    SubdivisionScheme scheme = SubdivisionScheme::automatic;
+    std::string material;         ///< name; empty: the file's own materials
+    glm::dmat4 to_world{1.0};
+    std::vector<glm::dmat4> instances;  ///< each within to_world; never empty
+    SourcePosition where;         ///< for messages
+};
+
+/// A scene file (docs/scene-format.md), checked, but with no model loaded yet.
+struct SceneDescription {
+    std::vector<ObjectDescription> objects;
+    std::vector<Material> materials;
+    std::vector<CameraSettings> cameras;
+    PictureSettings picture;
+    LineSettings lines;
+    SurfaceStyle surfaces;
+    PatelSettings patel;
+};
+
+/// "KEY=VALUE" of --set: overrides a value of the scene file, for example "lines.width=2".
+struct Override {
+    std::string key;
+    std::string value;
+};
+
+/// Reads a scene file. Throws InputError with line and column for anything unknown or out of range,
+/// UsageError for an override that does not fit.
+SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides);
+
+/// The scene of a bare model: that one object, everything else at its default.
+SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides);
+
+/// Loads the models that a description names, each file once. Throws InputError.
+Scene load_scene(SceneDescription description);
+
+}  // namespace burin

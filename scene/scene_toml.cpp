@@ -1,0 +1,350 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/mapped_file.h"
+#include "mesh/shapes.h"
+#include "scene/color.h"
+#include "scene/scene_description.h"
+#include "scene/toml_reader.h"
+
+namespace burin {
+namespace {
+
+constexpr std::size_t kMaxSceneBytes = 64u << 20;
+constexpr double kHuge = 1e30;
+constexpr TomlReader::Range kAnyNumber{-kHuge, kHuge};
+constexpr TomlReader::Range kPositive{0, kHuge, true, false};
+
+// ---- built-in shapes ----
+
+PolygonSoup read_shape(TomlReader& t) {
+    static const std::vector<std::string_view> kShapes = {"box",  "plane", "sphere", "cylinder",
+                                                          "cone", "torus", "teapot"};
+    const auto positive = [&t](std::string_view key, double fallback) {
+        return t.number(key, kPositive).value_or(fallback);
+    };
+    const auto count = [&t](std::string_view key, int low, int fallback) {
+        return t.integer(key, low, 4096).value_or(fallback);
+    };
+    switch (*t.choice("shape", kShapes)) {
+        case 0: {
+            const glm::dvec3 size = t.vector("size").value_or(glm::dvec3(1.0));
+            if (!(size.x > 0 && size.y > 0 && size.z > 0)) t.fail("size", "must be positive");
+            return make_box(size);
+        }
+        case 1: {
+            const auto size = t.numbers("size", 2).value_or(std::vector<double>{1, 1});
+            if (!(size[0] > 0 && size[1] > 0)) t.fail("size", "must be positive");
+            return make_plane(size[0], size[1], count("columns", 1, 1), count("rows", 1, 1));
+        }
+        case 2:
+            return make_sphere(positive("radius", 0.5), count("segments", 3, 64), count("rings", 2, 32));
+        case 3:
+            return make_cylinder(positive("radius", 0.5), positive("top_radius", positive("radius", 0.5)),
+                                 positive("height", 1), count("segments", 3, 64));
+        case 4:
+            return make_cylinder(positive("radius", 0.5), 0, positive("height", 1),
+                                 count("segments", 3, 64));
+        case 5:
+            return make_torus(positive("radius", 0.5), positive("tube_radius", 0.2),
+                              count("segments", 3, 64), count("tube_segments", 3, 32));
+        default: return make_teapot(t.integer("tessellation", 1, 256).value_or(10));
+    }
+}
+
+// ---- transforms ----
+
+/// translate * rotate * scale, or a matrix of 16 numbers, row by row.
+glm::dmat4 read_transform(TomlReader& t) {
+    if (t.has("matrix")) {
+        for (const char* key : {"translate", "rotate", "scale"}) {
+            if (t.has(key)) t.fail(key, "cannot stand beside a matrix; use one or the other");
+        }
+        const auto m = *t.numbers("matrix", 16);
+        glm::dmat4 matrix;
+        for (int row = 0; row < 4; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                matrix[column][row] = m[static_cast<std::size_t>(4 * row + column)];
+            }
+        }
+        if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1) {
+            t.fail("matrix", "the last row must be 0 0 0 1");
+        }
+        return matrix;
+    }
+    const glm::dvec3 translate = t.vector("translate").value_or(glm::dvec3(0.0));
+    const glm::dvec3 rotate_deg = t.vector("rotate").value_or(glm::dvec3(0.0));
+    glm::dvec3 scale(1.0);
+    if (t.has("scale")) {
+        scale = t.is_number("scale") ? glm::dvec3(*t.number("scale", kAnyNumber)) : *t.vector("scale");
+        if (scale.x == 0 || scale.y == 0 || scale.z == 0) t.fail("scale", "must not be zero");
+    }
+    glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), translate);
+    matrix = glm::rotate(matrix, glm::radians(rotate_deg.z), glm::dvec3(0, 0, 1));
+    matrix = glm::rotate(matrix, glm::radians(rotate_deg.y), glm::dvec3(0, 1, 0));
+    matrix = glm::rotate(matrix, glm::radians(rotate_deg.x), glm::dvec3(1, 0, 0));
+    return glm::scale(matrix, scale);
+}
+
+// ---- the tables of a scene file ----
+
+class SceneReader {
+  public:
+    SceneReader(const std::string& path, TomlReader root) : path_(path), root_(std::move(root)) {}
+
+    SceneDescription read() {
+        read_cameras();
+        for (TomlReader& t : root_.tables("material")) read_material(t);
+        for (TomlReader& t : root_.tables("object")) read_object(t);
+        if (auto t = root_.table("picture")) read_picture(*t);
+        if (auto t = root_.table("lines")) read_lines(*t);
+        if (auto t = root_.table("surfaces")) read_surfaces(*t);
+        if (auto t = root_.table("patel")) read_patel(*t);
+        root_.finish();
+        if (scene_.objects.empty()) {
+            throw InputError(root_.position(), "the scene has no [[object]]; add one with a file or a shape");
+        }
+        check_materials();
+        return std::move(scene_);
+    }
+
+  private:
+    void read_cameras() {
+        for (TomlReader& t : root_.tables("camera")) {
+            CameraSettings camera;
+            camera.name = t.text("name").value_or("");
+            for (const CameraSettings& other : scene_.cameras) {
+                if (other.name == camera.name) t.fail("name", "two cameras have this name; rename one");
+            }
+            camera.orthographic = t.choice("projection", {"perspective", "orthographic"}).value_or(0) == 1;
+            camera.eye = t.vector("eye");
+            camera.target = t.vector("target");
+            camera.up = t.vector("up");
+            camera.direction = t.vector("direction");
+            if (camera.eye && camera.direction) t.fail("direction", "cannot stand beside an eye; remove one");
+            camera.fov_deg = t.number("fov", {0, 180, true, true}).value_or(35);
+            camera.height = t.number("height", kPositive);
+            if (camera.height) camera.orthographic = true;
+            camera.fit = t.number("fit", {0, 1, true, false}).value_or(0.95);
+            t.finish();
+            scene_.cameras.push_back(camera);
+        }
+    }
+
+    void read_material(TomlReader& t) {
+        Material material;
+        const auto name = t.text("name");
+        if (!name || name->empty()) throw InputError(t.position(), "[[material]] needs a name");
+        for (const Material& other : scene_.materials) {
+            if (other.name == *name) t.fail("name", "two materials have this name; rename one");
+        }
+        material.name = *name;
+        material.color = t.color("color").value_or(material.color);
+        material.opacity = static_cast<float>(t.number("opacity", {0, 1}).value_or(1));
+        t.finish();
+        scene_.materials.push_back(material);
+    }
+
+    void read_object(TomlReader& t) {
+        ObjectDescription object;
+        object.where = t.position();
+        const bool has_file = t.has("file");
+        if (has_file == t.has("shape")) {
+            throw InputError(t.position(), "[[object]] needs either a file or a shape");
+        }
+        if (has_file) {
+            const std::filesystem::path file(*t.text("file"));
+            object.file = file.is_absolute()
+                              ? file.string()
+                              : (std::filesystem::path(path_).parent_path() / file).string();
+            object.where = t.position("file");
+        } else {
+            object.shape = read_shape(t);
+        }
+        object.name = t.text("name").value_or(has_file ? "" : object.shape.object_names[0]);
+        object.material = t.text("material").value_or("");
+        object.subdivide = t.integer("subdivide", 0, 8).value_or(0);
+        static constexpr SubdivisionScheme kSchemes[] = {
+            SubdivisionScheme::automatic, SubdivisionScheme::loop, SubdivisionScheme::catmull_clark};
+        object.scheme = kSchemes[t.choice("scheme", {"automatic", "loop", "catmull-clark"}).value_or(0)];
+        object.to_world = read_transform(t);
+        for (TomlReader& instance : t.tables("instance")) {
+            object.instances.push_back(read_transform(instance));
+            instance.finish();
+        }
+        if (object.instances.empty()) object.instances.emplace_back(1.0);
+        t.finish();
+        scene_.objects.push_back(std::move(object));
+    }
+
+    void read_picture(TomlReader& t) {
+        PictureSettings& picture = scene_.picture;
+        if (const auto size = t.numbers("size", 2)) {
+            for (const double side : *size) {
+                if (side != std::floor(side) || side < 1 || side > 65535) {
+                    t.fail("size", "must be two whole numbers from 1 to 65535");
+                }
+            }
+            picture.width = static_cast<int>((*size)[0]);
+            picture.height = static_cast<int>((*size)[1]);
+        }
+        if (t.has("background")) {
+            // A colour, or the word that asks for none.
+            if (t.is_text("background") && t.text("background") == "transparent") {
+                picture.transparent = true;
+            } else {
+                picture.background = t.color("background");
+            }
+        }
+        t.finish();
+    }
+
+    void read_lines(TomlReader& t) {
+        LineSettings& lines = scene_.lines;
+        if (const auto names = t.texts("draw")) {
+            lines.classes = LineClassSet();
+            for (const std::string& name : *names) {
+                const auto line_class = line_class_named(name);
+                if (name == "all") {
+                    lines.classes = LineClassSet::all();
+                } else if (line_class) {
+                    lines.classes |= *line_class;
+                } else if (name != "none") {
+                    t.fail("draw", "unknown line class '" + name + "'; known are " +
+                                       to_string(LineClassSet::all()) + ",all,none");
+                }
+            }
+        }
+        lines.style.width_px = t.number("width", {0, 1024, true, false}).value_or(1);
+        lines.crease_angle_deg = t.number("crease_angle", {0, 180}).value_or(40);
+        static constexpr StrokeSide kSides[] = {StrokeSide::both, StrokeSide::inside, StrokeSide::outside};
+        lines.style.side = kSides[t.choice("side", {"both", "inside", "outside"}).value_or(0)];
+        if (const auto color = t.color("color")) lines.style.colors.fill(*color);
+        if (auto colors = t.table("colors")) {
+            for (int i = 0; i < kLineClassCount; ++i) {
+                const auto index = static_cast<std::size_t>(i);
+                if (const auto color = colors->color(kLineClassNames[index])) {
+                    lines.style.colors[index] = *color;
+                }
+            }
+            colors->finish();
+        }
+        t.finish();
+    }
+
+    void read_surfaces(TomlReader& t) {
+        static constexpr SurfaceShading kShadings[] = {SurfaceShading::paper, SurfaceShading::lambert,
+                                                       SurfaceShading::none};
+        scene_.surfaces.shading = kShadings[t.choice("shading", {"paper", "lambert", "none"}).value_or(0)];
+        scene_.surfaces.paper_color = t.color("paper").value_or(glm::vec3(1.0f));
+        t.finish();
+    }
+
+    void read_patel(TomlReader& t) {
+        const int bits = t.integer("mask", 16, 256).value_or(64);
+        if (bits != 16 && bits != 64 && bits != 256) t.fail("mask", "must be 16, 64 or 256");
+        scene_.patel.mask_bits = bits;
+        static constexpr HaloShape kShapes[] = {HaloShape::four, HaloShape::eight, HaloShape::octagon};
+        scene_.patel.halo = kShapes[t.choice("halo", {"four", "eight", "octagon"}).value_or(0)];
+        t.finish();
+    }
+
+    void check_materials() const {
+        for (const ObjectDescription& object : scene_.objects) {
+            const bool known = object.material.empty() ||
+                               std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                                           [&](const Material& m) { return m.name == object.material; });
+            if (!known) {
+                throw InputError(object.where, "there is no [[material]] named '" + object.material +
+                                                   "'; add it or correct the name");
+            }
+        }
+    }
+
+    std::string path_;
+    TomlReader root_;
+    SceneDescription scene_;
+};
+
+// ---- overrides ----
+
+[[noreturn]] void fail_override(const Override& o, const std::string& message) {
+    throw UsageError("--set " + o.key + "=" + o.value + ": " + message);
+}
+
+/// Puts an override's value in its place, making tables on the way as needed. A number in the key
+/// counts into an array: object.0.subdivide.
+void apply_override(toml::table& root, const Override& o) {
+    toml::table parsed;
+    try {
+        parsed = toml::parse("value = " + o.value, "--set " + o.key);
+    } catch (const toml::parse_error&) {
+        parsed = toml::table{{"value", o.value}};  // a text typed without quotes
+    }
+    toml::node* at = &root;
+    std::string_view rest = o.key;
+    while (true) {
+        const std::size_t dot = rest.find('.');
+        const std::string_view part = rest.substr(0, dot);
+        const bool is_last = dot == std::string_view::npos;
+        if (part.empty()) fail_override(o, "the key must be like lines.width or object.0.subdivide");
+        if (toml::array* const array = at->as_array()) {
+            std::size_t index = 0;
+            const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+            if (error != std::errc() || end != part.data() + part.size() || index >= array->size()) {
+                fail_override(o, "there is no element '" + std::string(part) + "'");
+            }
+            if (is_last) {
+                array->replace(array->begin() + static_cast<std::ptrdiff_t>(index), *parsed.get("value"));
+                return;
+            }
+            at = array->get(index);
+        } else if (toml::table* const table = at->as_table()) {
+            if (is_last) {
+                table->insert_or_assign(part, *parsed.get("value"));
+                return;
+            }
+            if (!table->contains(part)) table->insert(part, toml::table{});
+            at = table->get(part);
+        } else {
+            fail_override(o, "'" + std::string(part) + "' stands below a value that is no table");
+        }
+        rest.remove_prefix(dot + 1);
+    }
+}
+
+SceneDescription read_tables(const std::string& path, toml::table root,
+                             const std::vector<Override>& overrides) {
+    for (const Override& o : overrides) apply_override(root, o);
+    return SceneReader(path, TomlReader(root, "scene")).read();
+}
+
+}  // namespace
+
+SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
+    const MappedFile file(path);
+    if (file.bytes().size() > kMaxSceneBytes) {
+        throw InputError(path + ": a scene file of more than 64 MB; is it a model?");
+    }
+    try {
+        return read_tables(path, toml::parse(file.bytes(), path), overrides);
+    } catch (const toml::parse_error& error) {
+        const toml::source_position at = error.source().begin;
+        std::string message(error.description());
+        std::replace(message.begin(), message.end(), '\n', ' ');
+        throw InputError({path, at.line, at.column}, message);
+    }
+}
+
+SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides) {
+    toml::table object;
+    object.insert("file", std::filesystem::absolute(path).string());
+    toml::table root;
+    root.insert("object", toml::array(std::move(object)));
+    return read_tables(path, std::move(root), overrides);
+}
+
+}  // namespace burin

@@ -1,0 +1,216 @@
+#include "scene/toml_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "scene/color.h"
+
+namespace burin {
+namespace {
+
+SourcePosition position_of(const toml::node& node) {
+    const toml::source_region& source = node.source();
+    return {source.path ? *source.path : std::string("scene"), source.begin.line,
+            source.begin.column};
+}
+
+std::string number_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.10g", value);
+    return text;
+}
+
+/// Levenshtein distance, for "did you mean".
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+}  // namespace
+
+const toml::node* TomlReader::find(std::string_view key) {
+    known_.emplace(key);
+    return table_->get(key);
+}
+
+SourcePosition TomlReader::position() const { return position_of(*table_); }
+
+SourcePosition TomlReader::position(std::string_view key) const {
+    const toml::node* const node = table_->get(key);
+    return node != nullptr ? position_of(*node) : position();
+}
+
+void TomlReader::fail(std::string_view key, const std::string& message) const {
+    throw InputError(position(key), context_ + " " + std::string(key) + ": " + message);
+}
+
+double TomlReader::checked_number(const toml::node& node, std::string_view key) const {
+    const auto value = node.value<double>();
+    if (!node.is_number() || !value) fail(key, "must be a number");
+    if (!std::isfinite(*value)) fail(key, "must be a finite number");
+    return *value;
+}
+
+std::optional<double> TomlReader::number(std::string_view key, Range range) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const double value = checked_number(*node, key);
+    const bool inside = (range.open_low ? value > range.low : value >= range.low) &&
+                        (range.open_high ? value < range.high : value <= range.high);
+    if (!inside) {
+        fail(key, "must be " + std::string(range.open_low ? "greater than " : "at least ") +
+                      number_text(range.low) +
+                      (range.high < 1e300 ? std::string(range.open_high ? " and less than " : " and at most ") +
+                                                number_text(range.high)
+                                          : "") +
+                      ", got " + number_text(value));
+    }
+    return value;
+}
+
+std::optional<int> TomlReader::integer(std::string_view key, int low, int high) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const auto value = node->value_exact<std::int64_t>();
+    if (!value) fail(key, "must be a whole number");
+    if (*value < low || *value > high) {
+        fail(key, "must be at least " + std::to_string(low) + " and at most " + std::to_string(high) +
+                      ", got " + std::to_string(*value));
+    }
+    return static_cast<int>(*value);
+}
+
+std::optional<bool> TomlReader::boolean(std::string_view key) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const auto value = node->value_exact<bool>();
+    if (!value) fail(key, "must be true or false");
+    return *value;
+}
+
+std::optional<std::string> TomlReader::text(std::string_view key) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const auto value = node->value_exact<std::string>();
+    if (!value) fail(key, "must be a text in quotes");
+    return *value;
+}
+
+std::optional<std::vector<std::string>> TomlReader::texts(std::string_view key) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const toml::array* const array = node->as_array();
+    if (array == nullptr) fail(key, "must be a list of texts, such as [\"a\", \"b\"]");
+    std::vector<std::string> result;
+    for (const toml::node& element : *array) {
+        const auto value = element.value_exact<std::string>();
+        if (!value) fail(key, "must be a list of texts, such as [\"a\", \"b\"]");
+        result.push_back(*value);
+    }
+    return result;
+}
+
+std::optional<std::vector<double>> TomlReader::numbers(std::string_view key, std::size_t count) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const toml::array* const array = node->as_array();
+    if (array == nullptr || array->size() != count) {
+        fail(key, "must be a list of " + std::to_string(count) + " numbers");
+    }
+    std::vector<double> result;
+    for (const toml::node& element : *array) result.push_back(checked_number(element, key));
+    return result;
+}
+
+std::optional<glm::dvec3> TomlReader::vector(std::string_view key) {
+    const auto values = numbers(key, 3);
+    if (!values) return std::nullopt;
+    return glm::dvec3((*values)[0], (*values)[1], (*values)[2]);
+}
+
+std::optional<glm::vec3> TomlReader::color(std::string_view key) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return std::nullopt;
+    if (node->is_string()) {
+        const auto color = color_from_hex(*node->value_exact<std::string>());
+        if (!color) fail(key, "must be a colour like \"#c0d0ff\", or a list of three linear numbers");
+        return color;
+    }
+    const glm::vec3 color(*vector(key));
+    if (color.r < 0 || color.g < 0 || color.b < 0) fail(key, "must not be negative");
+    return color;
+}
+
+std::optional<std::size_t> TomlReader::choice(std::string_view key,
+                                              const std::vector<std::string_view>& words) {
+    const auto value = text(key);
+    if (!value) return std::nullopt;
+    const auto it = std::find(words.begin(), words.end(), *value);
+    if (it != words.end()) return static_cast<std::size_t>(it - words.begin());
+    std::string list;
+    for (const std::string_view word : words) {
+        list += (list.empty() ? "\"" : ", \"") + std::string(word) + "\"";
+    }
+    fail(key, "must be one of " + list);
+}
+
+std::optional<TomlReader> TomlReader::table(std::string_view key) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const toml::table* const table = node->as_table();
+    if (table == nullptr) fail(key, "must be a table");
+    return TomlReader(*table, "[" + std::string(key) + "]");
+}
+
+std::vector<TomlReader> TomlReader::tables(std::string_view key) {
+    const toml::node* const node = find(key);
+    std::vector<TomlReader> result;
+    if (node == nullptr) return result;
+    const std::string name = "[[" + std::string(key) + "]]";
+    if (const toml::table* const single = node->as_table()) {
+        result.emplace_back(*single, name);
+        return result;
+    }
+    const toml::array* const array = node->as_array();
+    if (array == nullptr) fail(key, "must be a list of tables, " + name);
+    for (const toml::node& element : *array) {
+        if (!element.is_table()) fail(key, "must be a list of tables, " + name);
+        result.emplace_back(*element.as_table(), name);
+    }
+    return result;
+}
+
+void TomlReader::finish() const {
+    for (const auto& [key, node] : *table_) {
+        if (known_.contains(key.str())) continue;
+        std::string message = "unknown key '" + std::string(key.str()) + "'";
+        const auto closest = std::min_element(known_.begin(), known_.end(), [&](auto& a, auto& b) {
+            return edit_distance(a, key.str()) < edit_distance(b, key.str());
+        });
+        if (closest != known_.end() && edit_distance(*closest, key.str()) <= 2) {
+            message += "; did you mean '" + *closest + "'?";
+        } else {
+            message += "; docs/scene-format.md lists the known ones";
+        }
+        SourcePosition where = position_of(node);
+        const toml::source_region& source = key.source();
+        if (source.begin) {
+            where.line = source.begin.line;
+            where.column = source.begin.column;
+        }
+        throw InputError(where, context_ + " " + message);
+    }
+}
+
+}  // namespace burin

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <toml++/toml.h>
+#include <vector>
+
+#include "base/error.h"
+
+namespace burin {
+
+/// Reads the keys of one TOML table, each with its type and range checked, and at the end refuses
+/// keys that nobody asked for. Only the scene_toml and toml_reader sources include this header.
+class TomlReader {
+  public:
+    /// `context` names the table in messages ("[camera]").
+    TomlReader(const toml::table& table, std::string context)
+        : table_(&table), context_(std::move(context)) {}
+
+    struct Range {
+        double low, high;
+        bool open_low = false, open_high = false;  ///< whether the ends themselves are excluded
+    };
+
+    bool has(std::string_view key) const { return table_->contains(key); }
+    bool is_number(std::string_view key) const { return has(key) && table_->get(key)->is_number(); }
+    bool is_text(std::string_view key) const { return has(key) && table_->get(key)->is_string(); }
+    std::optional<double> number(std::string_view key, Range range);
+    std::optional<int> integer(std::string_view key, int low, int high);
+    std::optional<bool> boolean(std::string_view key);
+    std::optional<std::string> text(std::string_view key);
+    std::optional<std::vector<std::string>> texts(std::string_view key);
+    std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count);
+    std::optional<glm::dvec3> vector(std::string_view key);
+    /// "#rrggbb" or three linear numbers.
+    std::optional<glm::vec3> color(std::string_view key);
+    /// One of the given words; its index.
+    std::optional<std::size_t> choice(std::string_view key,
+                                      const std::vector<std::string_view>& words);
+    /// A table within this one, or nothing.
+    std::optional<TomlReader> table(std::string_view key);
+    /// An array of tables; a single table counts as an array of one.
+    std::vector<TomlReader> tables(std::string_view key);
+
+    /// Throws for the first key that was not read.
+    void finish() const;
+
+    [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+    SourcePosition position(std::string_view key) const;
+    SourcePosition position() const;
+    const std::string& context() const { return context_; }
+
+  private:
+    const toml::node* find(std::string_view key);
+    double checked_number(const toml::node& node, std::string_view key) const;
+
+    const toml::table* table_;
+    std::string context_;
+    std::set<std::string, std::less<>> known_;
+};
+
+}  // namespace burin
