@@ -1,0 +1,321 @@
+#include "cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "mesh/text_scan.h"
+#include "render/method.h"
+#include "scene/color.h"
+
+namespace burin {
+namespace {
+
+[[noreturn]] void fail(const std::string& option, const std::string& message) {
+    throw UsageError(option + ": " + message);
+}
+[[noreturn]] void fail_version(const std::string& option) { fail(option, "not in this version"); }
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        const std::size_t at = text.find(separator);
+        parts.push_back(text.substr(0, at));
+        if (at == std::string_view::npos) return parts;
+        text.remove_prefix(at + 1);
+    }
+}
+
+bool to_number(std::string_view text, double& value) {
+    const char* const end = text.data() + text.size();
+    return scan_number(text.data(), end, value) == end && !text.empty() && std::isfinite(value);
+}
+
+bool to_integer(std::string_view text, int& value) {
+    std::int64_t wide = 0;
+    const char* const end = text.data() + text.size();
+    if (text.empty() || scan_integer(text.data(), end, wide) != end) return false;
+    value = static_cast<int>(std::clamp<std::int64_t>(wide, -2000000000, 2000000000));
+    return true;
+}
+
+double number(const std::string& option, std::string_view text) {
+    double value = 0;
+    if (!to_number(text, value)) fail(option, "'" + printable(text) + "' is no finite number");
+    return value;
+}
+
+int integer(const std::string& option, std::string_view text, int low, int high) {
+    int value = 0;
+    if (!to_integer(text, value)) fail(option, "'" + printable(text) + "' is no whole number");
+    if (value < low || value > high) {
+        fail(option, "must be from " + std::to_string(low) + " to " + std::to_string(high));
+    }
+    return value;
+}
+
+glm::dvec3 vector(const std::string& option, std::string_view text) {
+    const auto parts = split(text, ',');
+    glm::dvec3 v;
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (parts.size() != 3 || !to_number(parts[k], v[i])) {
+            fail(option, "must be three numbers X,Y,Z, got '" + printable(text) + "'");
+        }
+    }
+    return v;
+}
+
+template <std::size_t N>
+std::array<int, N> integers(const std::string& option, std::string_view text, char separator,
+                            const char* form) {
+    const auto parts = split(text, separator);
+    std::array<int, N> values{};
+    for (std::size_t i = 0; i < N; ++i) {
+        if (parts.size() != N || !to_integer(parts[i], values[i])) {
+            fail(option, "must be " + std::string(form) + ", got '" + printable(text) + "'");
+        }
+    }
+    return values;
+}
+
+LineClassSet line_classes(std::string_view text) {
+    LineClassSet classes;
+    for (const std::string_view name : split(text, ',')) {
+        if (name == "all") {
+            classes = LineClassSet::all();
+        } else if (const auto line_class = line_class_named(name)) {
+            classes |= *line_class;
+        } else if (name != "none") {
+            fail("--lines", "unknown line class '" + printable(name) + "'; known are " +
+                                to_string(LineClassSet::all()) + ",all,none");
+        }
+    }
+    return classes;
+}
+
+LayerSet layer_set(std::string_view text) {
+    LayerSet layers{false, false, false, false, false, false, false};
+    const std::pair<std::string_view, bool*> names[] = {
+        {"beauty", &layers.beauty}, {"lines", &layers.lines},       {"Z", &layers.depth},
+        {"N", &layers.normal},      {"ids", &layers.ids},           {"coverage", &layers.coverage},
+        {"surface", &layers.surface}};
+    for (const std::string_view name : split(text, ',')) {
+        const auto it = std::find_if(std::begin(names), std::end(names),
+                                     [&](const auto& n) { return n.first == name; });
+        if (it == std::end(names)) {
+            fail("--layers", "unknown layer '" + printable(name) +
+                                 "'; known are beauty,lines,Z,N,ids,coverage,surface");
+        }
+        *it->second = true;
+    }
+    return layers;
+}
+
+/// Options as they were typed.
+struct Texts {
+    std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines;
+    std::string width, crease, hidden, style, layers, frames, crop, threads, memory, stats, bits;
+    std::string repeat, progress, pixel, background;
+    std::vector<std::string> sets;
+    int verbose = 0;
+    bool quiet = false, json = false;
+};
+
+void add_scene_options(CLI::App& app, Texts& t) {
+    app.add_option("INPUT", t.input, "a scene .toml, or a model .obj .ply .stl .off .gltf .glb")->required();
+    app.add_option("-r,--size", t.size, "image size in pixels, WxH (default 1920x1080)");
+    app.add_option("--eye", t.eye, "position of the camera, X,Y,Z");
+    app.add_option("--target", t.target, "what the camera looks at, X,Y,Z");
+    app.add_option("--up", t.up, "what is up in the picture, X,Y,Z (default 0,1,0)");
+    app.add_option("--fov", t.fov, "vertical field of view in degrees (default 35)");
+    app.add_option("--ortho", t.ortho, "orthographic view, full visible height in world units");
+    app.add_option("--camera", t.camera, "a camera of the scene, by name");
+    app.add_option("-m,--method", t.method, "how lines are found (see burin methods)");
+    app.add_option("--mask", t.mask, "method patel: bits of the extended mask, 16, 64 or 256 (default 64)");
+    app.add_option("--samples", t.samples, "method abuffer: samples per pixel and axis (not in this version)");
+    app.add_option("--lines", t.lines,
+                   "line classes, comma separated: silhouette border crease intersection object material "
+                   "polygon mark, or all, none (default silhouette,border,crease,intersection,object)");
+    app.add_option("-w,--line-width", t.width, "full width of strokes in pixels (default 1)");
+    app.add_option("--crease-angle", t.crease, "angle between polygons from which on they meet in a crease, degrees (default 40)");
+    app.add_option("--hidden", t.hidden, "occluded lines: none (default); solid, dashed (not in this version)");
+    app.add_option("--style", t.style, "line style sheet (not in this version)");
+    app.add_option("--set", t.sets, "override a value of the scene, KEY=VALUE; may be repeated")
+        ->expected(1)->take_all()->allow_extra_args(false);
+    app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
+    app.add_option("--memory", t.memory, "cap for the renderer's memory (not in this version)");
+    app.add_flag("-v", t.verbose, "say more");
+    app.add_flag("-q", t.quiet, "say nothing but errors");
+}
+
+void add_render_options(CLI::App& app, Texts& t) {
+    app.add_option("-o,--output", t.output, "file to write, .exr .png or .tif (default: INPUT's name with .png)");
+    app.add_option("--layers", t.layers, "layers of an EXR: beauty lines Z N ids coverage surface (default: the first five)");
+    app.add_option("-f,--frames", t.frames, "frames to render (not in this version)");
+    app.add_option("--crop", t.crop, "render only these pixels, X0,Y0,X1,Y1, half open");
+    app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
+    app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
+    app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
+    app.add_option("--repeat", t.repeat, "render this many times and report the median times in --stats");
+    app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
+}
+
+/// Vectors may start with a minus: "--eye -1,2,3" becomes "--eye=-1,2,3" before it is parsed.
+std::vector<std::string> join_vectors(int argc, char** argv) {
+    std::vector<std::string> arguments;
+    for (int i = 1; i < argc; ++i) {
+        std::string argument = argv[i];
+        const bool takes_vector = argument == "--eye" || argument == "--target" || argument == "--up";
+        if (takes_vector && i + 1 < argc) argument += std::string("=") + argv[++i];
+        arguments.push_back(std::move(argument));
+    }
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    return arguments;
+}
+
+void fill_scene_options(const Texts& t, Arguments& a) {
+    a.input = t.input;
+    if (!t.size.empty()) {
+        a.size = integers<2>("--size", t.size, 'x', "WIDTHxHEIGHT in pixels");
+        for (const int side : *a.size) {
+            if (side < 1 || side > 65535) fail("--size", "width and height must be from 1 to 65535");
+        }
+    }
+    if (!t.eye.empty()) a.eye = vector("--eye", t.eye);
+    if (!t.target.empty()) a.target = vector("--target", t.target);
+    if (!t.up.empty()) a.up = vector("--up", t.up);
+    if (!t.fov.empty()) {
+        a.fov_deg = number("--fov", t.fov);
+        if (!(*a.fov_deg > 0 && *a.fov_deg < 180)) fail("--fov", "must lie between 0 and 180 degrees");
+    }
+    if (!t.ortho.empty()) {
+        a.ortho_height = number("--ortho", t.ortho);
+        if (!(*a.ortho_height > 0)) fail("--ortho", "must be positive");
+        if (a.fov_deg) fail("--ortho", "cannot stand beside --fov; remove one");
+    }
+    a.camera = t.camera;
+    if (!t.camera.empty() && (a.eye || a.target || a.up || a.fov_deg || a.ortho_height)) {
+        fail("--camera", "cannot stand beside --eye, --target, --up, --fov or --ortho; remove one");
+    }
+    if (!t.method.empty() && find_method(t.method) == nullptr) {
+        if (is_planned_method(t.method)) fail("--method", t.method + " is not in this version");
+        fail("--method", "unknown method '" + printable(t.method) + "'; burin methods lists them");
+    }
+    a.method = t.method;
+    if (!t.mask.empty()) {
+        a.mask_bits = integer("--mask", t.mask, 16, 256);
+        if (*a.mask_bits != 16 && *a.mask_bits != 64 && *a.mask_bits != 256) {
+            fail("--mask", "must be 16, 64 or 256");
+        }
+    }
+    if (!t.samples.empty()) fail_version("--samples");
+    if (!t.lines.empty()) a.lines = line_classes(t.lines);
+    if (!t.width.empty()) {
+        a.line_width_px = number("--line-width", t.width);
+        if (!(*a.line_width_px > 0 && *a.line_width_px <= 1024)) {
+            fail("--line-width", "must be greater than 0 and at most 1024 pixels");
+        }
+    }
+    if (!t.crease.empty()) {
+        a.crease_angle_deg = number("--crease-angle", t.crease);
+        if (!(*a.crease_angle_deg >= 0 && *a.crease_angle_deg <= 180)) {
+            fail("--crease-angle", "must be from 0 to 180 degrees");
+        }
+    }
+    if (t.hidden == "solid" || t.hidden == "dashed") fail_version("--hidden " + t.hidden);
+    if (!t.hidden.empty() && t.hidden != "none") fail("--hidden", "must be none, solid or dashed");
+    if (!t.style.empty()) fail_version("--style");
+    if (!t.memory.empty()) fail_version("--memory");
+    for (const std::string& set : t.sets) {
+        const std::size_t equals = set.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            fail("--set", "must be KEY=VALUE, got '" + printable(set) + "'");
+        }
+        a.overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
+    }
+    if (!t.threads.empty()) a.threads = integer("--threads", t.threads, 0, 1024);
+    a.verbose = t.verbose > 0;
+    a.quiet = t.quiet;
+}
+
+void fill_render_options(const Texts& t, Arguments& a) {
+    a.output = t.output;
+    if (!t.layers.empty()) a.layers = layer_set(t.layers);
+    if (!t.frames.empty()) fail_version("--frames");
+    if (!t.crop.empty()) a.crop = integers<4>("--crop", t.crop, ',', "X0,Y0,X1,Y1 in pixels");
+    if (!t.bits.empty()) {
+        a.bits = integer("--bits", t.bits, 8, 16);
+        if (a.bits != 8 && a.bits != 16) fail("--bits", "must be 8 or 16");
+    }
+    a.background = t.background;
+    if (!t.background.empty() && t.background != "transparent" && !color_from_hex(t.background)) {
+        fail("--background", "must be a colour like #c0d0ff, or transparent");
+    }
+    a.stats = t.stats;
+    if (!t.repeat.empty()) a.repeat = integer("--repeat", t.repeat, 1, 1000000);
+    if (!t.progress.empty() && t.progress != "alf") fail("--progress", "must be alf");
+    a.alf_progress = t.progress == "alf";
+}
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(int argc, char** argv) {
+    Texts t;
+    CLI::App app{"burin draws the lines of 3D models: silhouettes, creases, borders, intersections.", "burin"};
+    app.set_version_flag("--version", std::string("burin 0.1.0"));
+    app.require_subcommand(1);
+    CLI::App* const render = app.add_subcommand("render", "draw a scene or a model");
+    add_scene_options(*render, t);
+    add_render_options(*render, t);
+    CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
+    info->add_option("INPUT", t.input, "a scene .toml or a model")->required();
+    info->add_flag("--json", t.json, "as JSON");
+    CLI::App* const explain = app.add_subcommand("explain", "show how one pixel was decided");
+    add_scene_options(*explain, t);
+    explain->add_option("--pixel", t.pixel, "the pixel, X,Y from the upper left corner")->required();
+    CLI::App* const list = app.add_subcommand("methods", "list the methods");
+    list->add_flag("--json", t.json, "as JSON");
+    CLI::App* const compare = app.add_subcommand("compare", "compare methods (not in this version)");
+    compare->allow_extras();
+
+    std::vector<std::string> arguments = join_vectors(argc, argv);
+    if (arguments.empty()) {
+        std::fputs(app.help().c_str(), stderr);
+        throw UsageError("give a command, for example: burin render model.obj -o lines.png");
+    }
+    try {
+        app.parse(std::move(arguments));
+    } catch (const CLI::CallForHelp&) {
+        const auto used = app.get_subcommands();
+        std::fputs((used.empty() ? app.help() : used.front()->help()).c_str(), stdout);
+        return std::nullopt;
+    } catch (const CLI::CallForVersion& version) {
+        std::printf("%s\n", version.what());
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        std::string message = error.what();
+        std::replace(message.begin(), message.end(), '\n', ' ');
+        throw UsageError(message + "; see burin --help");
+    }
+
+    Arguments a;
+    if (*compare) fail_version("compare");
+    a.json = t.json;
+    if (*list) {
+        a.command = Command::methods;
+    } else if (*info) {
+        a.command = Command::info;
+        a.input = t.input;
+    } else {
+        a.command = *render ? Command::render : Command::explain;
+        fill_scene_options(t, a);
+        fill_render_options(t, a);
+        if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
+    }
+    return a;
+}
+
+}  // namespace burin

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "lines/line_class.h"
+#include "render/film.h"
+#include "scene/scene_description.h"
+
+namespace burin {
+
+enum class Command : std::uint8_t { render, info, explain, methods };
+
+/// What stands on the command line, checked as far as that is possible without the scene.
+/// Everything optional overrides the scene when it is given.
+struct Arguments {
+    Command command = Command::render;
+    std::string input;
+    std::string output;
+    std::optional<std::array<int, 2>> size;
+    std::optional<glm::dvec3> eye, target, up;
+    std::optional<double> fov_deg, ortho_height;
+    std::string camera;
+    std::string method;
+    std::optional<int> mask_bits;
+    std::optional<LineClassSet> lines;
+    std::optional<double> line_width_px, crease_angle_deg;
+    LayerSet layers;
+    std::optional<std::array<int, 4>> crop;
+    std::optional<std::array<int, 2>> pixel;
+    std::string background;
+    std::vector<Override> overrides;
+    int bits = 8;
+    int threads = 0;
+    int repeat = 0;
+    std::string stats;
+    bool json = false;
+    bool verbose = false;
+    bool quiet = false;
+    bool alf_progress = false;
+};
+
+/// Reads the command line. Throws UsageError. For --help and --version it prints and returns nothing.
+std::optional<Arguments> parse_arguments(int argc, char** argv);
+
+}  // namespace burin

@@ -1,0 +1,348 @@
+#include "cli/commands.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "base/atomic_file.h"
+#include "base/json_writer.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "cli/job.h"
+#include "render/explain.h"
+#include "render/output.h"
+
+namespace burin {
+namespace {
+
+// ---- render ----
+
+OutputOptions output_options(const Arguments& a) {
+    OutputOptions options;
+    options.path = a.output;
+    if (options.path.empty()) {
+        options.path = std::filesystem::path(a.input).stem().string() + ".png";
+    }
+    std::string extension = std::filesystem::path(options.path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".exr") {
+        options.format = OutputFormat::exr;
+    } else if (extension == ".png") {
+        options.format = OutputFormat::png;
+    } else if (extension == ".tif" || extension == ".tiff") {
+        options.format = OutputFormat::tiff;
+    } else if (extension == ".svg" || extension == ".pdf") {
+        throw UsageError("--output: " + extension + " is not in this version; write .exr, .png or .tif");
+    } else {
+        throw UsageError("--output: unknown kind of image '" + extension + "'; burin writes .exr .png .tif");
+    }
+    const std::string name = std::filesystem::path(options.path).filename().string();
+    if (name.find('#') != std::string::npos || name.find("%0") != std::string::npos) {
+        throw UsageError("--output: a pattern for frames needs --frames, which is not in this version");
+    }
+    options.bits = a.bits;
+    options.threads = resolve_thread_count(a.threads);
+    return options;
+}
+
+struct StageTimes {
+    double load_s = 0, write_s = 0, total_s = 0;
+    RenderStats render;
+};
+
+/// Stage by stage the median of several renders.
+RenderStats median_of(std::vector<RenderStats> runs) {
+    RenderStats result = runs.back();
+    for (double RenderStats::*stage : {&RenderStats::prepare_s, &RenderStats::raster_s,
+                                       &RenderStats::resolve_s, &RenderStats::lines_s,
+                                       &RenderStats::shade_s}) {
+        const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+        std::nth_element(runs.begin(), middle, runs.end(),
+                         [&](const auto& x, const auto& y) { return x.*stage < y.*stage; });
+        result.*stage = (*middle).*stage;
+    }
+    return result;
+}
+
+double frame_seconds(const RenderStats& s) {
+    return s.prepare_s + s.raster_s + s.resolve_s + s.lines_s + s.shade_s;
+}
+
+std::string stats_json(const StageTimes& times, const Frame& frame, const Method& method) {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    JsonWriter json;
+    json.begin_object();
+    json.key("method").value(method.name);
+    json.key("width").value(frame.width).key("height").value(frame.height);
+    json.key("threads").value(times.render.threads);
+    json.key("triangles").value(times.render.triangles);
+    json.key("fragments").value(times.render.fragments);
+    json.key("peak_rss_bytes").value(std::uint64_t{1024} * static_cast<std::uint64_t>(usage.ru_maxrss));
+    json.key("stages").begin_object();
+    json.key("load").value(times.load_s);
+    json.key("prepare").value(times.render.prepare_s);
+    json.key("raster").value(times.render.raster_s);
+    json.key("resolve").value(times.render.resolve_s);
+    json.key("lines").value(times.render.lines_s);
+    json.key("shade").value(times.render.shade_s);
+    json.key("write").value(times.write_s);
+    json.key("total").value(times.total_s);
+    json.end_object().end_object();
+    return json.text();
+}
+
+void write_stats(const std::string& path, const std::string& text) {
+    if (path == "-") {
+        std::fputs(text.c_str(), stdout);
+        return;
+    }
+    AtomicFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+/// What a user should know before the picture surprises.
+void note_limits(const Arguments& a, const Frame& frame, const Method& method) {
+    if (a.quiet) return;
+    const LineSettings& lines = frame.scene->lines;
+    const double wanted = lines.style.width_px;
+    const double drawn = patel_line_width_px(frame.scene->patel.mask_bits, wanted);
+    if (method.name == "patel" && std::abs(drawn - wanted) > 0.01 * wanted) {
+        std::fprintf(stderr,
+                     "burin: note: method patel draws lines %.3g px wide with %d-bit masks, not %.3g px\n",
+                     drawn, frame.scene->patel.mask_bits, wanted);
+    }
+}
+
+// ---- info ----
+
+struct Totals {
+    std::uint64_t meshes = 0, objects = 0, triangles = 0, polygons = 0, vertices = 0;
+    MeshRepairs repairs;  // of the distinct meshes
+    EdgeCounts edges;     // of the distinct meshes
+    glm::dvec3 low{INFINITY}, high{-INFINITY};
+};
+
+Totals count(const Scene& scene) {
+    Totals totals;
+    totals.meshes = scene.meshes.size();
+    totals.objects = scene.objects.size();
+    for (const Mesh& mesh : scene.meshes) {
+        const EdgeCounts edges = count_edges(mesh);
+        totals.edges.edges += edges.edges;
+        totals.edges.border += edges.border;
+        totals.edges.non_manifold += edges.non_manifold;
+        totals.edges.seam += edges.seam;
+        totals.edges.marked += edges.marked;
+        totals.repairs.degenerate_polygons += mesh.repairs.degenerate_polygons;
+        totals.repairs.duplicate_polygons += mesh.repairs.duplicate_polygons;
+        totals.repairs.welded_vertices += mesh.repairs.welded_vertices;
+    }
+    for (const SceneObject& object : scene.objects) {
+        const Mesh& mesh = scene.meshes[object.mesh];
+        totals.triangles += mesh.repairs.input_triangles;
+        totals.polygons += mesh.repairs.input_polygons;
+        totals.vertices += mesh.positions.size();
+    }
+    scene_points(scene)([&](const glm::dvec3& p) {
+        totals.low = glm::min(totals.low, p);
+        totals.high = glm::max(totals.high, p);
+    });
+    return totals;
+}
+
+void write_vector(JsonWriter& json, const char* key, const glm::dvec3& v) {
+    json.key(key).begin_array().value(v.x).value(v.y).value(v.z).end_array();
+}
+
+std::string info_json(const Scene& scene, const std::string& input, const Totals& t) {
+    JsonWriter json;
+    json.begin_object();
+    json.key("file").value(input);
+    json.key("meshes").value(t.meshes);
+    json.key("objects").value(t.objects);
+    json.key("triangles").value(t.triangles);
+    json.key("polygons").value(t.polygons);
+    json.key("vertices").value(t.vertices);
+    json.key("bounds").begin_object();
+    write_vector(json, "min", t.low);
+    write_vector(json, "max", t.high);
+    json.end_object();
+    json.key("repairs").begin_object();
+    json.key("degenerate_polygons").value(t.repairs.degenerate_polygons);
+    json.key("duplicate_polygons").value(t.repairs.duplicate_polygons);
+    json.key("welded_vertices").value(t.repairs.welded_vertices);
+    json.key("skipped_primitives").value(scene.skipped_primitives);
+    json.end_object();
+    json.key("edges").begin_object();
+    json.key("total").value(t.edges.edges);
+    json.key("border").value(t.edges.border);
+    json.key("seam").value(t.edges.seam);
+    json.key("non_manifold").value(t.edges.non_manifold);
+    json.key("marked").value(t.edges.marked);
+    json.end_object();
+    json.key("object_list").begin_array();
+    for (const SceneObject& object : scene.objects) {
+        const Mesh& mesh = scene.meshes[object.mesh];
+        json.begin_object();
+        json.key("name").value(object.name);
+        json.key("mesh").value(object.mesh);
+        json.key("triangles").value(mesh.repairs.input_triangles);
+        json.key("polygons").value(mesh.repairs.input_polygons);
+        json.end_object();
+    }
+    json.end_array();
+    json.key("materials").begin_array();
+    for (const Material& m : scene.materials) {
+        json.begin_object().key("name").value(m.name);
+        json.key("color").begin_array();
+        for (int c = 0; c < 3; ++c) json.value(static_cast<double>(m.color[c]));
+        json.end_array();
+        json.key("opacity").value(static_cast<double>(m.opacity));
+        json.end_object();
+    }
+    json.end_array();
+    json.key("cameras").begin_array();
+    for (const CameraSettings& c : scene.cameras) {
+        json.begin_object().key("name").value(c.name);
+        json.key("projection").value(c.orthographic ? "orthographic" : "perspective");
+        if (c.orthographic && c.height) json.key("height").value(*c.height);
+        if (!c.orthographic) json.key("fov_deg").value(c.fov_deg);
+        json.end_object();
+    }
+    json.end_array().end_object();
+    return json.text();
+}
+
+void print_info(const Scene& scene, const std::string& input, const Totals& t) {
+    const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+    std::printf("%s\n", input.c_str());
+    std::printf("  objects    %llu, of %llu meshes\n", number(t.objects), number(t.meshes));
+    std::printf("  triangles  %llu, as %llu polygons with %llu vertices\n", number(t.triangles),
+                number(t.polygons), number(t.vertices));
+    std::printf("  bounds     %.6g %.6g %.6g  to  %.6g %.6g %.6g\n", t.low.x, t.low.y, t.low.z,
+                t.high.x, t.high.y, t.high.z);
+    std::printf("  edges      %llu: %llu border (%llu along a seam), %llu non-manifold, %llu marked\n",
+                number(t.edges.edges), number(t.edges.border), number(t.edges.seam),
+                number(t.edges.non_manifold), number(t.edges.marked));
+    std::printf("  dropped    %llu degenerate and %llu duplicate polygons; %llu vertices welded\n",
+                number(t.repairs.degenerate_polygons), number(t.repairs.duplicate_polygons),
+                number(t.repairs.welded_vertices));
+    if (scene.skipped_primitives > 0) {
+        std::printf("  skipped    %llu primitives of points or lines\n", number(scene.skipped_primitives));
+    }
+    std::printf("  materials  %zu:", scene.materials.size());
+    for (const Material& m : scene.materials) std::printf(" %s", m.name.empty() ? "(unnamed)" : m.name.c_str());
+    std::printf("\n  cameras    ");
+    for (const CameraSettings& c : scene.cameras) {
+        std::printf("%s (%s) ", c.name.empty() ? "default" : c.name.c_str(),
+                    c.orthographic ? "orthographic" : "perspective");
+    }
+    std::printf("\n");
+    constexpr std::size_t kMaxListed = 50;
+    for (std::size_t i = 0; i < scene.objects.size() && i < kMaxListed; ++i) {
+        const MeshRepairs& r = scene.meshes[scene.objects[i].mesh].repairs;
+        std::printf("  object %zu  %s: %llu triangles\n", i + 1, scene.objects[i].name.c_str(),
+                    number(r.input_triangles));
+    }
+    if (scene.objects.size() > kMaxListed) {
+        std::printf("  ... and %zu more; --json lists all\n", scene.objects.size() - kMaxListed);
+    }
+}
+
+}  // namespace
+
+void run_render(const Arguments& a) {
+    const OutputOptions output = output_options(a);
+    { const AtomicFile writable(output.path); }  // fail before the work, not after it
+    if (!a.stats.empty() && a.stats != "-") { const AtomicFile writable(a.stats); }
+    const Method& method = a.method.empty() ? methods().front() : *find_method(a.method);
+
+    const bool shows_bar = !a.quiet && isatty(STDERR_FILENO) != 0;
+    Progress progress(a.alf_progress ? ProgressStyle::alf
+                                     : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
+    Stopwatch total, watch;
+    StageTimes times;
+    const Scene scene = load_input(a);
+    const Frame frame = frame_of(scene, a);
+    times.load_s = watch.lap();
+    note_limits(a, frame, method);
+
+    LayerSet layers = a.layers;
+    if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false};
+    Film film({0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
+    RunOptions run{a.threads, &progress};
+    times.render = method.render(frame, run, film);
+    if (a.repeat > 0) {
+        run.progress = nullptr;
+        std::vector<RenderStats> runs;
+        for (int i = 0; i < a.repeat; ++i) runs.push_back(method.render(frame, run, film));
+        times.render = median_of(std::move(runs));
+    }
+    watch.lap();
+    write_output(frame, film, output);
+    times.write_s = watch.lap();
+    progress.finish();
+    times.total_s = a.repeat > 0 ? times.load_s + frame_seconds(times.render) + times.write_s : total.seconds();
+    if (!a.stats.empty()) write_stats(a.stats, stats_json(times, frame, method));
+    if (a.verbose || shows_bar) {
+        std::fprintf(stderr, "%s: %dx%d, %llu triangles, %.2f s (read %.2f, draw %.2f, write %.2f)\n",
+                     output.path.c_str(), frame.crop.width(), frame.crop.height(),
+                     static_cast<unsigned long long>(times.render.triangles), total.seconds(),
+                     times.load_s, frame_seconds(times.render), times.write_s);
+    }
+}
+
+void run_info(const Arguments& a) {
+    const Scene scene = load_input(a);
+    const Totals totals = count(scene);
+    if (a.json) {
+        std::fputs(info_json(scene, a.input, totals).c_str(), stdout);
+    } else {
+        print_info(scene, a.input, totals);
+    }
+}
+
+void run_explain(const Arguments& a) {
+    const Scene scene = load_input(a);
+    const Frame frame = frame_of(scene, a);
+    const auto [x, y] = *a.pixel;
+    if (x < 0 || y < 0 || x >= frame.width || y >= frame.height) {
+        throw UsageError("--pixel: must lie within the image of " + std::to_string(frame.width) + "x" +
+                         std::to_string(frame.height) + " pixels");
+    }
+    std::fputs(explain_pixel(frame, x, y).c_str(), stdout);
+}
+
+void run_methods(const Arguments& a) {
+    if (!a.json) {
+        for (const Method& m : methods()) {
+            std::printf("%-16s %s\n%-16s draws %s\n", std::string(m.name).c_str(),
+                        std::string(m.source).c_str(), "", to_string(m.draws).c_str());
+        }
+        return;
+    }
+    JsonWriter json;
+    json.begin_object().key("methods").begin_array();
+    for (const Method& m : methods()) {
+        json.begin_object();
+        json.key("name").value(m.name);
+        json.key("source").value(m.source);
+        json.key("draws").begin_array();
+        for (std::size_t c = 0; c < kLineClassCount; ++c) {
+            if (m.draws.has(static_cast<LineClass>(c))) json.value(kLineClassNames[c]);
+        }
+        json.end_array().end_object();
+    }
+    json.end_array().end_object();
+    std::fputs(json.text().c_str(), stdout);
+}
+
+}  // namespace burin

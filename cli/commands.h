@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cli/arguments.h"
+
+namespace burin {
+
+/// The commands of the program. Each throws InputError, UsageError or Interrupted.
+void run_render(const Arguments& arguments);
+void run_info(const Arguments& arguments);
+void run_explain(const Arguments& arguments);
+void run_methods(const Arguments& arguments);
+
+}  // namespace burin

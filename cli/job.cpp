@@ -1,0 +1,107 @@
+#include "cli/job.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "base/error.h"
+#include "mesh/model.h"
+#include "mesh/text_scan.h"
+#include "scene/color.h"
+
+namespace burin {
+namespace {
+
+bool is_scene_file(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".toml";
+}
+
+SceneDescription describe_input(const Arguments& a) {
+    if (is_scene_file(a.input)) return read_scene_file(a.input, a.overrides);
+    if (is_model_file(a.input)) return bare_model_scene(a.input, a.overrides);
+    throw InputError(a.input + ": unknown kind of input; burin reads .toml scenes and " +
+                     ".obj .ply .stl .off .gltf .glb models");
+}
+
+const CameraSettings& chosen_camera(const Scene& scene, const std::string& name) {
+    if (name.empty()) return scene.cameras.front();
+    const auto it = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                 [&](const CameraSettings& c) { return c.name == name; });
+    if (it != scene.cameras.end()) return *it;
+    std::string known;
+    for (const CameraSettings& c : scene.cameras) {
+        if (!c.name.empty()) known += (known.empty() ? "" : ", ") + c.name;
+    }
+    throw InputError("there is no camera '" + printable(name) + "'; " +
+                     (known.empty() ? "the scene names none" : "the scene has " + known));
+}
+
+/// The scene's camera; what the command line says about the view replaces it.
+CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
+    CameraSettings camera = chosen_camera(scene, a.camera);
+    if (!a.eye && !a.target && !a.up && !a.fov_deg && !a.ortho_height) return camera;
+    if (camera.to_world) camera = CameraSettings{};
+    if (a.eye) {
+        camera.eye = a.eye;
+        camera.direction.reset();
+    }
+    if (a.target) camera.target = a.target;
+    if (a.up) camera.up = a.up;
+    if (a.fov_deg) {
+        camera.fov_deg = *a.fov_deg;
+        camera.orthographic = false;
+    }
+    if (a.ortho_height) {
+        camera.height = a.ortho_height;
+        camera.orthographic = true;
+    }
+    return camera;
+}
+
+PixelRect crop_of(const Arguments& a, int width, int height) {
+    if (!a.crop) return {0, 0, width, height};
+    const auto [x0, y0, x1, y1] = *a.crop;
+    if (!(0 <= x0 && x0 < x1 && x1 <= width && 0 <= y0 && y0 < y1 && y1 <= height)) {
+        throw UsageError("--crop: must lie within the image of " + std::to_string(width) + "x" +
+                         std::to_string(height) + " pixels, with X0 < X1 and Y0 < Y1");
+    }
+    return {x0, y0, x1, y1};
+}
+
+}  // namespace
+
+Scene load_input(const Arguments& a) {
+    Scene scene = load_scene(describe_input(a));
+    if (a.size) {
+        scene.picture.width = (*a.size)[0];
+        scene.picture.height = (*a.size)[1];
+    }
+    if (a.background == "transparent") {
+        scene.picture.transparent = true;
+        scene.picture.background.reset();
+    } else if (!a.background.empty()) {
+        scene.picture.background = color_from_hex(a.background);
+    }
+    if (a.mask_bits) scene.patel.mask_bits = *a.mask_bits;
+    if (a.lines) scene.lines.classes = *a.lines;
+    if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
+    if (a.crease_angle_deg) scene.lines.crease_angle_deg = *a.crease_angle_deg;
+    return scene;
+}
+
+Frame frame_of(const Scene& scene, const Arguments& a) {
+    const int width = scene.picture.width, height = scene.picture.height;
+    const PixelRect crop = crop_of(a, width, height);
+    try {
+        const Camera camera = resolve_camera(camera_settings(scene, a), scene_points(scene),
+                                             static_cast<double>(width) / height);
+        return make_frame(scene, camera, width, height, crop);
+    } catch (const InputError& error) {
+        throw InputError(a.input + ": " + error.what());
+    }
+}
+
+}  // namespace burin

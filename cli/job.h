@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "cli/arguments.h"
+#include "render/frame.h"
+#include "render/method.h"
+#include "scene/scene.h"
+
+namespace burin {
+
+/// A scene with the command line's wishes worked in. Throws InputError and UsageError.
+Scene load_input(const Arguments& arguments);
+
+/// The frame that the arguments ask for. The scene must outlive it.
+Frame frame_of(const Scene& scene, const Arguments& arguments);
+
+}  // namespace burin

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "render/frame.h"
+
+namespace burin {
+
+/// How method patel sees one pixel: its fragments front to back with their masks as pictures, depths,
+/// owners and planes, and for every pair of neighbours which test drew or refused the line.
+std::string explain_pixel(const Frame& frame, int x, int y);
+
+}  // namespace burin

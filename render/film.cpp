@@ -1,0 +1,96 @@
+#include "render/film.h"
+
+#include <unistd.h>
+
+#include <functional>
+#include <string>
+
+#include "base/error.h"
+#include "image/half.h"
+
+namespace burin {
+namespace {
+
+/// Half precision holds 0..1 well; anything beyond its range would turn infinite.
+std::uint16_t to_half(float value) { return half_from_float(std::min(value, 65504.0f)); }
+
+void check_memory(PixelRect crop, std::size_t bytes_per_pixel) {
+    const double needed = static_cast<double>(crop.width()) * crop.height() *
+                          static_cast<double>(bytes_per_pixel);
+    const double physical = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                            static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    if (needed > 0.8 * physical) {
+        throw InputError("an image of " + std::to_string(crop.width()) + "x" +
+                         std::to_string(crop.height()) + " pixels needs " +
+                         std::to_string(static_cast<long>(needed / 1e9)) + " GB, this machine has " +
+                         std::to_string(static_cast<long>(physical / 1e9)) +
+                         "; use a smaller --size, fewer --layers, or render parts with --crop");
+    }
+}
+
+}  // namespace
+
+Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes)
+    : image_(display, crop) {
+    std::size_t bytes = 0;
+    std::vector<std::function<void()>> bindings;  // channel memory stands still only at the end
+    const auto add = [&](const std::string& name, PixelType type, auto*& plane) {
+        bytes += size_of(type);
+        auto** const target = &plane;
+        bindings.push_back([this, name, type, target] {
+            using Value = std::remove_pointer_t<std::remove_reference_t<decltype(*target)>>;
+            *target = image_.add(name, type).as<Value>().data();
+        });
+    };
+    const auto add_rgba = [&](const std::string& prefix, std::uint16_t* (&planes)[4]) {
+        const char* const names[4] = {"R", "G", "B", "A"};
+        for (int c = 0; c < 4; ++c) add(prefix + names[c], PixelType::float16, planes[c]);
+    };
+    if (layers.beauty) add_rgba("", planes_.beauty);
+    if (layers.lines) add_rgba("lines.", planes_.lines);
+    if (layers.surface) add_rgba("surface.", planes_.surface);
+    for (std::size_t i = 0; i < kLineClassCount && layers.coverage; ++i) {
+        if (!classes.has(static_cast<LineClass>(i))) continue;
+        add("coverage." + std::string(kLineClassNames[i]), PixelType::float16, planes_.coverage[i]);
+    }
+    if (layers.depth) add("Z", PixelType::float32, planes_.depth);
+    if (layers.normal) {
+        add("N.X", PixelType::float32, planes_.normal[0]);
+        add("N.Y", PixelType::float32, planes_.normal[1]);
+        add("N.Z", PixelType::float32, planes_.normal[2]);
+    }
+    if (layers.ids) {
+        add("id.object", PixelType::uint32, planes_.ids[0]);
+        add("id.material", PixelType::uint32, planes_.ids[1]);
+        add("id.polygon", PixelType::uint32, planes_.ids[2]);
+    }
+    check_memory(crop, bytes);
+    for (const auto& bind : bindings) bind();
+}
+
+void Film::put(int x, int y, const PixelResult& pixel) {
+    const PixelRect crop = image_.data();
+    const std::size_t i = static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(crop.width()) +
+                          static_cast<std::size_t>(x - crop.x0);
+    const auto put_rgba = [i](std::uint16_t* const (&planes)[4], const glm::vec4& color) {
+        if (planes[0] == nullptr) return;
+        for (int c = 0; c < 4; ++c) planes[c][i] = to_half(color[c]);
+    };
+    put_rgba(planes_.beauty, pixel.beauty);
+    put_rgba(planes_.lines, pixel.lines);
+    put_rgba(planes_.surface, pixel.surface);
+    for (std::size_t c = 0; c < kLineClassCount; ++c) {
+        if (planes_.coverage[c] != nullptr) planes_.coverage[c][i] = to_half(pixel.coverage[c]);
+    }
+    if (planes_.depth != nullptr) planes_.depth[i] = pixel.distance;
+    if (planes_.normal[0] != nullptr) {
+        for (int c = 0; c < 3; ++c) planes_.normal[c][i] = pixel.normal[c];
+    }
+    if (planes_.ids[0] != nullptr) {
+        planes_.ids[0][i] = pixel.object_id;
+        planes_.ids[1][i] = pixel.material_id;
+        planes_.ids[2][i] = pixel.polygon_id;
+    }
+}
+
+}  // namespace burin

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string_view>
+#include <vector>
+
+#include "image/image.h"
+#include "lines/line_class.h"
+
+namespace burin {
+
+/// The layers that an output file can have.
+struct LayerSet {
+    bool beauty = true;     ///< R G B A: surfaces and lines together
+    bool lines = true;      ///< lines.R G B A
+    bool depth = true;      ///< Z
+    bool normal = true;     ///< N.X N.Y N.Z
+    bool ids = true;        ///< id.object id.material id.polygon
+    bool coverage = false;  ///< coverage.silhouette, ... one per class drawn
+    bool surface = false;   ///< surface.R G B A
+};
+
+/// What a method finds out about one pixel. Colours are linear and premultiplied.
+struct PixelResult {
+    glm::vec4 beauty{0.0f};
+    glm::vec4 lines{0.0f};    ///< a = coverage of all lines drawn
+    glm::vec4 surface{0.0f};
+    std::array<float, kLineClassCount> coverage{};
+    float distance;           ///< along the view axis, world units; infinite for the background
+    glm::vec3 normal{0.0f};   ///< world space, towards the eye
+    std::uint32_t object_id = 0;
+    std::uint32_t material_id = 0;
+    std::uint32_t polygon_id = 0;
+};
+
+/// Collects pixels into the channels of the chosen layers. Different threads may put different
+/// pixels at the same time.
+class Film {
+  public:
+    /// `display` is the whole picture, `crop` the part that pixels are put for. Throws InputError
+    /// when this machine has not enough memory for it.
+    Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
+
+    void put(int x, int y, const PixelResult& pixel);
+    const Image& image() const { return image_; }
+
+  private:
+    Image image_;
+    struct Planes {  // channel data, nullptr where a layer is not wanted
+        std::uint16_t* beauty[4] = {};
+        std::uint16_t* lines[4] = {};
+        std::uint16_t* surface[4] = {};
+        std::array<std::uint16_t*, kLineClassCount> coverage{};
+        float* depth = nullptr;
+        float* normal[3] = {};
+        std::uint32_t* ids[3] = {};
+    } planes_;
+};
+
+}  // namespace burin

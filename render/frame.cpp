@@ -1,0 +1,100 @@
+#include "render/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "mesh/text_scan.h"
+
+namespace burin {
+namespace {
+
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+    void add(const glm::dvec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    bool is_empty() const { return low.x > high.x; }
+    template <typename Visit>
+    void for_each_corner(const Visit& visit) const {
+        for (int i = 0; i < 8; ++i) {
+            visit(glm::dvec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z));
+        }
+    }
+};
+
+Box box_of(const Mesh& mesh) {
+    Box box;
+    for (const glm::vec3& p : mesh.positions) box.add(glm::dvec3(p));
+    return box;
+}
+
+/// The matrix that takes area vectors along: cofactors of the linear part.
+glm::dmat3 cofactors(const glm::dmat4& m) {
+    const glm::dvec3 a(m[0]), b(m[1]), c(m[2]);
+    return {glm::cross(b, c), glm::cross(c, a), glm::cross(a, b)};
+}
+
+}  // namespace
+
+Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop) {
+    Frame frame;
+    frame.scene = &scene;
+    frame.camera = camera;
+    frame.width = width;
+    frame.height = height;
+    frame.crop = crop;
+    frame.criteria.classes = scene.lines.classes;
+    frame.criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
+
+    std::vector<Box> mesh_boxes;
+    for (const Mesh& mesh : scene.meshes) mesh_boxes.push_back(box_of(mesh));
+
+    SurfaceSet& surfaces = frame.surfaces;
+    surfaces.view_to_world = glm::dmat3(camera.to_world);
+    const glm::dmat4 world_to_view = camera.to_view();
+    Box view_box;
+    std::uint64_t next_polygon_id = 1;
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        const SceneObject& object = scene.objects[i];
+        const Mesh& mesh = scene.meshes[object.mesh];
+        SurfaceInstance instance;
+        instance.mesh = &mesh;
+        instance.to_view = world_to_view * object.to_world;
+        instance.to_view[3] = instance.to_view * glm::dvec4(mesh.origin, 1.0);
+        instance.normal_to_view = cofactors(instance.to_view);
+        instance.object_id = i + 1;
+        instance.first_polygon_id = static_cast<std::uint32_t>(next_polygon_id);
+        next_polygon_id += mesh.polygon_count;
+        for (const std::uint32_t m : object.materials) instance.material_ids.push_back(m + 1);
+        mesh_boxes[object.mesh].for_each_corner([&](const glm::dvec3& corner) {
+            if (!mesh.positions.empty()) {
+                view_box.add(glm::dvec3(instance.to_view * glm::dvec4(corner, 1.0)));
+            }
+        });
+        surfaces.instances.push_back(std::move(instance));
+    }
+    if (next_polygon_id > std::numeric_limits<std::uint32_t>::max()) {
+        throw InputError("the scene has more than 4 billion polygons; split it");
+    }
+
+    double farthest = 0;
+    if (!view_box.is_empty()) {
+        const glm::dvec3 reach = glm::max(glm::abs(view_box.low), glm::abs(view_box.high));
+        if (!(std::max({reach.x, reach.y, reach.z}) <= kLargestCoordinate)) {
+            throw InputError("the scene reaches beyond 1e30 units from the camera; scale it down");
+        }
+        farthest = glm::length(reach);
+        // Single-precision coordinates are exact to 2^-24 of their size; transforms of files and
+        // the planes of small triangles lose some more.
+        surfaces.coordinate_error = 0x1p-21 * 0.5 * glm::distance(view_box.low, view_box.high);
+    }
+    const double near_distance = camera.orthographic ? 0.0 : 0x1p-20 * farthest;
+    surfaces.projection = camera.projection(width, height, near_distance);
+    return frame;
+}
+
+}  // namespace burin

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "image/image.h"
+#include "lines/surface_set.h"
+#include "lines/surface_walk.h"
+#include "scene/scene.h"
+
+namespace burin {
+
+/// A scene seen through one camera: the one input of every method. Immutable once made.
+struct Frame {
+    const Scene* scene = nullptr;
+    Camera camera;
+    int width = 0;   ///< of the whole picture, in pixels
+    int height = 0;
+    PixelRect crop;  ///< the part to render
+    SurfaceSet surfaces;
+    LineCriteria criteria;
+
+    const Material& material_of(SurfaceId s) const {
+        return scene->materials[surfaces.material_id(s) - 1];
+    }
+};
+
+/// Throws InputError when the scene has more than 4 billion polygons or coordinates out of range.
+Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop);
+
+}  // namespace burin

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+namespace burin {
+
+/// Wall seconds per stage, and counts, of one render.
+struct RenderStats {
+    double prepare_s = 0;  ///< transforming, clipping, sorting surfaces to tiles
+    double raster_s = 0;   ///< coverage masks
+    double resolve_s = 0;  ///< visibility
+    double lines_s = 0;
+    double shade_s = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t fragments = 0;
+    int threads = 1;
+};
+
+}  // namespace burin
