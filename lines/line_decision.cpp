@@ -47,7 +47,7 @@ class Decider {
 
   private:
     static bool ended(const SurfaceWalk& w) {
-        return w.end == WalkEnd::fold || w.end == WalkEnd::border;
+        return w.end == WalkEnd::fold || w.end == WalkEnd::border || w.end == WalkEnd::crack;
     }
     const VisiblePoint& other(int i) const { return points_[1 - i]; }
     glm::dvec2 place(int i, double fraction) const {
@@ -118,18 +118,15 @@ class Decider {
         if (w.end == WalkEnd::fold) {
             decision.classes |= LineClass::silhouette;
             decision.reason = LineReason::turns_away;
+        } else if (w.end == WalkEnd::crack) {
+            decision.classes |= contact_classes(surfaces_, w.surface, w.beyond,
+                                                place(i, w.fraction), criteria_);
+            decision.reason = LineReason::crack;
         } else if (touching) {
             decision.reason = decision.classes.empty() ? LineReason::touches_smoothly : LineReason::touches;
         } else {
-            const auto seam = seam_neighbour(surfaces_, w, points_[i].pixel, other(i).pixel);
-            if (seam && seam->continues) {
-                decision.classes |= contact_classes(surfaces_, w.surface, seam->surface,
-                                                    place(i, w.fraction), criteria_);
-                decision.reason = LineReason::crack;
-            } else {
-                decision.classes |= seam ? LineClass::silhouette : LineClass::border;
-                decision.reason = seam ? LineReason::turns_away : LineReason::ends_at_border;
-            }
+            decision.classes |= LineClass::border;
+            decision.reason = LineReason::ends_at_border;
         }
         return with_fraction(decision, i, w.fraction);
     }

@@ -72,6 +72,17 @@ struct SurfaceSet {
         return n / std::max(glm::length(n), 1e-300);
     }
 
+    /// The polygon's unit normal on the side that the triangle turns to the eye. (A polygon that is
+    /// not flat may have triangles that turn either way.)
+    glm::dvec3 normal_towards_eye(SurfaceId s, glm::dvec2 pixel) const {
+        glm::dvec3 corners[3], origin, ray;
+        view_corners(s, corners);
+        projection.view_ray(pixel, origin, ray);
+        const glm::dvec3 facet = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const glm::dvec3 normal = view_normal(s);
+        return glm::dot(facet, ray) > 0 ? -normal : normal;
+    }
+
     std::uint32_t object_id(SurfaceId s) const {
         return s.is_background() ? 0 : instance_of(s).object_id;
     }

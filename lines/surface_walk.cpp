@@ -46,60 +46,50 @@ class Walker {
     SurfaceWalk walk(SurfaceId start) {
         SurfaceWalk result;
         result.surface = start;
-        Slice slice = slice_of(start);
+        const Slice slice = slice_of(start);
         if (!slice.is_cut) return result;
-        Crossing exit = slice.crossings[0].fraction > slice.crossings[1].fraction ? slice.crossings[0]
-                                                                                  : slice.crossings[1];
-        SurfaceId current = start;
+        Place current{start, slice.crossings[slice.crossings[0].fraction < slice.crossings[1].fraction]};
+        Place farthest = current;      // where the walk got farthest
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
         bool over_slivers = false;     // there were others since
-        SurfaceId farthest_surface = start;
-        Crossing farthest = exit;
         const double negligible_fold = kNegligibleFoldPx / length_;
 
         for (int step = 0; step < kMaxSteps; ++step) {
-            if (exit.fraction >= 1) {
-                if (over_slivers) note_contact(result, last_solid, current, 1);
+            if (current.exit.fraction >= 1) {
+                if (over_slivers) note_contact(result, last_solid, current.surface, 1);
                 result.end = WalkEnd::arrived;
-                result.surface = current;
+                result.surface = current.surface;
                 return result;
             }
-            const Continuation next = continue_over(current, exit);
-            const bool turned_back =
-                next.found && next.exit.fraction < farthest.fraction - negligible_fold;
-            const bool unfolds = next.found && exit.fraction < farthest.fraction &&
-                                 next.exit.fraction >= farthest.fraction;
-            if (!next.found || turned_back ||
-                (unfolds && !is_level(farthest_surface, next.surface, farthest.fraction))) {
-                const bool border = is_border({farthest_surface, farthest.half_edge});
-                result.end = border ? WalkEnd::border : WalkEnd::fold;
-                result.surface = farthest_surface;
-                result.half_edge = farthest.half_edge;
-                result.along_edge = farthest.along_edge;
-                result.fraction = farthest.fraction;
-                return result;
+            const Continuation next = continue_over(current);
+            if (next.kind == WalkEnd::crack) {
+                result.beyond = next.place.surface;
+                return ended(result, WalkEnd::crack, current);
             }
-            const SurfaceEdge edge{current, exit.half_edge};
-            const bool is_sliver =
-                std::abs(next.exit.fraction - exit.fraction) * length_ < kSliverPx;
+            if (next.kind == WalkEnd::border) return ended(result, WalkEnd::border, current);
+            const double reached = next.place.exit.fraction;
+            const bool turned_back = reached < farthest.exit.fraction - negligible_fold;
+            const bool unfolds = current.exit.fraction < farthest.exit.fraction &&
+                                 reached >= farthest.exit.fraction;
+            if (turned_back ||
+                (unfolds && !is_level(farthest.surface, next.place.surface, farthest.exit.fraction))) {
+                return ended(result, is_border(farthest) ? WalkEnd::border : WalkEnd::fold, farthest);
+            }
+            const SurfaceEdge edge{current.surface, current.exit.half_edge};
+            const double at_edge = current.exit.fraction;
+            const bool is_sliver = std::abs(reached - at_edge) * length_ < kSliverPx;
             if (is_sliver) {
                 over_slivers = true;
-                note(result, edge_classes(surfaces_, edge, criteria_) & LineClass::mark, edge,
-                     exit.fraction);
-            } else if (over_slivers) {
-                note_contact(result, last_solid, next.surface, exit.fraction);
+                note(result, mark_of(edge), edge, at_edge);
+            } else if (over_slivers || next.over_seam) {
+                note_contact(result, last_solid, next.place.surface, at_edge);
                 over_slivers = false;
             } else {
-                note(result, edge_classes_between(edge, {next.surface, next.entry}), edge,
-                     exit.fraction);
+                note(result, edge_classes_between(edge, {next.place.surface, next.entry}), edge, at_edge);
             }
-            if (!is_sliver) last_solid = next.surface;
-            current = next.surface;
-            exit = next.exit;
-            if (exit.fraction >= farthest.fraction) {
-                farthest = exit;
-                farthest_surface = current;
-            }
+            if (!is_sliver) last_solid = next.place.surface;
+            current = next.place;
+            if (reached >= farthest.exit.fraction) farthest = current;
         }
         return result;
     }
@@ -118,13 +108,35 @@ class Walker {
     struct Slice {
         bool is_cut = false;
         Crossing crossings[2];
+        const Crossing& other_than(HalfEdge h) const {
+            return crossings[0].half_edge == h ? crossings[1] : crossings[0];
+        }
+        const Crossing& at(HalfEdge h) const {
+            return crossings[0].half_edge == h ? crossings[0] : crossings[1];
+        }
+        bool crosses(HalfEdge h) const {
+            return is_cut && (crossings[0].half_edge == h || crossings[1].half_edge == h);
+        }
     };
-    struct Continuation {
-        bool found = false;
+    /// A triangle, and where the walk leaves it.
+    struct Place {
         SurfaceId surface;
-        HalfEdge entry = kNoHalfEdge;
         Crossing exit;
     };
+    struct Continuation {
+        WalkEnd kind = WalkEnd::border;  // arrived: it goes on; border, crack: it does not
+        Place place;
+        HalfEdge entry = kNoHalfEdge;
+        bool over_seam = false;
+    };
+
+    static SurfaceWalk ended(SurfaceWalk result, WalkEnd end, const Place& at) {
+        result.end = end;
+        result.surface = at.surface;
+        result.half_edge = at.exit.half_edge;
+        result.fraction = at.exit.fraction;
+        return result;
+    }
 
     Slice slice_of(SurfaceId s) const {
         const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
@@ -158,34 +170,59 @@ class Walker {
     }
     glm::dvec2 at(double fraction) const { return from_ + along_ * fraction; }
 
-    /// The triangle that carries on over an edge. Where several meet, one that goes forward is
-    /// preferred, and among those the one nearest to the eye.
-    Continuation continue_over(SurfaceId current, const Crossing& exit) const {
+    /// The triangle that carries on over the edge where a place is left. Where several meet, one that
+    /// goes forward is preferred, and among those the one nearest to the eye.
+    Continuation continue_over(const Place& from) const {
         Continuation best;
         double best_nearness = -kInfinity;
-        const Mesh& mesh = surfaces_.mesh_of(current);
-        for (HalfEdge g = mesh.next_on_edge[exit.half_edge]; g != exit.half_edge;
-             g = mesh.next_on_edge[g]) {
-            const SurfaceId neighbour{current.instance, g / 3};
+        const Mesh& mesh = surfaces_.mesh_of(from.surface);
+        const HalfEdge exit = from.exit.half_edge;
+        const double start = from.exit.fraction;
+        for (HalfEdge g = mesh.next_on_edge[exit]; g != exit; g = mesh.next_on_edge[g]) {
+            const SurfaceId neighbour{from.surface.instance, g / 3};
             const Slice slice = slice_of(neighbour);
             if (!slice.is_cut) continue;
-            const Crossing& other =
-                slice.crossings[0].half_edge == g ? slice.crossings[1] : slice.crossings[0];
-            const bool forward = other.fraction > exit.fraction;
-            const bool best_forward = best.found && best.exit.fraction > exit.fraction;
-            if (best.found && best_forward && !forward) continue;
+            const Crossing& other = slice.other_than(g);
+            const bool has_best = best.kind == WalkEnd::arrived;
+            const bool forward = other.fraction > start;
+            const bool best_forward = has_best && best.place.exit.fraction > start;
+            if (best_forward && !forward) continue;
             double nearness = 0;
-            const bool is_choice = mesh.next_on_edge[g] != exit.half_edge || best.found;
+            const bool is_choice = mesh.next_on_edge[g] != exit || has_best;
             if (is_choice) {
-                const double ahead = std::min(std::max(other.fraction, -1.0), 2.0);
-                const double middle = 0.5 * (exit.fraction + ahead);
+                const double middle = 0.5 * (start + std::clamp(other.fraction, -1.0, 2.0));
                 nearness = surfaces_.plane(neighbour).nearness(at(middle));
-                if (best.found && best_forward == forward && nearness <= best_nearness) continue;
+                if (has_best && best_forward == forward && nearness <= best_nearness) continue;
             }
-            best = {true, neighbour, g, other};
+            best = {WalkEnd::arrived, {neighbour, other}, g, false};
             best_nearness = nearness;
         }
-        return best;
+        return is_border(from) ? continue_over_seam(from) : best;
+    }
+
+    /// The same for a border edge: another patch of the mesh may have its border there.
+    Continuation continue_over_seam(const Place& from) const {
+        Continuation none;
+        const Mesh& mesh = surfaces_.mesh_of(from.surface);
+        const auto& t = mesh.triangles[from.surface.triangle];
+        const glm::dvec3 a(mesh.positions[t[from.exit.half_edge % 3]]);
+        const glm::dvec3 b(mesh.positions[t[(from.exit.half_edge + 1) % 3]]);
+        const auto partner =
+            mesh.borders.seam_partner(from.exit.half_edge, glm::mix(a, b, from.exit.along_edge));
+        if (!partner) return none;
+        const SurfaceId neighbour{from.surface.instance, *partner / 3};
+        const Slice slice = slice_of(neighbour);
+        if (!slice.crosses(*partner)) return none;
+        const Crossing& entry = slice.at(*partner);
+        const Crossing& exit = slice.other_than(*partner);
+        constexpr double kWidestCrackPx = 1;
+        if (std::abs(entry.fraction - from.exit.fraction) * length_ > kWidestCrackPx ||
+            !is_level(from.surface, neighbour, from.exit.fraction)) {
+            return none;
+        }
+        const bool forward = exit.fraction > entry.fraction;
+        const bool goal_in_gap = forward && entry.fraction >= 1;
+        return {goal_in_gap ? WalkEnd::crack : WalkEnd::arrived, {neighbour, exit}, *partner, true};
     }
 
     /// Whether two triangles are equally far from the eye at a place, as far as lines care.
@@ -198,8 +235,13 @@ class Walker {
         return std::abs(distance_a - distance_b) <= depth_tolerance(surfaces_, distance_a, plane_b);
     }
 
-    bool is_border(SurfaceEdge edge) const {
-        return surfaces_.mesh_of(edge.surface).next_on_edge[edge.half_edge] == edge.half_edge;
+    bool is_border(const Place& place) const {
+        const HalfEdge h = place.exit.half_edge;
+        return surfaces_.mesh_of(place.surface).next_on_edge[h] == h;
+    }
+    LineClassSet mark_of(SurfaceEdge edge) const {
+        const bool marked = surfaces_.mesh_of(edge.surface).is_marked(edge.half_edge);
+        return marked ? LineClassSet(LineClass::mark) : LineClassSet();
     }
 
     static void note(SurfaceWalk& result, LineClassSet classes, SurfaceEdge edge, double fraction) {
@@ -262,43 +304,6 @@ LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
     return classes;
 }
 
-std::optional<SeamNeighbour> seam_neighbour(const SurfaceSet& surfaces, const SurfaceWalk& walk,
-                                            glm::dvec2 from, glm::dvec2 to) {
-    const Mesh& mesh = surfaces.mesh_of(walk.surface);
-    const auto& t = mesh.triangles[walk.half_edge / 3];
-    const glm::dvec3 a(mesh.positions[t[walk.half_edge % 3]]);
-    const glm::dvec3 b(mesh.positions[t[(walk.half_edge + 1) % 3]]);
-    const auto partner = mesh.borders.seam_partner(walk.half_edge, glm::mix(a, b, walk.along_edge));
-    if (!partner) return std::nullopt;
-
-    SeamNeighbour neighbour;
-    neighbour.surface = {walk.surface.instance, *partner / 3};
-    const Projection& p = surfaces.projection;
-    glm::dvec3 corners[3];  // of the neighbour, its border edge first
-    for (std::uint32_t k = 0; k < 3; ++k) {
-        const auto& corner = mesh.triangles[*partner / 3][(*partner + k) % 3];
-        corners[k] = surfaces.view_position(walk.surface.instance, corner);
-        if (!p.orthographic && -corners[k].z <= p.near_distance) return neighbour;
-    }
-    const glm::dvec2 edge_a = p.to_pixel(corners[0]), edge_b = p.to_pixel(corners[1]);
-    const glm::dvec2 apex = p.to_pixel(corners[2]);
-    const glm::dvec2 along = edge_b - edge_a;
-    const glm::dvec2 place = glm::mix(from, to, walk.fraction);
-    const double length2 = glm::dot(along, along);
-    const double t_near =
-        length2 > 0 ? std::clamp(glm::dot(place - edge_a, along) / length2, 0.0, 1.0) : 0.0;
-    const glm::dvec2 nearest = edge_a + t_near * along;
-    if (glm::distance(place, nearest) > 1) return neighbour;
-    // The neighbour lies ahead if its apex is on the side of its border that the walk leads to.
-    const glm::dvec2 inwards(-along.y, along.x);
-    const bool ahead = glm::dot(inwards, apex - edge_a) * glm::dot(inwards, to - from) > 0;
-    const double own = distance_of(p, surfaces.plane(walk.surface).nearness(place));
-    const DepthPlane plane = surfaces.plane(neighbour.surface);
-    const double gap = distance_of(p, plane.nearness(nearest)) - own;
-    neighbour.continues = ahead && std::abs(gap) <= depth_tolerance(surfaces, own, plane);
-    return neighbour;
-}
-
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
                              const LineCriteria& criteria) {
     LineClassSet classes;
@@ -306,14 +311,9 @@ LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId 
     if (surfaces.material_id(a) != surfaces.material_id(b)) classes |= LineClass::material;
     if (surfaces.object_id(a) != surfaces.object_id(b)) return classes | LineClass::object;
     classes |= LineClass::polygon;
-    // Seen from one side, both normals point towards the eye.
-    glm::dvec3 origin, ray;
-    surfaces.projection.view_ray(at, origin, ray);
-    glm::dvec3 normal_a = surfaces.view_normal(a);
-    glm::dvec3 normal_b = surfaces.view_normal(b);
-    if (glm::dot(normal_a, ray) > 0) normal_a = -normal_a;
-    if (glm::dot(normal_b, ray) > 0) normal_b = -normal_b;
-    if (glm::dot(normal_a, normal_b) < criteria.cos_crease_angle) classes |= LineClass::crease;
+    const double cosine =
+        glm::dot(surfaces.normal_towards_eye(a, at), surfaces.normal_towards_eye(b, at));
+    if (cosine < criteria.cos_crease_angle) classes |= LineClass::crease;
     return classes;
 }
 

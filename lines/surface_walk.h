@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <optional>
 
 #include "lines/line_class.h"
 #include "lines/surface_set.h"
@@ -26,23 +25,27 @@ enum class WalkEnd : std::uint8_t {
     arrived,  ///< the surface goes on to the goal
     fold,     ///< the surface turns away from the eye, at an edge whose polygons face apart
     border,   ///< the surface ends, at an edge of one polygon
+    crack,    ///< the goal lies in a gap between two patches that belong together
     lost,     ///< too many triangles on the way, or a start beside its triangle
 };
 
 struct SurfaceWalk {
     WalkEnd end = WalkEnd::lost;
-    SurfaceId surface;                      ///< the triangle where the walk ended
-    HalfEdge half_edge = kNoHalfEdge;       ///< its edge that stopped the walk (fold, border)
-    double along_edge = 0;                  ///< where on that edge, 0 = its start, 1 = its end
-    double fraction = 1;                    ///< how far it came, 0 = start, 1 = goal
-    LineClassSet crossed;                   ///< classes of the edges on the way
-    SurfaceEdge crossed_edge;               ///< the first of them that has a class
-    double crossed_fraction = 0;            ///< where that is
+    SurfaceId surface;                 ///< the triangle where the walk ended
+    HalfEdge half_edge = kNoHalfEdge;  ///< its edge that stopped the walk (unless arrived, lost)
+    SurfaceId beyond;                  ///< crack: the patch on the other side
+    double fraction = 1;               ///< how far it came, 0 = start, 1 = goal
+    LineClassSet crossed;              ///< classes of the edges on the way
+    SurfaceEdge crossed_edge;          ///< the first of them that has a class
+    double crossed_fraction = 0;       ///< where that is
 };
 
 /// Follows the surface of triangle `start` along the straight line on the screen from `from` (a
 /// position on that triangle) to `to`, from neighbour to neighbour, as the eye sees it: in space,
 /// along the curve in which the plane through the eye and the line cuts the mesh.
+///
+/// Where two patches of one mesh are not stitched, but their borders run along each other less than
+/// a pixel apart, the walk goes on from one to the other.
 ///
 /// Folds that turn back by less than 1/64 pixel, and not by more than the depth tolerance, are
 /// walked over: they are slivers between the triangles of one surface, not contours.
@@ -53,17 +56,6 @@ SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2
 /// border edge that can only be mark.
 LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
                           const LineCriteria& criteria);
-
-/// Where the border edge that stopped a walk runs along another patch's border without being
-/// stitched to it: the triangle on the other side of that seam, if there is one.
-struct SeamNeighbour {
-    SurfaceId surface;
-    /// Whether it carries on beyond the seam as the eye sees it, less than a pixel away and about
-    /// as far from the eye; else it turns back.
-    bool continues = false;
-};
-std::optional<SeamNeighbour> seam_neighbour(const SurfaceSet& surfaces, const SurfaceWalk& walk,
-                                            glm::dvec2 from, glm::dvec2 to);
 
 /// The classes of a place where two visible surfaces touch: object, or, within one object, material,
 /// crease, polygon. `at` is the position on the screen.

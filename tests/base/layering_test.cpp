@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// docs/architecture.md: what each folder may include, itself aside.
+const std::map<std::string, std::set<std::string>> kMayInclude = {
+    {"base", {}},
+    {"image", {"base"}},
+    {"mesh", {"base"}},
+    {"abuffer", {}},
+    {"lines", {"abuffer", "mesh"}},
+    {"shading", {"lines", "abuffer", "mesh"}},
+    {"scene", {"shading", "lines", "abuffer", "mesh", "image", "base"}},
+    {"render", {"scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
+    {"cli", {"render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
+};
+
+// A library is used in these source files and nowhere else.
+const std::map<std::string, std::set<std::string>> kLibraryFiles = {
+    {"OpenEXR/|Imath", {"image/exr_io.cpp"}},
+    {"OpenImageIO/", {"image/oiio_module.cpp"}},
+    {"OpenMesh/", {"mesh/subdivide.cpp"}},
+    {"nlohmann/", {"mesh/gltf_json.h"}},
+    {"toml\\+\\+/", {"scene/toml_reader.h"}},
+    {"CLI/", {"cli/arguments.cpp"}},
+};
+
+TEST(Layering, FoldersIncludeOnlyWhatTheyMay) {
+    const std::regex include("^#include [\"<]([a-z_]+)/[^\">]+[\">]");
+    for (const auto& [folder, allowed] : kMayInclude) {
+        for (const auto& entry : fs::directory_iterator(fs::path(BURIN_SOURCE_FOLDER) / folder)) {
+            std::ifstream file(entry.path());
+            std::string line;
+            std::smatch match;
+            while (std::getline(file, line)) {
+                if (!std::regex_search(line, match, include)) continue;
+                const std::string used = match[1];
+                if (!kMayInclude.contains(used)) continue;  // a library's folder
+                EXPECT_TRUE(used == folder || allowed.contains(used)) << entry.path() << ": " << line;
+            }
+        }
+    }
+}
+
+TEST(Layering, EachLibraryLivesInOneFile) {
+    for (const auto& [pattern, files] : kLibraryFiles) {
+        const std::regex include("^#include [\"<](" + pattern + ")");
+        for (const auto& [folder, allowed] : kMayInclude) {
+            for (const auto& entry : fs::directory_iterator(fs::path(BURIN_SOURCE_FOLDER) / folder)) {
+                const std::string name = folder + "/" + entry.path().filename().string();
+                std::ifstream file(entry.path());
+                std::string line;
+                while (std::getline(file, line)) {
+                    EXPECT_TRUE(!std::regex_search(line, include) || files.contains(name)) << name << ": " << line;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
