@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "base/interrupt.h"
 
 namespace burin {
 namespace {
 
-/// Cells may share a key: that costs time, not correctness.
-std::uint64_t key_of(const std::array<std::int64_t, 3>& c) {
-    return static_cast<std::uint64_t>(c[0]) * 0x9E3779B97F4A7C15u ^
-           static_cast<std::uint64_t>(c[1]) * 0xC2B2AE3D27D4EB4Fu ^
-           static_cast<std::uint64_t>(c[2]) * 0x165667B19E3779F9u;
-}
+constexpr std::uint32_t kLeafSize = 4;
 
 double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 d = b - a;
@@ -22,34 +19,49 @@ double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::
     return glm::distance(p, a + t * d);
 }
 
-}  // namespace
-
-BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(segments)) {
-    if (segments_.empty()) return;
-    double total = 0;
-    low_ = segments_[0].a;
-    for (const Segment& s : segments_) {
-        total += static_cast<double>(glm::distance(s.a, s.b));
-        low_ = glm::min(low_, glm::dvec3(glm::min(s.a, s.b)));
-    }
-    cell_size_ = std::max(total / static_cast<double>(segments_.size()), 1e-300);
-    for (std::uint32_t i = 0; i < segments_.size(); ++i) {
-        if ((i & 0xFFFF) == 0) throw_if_interrupted();
-        const glm::dvec3 a(segments_[i].a), b(segments_[i].b);
-        const int steps = static_cast<int>(std::min(2 * glm::distance(a, b) / cell_size_, 1000.0)) + 1;
-        for (int k = 0; k <= steps; ++k) {
-            const double t = static_cast<double>(k) / steps;
-            places_.emplace_back(key_of(cell_of(glm::mix(a, b, t))), i);
-        }
-    }
-    std::sort(places_.begin(), places_.end());
-    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+double distance_to_box(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high) {
+    const glm::dvec3 outside = glm::max(glm::dvec3(low) - p, p - glm::dvec3(high));
+    return glm::length(glm::max(outside, glm::dvec3(0.0)));
 }
 
-BorderIndex::Cell BorderIndex::cell_of(const glm::dvec3& p) const {
-    const glm::dvec3 c = glm::floor(glm::clamp((p - low_) / cell_size_, -1e15, 1e15));
-    return {static_cast<std::int64_t>(c.x), static_cast<std::int64_t>(c.y),
-            static_cast<std::int64_t>(c.z)};
+}  // namespace
+
+BorderIndex::BorderIndex(std::vector<Segment> segments)
+    : segments_(std::move(segments)), order_(segments_.size()) {
+    if (segments_.empty()) return;
+    std::iota(order_.begin(), order_.end(), 0u);
+    nodes_.reserve(segments_.size());
+    nodes_.emplace_back();
+    build(0, 0, static_cast<std::uint32_t>(order_.size()));
+}
+
+void BorderIndex::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+    if (count > 0xFFFF) throw_if_interrupted();
+    const auto begin = order_.begin() + first;
+    Node box;
+    box.low = glm::min(segments_[*begin].a, segments_[*begin].b);
+    box.high = glm::max(segments_[*begin].a, segments_[*begin].b);
+    for (auto it = begin; it != begin + count; ++it) {
+        const Segment& s = segments_[*it];
+        box.low = glm::min(box.low, glm::min(s.a, s.b));
+        box.high = glm::max(box.high, glm::max(s.a, s.b));
+    }
+    box.first = first;
+    box.count = count;
+    if (count > kLeafSize) {
+        const glm::vec3 size = box.high - box.low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+        const std::uint32_t half = count / 2;
+        std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t i, std::uint32_t j) {
+            return segments_[i].a[axis] + segments_[i].b[axis] < segments_[j].a[axis] + segments_[j].b[axis];
+        });
+        box.first = static_cast<std::uint32_t>(nodes_.size());
+        box.count = 0;
+        nodes_.resize(nodes_.size() + 2);
+        build(box.first, first, half);
+        build(box.first + 1, first + half, count - half);
+    }
+    nodes_[node] = box;
 }
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
@@ -58,16 +70,22 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     if (own == segments_.end() || own->half_edge != half_edge) return std::nullopt;
     const glm::dvec3 along = glm::dvec3(own->b) - glm::dvec3(own->a);
     const double length = glm::length(along);
-    double reach = std::min(0.05 * length, cell_size_);
+    double reach = 0.05 * length;
     std::optional<HalfEdge> partner;
-    const Cell center = cell_of(at);
-    for (int i = 0; i < 27; ++i) {
-        const Cell cell{center[0] + i % 3 - 1, center[1] + i / 3 % 3 - 1, center[2] + i / 9 - 1};
-        const std::uint64_t key = key_of(cell);
-        auto it = std::lower_bound(places_.begin(), places_.end(),
-                                   std::pair<std::uint64_t, std::uint32_t>(key, 0));
-        for (; it != places_.end() && it->first == key; ++it) {
-            const Segment& other = segments_[it->second];
+    std::uint32_t stack[64];  // halving 2^32 segments takes 32 levels
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const Node& node = nodes_[stack[--top]];
+        // The margin keeps rounding from hiding an equally near one.
+        if (distance_to_box(at, node.low, node.high) > reach * (1 + 1e-12)) continue;
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = node.first + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Segment& other = segments_[order_[i]];
             if (other.polygon == own->polygon) continue;
             const glm::dvec3 a(other.a), b(other.b);
             if (std::abs(glm::dot(along, b - a)) <= 0.9 * length * glm::length(b - a)) continue;

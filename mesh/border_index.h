@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace burin {
@@ -36,13 +34,17 @@ class BorderIndex {
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at) const;
 
   private:
-    using Cell = std::array<std::int64_t, 3>;
-    Cell cell_of(const glm::dvec3& p) const;
+    /// A box around segments: those at [first, first + count) of order_ (a leaf), or all of its
+    /// children's, which are nodes `first` and `first + 1` (count 0).
+    struct Node {
+        glm::vec3 low{0.0f}, high{0.0f};
+        std::uint32_t first = 0, count = 0;
+    };
+    void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 
     std::vector<Segment> segments_;  // by half-edge
-    glm::dvec3 low_{0.0};
-    double cell_size_ = 1;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> places_;  // (cell's key, segment), sorted
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
 };
 
 }  // namespace burin

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "base/error.h"
 #include "base/interrupt.h"
 #include "mesh/edge_links.h"
 #include "mesh/triangulate.h"
@@ -16,10 +17,12 @@ namespace {
 
 /// Where to put 0 so that single precision resolves the model: its centre if the model lies more
 /// than 16 of its own half sizes away from 0, else 0 itself (and coordinates keep their values).
-glm::dvec3 choose_origin(const std::vector<glm::dvec3>& positions) {
-    if (positions.empty()) return glm::dvec3(0.0);
-    glm::dvec3 low = positions[0], high = positions[0];
-    for (const glm::dvec3& p : positions) {
+/// Vertices that no polygon uses, such as a stray one at 0, do not count.
+glm::dvec3 choose_origin(const PolygonSoup& soup) {
+    if (soup.corners.empty()) return glm::dvec3(0.0);
+    glm::dvec3 low = soup.positions[soup.corners[0]], high = low;
+    for (const std::uint32_t v : soup.corners) {
+        const glm::dvec3& p = soup.positions[v];
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
@@ -89,19 +92,18 @@ PolygonsByObject group_by_object(const PolygonSoup& soup) {
     return groups;
 }
 
-/// True if all corners lie on one line (or in one point).
-bool has_no_area(std::span<const std::uint32_t> corners, const std::vector<glm::vec3>& positions) {
-    const glm::dvec3 p(positions[corners[0]]);
+/// A normal to any three corners that do not lie on one line; 0 if all do.
+glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners) {
     glm::dvec3 along(0.0);
-    for (std::size_t i = 1; i < corners.size(); ++i) {
-        const glm::dvec3 d = glm::dvec3(positions[corners[i]]) - p;
+    for (const glm::dvec3& corner : corners.subspan(1)) {
+        const glm::dvec3 d = corner - corners[0];
         if (along == glm::dvec3(0.0)) {
             along = d;
-        } else if (glm::cross(along, d) != glm::dvec3(0.0)) {
-            return false;
+        } else if (const glm::dvec3 normal = glm::cross(along, d); normal != glm::dvec3(0.0)) {
+            return normal;
         }
     }
-    return true;
+    return glm::dvec3(0.0);
 }
 
 /// Collects one object's polygons: own vertex numbers, nothing repeated, nothing without area.
@@ -110,7 +112,13 @@ class ObjectCollector {
     ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
                     const std::vector<std::uint32_t>& welded)
         : soup_(soup), positions_(positions), welded_(welded), local_(positions.size(), kUnused),
-          counted_(positions.size(), false) {}
+          is_corner_(positions.size(), false), is_welded_corner_(positions.size(), false) {
+        for (const auto& [a, b] : soup.marked_edges) {
+            const std::uint32_t u = welded[a], v = welded[b];
+            if (u != v) marks_.push_back({std::min(u, v), std::max(u, v)});
+        }
+        std::sort(marks_.begin(), marks_.end());
+    }
 
     PolygonMesh collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end,
                         MeshRepairs& repairs) {
@@ -120,7 +128,7 @@ class ObjectCollector {
             if ((i & 0xFFFF) == 0) throw_if_interrupted();
             const std::size_t polygon = groups.order.empty() ? i : groups.order[i];
             collapse(soup_.polygon(polygon), repairs);
-            if (corners_.size() < 3 || has_no_area(corners_, positions_)) {
+            if (corners_.size() < 3 || has_no_area()) {
                 ++repairs.degenerate_polygons;
                 continue;
             }
@@ -138,32 +146,83 @@ class ObjectCollector {
                 mesh.polygon_material.push_back(soup_.material_of(polygon));
             }
         }
-        for (const auto& [a, b] : soup_.marked_edges) {
-            const std::uint32_t u = local_[welded_[a]], v = local_[welded_[b]];
-            if (u != kUnused && v != kUnused && u != v) mesh.marked_edges.push_back({u, v});
-        }
-        for (const std::uint32_t v : used_) local_[v] = kUnused;
-        used_.clear();
+        add_marks(mesh);
+        repairs.welded_vertices = corners_seen_ - welded_corners_seen_;
+        forget(groups, begin, end);
         return mesh;
     }
 
   private:
     static constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
 
-    /// The polygon's welded corners without repetitions in a row, into corners_.
+    /// The polygon's welded corners, without repetitions in a row and spikes, into corners_.
     void collapse(std::span<const std::uint32_t> corners, MeshRepairs& repairs) {
         ++repairs.input_polygons;
         if (corners.size() > 2) repairs.input_triangles += corners.size() - 2;
         corners_.clear();
         for (const std::uint32_t corner : corners) {
             const std::uint32_t v = welded_[corner];
-            if (v != corner && !counted_[corner]) {
-                counted_[corner] = true;
-                ++repairs.welded_vertices;
+            if (!is_corner_[corner]) {
+                is_corner_[corner] = true;
+                ++corners_seen_;
+                welded_corners_seen_ += !is_welded_corner_[v];
+                is_welded_corner_[v] = true;
             }
-            if (corners_.empty() || corners_.back() != v) corners_.push_back(v);
+            const std::size_t n = corners_.size();
+            if (n > 0 && corners_[n - 1] == v) continue;
+            if (n > 1 && corners_[n - 2] == v) {
+                corners_.pop_back();  // there and back: a spike
+            } else {
+                corners_.push_back(v);
+            }
         }
-        while (corners_.size() > 1 && corners_.front() == corners_.back()) corners_.pop_back();
+        // The same where the end meets the start.
+        std::size_t first = 0, end = corners_.size();
+        while (end - first > 1) {
+            if (corners_[first] == corners_[end - 1] || corners_[first + 1] == corners_[end - 1]) {
+                first += corners_[first] != corners_[end - 1];
+                --end;
+            } else if (corners_[first] == corners_[end - 2]) {
+                --end;
+            } else {
+                break;
+            }
+        }
+        corners_.resize(end);
+        corners_.erase(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+
+    /// The marks between vertices of the object.
+    void add_marks(PolygonMesh& mesh) const {
+        if (marks_.empty()) return;
+        for (const std::uint32_t u : used_) {
+            const std::array<std::uint32_t, 2> first{u, u + 1};
+            for (auto it = std::lower_bound(marks_.begin(), marks_.end(), first);
+                 it != marks_.end() && (*it)[0] == u; ++it) {
+                const std::uint32_t v = local_[(*it)[1]];
+                if (v != kUnused) mesh.marked_edges.push_back({local_[u], v});
+            }
+        }
+    }
+
+    /// Makes ready for the next object.
+    void forget(const PolygonsByObject& groups, std::size_t begin, std::size_t end) {
+        for (const std::uint32_t v : used_) local_[v] = kUnused;
+        used_.clear();
+        corners_seen_ = welded_corners_seen_ = 0;
+        if (groups.order.empty()) return;  // there is no other object
+        for (std::size_t i = begin; i < end; ++i) {
+            for (const std::uint32_t corner : soup_.polygon(groups.order[i])) {
+                is_corner_[corner] = false;
+                is_welded_corner_[welded_[corner]] = false;
+            }
+        }
+    }
+
+    bool has_no_area() {
+        places_.clear();
+        for (const std::uint32_t v : corners_) places_.emplace_back(positions_[v]);
+        return normal_of_any_corners(places_) == glm::dvec3(0.0);
     }
 
     std::uint32_t local_number(std::uint32_t v, PolygonMesh& mesh) {
@@ -180,13 +239,20 @@ class ObjectCollector {
     const std::vector<std::uint32_t>& welded_;
     std::vector<std::uint32_t> local_;  // per soup vertex: its number in the object
     std::vector<std::uint32_t> used_;
-    std::vector<bool> counted_;  // per soup vertex: counted as welded
+    // Per soup vertex, whether a polygon of the object has it as a corner, before and after welding.
+    std::vector<bool> is_corner_, is_welded_corner_;
+    std::uint64_t corners_seen_ = 0, welded_corners_seen_ = 0;
+    std::vector<std::array<std::uint32_t, 2>> marks_;  // welded, smaller vertex first, sorted
     std::vector<std::uint32_t> corners_;
+    std::vector<glm::dvec3> places_;  // of corners_
 };
 
 /// Triangles, their polygons, and the polygons' normals.
 void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
     mesh.polygon_count = static_cast<std::uint32_t>(polygons.polygon_count());
+    if (3 * (polygons.corners.size() - 2 * polygons.polygon_count()) >= kNoHalfEdge) {
+        throw InputError("object '" + mesh.name + "': more than 1.4 billion triangles; split the model");
+    }
     mesh.triangles.clear();
     mesh.triangle_polygon.clear();
     mesh.polygon_normals.clear();
@@ -212,56 +278,106 @@ void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
             mesh.triangle_polygon.push_back(i);
         }
         glm::dvec3 normal = area_vector(corners);
-        for (std::size_t k = 0; k < pieces.size() && normal == glm::dvec3(0.0); ++k) {
-            const auto& [a, b, c] = pieces[k];  // a figure of eight: any piece's normal will do
-            normal = glm::cross(corners[b] - corners[a], corners[c] - corners[a]);
+        if (normal == glm::dvec3(0.0)) normal = normal_of_any_corners(corners);  // a figure of eight
+        const double length = glm::length(normal);
+        mesh.polygon_normals.emplace_back(length > 0 ? normal / length : normal);
+    }
+}
+
+/// Finds polygons with the same edges as an earlier one, whatever their winding and first corner.
+class DuplicateFinder {
+  public:
+    DuplicateFinder(const PolygonMesh& polygons, const Mesh& mesh) : polygons_(polygons), mesh_(mesh) {}
+
+    /// A duplicate shares all its edges with its twin, so only polygons around one of its edges need
+    /// to be compared. The first half-edge of a polygon's first triangle is one of its edges.
+    std::vector<std::uint32_t> find() {
+        std::uint32_t previous = 0xFFFFFFFFu;
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            if ((t & 0xFFFF) == 0) throw_if_interrupted();
+            const std::uint32_t p = mesh_.polygon_of(t);
+            if (p != previous) compare_around(3 * t, p);
+            previous = p;
         }
-        mesh.polygon_normals.emplace_back(glm::normalize(normal));
+        std::sort(duplicates_.begin(), duplicates_.end());
+        duplicates_.erase(std::unique(duplicates_.begin(), duplicates_.end()), duplicates_.end());
+        return std::move(duplicates_);
     }
-}
 
-/// Does not depend on the order of the corners.
-std::uint64_t corner_set_key(std::span<const std::uint32_t> corners) {
-    std::uint64_t key = corners.size();
-    for (const std::uint32_t v : corners) {
-        std::uint64_t h = (v + 1) * 0x9E3779B97F4A7C15u;
-        h = (h ^ h >> 29) * 0xBF58476D1CE4E5B9u;
-        key += h ^ h >> 32;
-    }
-    return key;
-}
+  private:
+    using Edge = std::array<std::uint32_t, 2>;
 
-bool same_corner_set(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
-    std::vector<std::uint32_t> x(a.begin(), a.end()), y(b.begin(), b.end());
-    std::sort(x.begin(), x.end());
-    std::sort(y.begin(), y.end());
-    return x == y;
-}
-
-/// Polygons with the same corners as an earlier one. A duplicate shares all its edges with its
-/// twin, so only polygons around one edge need to be compared.
-std::vector<std::uint32_t> find_duplicates(const PolygonMesh& polygons, const Mesh& mesh) {
-    std::vector<std::uint32_t> duplicates;
-    std::uint32_t previous = 0xFFFFFFFFu;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const std::uint32_t p = mesh.polygon_of(t);
-        if (p == previous) continue;  // one edge of each polygon is enough
-        const HalfEdge start = 3 * t;
-        for (HalfEdge h = mesh.next_on_edge[start]; h != start; h = mesh.next_on_edge[h]) {
-            const std::uint32_t q = mesh.polygon_of(h / 3);
-            if (q >= p) continue;
-            const auto a = polygons.polygon(p);
-            const auto b = polygons.polygon(q);
-            if (a.size() == b.size() && corner_set_key(a) == corner_set_key(b) &&
-                same_corner_set(a, b)) {
-                duplicates.push_back(p);
-                break;
+    void compare_around(HalfEdge start, std::uint32_t p) {
+        constexpr int kLongRing = 32;  // above, sorting beats comparing all pairs
+        int length = 1;
+        for (HalfEdge h = mesh_.next_on_edge[start]; h != start; h = mesh_.next_on_edge[h]) {
+            if (++length > kLongRing) return compare_ring(start);
+            const std::uint32_t q = mesh_.polygon_of(h / 3);
+            if (q < p && polygons_.polygon(p).size() == polygons_.polygon(q).size() &&
+                key_of(p) == key_of(q) && same_edges(p, q)) {
+                duplicates_.push_back(p);
+                return;
             }
         }
-        previous = p;
     }
-    return duplicates;
-}
+
+    void compare_ring(HalfEdge start) {
+        if (compared_.empty()) compared_.assign(mesh_.next_on_edge.size(), false);
+        if (compared_[start]) return;
+        std::vector<std::pair<std::uint64_t, std::uint32_t>> ring;  // key, polygon
+        HalfEdge h = start;
+        do {
+            compared_[h] = true;
+            const std::uint32_t p = mesh_.polygon_of(h / 3);
+            ring.emplace_back(key_of(p), p);
+            h = mesh_.next_on_edge[h];
+        } while (h != start);
+        std::sort(ring.begin(), ring.end());
+        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+        for (std::size_t i = 0, first = 0; i < ring.size(); ++i) {
+            if (ring[i].first != ring[first].first) first = i;
+            // Two different polygons with one key are next to impossible: one comparison will do.
+            if (i > first && same_edges(ring[i].second, ring[first].second)) {
+                duplicates_.push_back(ring[i].second);
+            }
+        }
+    }
+
+    static std::uint64_t mix(std::uint64_t v) {
+        v = (v ^ v >> 29) * 0xBF58476D1CE4E5B9u;
+        return v ^ v >> 32;
+    }
+    /// Does not depend on winding and first corner.
+    std::uint64_t key_of(std::uint32_t p) const {
+        const auto corners = polygons_.polygon(p);
+        std::uint64_t key = corners.size();
+        std::uint32_t u = corners.back();
+        for (const std::uint32_t v : corners) {
+            key += mix((std::uint64_t{std::min(u, v)} << 32 | std::max(u, v)) * 0x9E3779B97F4A7C15u);
+            u = v;
+        }
+        return key;
+    }
+    std::vector<Edge> sorted_edges(std::uint32_t p) const {
+        const auto corners = polygons_.polygon(p);
+        std::vector<Edge> edges;
+        std::uint32_t u = corners.back();
+        for (const std::uint32_t v : corners) {
+            edges.push_back({std::min(u, v), std::max(u, v)});
+            u = v;
+        }
+        std::sort(edges.begin(), edges.end());
+        return edges;
+    }
+    bool same_edges(std::uint32_t p, std::uint32_t q) const {
+        return sorted_edges(p) == sorted_edges(q);
+    }
+
+    const PolygonMesh& polygons_;
+    const Mesh& mesh_;
+    std::vector<std::uint32_t> duplicates_;
+    std::vector<bool> compared_;  // per half-edge of a long ring; empty: there is none
+};
 
 PolygonMesh without(const PolygonMesh& mesh, const std::vector<std::uint32_t>& dropped) {
     PolygonMesh result;
@@ -304,7 +420,7 @@ void triangulate_and_link(const PolygonMesh& polygons, Mesh& mesh) {
 
 Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh) {
     triangulate_and_link(polygons, mesh);
-    const std::vector<std::uint32_t> duplicates = find_duplicates(polygons, mesh);
+    const std::vector<std::uint32_t> duplicates = DuplicateFinder(polygons, mesh).find();
     mesh.repairs.duplicate_polygons = duplicates.size();
     if (!duplicates.empty()) polygons = without(polygons, duplicates);
     const bool is_subdivided = options.subdivision_levels > 0 && polygons.polygon_count() > 0;
@@ -325,7 +441,7 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh) {
 }  // namespace
 
 std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& options) {
-    const glm::dvec3 origin = choose_origin(soup.positions);
+    const glm::dvec3 origin = choose_origin(soup);
     std::vector<glm::vec3> positions(soup.positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
         positions[i] = glm::vec3(soup.positions[i] - origin) + 0.0f;  // + 0 turns -0 into 0

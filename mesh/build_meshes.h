@@ -17,8 +17,8 @@ struct MeshOptions {
 ///
 /// In this order: coordinates are rounded to single precision (relative to a common origin where
 /// the model lies far from 0), vertices with equal coordinates of one object are welded, repeated
-/// corners in a row collapse, polygons without three distinct corners or without area are dropped,
-/// duplicates of an earlier polygon (the same corners, in any direction) are dropped, the rest is
+/// corners in a row and spikes (from a corner and straight back to it) collapse, polygons without three distinct corners or without area are dropped,
+/// duplicates of an earlier polygon (the same edges, in any direction) are dropped, the rest is
 /// subdivided if asked for, triangulated, and linked along its edges. Everything else is kept:
 /// open, non-manifold, self-crossing and inconsistently wound surfaces.
 ///

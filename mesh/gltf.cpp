@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <memory>
 #include <string_view>
 
@@ -44,10 +45,12 @@ Container split_container(const std::string& path, std::string_view bytes) {
     if (bytes.size() < 12 || load<std::uint32_t>(bytes.data() + 4) != 2) {
         throw InputError(path + ": only GLB version 2 is read; re-export the model as glTF 2.0");
     }
-    if (load<std::uint32_t>(bytes.data() + 8) > bytes.size()) {
+    const std::uint32_t size = load<std::uint32_t>(bytes.data() + 8);
+    if (size > bytes.size()) {
         throw InputError(path + ": the file is shorter than its header says; " +
                          "was it written completely?");
     }
+    bytes = bytes.substr(0, std::max<std::size_t>(size, 12));
     Container container;
     std::size_t at = 12;
     while (bytes.size() - at >= 8) {
@@ -250,7 +253,13 @@ class GltfReader {
         if (target.empty()) {
             place.fail("'" + printable(uri, 80) + "' leads out of the model's folder");
         }
-        external_.push_back(std::make_unique<MappedFile>(target));
+        try {
+            external_.push_back(std::make_unique<MappedFile>(target));
+        } catch (const InputError& error) {
+            // Without the buffer's path, which the URI stands for.
+            const std::string reason = error.what();
+            place.fail("'" + printable(uri, 80) + "'" + reason.substr(target.size()));
+        }
         return external_.back()->bytes();
     }
 
@@ -324,10 +333,16 @@ class GltfReader {
             view.data = view_bytes(place, offset, (view.count - 1) * view.stride + element_size, nullptr);
         }
         if (place.has("sparse")) return with_sparse_values(place, view);
-        if (view.data == nullptr && view.count > kMaxImplicitZeros) {
-            place.fail("has no data for its " + std::to_string(view.count) + " elements");
-        }
+        if (view.data == nullptr) count_implicit_zeros(place, view.count);
         return view;
+    }
+
+    /// Elements without data must not let a small file fill the memory.
+    void count_implicit_zeros(const JsonPlace& place, std::uint64_t count) {
+        if (count > kMaxImplicitZeros - implicit_zeros_) {
+            place.fail("has no data for its " + std::to_string(count) + " elements");
+        }
+        implicit_zeros_ += count;
     }
 
     /// A copy of the accessor as floats, with the values of its "sparse" part put in.
@@ -335,7 +350,7 @@ class GltfReader {
         const JsonPlace sparse = place.at("sparse");
         const std::uint64_t count = sparse.at("count").integer();
         if (count > base.count) sparse.fail("more sparse values than elements");
-        if (base.data == nullptr && base.count > kMaxImplicitZeros) place.fail("has no data");
+        if (base.data == nullptr) count_implicit_zeros(place, base.count);
         const JsonPlace indices = sparse.at("indices");
         const std::uint64_t index_type = indices.at("componentType").integer();
         const std::size_t index_size = component_size(index_type);
@@ -375,6 +390,7 @@ class GltfReader {
             place.text_or("name", "mesh" + std::to_string(scene_.meshes.size()));
         soup.object_names = {name};
         const JsonPlace primitives = place.at("primitives");
+        known_positions_.clear();
         for (std::size_t i = 0; i < primitives.size(); ++i) {
             throw_if_interrupted();
             read_primitive(primitives.element(i), soup);
@@ -390,10 +406,30 @@ class GltfReader {
             ++scene_.skipped_primitives;
             return;
         }
-        const JsonPlace attribute = place.at("attributes").at("POSITION");
+        const PositionRange positions = read_positions(place.at("attributes").at("POSITION"), soup);
+        const std::uint32_t material =
+            place.has("material")
+                ? place.at("material").index_below(scene_.materials.size() - 1, "material")
+                : static_cast<std::uint32_t>(scene_.materials.size() - 1);
+        add_triangles(place, mode, positions, soup);
+        soup.polygon_material.resize(soup.polygon_count(), material);
+    }
+
+    /// Vertices [first, first + count) of a mesh.
+    struct PositionRange {
+        std::size_t first = 0;
+        std::uint64_t count = 0;
+    };
+
+    /// Appends an accessor's vertices. Primitives of one mesh often share an accessor: then its
+    /// vertices are there already.
+    PositionRange read_positions(const JsonPlace& attribute, PolygonSoup& soup) {
+        const std::uint32_t number = attribute.index_below(root_.size_of("accessors"), "accessor");
+        const auto known = known_positions_.find(number);
+        if (known != known_positions_.end()) return known->second;
         const AccessorView positions = accessor(attribute, 3);
         const std::size_t first = soup.positions.size();
-        if (first + positions.count > 0xFFFFFFFFu) place.fail("more than 4 billion vertices");
+        if (first + positions.count > 0xFFFFFFFFu) attribute.fail("more than 4 billion vertices");
         soup.positions.reserve(first + positions.count);
         for (std::uint64_t i = 0; i < positions.count; ++i) {
             const glm::dvec3 p(positions.number(i, 0), positions.number(i, 1), positions.number(i, 2));
@@ -403,31 +439,27 @@ class GltfReader {
             }
             soup.positions.push_back(p);
         }
-        const std::uint32_t material =
-            place.has("material")
-                ? place.at("material").index_below(scene_.materials.size() - 1, "material")
-                : static_cast<std::uint32_t>(scene_.materials.size() - 1);
-        add_triangles(place, mode, positions.count, first, soup);
-        soup.polygon_material.resize(soup.polygon_count(), material);
+        return known_positions_[number] = {first, positions.count};
     }
 
-    void add_triangles(const JsonPlace& place, std::uint64_t mode, std::uint64_t vertex_count,
-                       std::size_t first, PolygonSoup& soup) {
+    void add_triangles(const JsonPlace& place, std::uint64_t mode, const PositionRange& vertices,
+                       PolygonSoup& soup) {
         AccessorView indices;
         const bool indexed = place.has("indices");
         if (indexed) {
             indices = accessor(place.at("indices"), 1);
+            indices.normalized = false;  // means nothing here
             if (indices.component_type == 5126) place.at("indices").fail("indices must be integers");
         }
-        const std::uint64_t count = indexed ? indices.count : vertex_count;
+        const std::uint64_t count = indexed ? indices.count : vertices.count;
         const auto vertex = [&](std::uint64_t i) {
             const double index = indexed ? indices.number(i, 0) : static_cast<double>(i);
-            if (index < 0 || index >= static_cast<double>(vertex_count)) {
+            if (index < 0 || index >= static_cast<double>(vertices.count)) {
                 place.at("indices").fail("vertex " + std::to_string(static_cast<std::int64_t>(index)) +
                                          " does not exist (there are " +
-                                         std::to_string(vertex_count) + ")");
+                                         std::to_string(vertices.count) + ")");
             }
-            return static_cast<std::uint32_t>(first + static_cast<std::uint64_t>(index));
+            return static_cast<std::uint32_t>(vertices.first + static_cast<std::uint64_t>(index));
         };
         const std::uint64_t triangles = mode == 4 ? count / 3 : (count < 3 ? 0 : count - 2);
         if (soup.corners.size() + 3 * triangles > PolygonSoup::kMaxCorners) {
@@ -497,6 +529,10 @@ class GltfReader {
             }
             visited[next.node] = true;
             const glm::dmat4 to_world = next.parent * local_matrix(node);
+            for (int i = 0; i < 16; ++i) {
+                if (std::abs(to_world[i / 4][i % 4]) <= kLargestCoordinate) continue;
+                node.fail("its transform, with those of its parents, is not finite or beyond 1e30");
+            }
             const std::string name = node.text_or("name", "node" + std::to_string(next.node));
             if (node.has("mesh")) {
                 const std::uint32_t mesh = node.at("mesh").index_below(scene_.meshes.size(), "mesh");
@@ -556,6 +592,8 @@ class GltfReader {
     std::vector<std::string_view> buffers_;
     std::vector<std::unique_ptr<std::string>> decoded_;
     std::vector<std::unique_ptr<MappedFile>> external_;
+    std::map<std::uint32_t, PositionRange> known_positions_;  // by accessor; of the mesh being read
+    std::uint64_t implicit_zeros_ = 0;  // elements without data so far
     GltfScene scene_;
 };
 

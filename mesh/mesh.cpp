@@ -13,13 +13,9 @@ EdgeCounts count_edges(const Mesh& mesh) {
     EdgeCounts counts;
     const auto half_edges = static_cast<HalfEdge>(mesh.next_on_edge.size());
     for (HalfEdge h = 0; h < half_edges; ++h) {
+        if (mesh.next_on_edge[h] > h) continue;  // rings are in order: only the last one turns back
         std::uint64_t ring = 1;
-        bool is_first = true;
-        for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
-            is_first = is_first && h < g;
-            ++ring;
-        }
-        if (!is_first) continue;
+        for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) ++ring;
         const bool is_diagonal =
             ring == 2 && mesh.polygon_of(h / 3) == mesh.polygon_of(mesh.next_on_edge[h] / 3);
         if (is_diagonal) continue;

@@ -20,9 +20,19 @@ std::string lower_extension(const std::string& path) {
     return extension;
 }
 
-Model model_of(PolygonSoup soup, const MeshOptions& options) {
+/// build_meshes, with the file in the message of an error.
+std::vector<Mesh> build_meshes_of(const std::string& path, const PolygonSoup& soup,
+                                  const MeshOptions& options) {
+    try {
+        return build_meshes(soup, options);
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + error.what());
+    }
+}
+
+Model model_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     Model model;
-    model.meshes = build_meshes(soup, options);
+    model.meshes = build_meshes_of(path, soup, options);
     for (std::uint32_t i = 0; i < model.meshes.size(); ++i) {
         model.objects.push_back({model.meshes[i].name, i, glm::dmat4(1.0)});
     }
@@ -30,12 +40,12 @@ Model model_of(PolygonSoup soup, const MeshOptions& options) {
     return model;
 }
 
-Model model_of(GltfScene scene, const MeshOptions& options) {
+Model model_of(const std::string& path, GltfScene scene, const MeshOptions& options) {
     Model model;
     constexpr std::uint32_t kNoMesh = 0xFFFFFFFFu;
     std::vector<std::uint32_t> mesh_number(scene.meshes.size(), kNoMesh);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        std::vector<Mesh> built = build_meshes(scene.meshes[i], options);
+        std::vector<Mesh> built = build_meshes_of(path, scene.meshes[i], options);
         scene.meshes[i] = PolygonSoup();
         if (built.empty()) continue;
         mesh_number[i] = static_cast<std::uint32_t>(model.meshes.size());
@@ -55,11 +65,13 @@ Model model_of(GltfScene scene, const MeshOptions& options) {
 
 Model read_by_extension(const std::string& path, const MeshOptions& options) {
     const std::string extension = lower_extension(path);
-    if (extension == ".obj") return model_of(read_obj(path), options);
-    if (extension == ".ply") return model_of(read_ply(path), options);
-    if (extension == ".stl") return model_of(read_stl(path), options);
-    if (extension == ".off") return model_of(read_off(path), options);
-    if (extension == ".gltf" || extension == ".glb") return model_of(read_gltf(path), options);
+    if (extension == ".obj") return model_of(path, read_obj(path), options);
+    if (extension == ".ply") return model_of(path, read_ply(path), options);
+    if (extension == ".stl") return model_of(path, read_stl(path), options);
+    if (extension == ".off") return model_of(path, read_off(path), options);
+    if (extension == ".gltf" || extension == ".glb") {
+        return model_of(path, read_gltf(path), options);
+    }
     throw InputError(path + ": unknown kind of model '" + extension +
                      "'; burin reads .obj .ply .stl .off .gltf .glb");
 }

@@ -1,7 +1,7 @@
 #include "mesh/read_mtl.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 
 #include "base/mapped_file.h"
 #include "mesh/model_path.h"
@@ -14,7 +14,7 @@ using MaterialLibrary = std::map<std::string, Material, std::less<>>;
 
 void read_material_file(const std::string& path, MaterialLibrary& library) {
     const MappedFile file(path);
-    LineReader lines(file.bytes());
+    LineReader lines(without_byte_order_mark(file.bytes()));
     Material* current = nullptr;
     std::string_view line;
     while (lines.next(line)) {
@@ -29,11 +29,12 @@ void read_material_file(const std::string& path, MaterialLibrary& library) {
         } else if (keyword == "Kd") {
             glm::dvec3 color;
             if (scan.number(color.r) && scan.number(color.g) && scan.number(color.b)) {
-                current->color = glm::clamp(glm::vec3(color), 0.0f, 1.0f);
+                color = glm::clamp(color, 0.0, 1.0);
+                if (!glm::any(glm::isnan(color))) current->color = glm::vec3(color);
             }
         } else if (keyword == "d" || keyword == "Tr") {
             double value = 1;
-            if (scan.number(value)) {
+            if (scan.number(value) && !std::isnan(value)) {
                 const double opacity = std::clamp(keyword == "d" ? value : 1 - value, 0.0, 1.0);
                 current->opacity = static_cast<float>(opacity);
             }
@@ -46,15 +47,21 @@ void read_material_file(const std::string& path, MaterialLibrary& library) {
 MaterialLibrary read_material_files(const std::string& obj_path,
                                     const std::vector<std::string>& file_names) {
     MaterialLibrary library;
-    for (const std::string& name : file_names) {
+    const auto read = [&](std::string_view name) {
         const std::string path = path_inside_model_folder(obj_path, name);
-        if (path.empty()) continue;
+        if (path.empty()) return false;
         try {
             read_material_file(path, library);
+            return true;
         } catch (const InputError&) {
             // A missing material file is so common that it must not stop the drawing.
-            continue;
+            return false;
         }
+    };
+    for (const std::string& names : file_names) {
+        if (read(names)) continue;  // one name, perhaps with blanks in it
+        LineScanner scan(names);
+        for (std::string_view name = scan.word(); !name.empty(); name = scan.word()) read(name);
     }
     return library;
 }

@@ -10,6 +10,7 @@ namespace burin {
 
 /// Colours (`Kd`) and opacities (`d`, `Tr`) from the MTL files that an OBJ names.
 ///
+/// `file_names` is what stands behind each `mtllib`: a name, perhaps with blanks in it, or several.
 /// Only files in the OBJ's own folder or below are read. A file that is missing or broken is left
 /// out: materials then keep the default colour, and the lines are the same.
 std::map<std::string, Material, std::less<>> read_material_files(

@@ -30,7 +30,8 @@ class NameTable {
 
 class ObjParser {
   public:
-    explicit ObjParser(const std::string& path) : path_(path), file_(path), lines_(file_.bytes()) {}
+    explicit ObjParser(const std::string& path)
+        : path_(path), file_(path), lines_(without_byte_order_mark(file_.bytes())) {}
 
     PolygonSoup parse() {
         const std::string_view text = file_.bytes();
@@ -40,7 +41,8 @@ class ObjParser {
         std::string_view line;
         while (lines_.next(line)) {
             if ((lines_.line_number() & 0xFFFF) == 0) throw_if_interrupted();
-            parse_line(ends_in_backslash(line) ? joined_lines(line) : line);
+            const bool goes_on = ends_in_backslash(line) && !is_comment(line);
+            parse_line(goes_on ? joined_lines(line) : line);
         }
         check_forward_references();
         return finished();
@@ -52,6 +54,11 @@ class ObjParser {
         throw InputError({path_, line}, message);
     }
 
+    /// Comments go on nowhere: "# saved in C:\models\" must not swallow the next line.
+    static bool is_comment(std::string_view line) {
+        LineScanner scan(line);
+        return !scan.at_end() && scan.rest().front() == '#';
+    }
     static bool ends_in_backslash(std::string_view line) {
         if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
         return !line.empty() && line.back() == '\\';
@@ -114,7 +121,7 @@ class ObjParser {
             fail("'" + printable(corner) + "' is no vertex number; repair or re-export the file");
         }
         const auto vertices = static_cast<std::int64_t>(soup_.positions.size());
-        if (number < 0 && -number <= vertices) return static_cast<std::uint32_t>(vertices + number);
+        if (number < 0 && number >= -vertices) return static_cast<std::uint32_t>(vertices + number);
         if (number <= 0 || number > std::int64_t{0xFFFFFFFF}) {
             fail("vertex " + std::to_string(number) + " does not exist (there are " +
                  std::to_string(vertices) + " so far); repair or re-export the file");

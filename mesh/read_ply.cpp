@@ -14,6 +14,13 @@
 namespace burin {
 namespace {
 
+/// A real that stands for an integer, as some writers put vertex numbers.
+bool to_integer(double number, std::int64_t& value) {
+    if (!(std::abs(number) <= 9e15) || number != std::floor(number)) return false;
+    value = static_cast<std::int64_t>(number);
+    return true;
+}
+
 /// Values of an ASCII body, in order. The values of one item stand on one line by convention, but
 /// readers everywhere take any white space, so this does too.
 class AsciiValues {
@@ -28,10 +35,10 @@ class AsciiValues {
     }
     bool integer(PlyType type, std::int64_t& value) {
         if (type >= PlyType::float32) {
+            skip_space();
             double number_value = 0;
-            if (!number(type, number_value) || std::abs(number_value) > 9e15) return false;
-            value = static_cast<std::int64_t>(number_value);
-            return true;
+            const char* const next = scan_number(p_, end_, number_value);
+            return next != nullptr && to_integer(number_value, value) && accept(next);
         }
         skip_space();
         if (p_ < end_ && is_digit(*p_)) {
@@ -87,7 +94,7 @@ class BinaryValues {
         : p_(body.data()), end_(body.data() + body.size()), big_endian_(big_endian) {}
 
     bool number(PlyType type, double& value) {
-        if (room_bytes() < size_of(type)) return false;
+        if (room_bytes() < size_of(type)) return reach_end();
         switch (type) {
             case PlyType::int8: value = load<std::int8_t>(); break;
             case PlyType::uint8: value = load<std::uint8_t>(); break;
@@ -101,13 +108,15 @@ class BinaryValues {
         return true;
     }
     bool integer(PlyType type, std::int64_t& value) {
+        const char* const start = p_;
         double number_value = 0;  // 32-bit integers fit exactly
-        if (!number(type, number_value) || !(std::abs(number_value) <= 9e15)) return false;
-        value = static_cast<std::int64_t>(number_value);
-        return true;
+        if (!number(type, number_value)) return false;
+        if (to_integer(number_value, value)) return true;
+        p_ = start;
+        return false;
     }
     bool skip(PlyType type, std::uint64_t count) {
-        if (count > room_bytes() / size_of(type)) return false;
+        if (count > room_bytes() / size_of(type)) return reach_end();
         p_ += count * size_of(type);
         return true;
     }
@@ -116,6 +125,11 @@ class BinaryValues {
     std::size_t line() const { return 0; }
 
   private:
+    /// For a value that the file has only a part of.
+    bool reach_end() {
+        p_ = end_;
+        return false;
+    }
     std::size_t room_bytes() const { return static_cast<std::size_t>(end_ - p_); }
     template <typename T>
     T load() {
@@ -174,7 +188,7 @@ class BodyReader {
   private:
     [[noreturn]] void fail(const std::string& message) const {
         const std::string item =
-            values_.line() > 0 ? "" : element_->name + " " + std::to_string(item_) + ": ";
+            values_.line() > 0 ? "" : printable(element_->name) + " " + std::to_string(item_) + ": ";
         throw InputError({path_, values_.line()}, item + message);
     }
     [[noreturn]] void fail_value() {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -46,6 +47,9 @@ PolygonSoup read_binary(const std::string& path, std::string_view bytes) {
                          " triangles, the file has room for " + std::to_string(room) +
                          "; was it written completely?");
     }
+    if (3 * count > PolygonSoup::kMaxCorners) {
+        throw InputError(path + ": more than 4 billion polygon corners; split the model");
+    }
     PolygonSoup soup;
     soup.positions.reserve(3 * count);
     soup.corners.reserve(3 * count);
@@ -77,20 +81,23 @@ class AsciiParser {
             if ((lines_.line_number() & 0xFFFF) == 0) throw_if_interrupted();
             LineScanner scan(line);
             const std::string_view keyword = scan.word();
-            if (keyword == "solid") {
-                begin_solid(std::string(scan.rest()));
-            } else if (keyword == "vertex") {
+            if (keyword == "vertex") {
                 add_vertex(scan);
             } else if (keyword == "endloop") {
                 end_loop();
+            } else if (keyword == "facet" || keyword == "endfacet" || keyword == "outer") {
+                check_loop_is_closed();
+            } else if (keyword == "solid") {
+                check_loop_is_closed();
+                begin_solid(std::string(scan.rest()));
             } else if (keyword == "endsolid") {
+                check_loop_is_closed();
                 in_solid_ = false;
-            } else if (!keyword.empty() && keyword != "facet" && keyword != "outer" &&
-                       keyword != "endfacet" && keyword != "color") {
+            } else if (!keyword.empty() && keyword != "color") {
                 fail("unknown word '" + printable(keyword) + "'" + kRepair);
             }
         }
-        if (corners_in_loop_ > 0 || in_solid_) {
+        if (in_solid_) {
             fail("the file ends in the middle of a solid; was it written completely?");
         }
         return std::move(soup_);
@@ -101,8 +108,12 @@ class AsciiParser {
         throw InputError({path_, lines_.line_number()}, message);
     }
 
+    /// Without this, two facets would become one polygon.
+    void check_loop_is_closed() const {
+        if (in_loop_) fail("the facet before is not closed by 'endloop'" + std::string(kRepair));
+    }
+
     void begin_solid(std::string name) {
-        if (corners_in_loop_ > 0) fail("a new solid starts in the middle of a facet" + std::string(kRepair));
         if (name.empty()) name = std::filesystem::path(path_).stem().string();
         soup_.object_names.push_back(std::move(name));
         in_solid_ = true;
@@ -115,21 +126,24 @@ class AsciiParser {
             fail("a vertex needs three numbers" + std::string(kRepair));
         }
         if (!is_usable(p)) fail("a coordinate is not finite or beyond 1e30" + std::string(kRepair));
+        if (soup_.corners.size() == PolygonSoup::kMaxCorners) {
+            fail("more than 4 billion polygon corners; split the model");
+        }
         add_corner(soup_, p);
-        ++corners_in_loop_;
+        in_loop_ = true;
     }
 
     void end_loop() {
         soup_.polygon_ends.push_back(static_cast<std::uint32_t>(soup_.corners.size()));
         soup_.polygon_object.push_back(static_cast<std::uint32_t>(soup_.object_names.size() - 1));
-        corners_in_loop_ = 0;
+        in_loop_ = false;
     }
 
     std::string path_;
     LineReader lines_;
     PolygonSoup soup_;
     bool in_solid_ = false;
-    int corners_in_loop_ = 0;
+    bool in_loop_ = false;
 };
 
 }  // namespace
@@ -143,7 +157,8 @@ PolygonSoup read_stl(const std::string& path) {
                                                     little_endian_u32(bytes.data() + kBinaryHeader)
                           : 0;
     // Binary files may start with "solid" as well; their size gives them away.
-    const bool starts_as_text = LineScanner(bytes.substr(0, 256)).word().substr(0, 5) == "solid";
+    const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+    const bool starts_as_text = bytes.substr(first, 5) == "solid";
     const bool has_zero_bytes = std::memchr(bytes.data(), 0, std::min<std::size_t>(bytes.size(), 512)) != nullptr;
     const bool is_text = starts_as_text && binary_size != bytes.size() && !has_zero_bytes;
 

@@ -6,8 +6,8 @@
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
 #include <algorithm>
-#include <map>
 #include <mutex>
+#include <span>
 #include <type_traits>
 
 #include "base/error.h"
@@ -25,6 +25,17 @@ using PolyMesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
 constexpr std::uint64_t kMaxPolygons = std::uint64_t{1} << 28;
 
+[[noreturn]] void refuse(const std::string& object_name, std::size_t polygon, const char* reason) {
+    throw InputError("object '" + object_name + "': polygon " + std::to_string(polygon) + " " + reason +
+                     "; a surface must be two-manifold to be subdivided: repair it or set subdivide = 0");
+}
+
+bool has_repeated_corner(std::span<const std::uint32_t> corners) {
+    std::vector<std::uint32_t> sorted(corners.begin(), corners.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
 /// The polygons as an OpenMesh with half-edges.
 template <typename OmMesh>
 OmMesh to_openmesh(const PolygonMesh& mesh, const std::string& object_name) {
@@ -32,13 +43,23 @@ OmMesh to_openmesh(const PolygonMesh& mesh, const std::string& object_name) {
     for (const glm::vec3& p : mesh.positions) om.add_vertex(OpenMesh::Vec3d(p.x, p.y, p.z));
     std::vector<OpenMesh::VertexHandle> handles;
     for (std::size_t i = 0; i < mesh.polygon_count(); ++i) {
+        if (has_repeated_corner(mesh.polygon(i))) refuse(object_name, i, "has a corner twice");
         handles.clear();
         for (const std::uint32_t v : mesh.polygon(i)) handles.emplace_back(static_cast<int>(v));
         if (!om.add_face(handles).is_valid()) {
-            throw InputError("object '" + object_name + "': polygon " + std::to_string(i) +
-                             " meets two others at an edge or touches them only at a vertex, or is " +
-                             "wound against its neighbour; a surface must be two-manifold to be " +
-                             "subdivided: repair it or set subdivide = 0");
+            refuse(object_name, i,
+                   "meets two others at an edge or touches them only at a vertex, or is wound "
+                   "against its neighbour");
+        }
+    }
+    // OpenMesh lets open fans meet at a vertex, but its rule for border vertices means one fan.
+    for (const auto v : om.vertices()) {
+        int gaps = 0;
+        for (const auto h : om.voh_range(v)) {
+            if (!om.is_boundary(h)) continue;
+            if (++gaps < 2) continue;
+            const auto face = om.face_handle(om.opposite_halfedge_handle(h));
+            refuse(object_name, static_cast<std::size_t>(face.idx()), "touches others only at a vertex");
         }
     }
     return om;
@@ -92,10 +113,6 @@ PolygonMesh subdivide_as(const PolygonMesh& cage, int levels, const std::string&
     for (int level = 0; level < levels; ++level) {
         throw_if_interrupted();
         const std::vector<std::uint32_t> parents = child_parents(om);
-        if (parents.size() > kMaxPolygons) {
-            throw InputError("object '" + object_name + "': " + std::to_string(levels) +
-                             " subdivisions give more than 268 million polygons; use fewer");
-        }
         // Edge e keeps one half and number e; its other half is appended in the same order.
         const std::size_t edges = om.n_edges();
         subdivide_once(om);
@@ -132,6 +149,21 @@ PolygonMesh subdivide_as(const PolygonMesh& cage, int levels, const std::string&
     return result;
 }
 
+/// Refuses results that are too large before any work is done on them.
+void check_size(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
+                const std::string& object_name) {
+    // The first step of Catmull-Clark makes a polygon of each corner, all others make four of each.
+    std::uint64_t polygons = mesh.polygon_count();
+    for (int level = 0; level < levels; ++level) {
+        const bool by_corners = level == 0 && scheme == SubdivisionScheme::catmull_clark;
+        polygons = by_corners ? mesh.corners.size() : 4 * polygons;
+        if (polygons > kMaxPolygons) {
+            throw InputError("object '" + object_name + "': " + std::to_string(levels) +
+                             " subdivisions give more than 268 million polygons; use fewer");
+        }
+    }
+}
+
 }  // namespace
 
 PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
@@ -146,6 +178,7 @@ PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int lev
     if (scheme == SubdivisionScheme::automatic) {
         scheme = all_triangles ? SubdivisionScheme::loop : SubdivisionScheme::catmull_clark;
     }
+    check_size(mesh, scheme, levels, object_name);
     if (scheme == SubdivisionScheme::catmull_clark) {
         return subdivide_as<PolyMesh>(mesh, levels, object_name);
     }

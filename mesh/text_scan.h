@@ -61,6 +61,7 @@ inline const char* scan_number(const char* p, const char* end, double& value) {
         return p;
     }
     const char* const from = start < end && *start == '+' ? start + 1 : start;
+    if (from != start && from < end && *from == '-') return nullptr;
     const auto [ptr, error] = std::from_chars(from, end, value);
     if (error == std::errc::result_out_of_range) {
         // from_chars does not say whether it was too small or too large; strtod does.
@@ -73,7 +74,7 @@ inline const char* scan_number(const char* p, const char* end, double& value) {
 /// Reads a decimal integer at `p`. Returns the place behind it, or nullptr if there is none or it
 /// does not fit 64 bits.
 inline const char* scan_integer(const char* p, const char* end, std::int64_t& value) {
-    if (p < end && *p == '+') ++p;
+    if (p < end && *p == '+' && ++p < end && *p == '-') return nullptr;
     const auto [ptr, error] = std::from_chars(p, end, value);
     return error == std::errc() ? ptr : nullptr;
 }
@@ -149,6 +150,11 @@ class LineReader {
     const char* end_;
     std::size_t line_number_ = 0;
 };
+
+/// Text without the mark that some editors of Windows put before UTF-8.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+    return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
 
 /// Text from a file, safe to print inside a one-line message: cut short, no control characters.
 inline std::string printable(std::string_view text, std::size_t max_length = 40) {

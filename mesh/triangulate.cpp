@@ -29,7 +29,7 @@ std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners) {
         const glm::dvec3 d = glm::abs(c - corners[0]);
         extent = std::max({extent, d.x, d.y, d.z});
     }
-    const double scale = extent > 0 ? 1 / extent : 1;
+    const double scale = extent > 0 ? std::ldexp(1.0, -std::max(std::ilogb(extent), -1000)) : 1;
     std::vector<glm::dvec2> flat;
     flat.reserve(corners.size());
     for (const glm::dvec3& c : corners) {
@@ -101,29 +101,42 @@ class EarClipper {
           next_(corners.size()),
           previous_(corners.size()),
           is_reflex_(find_reflex_corners()),
+          is_refused_(corners.size(), false),
           grid_(points_, is_reflex_) {}
 
     void clip(std::vector<Triangle>& triangles) {
         auto left = static_cast<std::uint32_t>(points_.size());
         std::uint32_t at = 0;
         std::uint32_t refused = 0;  // corners in a row that were no ears
+        std::uint64_t limit = left;
+        int second_looks = 0;
         for (std::uint64_t step = 0; left > 3; ++step) {
             if ((step & 0xFFFF) == 0) throw_if_interrupted();
+            // In a simple polygon, only its neighbours can make a corner an ear. Others get a few
+            // second looks: more would take long where a large polygon crosses itself everywhere.
+            if (refused == left && second_looks < kMaxSecondLooks) {
+                std::fill(is_refused_.begin(), is_refused_.end(), false);
+                ++second_looks;
+                limit = std::uint64_t{2} * left;
+            }
             // A polygon that crosses itself may run out of ears: then any corner is cut off.
-            if (refused < left && !is_ear(at)) {
+            if (refused < limit && (is_refused_[at] || !is_ear(at))) {
+                is_refused_[at] = true;
                 at = next_[at];
                 ++refused;
                 continue;
             }
             triangles.push_back({previous_[at], at, next_[at]});
             at = cut_off(at);
-            --left;
+            limit = --left;
             refused = 0;
         }
         triangles.push_back({previous_[at], at, next_[at]});
     }
 
   private:
+    static constexpr int kMaxSecondLooks = 64;
+
     std::vector<bool> find_reflex_corners() {
         const auto n = static_cast<std::uint32_t>(points_.size());
         std::vector<bool> reflex(n);
@@ -163,6 +176,7 @@ class EarClipper {
         next_[before] = after;
         previous_[after] = before;
         for (const std::uint32_t k : {before, after}) {
+            is_refused_[k] = false;
             if (is_reflex_[k] && turn_at(k) > 0) {
                 is_reflex_[k] = false;
                 grid_.remove(k, points_[k]);
@@ -174,6 +188,7 @@ class EarClipper {
     std::vector<glm::dvec2> points_;
     std::vector<std::uint32_t> next_, previous_;
     std::vector<bool> is_reflex_;
+    std::vector<bool> is_refused_;  // was no ear, and its neighbours are still the same
     ReflexGrid grid_;
 };
 
