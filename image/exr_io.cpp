@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <thread>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -27,13 +28,23 @@ class AtomicStream : public Imf::OStream {
     AtomicStream(AtomicFile& file, const std::string& path)
         : Imf::OStream(path.c_str()), file_(file) {}
     void write(const char bytes[], int count) override {
-        file_.write(bytes, static_cast<std::size_t>(count));
+        try {
+            file_.write(bytes, static_cast<std::size_t>(count));
+        } catch (...) {
+            failure_ = std::current_exception();
+            throw;
+        }
+    }
+    /// OpenEXR swallows what is thrown while it closes a file.
+    void rethrow_failure() const {
+        if (failure_) std::rethrow_exception(failure_);
     }
     std::uint64_t tellp() override { return file_.position(); }
     void seekp(std::uint64_t position) override { file_.seek(position); }
 
   private:
     AtomicFile& file_;
+    std::exception_ptr failure_;
 };
 
 Imf::PixelType exr_type(PixelType type) {
@@ -68,7 +79,9 @@ Imf::FrameBuffer frame_buffer(const Image& image) {
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
     AtomicFile file(path);
     try {
-        Imf::setGlobalThreadCount(options.threads > 1 ? options.threads : 0);
+        const int useful =
+            std::min(options.threads, static_cast<int>(std::thread::hardware_concurrency()));
+        Imf::setGlobalThreadCount(useful > 1 ? useful : 0);
         Imf::Header header(box(image.display()), box(image.data()));
         header.compression() = Imf::ZIP_COMPRESSION;
         for (const auto& [name, text] : options.texts) {
@@ -78,13 +91,17 @@ void write_exr(const std::string& path, const Image& image, const ExrOptions& op
             header.channels().insert(channel.name, Imf::Channel(exr_type(channel.type)));
         }
         AtomicStream stream(file, path);
-        Imf::OutputFile output(stream, header);
-        output.setFrameBuffer(frame_buffer(image));
-        constexpr int kRowsAtOnce = 256;  // so that an interrupt does not wait for a large image
-        for (int row = 0; row < image.height(); row += kRowsAtOnce) {
-            throw_if_interrupted();
-            output.writePixels(std::min(kRowsAtOnce, image.height() - row));
+        {
+            Imf::OutputFile output(stream, header);
+            output.setFrameBuffer(frame_buffer(image));
+            constexpr int kRowsAtOnce =
+                256;  // so that an interrupt does not wait for a large image
+            for (int row = 0; row < image.height(); row += kRowsAtOnce) {
+                throw_if_interrupted();
+                output.writePixels(std::min(kRowsAtOnce, image.height() - row));
+            }
         }
+        stream.rethrow_failure();
     } catch (const InputError&) {
         throw;
     } catch (const Interrupted&) {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "image/half.h"
 #include "image/oiio_module.h"
 
@@ -53,6 +55,43 @@ std::uint16_t code_value(float unit) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(unit, 0.0f, 1.0f) * 65535.0f));
 }
 
+std::uint16_t srgb_code_value(float linear) {
+    // Most of a line drawing is paper or ink; the power would take longer than all the rest.
+    if (!(linear > 0)) return 0;
+    return linear >= 1 ? std::uint16_t{65535} : code_value(srgb_from_linear(linear));
+}
+
+/// The file that the module's bytes go to, and why it stopped, if it did.
+struct DisplaySink {
+    AtomicFile& file;
+    std::exception_ptr stopped;
+
+    template <typename Action>
+    bool guarded(const Action& action) noexcept {
+        // An exception must not pass through the libraries in between.
+        try {
+            action();
+            return true;
+        } catch (...) {
+            stopped = std::current_exception();
+            return false;
+        }
+    }
+    static bool write(void* context, const void* bytes, unsigned long long size) {
+        auto& sink = *static_cast<DisplaySink*>(context);
+        return sink.guarded([&] { sink.file.write(bytes, size); });
+    }
+    static bool go_on(void* context) {
+        return static_cast<DisplaySink*>(context)->guarded([] { throw_if_interrupted(); });
+    }
+};
+
+/// A library's message on one line.
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
 }  // namespace
 
 float srgb_from_linear(float linear) {
@@ -80,6 +119,7 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
     const int dx = image.data().x0 - image.display().x0;
     const int dy = image.data().y0 - image.display().y0;
     for (int y = 0; y < result.height; ++y) {
+        throw_if_interrupted();
         for (int x = 0; x < result.width; ++x) {
             const std::size_t out = (static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) +
                                      static_cast<std::size_t>(x)) * channels;
@@ -93,7 +133,7 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
             for (int c = 0; c < 3; ++c) {
                 float linear = color[c] + (1 - alpha) * paper[c];
                 if (!background && alpha > 0) linear = color[c] / alpha;
-                result.pixels[out + static_cast<std::size_t>(c)] = code_value(srgb_from_linear(linear));
+                result.pixels[out + static_cast<std::size_t>(c)] = srgb_code_value(linear);
             }
             if (!background) result.pixels[out + 3] = code_value(alpha);
         }
@@ -104,11 +144,12 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
 void write_display_image(const std::string& path, const DisplayImage& image, int bits) {
     auto* const write = module_function<decltype(burin_oiio_write)>("burin_oiio_write");
     AtomicFile file(path);
+    DisplaySink target{file, nullptr};
+    const BurinOiioSink sink{&target, DisplaySink::write, DisplaySink::go_on};
     const char* const failure = write(file.temporary_path().c_str(), image.width, image.height,
-                                      image.channels, bits, image.pixels.data());
-    if (failure != nullptr) {
-        throw InputError(path + ": cannot write: " + failure + "; is the disk full?");
-    }
+                                      image.channels, bits, image.pixels.data(), &sink);
+    if (target.stopped) std::rethrow_exception(target.stopped);
+    if (failure != nullptr) throw InputError(path + ": cannot write: " + one_line(failure));
     file.commit();
 }
 
@@ -122,7 +163,7 @@ DisplayImage read_display_image(const std::string& path) {
     };
     const char* const failure =
         read(path.c_str(), &image.width, &image.height, &image.channels, allocate, &image.pixels);
-    if (failure != nullptr) throw InputError(path + ": cannot read: " + failure);
+    if (failure != nullptr) throw InputError(path + ": cannot read: " + one_line(failure));
     return image;
 }
 
