@@ -9,8 +9,10 @@
 namespace burin {
 namespace {
 
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+constexpr double kHuge = 1e30;  // as for models: squares and products must stay finite
+
+bool is_reasonable(const glm::dvec3& v) {
+    return std::abs(v.x) <= kHuge && std::abs(v.y) <= kHuge && std::abs(v.z) <= kHuge;
 }
 
 struct Bounds {
@@ -53,35 +55,44 @@ glm::dmat3 orientation(const glm::dvec3& back, const glm::dvec3& up) {
 /// Places a perspective camera with orientation `axes` so that all points just fit, centred.
 ///
 /// In camera axes, a point p is inside if |p.x - e.x| <= kx (e.z - p.z), and the same in y. Each of
-/// these is linear in the eye e, so only four maxima over the points matter.
-glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double kx, double ky) {
+/// these is linear in the eye e, so only four maxima over the points matter. No point comes nearer
+/// than `nearest`: with a wide angle the eye would otherwise sit on the model's foremost corner.
+glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double kx, double ky,
+                      double nearest) {
     const glm::dmat3 to_axes = glm::transpose(axes);
     glm::dvec4 most(-std::numeric_limits<double>::infinity());
+    double foremost = -std::numeric_limits<double>::infinity();
     points([&](const glm::dvec3& p) {
         const glm::dvec3 q = to_axes * p;
+        foremost = std::max(foremost, q.z);
         most = glm::max(most, glm::dvec4(q.x + kx * q.z, -q.x + kx * q.z, q.y + ky * q.z,
                                          -q.y + ky * q.z));
     });
-    const double z = std::max((most[0] + most[1]) / (2 * kx), (most[2] + most[3]) / (2 * ky));
+    const double z = std::max(
+        {(most[0] + most[1]) / (2 * kx), (most[2] + most[3]) / (2 * ky), foremost + nearest});
     return axes * glm::dvec3((most[0] - most[1]) / 2, (most[2] - most[3]) / 2, z);
 }
 
-/// The distance from a target, along a direction, from which all points fit.
+/// The distance from a target, along a direction, from which all points fit, none of them nearer
+/// than `nearest`.
 double fitted_distance(const PointSource& points, const glm::dvec3& target, const glm::dmat3& axes,
-                       double kx, double ky) {
+                       double kx, double ky, double nearest) {
     const glm::dmat3 to_axes = glm::transpose(axes);
     double distance = 0;
     points([&](const glm::dvec3& p) {
         const glm::dvec3 q = to_axes * (p - target);
-        distance = std::max({distance, std::abs(q.x) / kx + q.z, std::abs(q.y) / ky + q.z});
+        distance =
+            std::max({distance, std::abs(q.x) / kx + q.z, std::abs(q.y) / ky + q.z, q.z + nearest});
     });
     return distance;
 }
 
 void check(const CameraSettings& s) {
     for (const auto& v : {s.eye, s.target, s.up, s.direction}) {
-        if (v && !is_finite(*v)) {
-            throw InputError("the camera has a coordinate that is not finite; give finite numbers");
+        if (v && !is_reasonable(*v)) {
+            throw InputError(
+                "the camera has a coordinate that is not finite or beyond 1e30; use smaller "
+                "numbers");
         }
     }
     if (!s.orthographic && !(s.fov_deg > 0 && s.fov_deg < 180)) {
@@ -110,15 +121,15 @@ glm::dmat4 rigid(const glm::dmat3& axes, const glm::dvec3& eye) {
 /// A camera given by a matrix: its scale is dropped.
 Camera from_matrix(const CameraSettings& s) {
     const glm::dmat4& m = *s.to_world;
-    const glm::dvec3 back(m[2]);
-    const glm::dvec3 up(m[1]);
-    const glm::dvec3 side = glm::cross(up, back);
-    if (!is_finite(back) || !is_finite(up) || !is_finite(glm::dvec3(m[3])) || glm::length(side) == 0) {
+    const glm::dvec3 back = glm::normalize(glm::dvec3(m[2]));
+    const glm::dvec3 up = glm::normalize(glm::dvec3(m[1]));
+    // Written so that NaN, from axes of length 0 or infinity, fails too.
+    if (!(glm::length(glm::cross(up, back)) > 1e-9) || !is_reasonable(glm::dvec3(m[3]))) {
         throw InputError("camera '" + s.name + "' has a matrix that defines no view");
     }
     Camera camera;
     camera.orthographic = s.orthographic;
-    camera.to_world = rigid(orientation(glm::normalize(back), glm::normalize(up)), glm::dvec3(m[3]));
+    camera.to_world = rigid(orientation(back, up), glm::dvec3(m[3]));
     camera.fov_deg = s.fov_deg;
     camera.height = s.height.value_or(1);
     return camera;
@@ -149,13 +160,16 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     const bool fits = !settings.eye || (settings.orthographic && !settings.height);
     const bool needs_bounds = fits || !settings.target;
     const Bounds bounds = needs_bounds ? bounds_of(points) : Bounds{};
+    if (!(bounds.radius() <= kHuge)) {
+        throw InputError("the scene is larger than 1e30 units; scale it down");
+    }
     const glm::dvec3 up = glm::normalize(settings.up.value_or(glm::dvec3(0, 1, 0)));
     const glm::dvec3 target = settings.target.value_or(bounds.center());
 
     glm::dvec3 back = settings.direction ? *settings.direction : default_direction(up);
     if (settings.eye) {
         back = *settings.eye - target;
-        if (!(glm::length(back) > 0) || !is_finite(back)) {
+        if (!(glm::length(back) > 0)) {
             throw InputError("the camera's eye and target are the same place; move one of them");
         }
     }
@@ -172,6 +186,7 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     Camera camera;
     camera.orthographic = settings.orthographic;
     camera.fov_deg = settings.fov_deg;
+    const double nearest = 0.05 * bounds.radius();
     const double half_y = settings.fit * std::tan(glm::radians(settings.fov_deg) / 2);
     if (settings.orthographic) {
         const glm::dmat3 to_axes = glm::transpose(axes);
@@ -193,12 +208,13 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     } else if (settings.eye) {
         camera.to_world = rigid(axes, *settings.eye);
     } else if (settings.target) {
-        const double distance = fitted_distance(points, target, axes, half_y * aspect, half_y);
+        const double distance =
+            fitted_distance(points, target, axes, half_y * aspect, half_y, nearest);
         camera.to_world = rigid(axes, target + back * distance);
     } else {
-        camera.to_world = rigid(axes, fitted_eye(points, axes, half_y * aspect, half_y));
+        camera.to_world = rigid(axes, fitted_eye(points, axes, half_y * aspect, half_y, nearest));
     }
-    if (!is_finite(camera.eye()) || !(camera.height > 0)) {
+    if (!is_reasonable(camera.eye()) || !(camera.height > 0)) {
         throw InputError("the camera cannot be fitted to the scene; give eye and target");
     }
     return camera;

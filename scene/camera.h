@@ -6,6 +6,7 @@
 #include <string>
 
 #include "abuffer/projection.h"
+#include "base/error.h"
 
 namespace burin {
 
@@ -21,6 +22,7 @@ struct CameraSettings {
     double fov_deg = 35;                  ///< vertical, perspective only
     std::optional<double> height;         ///< full visible height in world units, orthographic only
     double fit = 0.95;                    ///< part of the picture that the scene fills, if fitted
+    SourcePosition where;                 ///< in the scene file, for messages; can be unknown
     std::optional<glm::dmat4> to_world;   ///< instead of eye, target, up (cameras of glTF files)
 };
 

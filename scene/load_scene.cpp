@@ -42,6 +42,7 @@ class SceneLoader {
     Scene load() {
         for (ObjectDescription& object : from_.objects) place(object, model_of(object));
         if (scene_.cameras.empty()) scene_.cameras = std::move(file_cameras_);
+        scene_.camera_is_default = scene_.cameras.empty();
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
         return std::move(scene_);
     }

@@ -49,6 +49,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<SceneObject> objects;
     std::vector<CameraSettings> cameras;  ///< at least one; the first is the default
+    bool camera_is_default = false;       ///< the input has no camera
     PictureSettings picture;
     LineSettings lines;
     SurfaceStyle surfaces;

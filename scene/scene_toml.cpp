@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 #include "base/mapped_file.h"
 #include "mesh/shapes.h"
+#include "mesh/text_scan.h"
 #include "scene/color.h"
 #include "scene/scene_description.h"
 #include "scene/toml_reader.h"
@@ -105,9 +108,8 @@ class SceneReader {
         if (auto t = root_.table("patel")) read_patel(*t);
         root_.finish();
         if (scene_.objects.empty()) {
-            throw InputError(root_.position(), "the scene has no [[object]]; add one with a file or a shape");
+            root_.fail("the scene has no [[object]]; add one with a file or a shape");
         }
-        check_materials();
         return std::move(scene_);
     }
 
@@ -115,11 +117,13 @@ class SceneReader {
     void read_cameras() {
         for (TomlReader& t : root_.tables("camera")) {
             CameraSettings camera;
+            camera.where = t.position();
             camera.name = t.text("name").value_or("");
             for (const CameraSettings& other : scene_.cameras) {
                 if (other.name == camera.name) t.fail("name", "two cameras have this name; rename one");
             }
-            camera.orthographic = t.choice("projection", {"perspective", "orthographic"}).value_or(0) == 1;
+            const auto projection = t.choice("projection", {"perspective", "orthographic"});
+            camera.orthographic = projection == 1u;
             camera.eye = t.vector("eye");
             camera.target = t.vector("target");
             camera.up = t.vector("up");
@@ -127,6 +131,9 @@ class SceneReader {
             if (camera.eye && camera.direction) t.fail("direction", "cannot stand beside an eye; remove one");
             camera.fov_deg = t.number("fov", {0, 180, true, true}).value_or(35);
             camera.height = t.number("height", kPositive);
+            if (camera.height && projection == 0u) {
+                t.fail("height", "a perspective camera has none; use fov, or another projection");
+            }
             if (camera.height) camera.orthographic = true;
             camera.fit = t.number("fit", {0, 1, true, false}).value_or(0.95);
             t.finish();
@@ -137,7 +144,7 @@ class SceneReader {
     void read_material(TomlReader& t) {
         Material material;
         const auto name = t.text("name");
-        if (!name || name->empty()) throw InputError(t.position(), "[[material]] needs a name");
+        if (!name || name->empty()) t.fail("needs a name");
         for (const Material& other : scene_.materials) {
             if (other.name == *name) t.fail("name", "two materials have this name; rename one");
         }
@@ -153,7 +160,7 @@ class SceneReader {
         object.where = t.position();
         const bool has_file = t.has("file");
         if (has_file == t.has("shape")) {
-            throw InputError(t.position(), "[[object]] needs either a file or a shape");
+            t.fail("needs either a file or a shape");
         }
         if (has_file) {
             const std::filesystem::path file(*t.text("file"));
@@ -166,6 +173,10 @@ class SceneReader {
         }
         object.name = t.text("name").value_or(has_file ? "" : object.shape.object_names[0]);
         object.material = t.text("material").value_or("");
+        if (!object.material.empty() && !has_material(object.material)) {
+            t.fail("material", "there is no [[material]] named '" + printable(object.material) +
+                                   "'; add it or correct the name");
+        }
         object.subdivide = t.integer("subdivide", 0, 8).value_or(0);
         static constexpr SubdivisionScheme kSchemes[] = {
             SubdivisionScheme::automatic, SubdivisionScheme::loop, SubdivisionScheme::catmull_clark};
@@ -213,7 +224,7 @@ class SceneReader {
                 } else if (line_class) {
                     lines.classes |= *line_class;
                 } else if (name != "none") {
-                    t.fail("draw", "unknown line class '" + name + "'; known are " +
+                    t.fail("draw", "unknown line class '" + printable(name) + "'; known are " +
                                        to_string(LineClassSet::all()) + ",all,none");
                 }
             }
@@ -252,16 +263,9 @@ class SceneReader {
         t.finish();
     }
 
-    void check_materials() const {
-        for (const ObjectDescription& object : scene_.objects) {
-            const bool known = object.material.empty() ||
-                               std::any_of(scene_.materials.begin(), scene_.materials.end(),
-                                           [&](const Material& m) { return m.name == object.material; });
-            if (!known) {
-                throw InputError(object.where, "there is no [[material]] named '" + object.material +
-                                                   "'; add it or correct the name");
-            }
-        }
+    bool has_material(const std::string& name) const {
+        return std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                           [&](const Material& m) { return m.name == name; });
     }
 
     std::string path_;
@@ -271,22 +275,57 @@ class SceneReader {
 
 // ---- overrides ----
 
+/// For messages about an override; TomlReader recognises it.
+std::string override_place(const Override& o) {
+    return std::string(TomlReader::kCommandLine) + printable(o.key) + "=" + printable(o.value);
+}
+
 [[noreturn]] void fail_override(const Override& o, const std::string& message) {
-    throw UsageError("--set " + o.key + "=" + o.value + ": " + message);
+    throw UsageError(override_place(o) + ": " + message);
+}
+
+/// A text as TOML writes it.
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code < 0x20 || code == 0x7F || c == '"' || c == '\\') {
+            char escape[8];
+            std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(code));
+            result += escape;
+        } else {
+            result += c;
+        }
+    }
+    return result + '"';
+}
+
+/// A table whose only member is the value; nothing if the text is no single TOML value.
+std::optional<toml::table> parse_value(const Override& o, const std::string& text) {
+    try {
+        toml::table table = toml::parse("value = " + text, override_place(o));
+        if (table.size() == 1) return table;
+    } catch (const toml::parse_error&) {
+    }
+    return std::nullopt;
+}
+
+toml::table override_value(const Override& o) {
+    if (auto value = parse_value(o, o.value)) return *std::move(value);
+    if (auto value = parse_value(o, quoted(o.value)))
+        return *std::move(value);  // typed without quotes
+    fail_override(o, "the value is not UTF-8");
 }
 
 /// Puts an override's value in its place, making tables on the way as needed. A number in the key
 /// counts into an array: object.0.subdivide.
 void apply_override(toml::table& root, const Override& o) {
-    toml::table parsed;
-    try {
-        parsed = toml::parse("value = " + o.value, "--set " + o.key);
-    } catch (const toml::parse_error&) {
-        parsed = toml::table{{"value", o.value}};  // a text typed without quotes
-    }
+    constexpr int kMaxParts = 16;
+    toml::table holder = override_value(o);
+    toml::node&& value = std::move(*holder.get("value"));  // a copied node forgets its source
     toml::node* at = &root;
     std::string_view rest = o.key;
-    while (true) {
+    for (int parts = 1; parts <= kMaxParts; ++parts) {
         const std::size_t dot = rest.find('.');
         const std::string_view part = rest.substr(0, dot);
         const bool is_last = dot == std::string_view::npos;
@@ -295,31 +334,50 @@ void apply_override(toml::table& root, const Override& o) {
             std::size_t index = 0;
             const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
             if (error != std::errc() || end != part.data() + part.size() || index >= array->size()) {
-                fail_override(o, "there is no element '" + std::string(part) + "'");
+                fail_override(o, "there is no element '" + printable(part) + "', the list has " +
+                                     std::to_string(array->size()));
             }
             if (is_last) {
-                array->replace(array->begin() + static_cast<std::ptrdiff_t>(index), *parsed.get("value"));
+                array->replace(array->begin() + static_cast<std::ptrdiff_t>(index),
+                               std::move(value));
                 return;
             }
             at = array->get(index);
         } else if (toml::table* const table = at->as_table()) {
             if (is_last) {
-                table->insert_or_assign(part, *parsed.get("value"));
+                table->insert_or_assign(part, std::move(value));
                 return;
             }
-            if (!table->contains(part)) table->insert(part, toml::table{});
+            if (!table->contains(part)) {
+                toml::table empty = *parse_value(o, "{}");
+                table->insert(part, std::move(*empty.get("value")));
+            }
             at = table->get(part);
         } else {
-            fail_override(o, "'" + std::string(part) + "' stands below a value that is no table");
+            fail_override(o, "'" + printable(part) + "' stands below a value that is no table");
         }
         rest.remove_prefix(dot + 1);
+    }
+    fail_override(o, "the key has too many parts");
+}
+
+/// toml++ reads dotted keys of any depth, and then overflows the stack when it frees their tables.
+void check_key_depth(const std::string& path, std::string_view text) {
+    constexpr int kMaxDots = 1000;
+    std::size_t line = 1;
+    int dots = 0;
+    for (const char c : text) {
+        if (c == '\n') ++line;
+        if (c == '.' && ++dots > kMaxDots)
+            throw InputError({path, line}, "a key has too many parts");
+        if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
     }
 }
 
 SceneDescription read_tables(const std::string& path, toml::table root,
                              const std::vector<Override>& overrides) {
     for (const Override& o : overrides) apply_override(root, o);
-    return SceneReader(path, TomlReader(root, "scene")).read();
+    return SceneReader(path, TomlReader(root, "", path)).read();
 }
 
 }  // namespace
@@ -329,6 +387,7 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
     if (file.bytes().size() > kMaxSceneBytes) {
         throw InputError(path + ": a scene file of more than 64 MB; is it a model?");
     }
+    check_key_depth(path, file.bytes());
     try {
         return read_tables(path, toml::parse(file.bytes(), path), overrides);
     } catch (const toml::parse_error& error) {
@@ -341,7 +400,8 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
 
 SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides) {
     toml::table object;
-    object.insert("file", std::filesystem::absolute(path).string());
+    object.insert(
+        "file", std::filesystem::path(path).filename().string());  // relative to the scene: itself
     toml::table root;
     root.insert("object", toml::array(std::move(object)));
     return read_tables(path, std::move(root), overrides);

@@ -4,16 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mesh/text_scan.h"
 #include "scene/color.h"
 
 namespace burin {
 namespace {
-
-SourcePosition position_of(const toml::node& node) {
-    const toml::source_region& source = node.source();
-    return {source.path ? *source.path : std::string("scene"), source.begin.line,
-            source.begin.column};
-}
 
 std::string number_text(double value) {
     char text[32];
@@ -44,6 +39,16 @@ const toml::node* TomlReader::find(std::string_view key) {
     return table_->get(key);
 }
 
+SourcePosition TomlReader::position_of(const toml::node& node) const {
+    const toml::source_region& source = node.source();
+    return {source.path ? *source.path : file_, source.begin.line, source.begin.column};
+}
+
+void TomlReader::fail_at(const SourcePosition& position, const std::string& message) {
+    if (position.file.starts_with(kCommandLine)) throw UsageError(position.file + ": " + message);
+    throw InputError(position, message);
+}
+
 SourcePosition TomlReader::position() const { return position_of(*table_); }
 
 SourcePosition TomlReader::position(std::string_view key) const {
@@ -52,7 +57,12 @@ SourcePosition TomlReader::position(std::string_view key) const {
 }
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
-    throw InputError(position(key), context_ + " " + std::string(key) + ": " + message);
+    fail_at(position(key),
+            context_ + (context_.empty() ? "" : " ") + std::string(key) + ": " + message);
+}
+
+void TomlReader::fail(const std::string& message) const {
+    fail_at(position(), context_ + (context_.empty() ? "" : " ") + message);
 }
 
 double TomlReader::checked_number(const toml::node& node, std::string_view key) const {
@@ -170,7 +180,7 @@ std::optional<TomlReader> TomlReader::table(std::string_view key) {
     if (node == nullptr) return std::nullopt;
     const toml::table* const table = node->as_table();
     if (table == nullptr) fail(key, "must be a table");
-    return TomlReader(*table, "[" + std::string(key) + "]");
+    return TomlReader(*table, "[" + std::string(key) + "]", file_);
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key) {
@@ -179,14 +189,14 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     if (node == nullptr) return result;
     const std::string name = "[[" + std::string(key) + "]]";
     if (const toml::table* const single = node->as_table()) {
-        result.emplace_back(*single, name);
+        result.emplace_back(*single, name, file_);
         return result;
     }
     const toml::array* const array = node->as_array();
     if (array == nullptr) fail(key, "must be a list of tables, " + name);
     for (const toml::node& element : *array) {
         if (!element.is_table()) fail(key, "must be a list of tables, " + name);
-        result.emplace_back(*element.as_table(), name);
+        result.emplace_back(*element.as_table(), name, file_);
     }
     return result;
 }
@@ -194,7 +204,7 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
 void TomlReader::finish() const {
     for (const auto& [key, node] : *table_) {
         if (known_.contains(key.str())) continue;
-        std::string message = "unknown key '" + std::string(key.str()) + "'";
+        std::string message = "unknown key '" + printable(key.str()) + "'";
         const auto closest = std::min_element(known_.begin(), known_.end(), [&](auto& a, auto& b) {
             return edit_distance(a, key.str()) < edit_distance(b, key.str());
         });
@@ -209,7 +219,7 @@ void TomlReader::finish() const {
             where.line = source.begin.line;
             where.column = source.begin.column;
         }
-        throw InputError(where, context_ + " " + message);
+        fail_at(where, context_ + (context_.empty() ? "" : ": ") + message);
     }
 }
 

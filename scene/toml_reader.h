@@ -18,9 +18,10 @@ namespace burin {
 /// keys that nobody asked for. Only the scene_toml and toml_reader sources include this header.
 class TomlReader {
   public:
-    /// `context` names the table in messages ("[camera]").
-    TomlReader(const toml::table& table, std::string context)
-        : table_(&table), context_(std::move(context)) {}
+    /// `context` names the table in messages ("[camera]"); empty for the whole file. `file` is
+    /// named for values that stand in no file.
+    TomlReader(const toml::table& table, std::string context, std::string file)
+        : table_(&table), context_(std::move(context)), file_(std::move(file)) {}
 
     struct Range {
         double low, high;
@@ -50,17 +51,25 @@ class TomlReader {
     /// Throws for the first key that was not read.
     void finish() const;
 
+    /// Throws for a key's value, or for the whole table: InputError with the place in the file,
+    /// UsageError if the value comes from the command line.
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+    [[noreturn]] void fail(const std::string& message) const;
     SourcePosition position(std::string_view key) const;
     SourcePosition position() const;
-    const std::string& context() const { return context_; }
+
+    /// Values from the command line have this in front of their source path.
+    static constexpr std::string_view kCommandLine = "--set ";
 
   private:
     const toml::node* find(std::string_view key);
+    SourcePosition position_of(const toml::node& node) const;
+    [[noreturn]] static void fail_at(const SourcePosition& position, const std::string& message);
     double checked_number(const toml::node& node, std::string_view key) const;
 
     const toml::table* table_;
     std::string context_;
+    std::string file_;
     std::set<std::string, std::less<>> known_;
 };
 
