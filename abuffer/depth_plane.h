@@ -1,23 +1,21 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 
 #include "abuffer/projection.h"
 
 namespace burin {
 
-/// The nearness (see Projection) of a triangle's plane as an affine function of the screen
-/// position, with its first derivatives.
+/// The nearness (see Projection) of a triangle as an affine function of the screen position, with
+/// its first derivatives.
 struct DepthPlane {
     double at_origin = 0;  ///< nearness at pixel position (0, 0)
     double per_x = 0;      ///< change per pixel to the right
     double per_y = 0;      ///< change per pixel down
     double lowest = 0;     ///< range of nearness over the triangle: slivers seen edge-on have
     double highest = 0;    ///< planes that run wild as soon as one leaves the triangle
-    /// Nearness within which two planes count as coincident: what rounding the coordinates can do.
-    double tolerance_constant = 0;
-    double tolerance_per_nearness = 0;
 
     /// Nearness of the plane anywhere on the screen.
     double extended_to(glm::dvec2 pixel) const {
@@ -27,14 +25,21 @@ struct DepthPlane {
     double nearness(glm::dvec2 pixel) const {
         return std::clamp(extended_to(pixel), lowest, highest);
     }
-    double tolerance(double nearness_value) const {
-        return tolerance_constant + tolerance_per_nearness * std::abs(nearness_value);
-    }
+    /// How much nearness changes over 1/256 pixel: what snapping may do.
+    double snapping_error() const { return (std::abs(per_x) + std::abs(per_y)) / 256; }
 };
 
-/// The plane of the triangle with these corners in view space. `coordinate_error` says how exact
-/// the corners are, in world units.
-DepthPlane depth_plane(const Projection& projection, const glm::dvec3 (&corners)[3],
-                       double coordinate_error);
+/// The plane of a triangle given in view space, through its corners where they are drawn, that is,
+/// after snapping. So the planes of two triangles agree along a common edge, and where a surface
+/// folds over, its front stays in front up to the last sample.
+DepthPlane snapped_depth_plane(const Projection& projection, const glm::dvec3 (&corners)[3]);
+
+/// The plane through the corners as they are.
+DepthPlane exact_depth_plane(const Projection& projection, const glm::dvec3 (&corners)[3]);
+
+/// Whether two triangles lie in one plane, as far as coordinates with an error of `coordinate_error`
+/// world units can tell, over the pixel around `pixel`.
+bool are_coincident(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
+                    glm::dvec2 pixel, double coordinate_error);
 
 }  // namespace burin

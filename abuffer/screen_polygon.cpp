@@ -26,13 +26,6 @@ ViewPolygon clip(const ViewPolygon& polygon, const Inside& inside) {
     return result;
 }
 
-/// Whether a corner needs no clipping.
-bool is_safe(const Projection& p, const glm::dvec3& corner) {
-    if (-corner.z < p.near_distance) return false;
-    const double reach = kGuardBandPx * (p.orthographic ? 1.0 : -corner.z);
-    return std::abs(corner.x) * p.focal_px <= reach && std::abs(corner.y) * p.focal_px <= reach;
-}
-
 ViewPolygon clipped(const Projection& p, ViewPolygon polygon) {
     const auto reach = [&p](const glm::dvec3& v) {
         return kGuardBandPx * (p.orthographic ? 1.0 : -v.z);
@@ -47,12 +40,18 @@ ViewPolygon clipped(const Projection& p, ViewPolygon polygon) {
 
 }  // namespace
 
+bool needs_no_clipping(const Projection& p, const glm::dvec3& corner) {
+    if (-corner.z < p.near_distance) return false;
+    const double reach = kGuardBandPx * (p.orthographic ? 1.0 : -corner.z);
+    return std::abs(corner.x) * p.focal_px <= reach && std::abs(corner.y) * p.focal_px <= reach;
+}
+
 ScreenPolygon project_triangle(const Projection& projection, const glm::dvec3 (&corners)[3]) {
     ViewPolygon polygon;
     bool safe = true;
     for (const glm::dvec3& corner : corners) {
         polygon.add(corner);
-        safe = safe && is_safe(projection, corner);
+        safe = safe && needs_no_clipping(projection, corner);
     }
     if (!safe) polygon = clipped(projection, polygon);
 

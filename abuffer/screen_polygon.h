@@ -20,6 +20,9 @@ struct ScreenPolygon {
     std::array<SubpixelPoint, kMaxCorners> corners;
 };
 
+/// Whether a corner lies in front of the near plane and within the guard band.
+bool needs_no_clipping(const Projection& projection, const glm::dvec3& corner);
+
 /// Clips and projects a triangle given in view space.
 ///
 /// Two triangles with a common edge get the same snapped corners along it, also where it is clipped.

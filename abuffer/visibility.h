@@ -27,17 +27,19 @@ struct VisibleSamples {
 /// other do so inside the pixel. This is Carpenter's (1984) question with the exact answer that
 /// Jouppi and Chang's Z3 (1999) gives.
 ///
-/// Where several are equally near, as far as rounded coordinates can tell, the first in the list
-/// wins: coincident surfaces do not fight. `plane_of(fragment)` gives a fragment's DepthPlane.
-template <typename Mask, typename PlaneOf>
+/// Coincident surfaces do not fight: the first one in the list wins. `plane_of(fragment)` gives a
+/// fragment's DepthPlane; `coincide(fragment, fragment)` says whether two lie in one plane, and is
+/// asked only where their planes are hardly apart.
+template <typename Mask, typename PlaneOf, typename Coincide>
 void resolve_visibility(std::span<const Fragment<Mask>> fragments, const ExtendedGrid& grid, int x,
-                        int y, const PlaneOf& plane_of, VisibleSamples<Mask>& visible) {
+                        int y, const PlaneOf& plane_of, const Coincide& coincide,
+                        VisibleSamples<Mask>& visible) {
     constexpr int kSide = mask_side<Mask>;
     const auto background = static_cast<std::uint32_t>(fragments.size());
     visible.owner.fill(background);
     visible.masks.assign(fragments.size() + 1, Mask{});
     std::array<double, static_cast<std::size_t>(VisibleSamples<Mask>::kSamples)> nearest;
-    bool has_ties = false;
+    bool any_close = false;
 
     const auto for_each_sample = [&](const Mask& mask, const auto& action) {
         for (int row = 0; row < kSide; ++row) {
@@ -48,35 +50,36 @@ void resolve_visibility(std::span<const Fragment<Mask>> fragments, const Extende
             }
         }
     };
+    const auto are_close = [](double gap, const DepthPlane& a, const DepthPlane& b, double nearness) {
+        return std::abs(gap) <= a.snapping_error() + b.snapping_error() + 1e-5 * std::abs(nearness);
+    };
     for (std::uint32_t i = 0; i < background; ++i) {
         const DepthPlane& plane = plane_of(fragments[i]);
         for_each_sample(fragments[i].mask, [&](std::size_t sample, glm::dvec2 position) {
             const double nearness = plane.nearness(position);
             const std::uint32_t rival = visible.owner[sample];
-            if (rival == background) {
-                nearest[sample] = nearness;
-                visible.owner[sample] = i;
-                return;
+            if (rival != background) {
+                const double gap = nearness - nearest[sample];
+                any_close = any_close || are_close(gap, plane, plane_of(fragments[rival]), nearness);
+                if (gap <= 0) return;
             }
-            const double tolerance =
-                plane.tolerance(nearness) + plane_of(fragments[rival]).tolerance(nearest[sample]);
-            has_ties = has_ties || std::abs(nearness - nearest[sample]) <= tolerance;
-            if (nearness > nearest[sample]) {
-                nearest[sample] = nearness;
-                visible.owner[sample] = i;
-            }
+            nearest[sample] = nearness;
+            visible.owner[sample] = i;
         });
     }
-    if (has_ties) {
-        // The first of those that are as near as the nearest. Going backwards, it comes last.
+    if (any_close) {
+        // The first of those that coincide with the nearest. Going backwards, it is set last.
         const auto winners = visible.owner;
         for (std::uint32_t i = background; i-- > 0;) {
             const DepthPlane& plane = plane_of(fragments[i]);
             for_each_sample(fragments[i].mask, [&](std::size_t sample, glm::dvec2 position) {
+                const std::uint32_t winner = winners[sample];
+                if (winner <= i) return;
                 const double nearness = plane.nearness(position);
-                const double tolerance = plane.tolerance(nearness) +
-                                         plane_of(fragments[winners[sample]]).tolerance(nearest[sample]);
-                if (nearest[sample] - nearness <= tolerance) visible.owner[sample] = i;
+                if (are_close(nearest[sample] - nearness, plane, plane_of(fragments[winner]), nearness) &&
+                    coincide(fragments[i], fragments[winner])) {
+                    visible.owner[sample] = i;
+                }
             });
         }
     }

@@ -151,8 +151,7 @@ class Decider {
             const double own = distance_of(surfaces_.projection, own_nearness);
             gap[i] = distance_of(surfaces_.projection, plane.extended_to(at)) - own;
             tolerance[i] = depth_tolerance(surfaces_, own, plane);
-            const double nearness_gap = std::abs(plane.extended_to(at) - own_nearness);
-            coincident = coincident && nearness_gap <= 4 * plane.tolerance(own_nearness);
+            coincident = coincident && surfaces_.coincide(w.surface, points_[i].surface, at);
             followed = followed && w.end != WalkEnd::lost;
         }
         const double smaller_gap = std::min(std::abs(gap[0]), std::abs(gap[1]));
@@ -161,9 +160,16 @@ class Decider {
         const glm::dvec2 middle = glm::mix(points_[0].pixel, points_[1].pixel, 0.5);
         const LineClassSet contact = contact_classes(surfaces_, points_[0].surface,
                                                      points_[1].surface, middle, criteria_);
-        if (!followed && smaller_gap > std::max(tolerance[0], tolerance[1])) {
-            return unexplained(decision.front, gap[decision.front]);
+        const double apart = std::max(tolerance[0], tolerance[1]);
+        for (const int i : {0, 1}) {
+            // The other's surface reaches this point in front of what is visible there: it ends
+            // within a rounding error before it.
+            if (gap[i] >= -apart) continue;
+            LineDecision ends_here = unexplained(1 - i, -gap[i]);
+            ends_here.fraction = i;
+            return ends_here;
         }
+        if (!followed && smaller_gap > apart) return unexplained(decision.front, gap[decision.front]);
         if (coincident || !followed) {
             // A walk is lost in a crowd of tiny triangles: nothing can be said about creases there.
             const bool one_object =

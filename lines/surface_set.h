@@ -59,7 +59,14 @@ struct SurfaceSet {
     DepthPlane plane(SurfaceId s) const {
         glm::dvec3 corners[3];
         view_corners(s, corners);
-        return depth_plane(projection, corners, coordinate_error);
+        return snapped_depth_plane(projection, corners);
+    }
+    /// Whether two surfaces lie in one plane around a pixel.
+    bool coincide(SurfaceId a, SurfaceId b, glm::dvec2 pixel) const {
+        glm::dvec3 corners_a[3], corners_b[3];
+        view_corners(a, corners_a);
+        view_corners(b, corners_b);
+        return are_coincident(projection, corners_a, corners_b, pixel, coordinate_error);
     }
     ScreenPolygon screen_polygon(SurfaceId s) const {
         glm::dvec3 corners[3];

@@ -11,8 +11,10 @@ namespace {
 constexpr int kMaxSteps = 96;
 /// A fold that turns back by less than this is no contour. Pixels.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
-/// A triangle that the walk crosses over less than this says nothing about the surface. Pixels.
-constexpr double kSliverPx = 1.0 / 256;
+/// A triangle lower than this (in pixels) and than this part of its length is a sliver: rounding
+/// decides its normal, and it says nothing about the surface.
+constexpr double kSliverHeightPx = 1.0 / 64;
+constexpr double kSliverHeightPart = 1.0 / 1024;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an
@@ -77,8 +79,8 @@ class Walker {
             }
             const SurfaceEdge edge{current.surface, current.exit.half_edge};
             const double at_edge = current.exit.fraction;
-            const bool is_sliver = std::abs(reached - at_edge) * length_ < kSliverPx;
-            if (is_sliver) {
+            const bool sliver = is_sliver(next.place.surface);
+            if (sliver) {
                 over_slivers = true;
                 note(result, mark_of(edge), edge, at_edge);
             } else if (over_slivers || next.over_seam) {
@@ -87,7 +89,7 @@ class Walker {
             } else {
                 note(result, edge_classes_between(edge, {next.place.surface, next.entry}), edge, at_edge);
             }
-            if (!is_sliver) last_solid = next.place.surface;
+            if (!sliver) last_solid = next.place.surface;
             current = next.place;
             if (reached >= farthest.exit.fraction) farthest = current;
         }
@@ -235,6 +237,15 @@ class Walker {
         return std::abs(distance_a - distance_b) <= depth_tolerance(surfaces_, distance_a, plane_b);
     }
 
+    bool is_sliver(SurfaceId s) const {
+        glm::dvec3 c[3];
+        surfaces_.view_corners(s, c);
+        double longest = 0;
+        for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(c[k], c[(k + 1) % 3]));
+        const double height = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / longest;
+        const double pixel = surfaces_.projection.pixel_size(std::abs(c[0].z));
+        return height < kSliverHeightPart * longest && height < kSliverHeightPx * pixel;
+    }
     bool is_border(const Place& place) const {
         const HalfEdge h = place.exit.half_edge;
         return surfaces_.mesh_of(place.surface).next_on_edge[h] == h;
