@@ -163,6 +163,15 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }
 
+/// "-o ''" is a script's empty variable, not a wish for the default.
+void check_values(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& value : option->results()) {
+            if (value.empty()) fail(option->get_name(), "the value is empty");
+        }
+    }
+}
+
 /// Vectors may start with a minus: "--eye -1,2,3" becomes "--eye=-1,2,3" before it is parsed.
 std::vector<std::string> join_vectors(int argc, char** argv) {
     std::vector<std::string> arguments;
@@ -172,8 +181,24 @@ std::vector<std::string> join_vectors(int argc, char** argv) {
         if (takes_vector && i + 1 < argc) argument += std::string("=") + argv[++i];
         arguments.push_back(std::move(argument));
     }
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     return arguments;
+}
+
+/// Brings the command to the front: options may stand before it.
+void put_command_first(const CLI::App& app, std::vector<std::string>& arguments) {
+    const std::string& first = arguments.front();
+    if (first == "-h" || first == "--help" || first == "--version") return;
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    const auto command =
+        std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) {
+            return std::any_of(commands.begin(), commands.end(),
+                               [&](const CLI::App* c) { return c->get_name() == a; });
+        });
+    if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
+        throw UsageError("'" + printable(first) +
+                         "' is no command; commands are render, info, explain and methods");
+    }
+    std::rotate(arguments.begin(), command, command + 1);
 }
 
 void fill_scene_options(const Texts& t, Arguments& a) {
@@ -244,6 +269,7 @@ void fill_scene_options(const Texts& t, Arguments& a) {
 void fill_render_options(const Texts& t, Arguments& a) {
     a.output = t.output;
     if (!t.layers.empty()) a.layers = layer_set(t.layers);
+    a.names_layers = !t.layers.empty();
     if (!t.frames.empty()) fail_version("--frames");
     if (!t.crop.empty()) a.crop = integers<4>("--crop", t.crop, ',', "X0,Y0,X1,Y1 in pixels");
     if (!t.bits.empty()) {
@@ -286,6 +312,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         std::fputs(app.help().c_str(), stderr);
         throw UsageError("give a command, for example: burin render model.obj -o lines.png");
     }
+    put_command_first(app, arguments);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
         app.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
@@ -300,6 +328,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         std::replace(message.begin(), message.end(), '\n', ' ');
         throw UsageError(message + "; see burin --help");
     }
+
+    for (const CLI::App* used : app.get_subcommands()) check_values(*used);
 
     Arguments a;
     if (*compare) fail_version("compare");

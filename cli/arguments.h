@@ -30,6 +30,7 @@ struct Arguments {
     std::optional<LineClassSet> lines;
     std::optional<double> line_width_px, crease_angle_deg;
     LayerSet layers;
+    bool names_layers = false;
     std::optional<std::array<int, 4>> crop;
     std::optional<std::array<int, 2>> pixel;
     std::string background;

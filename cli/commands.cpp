@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "cli/job.h"
+#include "mesh/text_scan.h"
 #include "render/explain.h"
 #include "render/output.h"
 
@@ -42,9 +43,16 @@ OutputOptions output_options(const Arguments& a) {
     } else {
         throw UsageError("--output: unknown kind of image '" + extension + "'; burin writes .exr .png .tif");
     }
-    const std::string name = std::filesystem::path(options.path).filename().string();
+    const std::string name = std::filesystem::path(a.output).filename().string();
     if (name.find('#') != std::string::npos || name.find("%0") != std::string::npos) {
         throw UsageError("--output: a pattern for frames needs --frames, which is not in this version");
+    }
+    std::error_code ignored;
+    for (const std::string& other : {a.input, options.path}) {
+        if (a.stats.empty() || a.stats == "-") break;
+        if (a.stats == other || std::filesystem::equivalent(a.stats, other, ignored)) {
+            throw UsageError("--stats: would overwrite " + other + "; give another name");
+        }
     }
     options.bits = a.bits;
     options.threads = resolve_thread_count(a.threads);
@@ -109,8 +117,13 @@ void write_stats(const std::string& path, const std::string& text) {
 }
 
 /// What a user should know before the picture surprises.
-void note_limits(const Arguments& a, const Frame& frame, const Method& method) {
+void note_limits(const Arguments& a, const Frame& frame, const Method& method,
+                 const OutputOptions& output) {
     if (a.quiet) return;
+    if (a.names_layers && output.format != OutputFormat::exr) {
+        std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n",
+                   stderr);
+    }
     const LineSettings& lines = frame.scene->lines;
     const double wanted = lines.style.width_px;
     const double drawn = patel_line_width_px(frame.scene->patel.mask_bits, wanted);
@@ -211,6 +224,7 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
     json.end_array();
     json.key("cameras").begin_array();
     for (const CameraSettings& c : scene.cameras) {
+        if (scene.camera_is_default) break;  // the input has none
         json.begin_object().key("name").value(c.name);
         json.key("projection").value(c.orthographic ? "orthographic" : "perspective");
         if (c.orthographic && c.height) json.key("height").value(*c.height);
@@ -239,22 +253,35 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
         std::printf("  skipped    %llu primitives of points or lines\n", number(scene.skipped_primitives));
     }
     std::printf("  materials  %zu:", scene.materials.size());
-    for (const Material& m : scene.materials) std::printf(" %s", m.name.empty() ? "(unnamed)" : m.name.c_str());
+    for (const Material& m : scene.materials) {
+        std::printf(" %s", m.name.empty() ? "(unnamed)" : printable(m.name, 200).c_str());
+    }
     std::printf("\n  cameras    ");
     for (const CameraSettings& c : scene.cameras) {
-        std::printf("%s (%s) ", c.name.empty() ? "default" : c.name.c_str(),
+        if (scene.camera_is_default) break;
+        std::printf("%s (%s) ", c.name.empty() ? "(unnamed)" : printable(c.name, 200).c_str(),
                     c.orthographic ? "orthographic" : "perspective");
     }
-    std::printf("\n");
+    std::printf("%s\n", scene.camera_is_default ? "none; the view is fitted to the model" : "");
     constexpr std::size_t kMaxListed = 50;
     for (std::size_t i = 0; i < scene.objects.size() && i < kMaxListed; ++i) {
         const MeshRepairs& r = scene.meshes[scene.objects[i].mesh].repairs;
-        std::printf("  object %zu  %s: %llu triangles\n", i + 1, scene.objects[i].name.c_str(),
-                    number(r.input_triangles));
+        std::printf("  object %zu  %s: %llu triangles\n", i + 1,
+                    printable(scene.objects[i].name, 200).c_str(), number(r.input_triangles));
     }
     if (scene.objects.size() > kMaxListed) {
         std::printf("  ... and %zu more; --json lists all\n", scene.objects.size() - kMaxListed);
     }
+}
+
+Film make_film(const Frame& frame, const LayerSet& layers, const std::string& path) {
+    try {
+        Film film({0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
+        if (!film.image().channels().empty()) return film;
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + error.what());
+    }
+    throw UsageError("--layers: coverage has a channel per line class, and no class is drawn");
 }
 
 }  // namespace
@@ -273,11 +300,11 @@ void run_render(const Arguments& a) {
     const Scene scene = load_input(a);
     const Frame frame = frame_of(scene, a);
     times.load_s = watch.lap();
-    note_limits(a, frame, method);
+    note_limits(a, frame, method, output);
 
     LayerSet layers = a.layers;
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false};
-    Film film({0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
+    Film film = make_film(frame, layers, output.path);
     RunOptions run{a.threads, &progress};
     times.render = method.render(frame, run, film);
     if (a.repeat > 0) {

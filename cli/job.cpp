@@ -35,14 +35,18 @@ const CameraSettings& chosen_camera(const Scene& scene, const std::string& name)
     for (const CameraSettings& c : scene.cameras) {
         if (!c.name.empty()) known += (known.empty() ? "" : ", ") + c.name;
     }
-    throw InputError("there is no camera '" + printable(name) + "'; " +
-                     (known.empty() ? "the scene names none" : "the scene has " + known));
+    throw UsageError("--camera: there is no camera '" + printable(name) + "'; " +
+                     (known.empty() ? "the input names none" : "the input has " + known));
+}
+
+bool changes_view(const Arguments& a) {
+    return a.eye || a.target || a.up || a.fov_deg || a.ortho_height;
 }
 
 /// The scene's camera; what the command line says about the view replaces it.
 CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
     CameraSettings camera = chosen_camera(scene, a.camera);
-    if (!a.eye && !a.target && !a.up && !a.fov_deg && !a.ortho_height) return camera;
+    if (!changes_view(a)) return camera;
     if (camera.to_world) camera = CameraSettings{};
     if (a.eye) {
         camera.eye = a.eye;
@@ -95,9 +99,17 @@ Scene load_input(const Arguments& a) {
 Frame frame_of(const Scene& scene, const Arguments& a) {
     const int width = scene.picture.width, height = scene.picture.height;
     const PixelRect crop = crop_of(a, width, height);
+    const CameraSettings settings = camera_settings(scene, a);
+    const std::string place = settings.where.line > 0 ? to_string(settings.where) : a.input;
+    Camera camera;
     try {
-        const Camera camera = resolve_camera(camera_settings(scene, a), scene_points(scene),
-                                             static_cast<double>(width) / height);
+        camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
+    } catch (const InputError& error) {
+        if (changes_view(a))
+            throw UsageError("--eye, --target, --up, --fov, --ortho: " + std::string(error.what()));
+        throw InputError(place + ": " + error.what());
+    }
+    try {
         return make_frame(scene, camera, width, height, crop);
     } catch (const InputError& error) {
         throw InputError(a.input + ": " + error.what());

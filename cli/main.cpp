@@ -1,3 +1,8 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -6,10 +11,25 @@
 #include "base/interrupt.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "mesh/text_scan.h"
 
 namespace {
 
 enum ExitStatus { kDone = 0, kFailed = 1, kWrongUsage = 2, kInterrupted = 130 };
+
+/// A file must not get the number of a standard stream that is closed: messages would end up in it.
+void open_missing_standard_streams() {
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(fd, F_GETFD) >= 0 || errno != EBADF) continue;
+        const int opened = ::open("/dev/null", O_RDWR);  // takes the lowest free number: fd
+        if (opened >= 0 && opened != fd) ::close(opened);
+    }
+}
+
+/// Names in messages come from files and may hold line feeds; every message stays on one line.
+void print_error(const char* prefix, const char* message) {
+    std::fprintf(stderr, "%s%s\n", prefix, burin::printable(message, 4000).c_str());
+}
 
 void run(const burin::Arguments& arguments) {
     switch (arguments.command) {
@@ -20,27 +40,41 @@ void run(const burin::Arguments& arguments) {
     }
 }
 
+/// What was printed must have arrived.
+void check_standard_output() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        throw burin::InputError(
+            "standard output: cannot write; is the disk full, or the reader gone?");
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    open_missing_standard_streams();
+    // Files beyond a limit and closed pipes show as errors of the writes, so that nothing is left
+    // lying around.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     burin::install_interrupt_handlers();
     try {
         if (const auto arguments = burin::parse_arguments(argc, argv)) run(*arguments);
+        check_standard_output();
         return kDone;
     } catch (const burin::UsageError& error) {
-        std::fprintf(stderr, "burin: %s\n", error.what());
+        print_error("burin: ", error.what());
         return kWrongUsage;
     } catch (const burin::Interrupted&) {
         std::fputs("burin: interrupted; no file was written\n", stderr);
         return kInterrupted;
     } catch (const burin::InputError& error) {
-        std::fprintf(stderr, "%s\n", error.what());
+        print_error("", error.what());
         return kFailed;
     } catch (const std::bad_alloc&) {
         std::fputs("burin: out of memory; use a smaller --size, fewer --layers or a smaller model\n", stderr);
         return kFailed;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "burin: unexpected failure: %s; please report this\n", error.what());
+        print_error("burin: unexpected failure, please report it: ", error.what());
         return kFailed;
     }
 }

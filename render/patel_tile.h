@@ -43,8 +43,7 @@ class PatelTile {
             frame_.surfaces.view_corners(id, corners);
             const Projection& projection = frame_.surfaces.projection;
             const ScreenPolygon polygon = project_triangle(projection, corners);
-            const DepthPlane plane =
-                depth_plane(projection, corners, frame_.surfaces.coordinate_error);
+            const DepthPlane plane = snapped_depth_plane(projection, corners);
             lists_.add(ScanConverter(polygon, grid_.samples_per_pixel()),
                        static_cast<std::uint32_t>(surfaces_.size()));
             surfaces_.push_back({id, plane});
@@ -61,6 +60,9 @@ class PatelTile {
     const VisibleSamples<Mask>& resolve(int x, int y) {
         resolve_visibility(fragments(x, y), grid_, x, y,
                            [this](const Fragment<Mask>& f) -> const DepthPlane& { return plane_of(f); },
+                           [&](const Fragment<Mask>& a, const Fragment<Mask>& b) {
+                               return frame_.surfaces.coincide(surface_of(a), surface_of(b), {x + 0.5, y + 0.5});
+                           },
                            visible_);
         return visible_;
     }
