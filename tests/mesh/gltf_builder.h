@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace burin::test {
+
+std::string base64(std::string_view bytes);
+/// `bytes` as a glTF data URI.
+std::string data_uri(std::string_view bytes);
+/// A GLB of a JSON chunk and, unless it is empty, a binary chunk.
+std::string glb(std::string json, std::string binary);
+
+/// Four corners of the unit square, as floats: 48 bytes.
+std::string square_positions();
+/// Two triangles on them, as 16-bit numbers: 12 bytes.
+std::string square_indices();
+
+/// A glTF file in parts, each of which a test may replace. As it stands: one node that shows the
+/// unit square in the XY plane, its buffer (positions, then indices) in a data URI. Parts that are
+/// empty are left out.
+struct GltfParts {
+    std::string asset = R"({"version": "2.0"})";
+    std::string scene = "0";
+    std::string scenes = R"([{"nodes": [0]}])";
+    std::string nodes = R"([{"mesh": 0, "name": "square"}])";
+    std::string meshes =
+        R"([{"name": "quad", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}])";
+    std::string accessors =
+        R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},)"
+        R"( {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}])";
+    std::string buffer_views = R"([{"buffer": 0, "byteLength": 48},)"
+                               R"( {"buffer": 0, "byteOffset": 48, "byteLength": 12}])";
+    std::string buffers;  ///< empty: `binary` in a data URI
+    std::string materials, cameras, required;
+
+    std::string binary = square_positions() + square_indices();
+
+    std::string json() const;
+    /// The same with the buffer in the binary chunk.
+    std::string as_glb() const;
+};
+
+}  // namespace burin::test

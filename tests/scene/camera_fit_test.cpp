@@ -1,0 +1,210 @@
+// A camera that is fitted fills `fit` of the picture, centred.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "scene/camera.h"
+#include "tests/scene/scene_text.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using test::expect_near;
+using test::Random;
+
+constexpr int kWidth = 1200;
+
+std::array<glm::dvec3, 8> random_box(Random& random) {
+    const glm::dvec3 center = random.in_box(random.integer(0, 1) * 100.0);
+    glm::dvec3 half(random.real(0.05, 5), random.real(0.05, 5), random.real(0.05, 5));
+    if (random.integer(0, 5) == 0) half[random.integer(0, 2)] = 0;  // flat
+    std::array<glm::dvec3, 8> corners;
+    for (int i = 0; i < 8; ++i) {
+        corners[static_cast<std::size_t>(i)] =
+            center + half * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    }
+    return corners;
+}
+
+PointSource source(const std::array<glm::dvec3, 8>& corners) {
+    return [&corners](const auto& visit) {
+        for (const glm::dvec3& p : corners) visit(p);
+    };
+}
+
+/// What part of the picture the points take: 1 = from edge to edge.
+struct Extent {
+    glm::dvec2 low{1e300}, high{-1e300};
+    double nearest = 1e300;
+};
+
+Extent extent_of(const Camera& camera, const std::array<glm::dvec3, 8>& corners, int height) {
+    const Projection projection = camera.projection(kWidth, height, 0);
+    Extent extent;
+    for (const glm::dvec3& p : corners) {
+        const glm::dvec3 view(camera.to_view() * glm::dvec4(p, 1));
+        const glm::dvec2 at = projection.to_pixel(view) / glm::dvec2(kWidth, height) * 2.0 - 1.0;
+        extent.low = glm::min(extent.low, at);
+        extent.high = glm::max(extent.high, at);
+        extent.nearest = std::min(extent.nearest, -view.z);
+    }
+    return extent;
+}
+
+CameraSettings random_settings(Random& random, bool orthographic) {
+    CameraSettings settings;
+    settings.orthographic = orthographic;
+    settings.fov_deg = random.real(5, 75);
+    settings.fit = random.real(0.3, 1);
+    if (random.integer(0, 1) == 1) {
+        settings.up = random.direction();
+        settings.direction = random.direction() * random.real(0.1, 10);
+    }
+    return settings;
+}
+
+TEST(CameraFit, PerspectiveFillsThePictureCentred) {
+    int kept_away = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        Random random(static_cast<std::uint64_t>(trial));
+        const auto corners = random_box(random);
+        const CameraSettings settings = random_settings(random, false);
+        const int height = random.integer(300, 3000);
+        const Camera camera =
+            resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
+        const Extent e = extent_of(camera, corners, height);
+        ASSERT_GT(e.nearest, 0) << trial;
+        // The tighter axis is filled and centred, unless the eye had to keep its distance.
+        if (e.nearest < 0.0501 * 0.5 * glm::distance(corners[0], corners[7])) {
+            ++kept_away;
+        } else {
+            ASSERT_NEAR(std::max(e.high.x - e.low.x, e.high.y - e.low.y), 2 * settings.fit, 1e-6)
+                << trial;
+            const bool x_is_tighter = e.high.x - e.low.x > e.high.y - e.low.y;
+            ASSERT_NEAR(x_is_tighter ? e.high.x + e.low.x : e.high.y + e.low.y, 0, 1e-6) << trial;
+        }
+        for (int axis = 0; axis < 2; ++axis) {
+            ASSERT_GE(e.low[axis], -settings.fit - 1e-6) << trial;
+            ASSERT_LE(e.high[axis], settings.fit + 1e-6) << trial;
+        }
+    }
+    EXPECT_LT(kept_away, 20);
+}
+
+TEST(CameraFit, OrthographicFillsThePictureCentred) {
+    for (int trial = 0; trial < 1000; ++trial) {
+        Random random(static_cast<std::uint64_t>(trial));
+        const auto corners = random_box(random);
+        const CameraSettings settings = random_settings(random, true);
+        const int height = random.integer(300, 3000);
+        const Camera camera =
+            resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
+        const Extent e = extent_of(camera, corners, height);
+        ASSERT_TRUE(camera.orthographic);
+        ASSERT_GT(e.nearest, 0) << trial;
+        ASSERT_NEAR(std::max(e.high.x - e.low.x, e.high.y - e.low.y), 2 * settings.fit, 1e-6)
+            << trial;
+        ASSERT_NEAR(e.high.x + e.low.x, 0, 1e-6) << trial;
+        ASSERT_NEAR(e.high.y + e.low.y, 0, 1e-6) << trial;
+    }
+}
+
+TEST(CameraFit, ATargetStaysInTheMiddle) {
+    int kept_away = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        Random random(static_cast<std::uint64_t>(trial));
+        const auto corners = random_box(random);
+        CameraSettings settings = random_settings(random, trial % 2 == 1);
+        settings.target = corners[0] + random.in_box(3);
+        const int height = random.integer(300, 3000);
+        const Camera camera =
+            resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
+        const Extent e = extent_of(camera, corners, height);
+        ASSERT_GT(e.nearest, 0) << trial;
+        const double farthest = std::max({e.high.x, -e.low.x, e.high.y, -e.low.y});
+        if (e.nearest > 0.0501 * 0.5 * glm::distance(corners[0], corners[7])) {
+            ASSERT_NEAR(farthest, settings.fit, 1e-6) << trial;
+        } else {
+            ASSERT_LT(farthest, settings.fit + 1e-6) << trial;
+            ++kept_away;
+        }
+        const glm::dvec3 at(camera.to_view() * glm::dvec4(*settings.target, 1));
+        ASSERT_NEAR(at.x, 0, 1e-6) << trial;
+        ASSERT_NEAR(at.y, 0, 1e-6) << trial;
+    }
+    EXPECT_LT(kept_away, 40);
+}
+
+TEST(CameraFit, AnOrthographicHeightIsKept) {
+    Random random(7);
+    const auto corners = random_box(random);
+    CameraSettings settings;
+    settings.orthographic = true;
+    settings.height = 12.5;
+    EXPECT_EQ(resolve_camera(settings, source(corners), 1.5).height, 12.5);
+    // An eye without a height: fitted around the view axis.
+    settings.height.reset();
+    settings.eye = corners[0] + glm::dvec3(1, 2, 30);
+    const Camera camera = resolve_camera(settings, source(corners), 1.5);
+    const Extent e = extent_of(camera, corners, kWidth * 2 / 3);
+    EXPECT_NEAR(std::max({e.high.x, -e.low.x, e.high.y, -e.low.y}), 0.95, 1e-6);
+    expect_near(camera.eye(), *settings.eye);
+}
+
+TEST(CameraFit, AWideAngleKeepsItsDistance) {
+    // The tightest eye of a wide angle would sit on the foremost corner.
+    for (const double fov : {100.0, 130.0, 160.0, 179.0}) {
+        for (const bool has_target : {false, true}) {
+            Random random(3);
+            const auto corners = random_box(random);
+            CameraSettings settings;
+            settings.fov_deg = fov;
+            if (has_target) settings.target = 0.5 * (corners[0] + corners[7]);
+            const Camera camera = resolve_camera(settings, source(corners), 1);
+            const Extent e = extent_of(camera, corners, kWidth);
+            EXPECT_GT(e.nearest, 0.04 * 0.5 * glm::distance(corners[0], corners[7])) << fov;
+            EXPECT_LE(std::max({e.high.x, -e.low.x, e.high.y, -e.low.y}), 0.9501) << fov;
+        }
+    }
+}
+
+TEST(CameraFit, SizeOfTheSceneDoesNotMatter) {
+    Random random(5);
+    const auto corners = random_box(random);
+    for (const double scale : {1e-12, 1e-6, 1.0, 1e6, 1e12}) {
+        auto scaled = corners;
+        for (glm::dvec3& p : scaled) p *= scale;
+        const Camera camera = resolve_camera({}, source(scaled), 1);
+        const Camera unit = resolve_camera({}, source(corners), 1);
+        expect_near(camera.eye() / scale, unit.eye(), 1e-9);
+    }
+}
+
+TEST(CameraFit, TheDefaultViewIsFromTheFrontRightAndAbove) {
+    const std::array<glm::dvec3, 8> cube = [] {
+        std::array<glm::dvec3, 8> corners;
+        for (int i = 0; i < 8; ++i) {
+            corners[static_cast<std::size_t>(i)] = {i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1};
+        }
+        return corners;
+    }();
+    const auto back = [&](std::optional<glm::dvec3> up) {
+        CameraSettings settings;
+        settings.up = up;
+        return glm::dvec3(resolve_camera(settings, source(cube), 1).to_world[2]);
+    };
+    const glm::dvec3 expected = glm::normalize(glm::dvec3(0.55, 0.4, 0.9));  // right, up, front
+    expect_near(back(std::nullopt), expected);
+    expect_near(back(glm::dvec3(0, 7, 0)), expected);
+    // Standing along Z, the front is -Y: right is +X, as in Blender's front view.
+    expect_near(back(glm::dvec3(0, 0, 1)), {expected.x, -expected.z, expected.y});
+    // Standing along X, the front stays +Z; right is then -Y.
+    expect_near(back(glm::dvec3(1, 0, 0)), {expected.y, -expected.x, expected.z});
+    expect_near(back(glm::dvec3(0, -1, 0)), {-expected.x, -expected.y, expected.z});
+}
+
+}  // namespace
+}  // namespace burin
