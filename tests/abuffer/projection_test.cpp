@@ -20,7 +20,7 @@ TEST(Projection, DepthIsAffineOverAPlane) {
             Random random(static_cast<std::uint64_t>(trial));
             glm::dvec3 corners[3];
             for (auto& c : corners) c = random.in_box(4) - glm::dvec3(0, 0, 6);
-            const DepthPlane plane = depth_plane(p, corners, 0);
+            const DepthPlane plane = exact_depth_plane(p, corners);
             const double u = random.real(0, 1), v = random.real(0, 1 - u);
             const glm::dvec3 inside = corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
             const double expected = p.nearness(inside);
@@ -93,10 +93,50 @@ TEST(ProjectTriangle, WhatLiesBehindTheEyeIsGone) {
     EXPECT_GE(project_triangle(perspective(), through_the_eye_plane).count, 3);
 }
 
+TEST(DepthPlane, SnappedPlanesOfNeighboursAgreeAlongTheirEdge) {
+    for (const Projection& p : {perspective(), orthographic()}) {
+        for (int trial = 0; trial < 1000; ++trial) {
+            Random random(static_cast<std::uint64_t>(trial));
+            glm::dvec3 v[4];
+            for (auto& c : v) c = random.in_box(2) - glm::dvec3(0, 0, 6);
+            const glm::dvec3 left[3] = {v[0], v[1], v[2]}, right[3] = {v[1], v[0], v[3]};
+            const DepthPlane l = snapped_depth_plane(p, left), r = snapped_depth_plane(p, right);
+            const auto snapped = [&](const glm::dvec3& c) {
+                const glm::dvec2 pixel = p.to_pixel(c);
+                return glm::dvec2(snap_to_subpixels(pixel.x), snap_to_subpixels(pixel.y)) / 256.0;
+            };
+            const glm::dvec2 on_edge = glm::mix(snapped(v[0]), snapped(v[1]), random.real(0, 1));
+            ASSERT_NEAR(l.extended_to(on_edge), r.extended_to(on_edge), 1e-9 * std::abs(l.lowest)) << trial;
+        }
+    }
+}
+
+TEST(DepthPlane, CoincidenceIsThatOfPlanesNotOfTriangles) {
+    Random random(5);
+    for (const Projection& p : {perspective(), orthographic()}) {
+        for (int trial = 0; trial < 500; ++trial) {
+            const glm::dvec3 o = random.in_box(1) - glm::dvec3(0, 0, 6), u = random.direction(), v = random.direction();
+            glm::dvec3 a[3], b[3], moved[3], turned[3];
+            const glm::dvec3 normal = glm::normalize(glm::cross(u, v));
+            if (std::abs(normal.z) < 0.05) continue;
+            for (int k = 0; k < 3; ++k) {
+                a[k] = o + random.real(-1, 1) * u + random.real(-1, 1) * v;
+                b[k] = o + random.real(-1, 1) * u + random.real(-1, 1) * v;
+                moved[k] = b[k] + 1e-3 * normal;
+                turned[k] = b[k] + 0.02 * glm::dot(b[k] - o, u) * normal;
+            }
+            const glm::dvec2 pixel = p.to_pixel(o);
+            ASSERT_TRUE(are_coincident(p, a, b, pixel, 1e-7)) << trial;
+            ASSERT_FALSE(are_coincident(p, a, moved, pixel, 1e-7)) << trial;
+            ASSERT_FALSE(are_coincident(p, a, turned, pixel, 1e-7)) << trial;
+        }
+    }
+}
+
 TEST(DepthPlane, EdgeOnTrianglesGiveFiniteDepths) {
     const glm::dvec3 edge_on[3] = {{0, 0, -1}, {0, 0, -2}, {0, 1, -2}};
     for (const Projection& p : {perspective(), orthographic()}) {
-        const DepthPlane plane = depth_plane(p, edge_on, 1e-6);
+        const DepthPlane plane = exact_depth_plane(p, edge_on);
         for (const glm::dvec2 pixel : {glm::dvec2(320, 240), glm::dvec2(0, 0), glm::dvec2(321, 100)}) {
             EXPECT_TRUE(std::isfinite(plane.nearness(pixel)));
             EXPECT_GE(plane.nearness(pixel), plane.lowest);

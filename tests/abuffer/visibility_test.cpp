@@ -16,13 +16,17 @@ const ExtendedGrid kGrid{8, 2};
 struct Pixel {
     std::vector<Fragment<Mask>> fragments;
     std::vector<DepthPlane> planes;
+    std::vector<int> family;  // surfaces of one family lie in one plane
     VisibleSamples<Mask> resolve() const {
         VisibleSamples<Mask> visible;
         resolve_visibility<Mask>(fragments, kGrid, 10, 20,
-                                 [this](const Fragment<Mask>& f) -> const DepthPlane& { return planes[f.surface]; }, visible);
+                                 [this](const Fragment<Mask>& f) -> const DepthPlane& { return planes[f.surface]; },
+                                 [this](const Fragment<Mask>& a, const Fragment<Mask>& b) { return family[a.surface] == family[b.surface]; },
+                                 visible);
         return visible;
     }
-    void add(Mask mask, DepthPlane plane) {
+    void add(Mask mask, DepthPlane plane, int in_family = -1) {
+        family.push_back(in_family >= 0 ? in_family : 1000 + static_cast<int>(family.size()));
         fragments.push_back({mask, static_cast<std::uint32_t>(planes.size())});
         planes.push_back(plane);
     }
@@ -97,8 +101,7 @@ TEST(Visibility, CoincidentSurfacesGoToTheFirstWhateverRoundingDoes) {
         for (int i = 0; i < 4; ++i) {
             DepthPlane noisy = plane;
             noisy.at_origin += random.real(-1e-9, 1e-9);
-            noisy.tolerance_constant = 2e-9;
-            pixel.add(~Mask{0}, noisy);
+            pixel.add(~Mask{0}, noisy, 1);
         }
         EXPECT_EQ(pixel.resolve().masks[0], ~Mask{0}) << trial;
     }

@@ -1,0 +1,51 @@
+#include "render/explain.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/shapes.h"
+#include "tests/support/drawing.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+std::string explain(const Scene& scene, const Camera& camera, int size, int x, int y) {
+    const Frame frame = make_frame(scene, camera, size, size, {0, 0, size, size});
+    return explain_pixel(frame, x, y);
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Explain, ShowsMasksOwnersAndTheTestThatDrewTheLine) {
+    // A sheet from x = 50.5 to the right, in front of a larger one.
+    PolygonSoup front = soup_of({{50.5, 10, 5}, {90, 10, 5}, {90, 90, 5}, {50.5, 90, 5}}, {{0, 1, 2, 3}});
+    PolygonSoup rear = soup_of({{5, 5, -5}, {95, 5, -5}, {95, 95, -5}, {5, 95, -5}}, {{0, 1, 2, 3}});
+    front.object_names = {"front"};
+    rear.object_names = {"rear"};
+    const Scene scene = scene_of({front, rear});
+    const std::string text = explain(scene, pixel_camera(100, 100), 100, 50, 50);
+    EXPECT_TRUE(contains(text, "fragment 1: object 1 \"front\"")) << text;
+    EXPECT_TRUE(contains(text, "object 2 \"rear\"")) << text;
+    EXPECT_TRUE(contains(text, "....####")) << "the mask of a border in the middle of the pixel\n" << text;
+    EXPECT_TRUE(contains(text, "the front surface ends at a border")) << text;
+    EXPECT_TRUE(contains(text, "10 pixel widths farther")) << text;
+    EXPECT_TRUE(contains(text, "drawn as border")) << text;
+    EXPECT_TRUE(contains(text, "line coverage of the pixel: 1.0000")) << text;
+}
+
+TEST(Explain, SaysWhyThereIsNoLine) {
+    const Scene scene = scene_of({make_plane(60, 60, 2, 2)});
+    Camera camera;
+    camera.orthographic = true;
+    camera.height = 100;
+    camera.to_world = glm::dmat4(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 10, 0, 1);
+    const std::string text = explain(scene, camera, 100, 50, 40);
+    EXPECT_TRUE(contains(text, "classes: polygon, none of them asked for")) << text;
+    EXPECT_TRUE(contains(text, "no line is drawn")) << text;
+    const std::string empty = explain(scene, camera, 100, 2, 2);
+    EXPECT_TRUE(contains(empty, "0 fragments")) << empty;
+}
+
+}  // namespace
+}  // namespace burin
