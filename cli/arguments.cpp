@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "mesh/text_scan.h"
-#include "render/method.h"
+#include "methods/method_table.h"
 #include "scene/color.h"
 
 namespace burin {

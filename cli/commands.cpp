@@ -15,7 +15,8 @@
 #include "base/stopwatch.h"
 #include "cli/job.h"
 #include "mesh/text_scan.h"
-#include "render/explain.h"
+#include "methods/explain.h"
+#include "methods/patel.h"
 #include "render/output.h"
 
 namespace burin {

@@ -4,7 +4,7 @@
 
 #include "cli/arguments.h"
 #include "render/frame.h"
-#include "render/method.h"
+#include "methods/method_table.h"
 #include "scene/scene.h"
 
 namespace burin {

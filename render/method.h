@@ -1,11 +1,19 @@
 #pragma once
 
-#include <span>
 #include <string_view>
 
-#include "render/patel.h"
+#include "base/progress.h"
+#include "render/film.h"
+#include "render/frame.h"
+#include "render/stats.h"
 
 namespace burin {
+
+/// How to run a method, as far as it does not change the picture.
+struct RunOptions {
+    int threads = 0;  ///< 0 = all cores
+    Progress* progress = nullptr;
+};
 
 /// A way to draw the lines of a frame.
 struct Method {
@@ -14,14 +22,5 @@ struct Method {
     LineClassSet draws;       ///< the classes that it can draw at all
     RenderStats (*render)(const Frame&, const RunOptions&, Film&);
 };
-
-/// All methods of this version; the first one is the default.
-std::span<const Method> methods();
-
-/// nullptr if there is none of that name.
-const Method* find_method(std::string_view name);
-
-/// Names that are reserved for methods of later versions.
-bool is_planned_method(std::string_view name);
 
 }  // namespace burin

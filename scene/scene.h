@@ -9,6 +9,7 @@
 #include "mesh/mesh.h"
 #include "mesh/subdivide.h"
 #include "scene/camera.h"
+#include "scene/method_settings.h"
 #include "shading/line_style.h"
 #include "shading/surface_shader.h"
 
@@ -27,12 +28,6 @@ struct LineSettings {
     LineClassSet classes = kDefaultLineClasses;
     double crease_angle_deg = 40;
     LineStyle style;
-};
-
-/// What only the method `patel` looks at.
-struct PatelSettings {
-    int mask_bits = 64;  ///< 16, 64 or 256
-    HaloShape halo = HaloShape::four;
 };
 
 /// An object of the finished scene: a mesh at its place.

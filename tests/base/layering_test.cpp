@@ -21,7 +21,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"shading", {"lines", "abuffer", "mesh"}},
     {"scene", {"shading", "lines", "abuffer", "mesh", "image", "base"}},
     {"render", {"scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
-    {"cli", {"render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
+    {"methods", {"render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
+    {"cli", {"methods", "render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
 };
 
 // A library is used in these source files and nowhere else.

@@ -35,7 +35,7 @@ std::string as_text(const Drawing& d) {
 
 void expect_golden(const std::string& name, const Scene& scene, const Camera& camera) {
     const std::string picture = as_text(Drawing(scene, camera, 48, 32));
-    const std::string path = BURIN_SOURCE_FOLDER "/tests/render/golden/" + name + ".txt";
+    const std::string path = BURIN_SOURCE_FOLDER "/tests/methods/golden/" + name + ".txt";
     const std::string expected = read_file(path);
     if (picture == expected) return;
     if (std::getenv("REPLACE_GOLDEN") != nullptr) {

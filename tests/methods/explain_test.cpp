@@ -1,4 +1,4 @@
-#include "render/explain.h"
+#include "methods/explain.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/patel.h"
+#include "methods/patel.h"
 
 #include <limits>
 #include <memory>
@@ -6,8 +6,8 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "render/patel_tile.h"
-#include "render/surface_bins.h"
+#include "methods/patel_tile.h"
+#include "methods/surface_bins.h"
 
 namespace burin {
 namespace {

@@ -1,13 +1,13 @@
-#include "render/explain.h"
+#include "methods/explain.h"
 
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <numeric>
 
-#include "render/patel.h"
-#include "render/patel_tile.h"
-#include "render/surface_bins.h"
+#include "methods/patel.h"
+#include "methods/patel_tile.h"
+#include "methods/surface_bins.h"
 
 namespace burin {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/surface_bins.h"
+#include "methods/surface_bins.h"
 
 #include <algorithm>
 

@@ -1,7 +1,9 @@
-#include "render/method.h"
+#include "methods/method_table.h"
 
 #include <algorithm>
 #include <array>
+
+#include "methods/patel.h"
 
 namespace burin {
 namespace {

@@ -1,18 +1,9 @@
 #pragma once
 
 #include "abuffer/extended_grid.h"
-#include "base/progress.h"
-#include "render/film.h"
-#include "render/frame.h"
-#include "render/stats.h"
+#include "render/method.h"
 
 namespace burin {
-
-/// How to run a method, as far as it does not change the picture.
-struct RunOptions {
-    int threads = 0;  ///< 0 = all cores
-    Progress* progress = nullptr;
-};
 
 /// Mayur Patel's hidden-line A-buffer of 2000, to the letter (see PatelTile). The grid of samples
 /// follows from the scene's mask size and the line width closest to the one asked for.

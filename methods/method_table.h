@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "render/method.h"
+
+namespace burin {
+
+/// All methods of this version; the first one is the default.
+std::span<const Method> methods();
+
+/// nullptr if there is none of that name.
+const Method* find_method(std::string_view name);
+
+/// Names that are reserved for methods of later versions.
+bool is_planned_method(std::string_view name);
+
+}  // namespace burin
