@@ -135,7 +135,7 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--camera", t.camera, "a camera of the scene, by name");
     app.add_option("-m,--method", t.method, "how lines are found (see burin methods)");
     app.add_option("--mask", t.mask, "method patel: bits of the extended mask, 16, 64 or 256 (default 64)");
-    app.add_option("--samples", t.samples, "method abuffer: samples per pixel and axis (not in this version)");
+    app.add_option("--samples", t.samples, "method abuffer: samples per pixel and axis, 2, 4 or 8 (default 4)");
     app.add_option("--lines", t.lines,
                    "line classes, comma separated: silhouette border crease intersection object material "
                    "polygon mark, or all, none (default silhouette,border,crease,intersection,object)");
@@ -236,7 +236,10 @@ void fill_scene_options(const Texts& t, Arguments& a) {
             fail("--mask", "must be 16, 64 or 256");
         }
     }
-    if (!t.samples.empty()) fail_version("--samples");
+    if (!t.samples.empty()) {
+        a.samples_per_pixel = integer("--samples", t.samples, 2, 8);
+        if (*a.samples_per_pixel % 2 != 0 || *a.samples_per_pixel == 6) fail("--samples", "must be 2, 4 or 8");
+    }
     if (!t.lines.empty()) a.lines = line_classes(t.lines);
     if (!t.width.empty()) {
         a.line_width_px = number("--line-width", t.width);

@@ -27,6 +27,7 @@ struct Arguments {
     std::string camera;
     std::string method;
     std::optional<int> mask_bits;
+    std::optional<int> samples_per_pixel;
     std::optional<LineClassSet> lines;
     std::optional<double> line_width_px, crease_angle_deg;
     LayerSet layers;

@@ -39,6 +39,7 @@ struct SurfaceSet {
     Projection projection;
     glm::dmat3 view_to_world{1.0};  ///< rotation, for normals
     std::vector<SurfaceInstance> instances;
+    double farthest_nearness = 0;   ///< of the scene's bounding box; all is at least as near
     double coordinate_error = 0;  ///< how exact coordinates are, in world units
 
     const SurfaceInstance& instance_of(SurfaceId s) const { return instances[s.instance]; }

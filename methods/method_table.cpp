@@ -3,18 +3,21 @@
 #include <algorithm>
 #include <array>
 
+#include "methods/abuffer/abuffer.h"
 #include "methods/patel.h"
 
 namespace burin {
 namespace {
 
 constexpr std::array kMethods = {
+    Method{"abuffer", "Burin; after Mayur Patel, 2000, and Loren Carpenter, 1984", LineClassSet::all(),
+           render_abuffer},
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
            LineClassSet::all(), render_patel},
 };
 
 constexpr std::string_view kPlanned[] = {
-    "abuffer", "gbuffer", "single-pass", "solid-wireframe", "id-buffer",    "simple",  "offset",
+    "gbuffer", "single-pass", "solid-wireframe", "id-buffer",    "simple",  "offset",
     "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil", "reference"};
 
 }  // namespace

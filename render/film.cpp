@@ -68,10 +68,27 @@ Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassS
     for (const auto& bind : bindings) bind();
 }
 
-void Film::put(int x, int y, const PixelResult& pixel) {
+std::size_t Film::index_of(int x, int y) const {
     const PixelRect crop = image_.data();
-    const std::size_t i = static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(crop.width()) +
-                          static_cast<std::size_t>(x - crop.x0);
+    return static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(crop.width()) +
+           static_cast<std::size_t>(x - crop.x0);
+}
+
+void Film::draw_over(int x, int y, const LinePixel& lines) {
+    const std::size_t i = index_of(x, y);
+    for (std::size_t c = 0; c < 4; ++c) {
+        const float color = lines.color[static_cast<int>(c)];
+        if (planes_.lines[c] != nullptr) planes_.lines[c][i] = to_half(color);
+        std::uint16_t* const beauty = planes_.beauty[c];
+        if (beauty != nullptr) beauty[i] = to_half(float_from_half(beauty[i]) * (1.0f - lines.color.a) + color);
+    }
+    for (std::size_t c = 0; c < kLineClassCount; ++c) {
+        if (planes_.coverage[c] != nullptr) planes_.coverage[c][i] = to_half(lines.coverage[c]);
+    }
+}
+
+void Film::put(int x, int y, const PixelResult& pixel) {
+    const std::size_t i = index_of(x, y);
     const auto put_rgba = [i](std::uint16_t* const (&planes)[4], const glm::vec4& color) {
         if (planes[0] == nullptr) return;
         for (int c = 0; c < 4; ++c) planes[c][i] = to_half(color[c]);

@@ -35,6 +35,12 @@ struct PixelResult {
     std::uint32_t polygon_id = 0;
 };
 
+/// Lines of one pixel, to be drawn over what is there.
+struct LinePixel {
+    glm::vec4 color{0.0f};  ///< linear, premultiplied; a = coverage of all lines
+    std::array<float, kLineClassCount> coverage{};
+};
+
 /// Collects pixels into the channels of the chosen layers. Different threads may put different
 /// pixels at the same time.
 class Film {
@@ -44,9 +50,13 @@ class Film {
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
 
     void put(int x, int y, const PixelResult& pixel);
+    /// Draws lines over a pixel that was put without any.
+    void draw_over(int x, int y, const LinePixel& lines);
     const Image& image() const { return image_; }
 
   private:
+    std::size_t index_of(int x, int y) const;
+
     Image image_;
     struct Planes {  // channel data, nullptr where a layer is not wanted
         std::uint16_t* beauty[4] = {};

@@ -94,6 +94,9 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     }
     const double near_distance = camera.orthographic ? 0.0 : 0x1p-20 * farthest;
     surfaces.projection = camera.projection(width, height, near_distance);
+    const double depth = view_box.is_empty() ? 1.0 : -view_box.low.z;
+    surfaces.farthest_nearness = surfaces.projection.nearness(
+        {0, 0, -(camera.orthographic ? depth : std::max(depth, near_distance))});
     return frame;
 }
 

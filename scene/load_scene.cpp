@@ -36,6 +36,7 @@ class SceneLoader {
         scene_.picture = from_.picture;
         scene_.lines = from_.lines;
         scene_.surfaces = from_.surfaces;
+        scene_.abuffer = from_.abuffer;
         scene_.patel = from_.patel;
     }
 

@@ -4,6 +4,11 @@
 
 namespace burin {
 
+/// What only the method `abuffer` looks at.
+struct AbufferSettings {
+    int samples_per_pixel = 4;  ///< 2, 4 or 8 along each axis: where masks decide
+};
+
 /// What only the method `patel` looks at.
 struct PatelSettings {
     int mask_bits = 64;  ///< 16, 64 or 256

@@ -48,6 +48,7 @@ struct Scene {
     PictureSettings picture;
     LineSettings lines;
     SurfaceStyle surfaces;
+    AbufferSettings abuffer;
     PatelSettings patel;
     std::uint64_t skipped_primitives = 0;
 };

@@ -33,6 +33,7 @@ struct SceneDescription {
     PictureSettings picture;
     LineSettings lines;
     SurfaceStyle surfaces;
+    AbufferSettings abuffer;
     PatelSettings patel;
 };
 

@@ -105,6 +105,7 @@ class SceneReader {
         if (auto t = root_.table("picture")) read_picture(*t);
         if (auto t = root_.table("lines")) read_lines(*t);
         if (auto t = root_.table("surfaces")) read_surfaces(*t);
+        if (auto t = root_.table("abuffer")) read_abuffer(*t);
         if (auto t = root_.table("patel")) read_patel(*t);
         root_.finish();
         if (scene_.objects.empty()) {
@@ -251,6 +252,13 @@ class SceneReader {
                                                        SurfaceShading::none};
         scene_.surfaces.shading = kShadings[t.choice("shading", {"paper", "lambert", "none"}).value_or(0)];
         scene_.surfaces.paper_color = t.color("paper").value_or(glm::vec3(1.0f));
+        t.finish();
+    }
+
+    void read_abuffer(TomlReader& t) {
+        const int samples = t.integer("samples", 2, 8).value_or(4);
+        if (samples != 2 && samples != 4 && samples != 8) t.fail("samples", "must be 2, 4 or 8");
+        scene_.abuffer.samples_per_pixel = samples;
         t.finish();
     }
 

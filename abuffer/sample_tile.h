@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace burin {
+
+/// What is visible at every sample of a rectangle of an image's sample grid: Patel's resolved
+/// extended masks of all its pixels at once, because each of them is a window of the one grid.
+///
+/// Sample (column, row) of the grid lies at ((column + 1/2) / s, (row + 1/2) / s) pixels for s samples
+/// per pixel and axis. An id is the number of a triangle (31 bits) above one bit that says that the
+/// triangle is plain: no edge of it can be a line.
+struct SampleTile {
+    static constexpr std::uint32_t kBackground = 0xFFFFFFFEu;
+    /// Rows are this many samples longer than asked for, so that eight can be handled at once.
+    static constexpr int kPadding = 8;
+
+    int first_column = 0, first_row = 0;  ///< on the image's grid
+    int columns = 0, rows = 0;
+    int stride = 0;
+    int samples_per_pixel = 4;
+    std::vector<float> nearness;
+    std::vector<std::uint32_t> ids;
+
+    void reset(int column, int row, int column_count, int row_count, int per_pixel) {
+        first_column = column;
+        first_row = row;
+        columns = column_count;
+        rows = row_count;
+        samples_per_pixel = per_pixel;
+        stride = (columns + 2 * kPadding - 1) / kPadding * kPadding;
+        const auto size = static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows);
+        nearness.assign(size, -std::numeric_limits<float>::infinity());
+        ids.assign(size, kBackground);
+    }
+    std::size_t index(int column, int row) const {  // on the image's grid
+        return static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(stride) +
+               static_cast<std::size_t>(column - first_column);
+    }
+};
+
+}  // namespace burin

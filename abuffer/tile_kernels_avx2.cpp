@@ -1,0 +1,25 @@
+#include "abuffer/tile_kernels.h"
+
+// Compiled with AVX2 where the compiler can (see CMakeLists.txt), and used where the machine can.
+#ifdef __AVX2__
+
+#include "abuffer/tile_kernels.inc"
+
+namespace burin {
+
+const TileKernels* avx2_kernels() {
+    static const TileKernels kernels{"avx2", draw_small, draw_span, find_pairs};
+    return __builtin_cpu_supports("avx2") ? &kernels : nullptr;
+}
+
+}  // namespace burin
+
+#else
+
+namespace burin {
+
+const TileKernels* avx2_kernels() { return nullptr; }
+
+}  // namespace burin
+
+#endif

@@ -1,0 +1,17 @@
+#include "abuffer/tile_kernels.h"
+
+#include "abuffer/tile_kernels.inc"
+
+namespace burin {
+
+const TileKernels& baseline_kernels() {
+    static const TileKernels kernels{"baseline", draw_small, draw_span, find_pairs};
+    return kernels;
+}
+
+const TileKernels& best_kernels() {
+    const TileKernels* const fast = avx2_kernels();
+    return fast != nullptr ? *fast : baseline_kernels();
+}
+
+}  // namespace burin

@@ -1,0 +1,136 @@
+#include "lines/cell_tracer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace burin {
+namespace {
+
+double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+bool is_inside(glm::dvec2 p, glm::dvec2 low, glm::dvec2 high) {
+    constexpr double kSlack = 1e-3;
+    return p.x >= low.x - kSlack && p.y >= low.y - kSlack && p.x <= high.x + kSlack && p.y <= high.y + kSlack;
+}
+
+std::optional<glm::dvec2> meeting_point(glm::dvec2 a, glm::dvec2 along_a, glm::dvec2 b, glm::dvec2 along_b) {
+    const double area = cross(along_a, along_b);
+    if (std::abs(area) <= 1e-6 * glm::length(along_a) * glm::length(along_b)) return std::nullopt;
+    return a + along_a * (cross(b - a, along_b) / area);
+}
+
+void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, std::vector<LineSegment>& segments) {
+    if (from == to) return;
+    LineSegment segment;
+    segment.from = from;
+    segment.to = to;
+    segment.drawn_as = *style.classes.first();
+    // y runs down: what is to the left of the way has a negative cross product.
+    segment.front_on_left = cross(to - from, style.towards_front) < 0;
+    segment.line_key = style.line_key;
+    segments.push_back(segment);
+}
+
+}  // namespace
+
+CellTracer::EdgeLine CellTracer::line_of(const LineCrossing& c) const {
+    EdgeLine line;
+    if (c.edge.half_edge == kNoHalfEdge) return line;
+    const auto& t = surfaces_.mesh_of(c.edge.surface).triangles[c.edge.half_edge / 3];
+    for (std::size_t k = 0; k < 2; ++k) {
+        const glm::dvec3 view =
+            surfaces_.view_position(c.edge.surface.instance, t[(c.edge.half_edge + k) % 3]);
+        if (!needs_no_clipping(surfaces_.projection, view)) return line;
+        const glm::dvec2 pixel = surfaces_.projection.to_pixel(view);
+        line.ends[k] = glm::dvec2(snap_to_subpixels(pixel.x), snap_to_subpixels(pixel.y)) /
+                       static_cast<double>(kSubpixelsPerPixel);
+    }
+    line.exists = line.ends[0] != line.ends[1];
+    return line;
+}
+
+void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
+                       std::vector<LineSegment>& segments) const {
+    const auto join = [&](const LineCrossing& a, const LineCrossing& b) {
+        if (a.line_key != b.line_key) {
+            const EdgeLine la = line_of(a), lb = line_of(b);
+            if (la.exists && lb.exists) {
+                std::optional<glm::dvec2> corner;
+                for (const glm::dvec2& p : la.ends) {
+                    if (p == lb.ends[0] || p == lb.ends[1]) corner = p;
+                }
+                if (!corner) {
+                    corner = meeting_point(a.pixel, la.ends[1] - la.ends[0], b.pixel, lb.ends[1] - lb.ends[0]);
+                }
+                if (corner && is_inside(*corner, low, high)) {
+                    add(a, a.pixel, *corner, segments);
+                    add(b, *corner, b.pixel, segments);
+                    return;
+                }
+            }
+            // No corner: half of the way looks like one, half like the other.
+            const glm::dvec2 middle = 0.5 * (a.pixel + b.pixel);
+            add(a, a.pixel, middle, segments);
+            add(b, middle, b.pixel, segments);
+            return;
+        }
+        add(a, a.pixel, b.pixel, segments);
+    };
+    /// From a crossing to the line between two others.
+    const auto end_at = [&](const LineCrossing& c, glm::dvec2 from, glm::dvec2 to) {
+        const EdgeLine line = line_of(c);
+        const glm::dvec2 along = to - from;
+        const double length = glm::dot(along, along);
+        const double t = length > 0 ? std::clamp(glm::dot(c.pixel - from, along) / length, 0.0, 1.0) : 0.0;
+        glm::dvec2 end = from + along * t;
+        if (line.exists) {
+            const auto met = meeting_point(c.pixel, line.ends[1] - line.ends[0], from, along);
+            if (met && is_inside(*met, low, high)) end = *met;
+        }
+        add(c, c.pixel, end, segments);
+    };
+
+    switch (crossings.size()) {
+        case 0: return;
+        case 1: {
+            const LineCrossing& c = *crossings[0];
+            const EdgeLine line = line_of(c);
+            if (!line.exists) return;
+            for (const glm::dvec2& p : line.ends) {
+                if (is_inside(p, low, high)) return add(c, c.pixel, p, segments);
+            }
+            const glm::dvec2 along = line.ends[1] - line.ends[0];
+            const glm::dvec2 center = 0.5 * (low + high);
+            add(c, c.pixel, c.pixel + along * (glm::dot(center - c.pixel, along) / glm::dot(along, along)),
+                segments);
+            return;
+        }
+        case 2: return join(*crossings[0], *crossings[1]);
+        default: break;
+    }
+    // Nearest first; those of one line together.
+    std::array<const LineCrossing*, 4> sorted{};
+    std::copy(crossings.begin(), crossings.end(), sorted.begin());
+    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(crossings.size());
+    std::stable_sort(sorted.begin(), end,
+                     [](const auto* a, const auto* b) { return a->nearness > b->nearness; });
+    std::size_t partner = 0;
+    for (std::size_t i = 0; i < crossings.size() && partner == 0; ++i) {
+        for (std::size_t j = i + 1; j < crossings.size() && partner == 0; ++j) {
+            if (sorted[i]->line_key != sorted[j]->line_key) continue;
+            std::swap(sorted[0], sorted[i]);
+            std::swap(sorted[1], sorted[j]);
+            partner = 1;
+        }
+    }
+    join(*sorted[0], *sorted[1]);
+    if (crossings.size() == 4 && sorted[2]->line_key == sorted[3]->line_key) {
+        join(*sorted[2], *sorted[3]);
+        return;
+    }
+    for (std::size_t i = 2; i < crossings.size(); ++i) end_at(*sorted[i], sorted[0]->pixel, sorted[1]->pixel);
+}
+
+}  // namespace burin

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lines/line_segment.h"
+
+namespace burin {
+
+/// Connects the crossings on the four sides of a cell, a square between 2 x 2 neighbouring samples,
+/// to pieces of lines: marching squares (Lorensen and Cline 1987, in the plane) whose crossings lie
+/// where the mesh says.
+///
+/// Two crossings are joined; where they belong to two edges of the mesh, by way of the corner in which
+/// these meet, if it lies in the cell. Where three or four come together, the nearest line goes through
+/// and the others end at it. A single one runs on to the end of its edge.
+class CellTracer {
+  public:
+    explicit CellTracer(const SurfaceSet& surfaces) : surfaces_(surfaces) {}
+
+    /// `low` and `high` are the positions of the cell's upper left and lower right sample.
+    void trace(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
+               std::vector<LineSegment>& segments) const;
+
+  private:
+    struct EdgeLine {
+        bool exists = false;
+        glm::dvec2 ends[2];
+    };
+    EdgeLine line_of(const LineCrossing& c) const;
+
+    const SurfaceSet& surfaces_;
+};
+
+}  // namespace burin

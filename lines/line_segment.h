@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "lines/line_class.h"
+#include "lines/surface_walk.h"
+
+namespace burin {
+
+/// Where a line crosses the way between two neighbouring samples.
+struct LineCrossing {
+    glm::dvec2 pixel{0.0};
+    LineClassSet classes;   ///< all that apply, among those asked for
+    SurfaceEdge edge;       ///< none for intersections
+    std::uint64_t line_key = 0;  ///< equal for two crossings of one mesh edge or one intersection
+    double nearness = 0;    ///< of the front surface
+    glm::dvec2 towards_front{0.0};  ///< from the crossing to the sample of the front surface
+};
+
+/// A straight piece of a line on the screen, in pixels.
+struct LineSegment {
+    glm::dvec2 from{0.0}, to{0.0};
+    LineClass drawn_as = LineClass::silhouette;
+    bool front_on_left = false;  ///< of the way from `from` to `to`, as seen on the screen
+    std::uint64_t line_key = 0;
+};
+
+}  // namespace burin

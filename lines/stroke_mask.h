@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace burin {
+
+/// A pixel's coverage mask for strokes: 16 rows of 32 samples, bit c of row r at
+/// ((c + 1/2) / 32, (r + 1/2) / 16) of the pixel.
+struct StrokeMask {
+    static constexpr int kRows = 16;
+    static constexpr int kColumns = 32;
+    std::array<std::uint32_t, kRows> rows{};
+
+    int count() const {
+        int sum = 0;
+        for (const std::uint32_t row : rows) sum += std::popcount(row);
+        return sum;
+    }
+};
+
+/// Coverage masks of a rectangle of pixels, into which strokes are drawn. Pieces that overlap or meet
+/// count once, so pieces of a line need no joins.
+class StrokeCanvas {
+  public:
+    void reset(int x0, int y0, int width, int height);
+
+    /// Adds all that is closer than `radius_px` to a segment: a round pen's stroke.
+    void draw(glm::dvec2 from, glm::dvec2 to, double radius_px);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    const StrokeMask& at(int column, int row) const {
+        return masks_[static_cast<std::size_t>(row * width_ + column)];
+    }
+    bool is_touched(int column, int row) const {
+        return touched_[static_cast<std::size_t>(row * width_ + column)] != 0;
+    }
+
+  private:
+    void draw_row(int sub_row, double x0, double x1);
+
+    int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
+    std::vector<StrokeMask> masks_;
+    std::vector<std::uint8_t> touched_;
+};
+
+}  // namespace burin

@@ -1,0 +1,75 @@
+#include "methods/abuffer/abuffer.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "methods/abuffer/line_tile.h"
+#include "methods/abuffer/pixel_fill.h"
+#include "methods/abuffer/stroke_pass.h"
+
+namespace burin {
+namespace {
+
+struct WorkerTimes {
+    double raster = 0, lines = 0, shade = 0;
+    std::uint64_t fragments = 0;
+};
+
+PixelRect grown(PixelRect r, int by) { return {r.x0 - by, r.y0 - by, r.x1 + by, r.y1 + by}; }
+
+}  // namespace
+
+RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film) {
+    RenderStats stats;
+    stats.threads = resolve_thread_count(options.threads);
+    const int per_pixel = frame.scene->abuffer.samples_per_pixel;
+    const int tile_px = 128 / per_pixel;
+    const TileKernels& kernels = best_kernels();
+    Stopwatch watch;
+    ScreenSurfaces screen(frame.surfaces, frame.criteria, stats.threads);
+    const int margin_px = static_cast<int>(std::ceil(0.5 * frame.scene->lines.style.width_px)) + 1;
+    const PixelRect region = grown(frame.crop, margin_px);
+    const TriangleBins bins(screen, region, tile_px, per_pixel, stats.threads);
+    stats.prepare_s = watch.lap();
+
+    if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());
+    const auto workers = static_cast<std::size_t>(stats.threads);
+    std::vector<std::unique_ptr<LineTile>> tiles(workers);
+    std::vector<WorkerTimes> times(workers);
+    std::vector<std::vector<LineSegment>> segments(bins.tile_count());
+    parallel_for(bins.tile_count(), stats.threads, [&](std::size_t index, int worker) {
+        const auto w = static_cast<std::size_t>(worker);
+        if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame, screen, bins, per_pixel, kernels);
+        Stopwatch lap;
+        tiles[w]->draw(index);
+        times[w].raster += lap.lap();
+        tiles[w]->find_lines(segments[index]);
+        times[w].lines += lap.lap();
+        fill_pixels(frame, *tiles[w], film);
+        times[w].shade += lap.lap();
+        if (options.progress != nullptr) options.progress->advance();
+    });
+    const double wall = watch.lap();
+    WorkerTimes sum;
+    for (std::size_t w = 0; w < workers; ++w) {
+        sum.raster += times[w].raster;
+        sum.lines += times[w].lines;
+        sum.shade += times[w].shade;
+        if (tiles[w]) sum.fragments += tiles[w]->sample_tests();
+    }
+    const double total = sum.raster + sum.lines + sum.shade;
+    const double scale = total > 0 ? wall / total : 0;
+    stats.raster_s = sum.raster * scale;
+    stats.lines_s = sum.lines * scale;
+    stats.shade_s = sum.shade * scale;
+    draw_strokes(frame, segments, stats.threads, film);
+    stats.lines_s += watch.lap();
+    stats.triangles = frame.surfaces.triangle_count();
+    stats.fragments = sum.fragments;
+    return stats;
+}
+
+}  // namespace burin

@@ -1,0 +1,156 @@
+#include "methods/abuffer/line_tile.h"
+
+#include <algorithm>
+#include <array>
+
+#include "abuffer/scan_convert.h"
+
+namespace burin {
+
+LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
+                   int samples_per_pixel, const TileKernels& kernels)
+    : frame_(frame),
+      screen_(screen),
+      bins_(bins),
+      per_pixel_(samples_per_pixel),
+      kernels_(kernels),
+      tracer_(frame.surfaces) {}
+
+SampleView LineTile::view() {
+    return {samples_.nearness.data(), samples_.ids.data(), samples_.first_column, samples_.first_row,
+            samples_.columns, samples_.rows, samples_.stride, per_pixel_};
+}
+
+SurfaceId LineTile::surface_at(std::size_t sample) const {
+    const std::uint32_t id = samples_.ids[sample];
+    return id == SampleTile::kBackground ? kBackground : screen_.surface_of(id >> 1);
+}
+
+void LineTile::draw(std::size_t tile) {
+    rect_ = bins_.tile(tile);
+    samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
+                   rect_.height() * per_pixel_ + 1, per_pixel_);
+    const auto small = bins_.small(tile);
+    triangles_.assign(small.begin(), small.end());
+    for (ScreenTriangle& t : triangles_) t.id |= screen_.is_plain(t.id >> 1) ? 1u : 0u;
+    drawn_ += triangles_.size();
+    kernels_.draw_small(view(), triangles_.data(), triangles_.size());
+    for (const std::uint32_t i : bins_.large_in(tile)) {
+        const LargePolygon& large = bins_.large(i);
+        draw_large(large, screen_.is_plain(large.plane.id >> 1));
+    }
+}
+
+void LineTile::draw_large(const LargePolygon& large, bool plain) {
+    ++drawn_;
+    const ScanConverter scan(large.polygon, per_pixel_);
+    SpanPlane plane = large.plane;
+    plane.id |= plain ? 1u : 0u;
+    const int first = std::max(scan.first_row(), samples_.first_row);
+    const int end = std::min(scan.end_row(), samples_.first_row + samples_.rows);
+    for (int row = first; row < end; ++row) {
+        const SampleSpan span = scan.span(row);
+        const int from = std::max(span.begin - samples_.first_column, 0);
+        const int to = std::min(span.end - samples_.first_column, samples_.columns);
+        if (from < to) kernels_.draw_span(view(), row - samples_.first_row, from, to, plane);
+    }
+}
+
+VisiblePoint LineTile::point(int column, int row) const {
+    // A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken
+    // a trifle further there.
+    constexpr double kTrifleX = 0x1p-14, kTrifleY = 0x1p-20;
+    const double s = per_pixel_;
+    const glm::dvec2 pixel((samples_.first_column + column + 0.5) / s + kTrifleX,
+                           (samples_.first_row + row + 0.5) / s + kTrifleY);
+    const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(samples_.stride) +
+                   static_cast<std::size_t>(column);
+    return {pixel, surface_at(i)};
+}
+
+bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
+    const VisiblePoint a = point(pair.column, pair.row);
+    const VisiblePoint b = point(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));
+    const LineDecision decision = decide_line(frame_.surfaces, a, b, frame_.criteria);
+    crossing.classes = decision.classes & frame_.criteria.classes;
+    if (crossing.classes.empty()) return false;
+    crossing.pixel = glm::mix(a.pixel, b.pixel, std::clamp(decision.fraction, 0.0, 1.0));
+    crossing.edge = decision.edge;
+    const VisiblePoint& front = decision.front == 0 ? a : b;
+    crossing.towards_front = decision.front == 0 ? a.pixel - b.pixel : b.pixel - a.pixel;
+    crossing.nearness = frame_.surfaces.plane(front.surface).nearness(crossing.pixel);
+    if (decision.edge.half_edge != kNoHalfEdge) {
+        const Mesh& mesh = frame_.surfaces.mesh_of(decision.edge.surface);
+        const HalfEdge h = decision.edge.half_edge;
+        crossing.line_key = std::uint64_t{decision.edge.surface.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
+    } else {
+        const auto [low, high] = std::minmax(screen_.number_of(front.surface),
+                                             screen_.number_of(decision.front == 0 ? b.surface : a.surface));
+        crossing.line_key = std::uint64_t{1} << 63 | std::uint64_t{low} << 32 | high;
+    }
+    return true;
+}
+
+void LineTile::find_lines(std::vector<LineSegment>& segments) {
+    pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows));
+    // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
+    const Projection& p = frame_.surfaces.projection;
+    const float per_nearness = p.orthographic ? 0.0f : static_cast<float>(2 / p.focal_px);
+    const float level = static_cast<float>(
+        2 / p.focal_px * (p.orthographic ? 1.0 : frame_.surfaces.farthest_nearness));
+    const std::size_t count = kernels_.find_pairs(view(), level, per_nearness, pairs_.data());
+
+    const std::size_t size = samples_.ids.size();
+    if (right_.size() < size) {
+        right_.assign(size, 0);
+        down_.assign(size, 0);
+    }
+    crossings_.clear();
+    crossing_places_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        LineCrossing crossing;
+        if (!decide(pairs_[i], crossing)) continue;
+        crossings_.push_back(crossing);
+        crossing_places_.push_back(pairs_[i]);
+        auto& table = pairs_[i].down ? down_ : right_;
+        table[static_cast<std::size_t>(pairs_[i].row) * static_cast<std::size_t>(samples_.stride) +
+              pairs_[i].column] = static_cast<std::uint32_t>(crossings_.size());
+    }
+    trace_cells(segments);
+    for (const SamplePair& place : crossing_places_) {
+        (place.down ? down_ : right_)[static_cast<std::size_t>(place.row) *
+                                          static_cast<std::size_t>(samples_.stride) +
+                                      place.column] = 0;
+    }
+}
+
+void LineTile::trace_cells(std::vector<LineSegment>& segments) {
+    const auto stride = static_cast<std::size_t>(samples_.stride);
+    const double s = per_pixel_;
+    // Each cell is traced when its first crossing is met, in the order left, upper, lower, right side.
+    const auto trace = [&](int column, int row, const SamplePair& from) {
+        if (column < 0 || row < 0 || column + 1 >= samples_.columns || row + 1 >= samples_.rows) return;
+        const std::size_t i = static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
+        const std::uint32_t sides[4] = {right_[i], down_[i], down_[i + 1], right_[i + stride]};
+        std::array<const LineCrossing*, 4> found{};
+        std::size_t count = 0;
+        for (const std::uint32_t side : sides) {
+            if (side != 0) found[count++] = &crossings_[side - 1];
+        }
+        const std::uint32_t own = (from.down ? down_ : right_)[static_cast<std::size_t>(from.row) * stride + from.column];
+        if (found[0] != &crossings_[own - 1]) return;  // another crossing traces this cell
+        const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
+        tracer_.trace({found.data(), count}, low, low + 1.0 / s, segments);
+    };
+    for (const SamplePair& place : crossing_places_) {
+        if (place.down) {
+            trace(place.column - 1, place.row, place);
+            trace(place.column, place.row, place);
+        } else {
+            trace(place.column, place.row - 1, place);
+            trace(place.column, place.row, place);
+        }
+    }
+}
+
+}  // namespace burin

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "abuffer/sample_tile.h"
+#include "abuffer/tile_kernels.h"
+#include "lines/cell_tracer.h"
+#include "lines/line_decision.h"
+#include "methods/abuffer/triangle_bins.h"
+#include "render/frame.h"
+
+namespace burin {
+
+/// Visibility and lines of one tile after the other; buffers are used again.
+class LineTile {
+  public:
+    LineTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, int samples_per_pixel,
+             const TileKernels& kernels);
+
+    /// Finds what is visible at the samples of a tile and one more column and row.
+    void draw(std::size_t tile);
+    /// After draw(): adds the tile's pieces of lines.
+    void find_lines(std::vector<LineSegment>& segments);
+
+    const SampleTile& samples() const { return samples_; }
+    PixelRect rect() const { return rect_; }
+    SurfaceId surface_at(std::size_t sample) const;
+    std::uint64_t sample_tests() const { return drawn_; }
+
+  private:
+    SampleView view();
+    void draw_large(const LargePolygon& large, bool plain);
+    bool decide(const SamplePair& pair, LineCrossing& crossing) const;
+    VisiblePoint point(int column, int row) const;
+    void trace_cells(std::vector<LineSegment>& segments);
+
+    const Frame& frame_;
+    const ScreenSurfaces& screen_;
+    const TriangleBins& bins_;
+    int per_pixel_;
+    const TileKernels& kernels_;
+    CellTracer tracer_;
+    PixelRect rect_;
+    SampleTile samples_;
+    std::vector<ScreenTriangle> triangles_;
+    std::vector<SamplePair> pairs_;
+    std::vector<LineCrossing> crossings_;
+    std::vector<SamplePair> crossing_places_;
+    // Per sample, 1 + the number of the crossing to its right and below it; 0: none.
+    std::vector<std::uint32_t> right_, down_;
+    std::uint64_t drawn_ = 0;
+};
+
+}  // namespace burin

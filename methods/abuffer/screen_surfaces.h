@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abuffer/screen_triangle.h"
+#include "lines/surface_set.h"
+#include "lines/surface_walk.h"
+
+namespace burin {
+
+/// The vertices of a frame on the screen, projected and snapped once, and numbers for its triangles.
+class ScreenSurfaces {
+  public:
+    ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria, int threads);
+
+    std::uint32_t triangle_count() const { return first_triangle_.back(); }
+    /// Triangles of the whole frame are numbered through, instance by instance.
+    std::uint32_t number_of(SurfaceId s) const { return first_triangle_[s.instance] + s.triangle; }
+    SurfaceId surface_of(std::uint32_t number) const;
+
+    const ScreenVertex* vertices(std::uint32_t instance) const {
+        return vertices_.data() + first_vertex_[instance];
+    }
+    ScreenTriangle triangle(SurfaceId s) const {
+        const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
+        const ScreenVertex* const v = vertices(s.instance);
+        return {{v[t[0]], v[t[1]], v[t[2]]}, number_of(s) << 1};
+    }
+
+    /// Which way a triangle is wound on the screen.
+    enum Facing : std::uint8_t { edge_on, clockwise, counterclockwise, off_screen };
+    Facing facing(std::uint32_t number) const { return static_cast<Facing>(facing_[number]); }
+    void set_facing(std::uint32_t number, Facing f) { facing_[number] = f; }
+    /// Once the facing of all triangles is known: whether no edge of a triangle can be a line.
+    bool is_plain(std::uint32_t number) const;
+
+    const SurfaceSet& surfaces() const { return surfaces_; }
+
+  private:
+    const SurfaceSet& surfaces_;
+    std::vector<std::size_t> first_vertex_;
+    std::vector<std::uint32_t> first_triangle_;  // one more than instances
+    std::vector<ScreenVertex> vertices_;
+    std::vector<std::uint8_t> facing_;
+    std::vector<std::vector<std::uint8_t>> smooth_;  // per mesh used: per triangle, see .cpp
+    std::vector<std::uint32_t> smooth_of_;           // per instance: number into smooth_
+};
+
+}  // namespace burin

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "lines/line_segment.h"
+#include "render/film.h"
+#include "render/frame.h"
+
+namespace burin {
+
+/// Draws pieces of lines as strokes over a film.
+void draw_strokes(const Frame& frame, const std::vector<std::vector<LineSegment>>& segments, int threads,
+                  Film& film);
+
+}  // namespace burin

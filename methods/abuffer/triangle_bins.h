@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "abuffer/tile_kernels.h"
+#include "image/image.h"
+#include "methods/abuffer/screen_surfaces.h"
+
+namespace burin {
+
+/// A triangle that draw_small() cannot draw: large, or cut by the near plane or the guard band.
+struct LargePolygon {
+    ScreenPolygon polygon;
+    SpanPlane plane;
+    SurfaceId surface;
+};
+
+/// What touches each tile of a picture.
+class TriangleBins {
+  public:
+    /// Sets the facing of all triangles on the way. Tiles of `tile_px` pixels cover `region`; a tile
+    /// also gets what lies within `margin` samples' reach to its right and below.
+    TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int tile_px, int samples_per_pixel, int threads);
+
+    std::size_t tile_count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
+    PixelRect tile(std::size_t index) const;
+    std::span<const ScreenTriangle> small(std::size_t tile) const {
+        return {small_.data() + small_end_[tile], small_end_[tile + 1] - small_end_[tile]};
+    }
+    /// Numbers into large().
+    std::span<const std::uint32_t> large_in(std::size_t tile) const {
+        return {large_sorted_.data() + large_end_[tile], large_end_[tile + 1] - large_end_[tile]};
+    }
+    const LargePolygon& large(std::uint32_t i) const { return large_[i]; }
+
+  private:
+    PixelRect region_;
+    int tile_px_, columns_, rows_;
+    std::vector<std::size_t> small_end_, large_end_;
+    std::vector<ScreenTriangle> small_;
+    std::vector<std::uint32_t> large_sorted_;
+    std::vector<LargePolygon> large_;
+};
+
+}  // namespace burin
