@@ -15,6 +15,7 @@
 #include "base/stopwatch.h"
 #include "cli/job.h"
 #include "mesh/text_scan.h"
+#include "methods/abuffer/abuffer.h"
 #include "methods/explain.h"
 #include "methods/patel.h"
 #include "render/output.h"
@@ -298,7 +299,8 @@ void run_render(const Arguments& a) {
                                      : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     Stopwatch total, watch;
     StageTimes times;
-    const Scene scene = load_input(a);
+    Scene scene = load_input(a);
+    if (method.name == "abuffer") prepare_for_abuffer(scene, a.threads);
     const Frame frame = frame_of(scene, a);
     times.load_s = watch.lap();
     note_limits(a, frame, method, output);

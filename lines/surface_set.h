@@ -27,6 +27,8 @@ struct SurfaceInstance {
     const Mesh* mesh = nullptr;
     glm::dmat4 to_view{1.0};        ///< takes Mesh::positions (the origin included) to view space
     glm::dmat3 normal_to_view{1.0}; ///< takes area vectors to view space
+    /// Of the mesh, see find_sharp_edges(); nullptr: not made yet.
+    const std::uint8_t* sharp_edges = nullptr;
     std::uint32_t object_id = 0;    ///< from 1
     std::uint32_t first_polygon_id = 0;        ///< id of the mesh's polygon 0; ids start from 1
     std::vector<std::uint32_t> material_ids;   ///< id per material number of the mesh, from 1

@@ -79,7 +79,7 @@ class Walker {
             }
             const SurfaceEdge edge{current.surface, current.exit.half_edge};
             const double at_edge = current.exit.fraction;
-            const bool sliver = is_sliver(next.place.surface);
+            const bool sliver = is_sliver(surfaces_, next.place.surface);
             if (sliver) {
                 over_slivers = true;
                 note(result, mark_of(edge), edge, at_edge);
@@ -237,15 +237,6 @@ class Walker {
         return std::abs(distance_a - distance_b) <= depth_tolerance(surfaces_, distance_a, plane_b);
     }
 
-    bool is_sliver(SurfaceId s) const {
-        glm::dvec3 c[3];
-        surfaces_.view_corners(s, c);
-        double longest = 0;
-        for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(c[k], c[(k + 1) % 3]));
-        const double height = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / longest;
-        const double pixel = surfaces_.projection.pixel_size(std::abs(c[0].z));
-        return height < kSliverHeightPart * longest && height < kSliverHeightPx * pixel;
-    }
     bool is_border(const Place& place) const {
         const HalfEdge h = place.exit.half_edge;
         return surfaces_.mesh_of(place.surface).next_on_edge[h] == h;
@@ -255,9 +246,9 @@ class Walker {
         return marked ? LineClassSet(LineClass::mark) : LineClassSet();
     }
 
-    static void note(SurfaceWalk& result, LineClassSet classes, SurfaceEdge edge, double fraction) {
-        if (classes.empty()) return;
-        if (result.crossed.empty()) {
+    void note(SurfaceWalk& result, LineClassSet classes, SurfaceEdge edge, double fraction) const {
+        const LineClassSet wanted = classes & criteria_.classes;
+        if (!wanted.empty() && (result.crossed & criteria_.classes).empty()) {
             result.crossed_edge = edge;
             result.crossed_fraction = fraction;
         }
@@ -326,6 +317,16 @@ LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId 
         glm::dot(surfaces.normal_towards_eye(a, at), surfaces.normal_towards_eye(b, at));
     if (cosine < criteria.cos_crease_angle) classes |= LineClass::crease;
     return classes;
+}
+
+bool is_sliver(const SurfaceSet& surfaces, SurfaceId s) {
+    glm::dvec3 c[3];
+    surfaces.view_corners(s, c);
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(c[k], c[(k + 1) % 3]));
+    const double height = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / longest;
+    const double pixel = surfaces.projection.pixel_size(std::abs(c[0].z));
+    return height < kSliverHeightPart * longest && height < kSliverHeightPx * pixel;
 }
 
 double distance_of(const Projection& projection, double nearness) {

@@ -36,7 +36,7 @@ struct SurfaceWalk {
     SurfaceId beyond;                  ///< crack: the patch on the other side
     double fraction = 1;               ///< how far it came, 0 = start, 1 = goal
     LineClassSet crossed;              ///< classes of the edges on the way
-    SurfaceEdge crossed_edge;          ///< the first of them that has a class
+    SurfaceEdge crossed_edge;          ///< the first of them with a class asked for
     double crossed_fraction = 0;       ///< where that is
 };
 
@@ -61,6 +61,10 @@ LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
 /// crease, polygon. `at` is the position on the screen.
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
                              const LineCriteria& criteria);
+
+/// Whether a triangle is so thin (in its own proportions, and less than 1/64 pixel high) that rounding
+/// decides its normal.
+bool is_sliver(const SurfaceSet& surfaces, SurfaceId triangle);
 
 /// How far two surfaces must be apart in distance from the eye to be two: two pixels' width at that
 /// distance, and what the rounding of screen positions does to a steep plane.

@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "base/error.h"
@@ -72,6 +74,24 @@ std::size_t Film::index_of(int x, int y) const {
     const PixelRect crop = image_.data();
     return static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(crop.width()) +
            static_cast<std::size_t>(x - crop.x0);
+}
+
+void Film::put_background(int x0, int x1, int y) {
+    const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
+    const auto clear = [&](auto* plane, auto value) {
+        if (plane != nullptr) std::fill_n(plane + begin, count, value);
+    };
+    for (std::size_t c = 0; c < 4; ++c) {
+        for (std::uint16_t* plane : {planes_.beauty[c], planes_.lines[c], planes_.surface[c]}) {
+            clear(plane, std::uint16_t{0});
+        }
+    }
+    for (std::uint16_t* plane : planes_.coverage) clear(plane, std::uint16_t{0});
+    clear(planes_.depth, std::numeric_limits<float>::infinity());
+    for (std::size_t c = 0; c < 3; ++c) {
+        clear(planes_.normal[c], 0.0f);
+        clear(planes_.ids[c], std::uint32_t{0});
+    }
 }
 
 void Film::draw_over(int x, int y, const LinePixel& lines) {

@@ -50,6 +50,8 @@ class Film {
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
 
     void put(int x, int y, const PixelResult& pixel);
+    /// Puts the background into pixels [x0, x1) of a row.
+    void put_background(int x0, int x1, int y);
     /// Draws lines over a pixel that was put without any.
     void draw_over(int x, int y, const LinePixel& lines);
     const Image& image() const { return image_; }

@@ -66,6 +66,9 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         instance.to_view = world_to_view * object.to_world;
         instance.to_view[3] = instance.to_view * glm::dvec4(mesh.origin, 1.0);
         instance.normal_to_view = cofactors(instance.to_view);
+        if (object.mesh < scene.sharp_edges.size() && !mesh.triangles.empty()) {
+            instance.sharp_edges = scene.sharp_edges[object.mesh].data();
+        }
         instance.object_id = i + 1;
         instance.first_polygon_id = static_cast<std::uint32_t>(next_polygon_id);
         next_polygon_id += mesh.polygon_count;

@@ -50,6 +50,9 @@ struct Scene {
     SurfaceStyle surfaces;
     AbufferSettings abuffer;
     PatelSettings patel;
+    /// Per mesh, see find_sharp_edges(); empty: not made. It saves the method `abuffer` making them
+    /// for every frame, and is for the line classes and the crease angle above.
+    std::vector<std::vector<std::uint8_t>> sharp_edges;
     std::uint64_t skipped_primitives = 0;
 };
 

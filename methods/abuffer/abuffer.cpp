@@ -22,6 +22,16 @@ PixelRect grown(PixelRect r, int by) { return {r.x0 - by, r.y0 - by, r.x1 + by, 
 
 }  // namespace
 
+void prepare_for_abuffer(Scene& scene, int threads) {
+    LineCriteria criteria;
+    criteria.classes = scene.lines.classes;
+    criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
+    scene.sharp_edges.resize(scene.meshes.size());
+    parallel_for(scene.meshes.size(), threads, [&](std::size_t i, int) {
+        scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria);
+    });
+}
+
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film) {
     RenderStats stats;
     stats.threads = resolve_thread_count(options.threads);
@@ -38,17 +48,19 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());
     const auto workers = static_cast<std::size_t>(stats.threads);
     std::vector<std::unique_ptr<LineTile>> tiles(workers);
+    std::vector<std::unique_ptr<PixelFiller>> fillers(workers);
     std::vector<WorkerTimes> times(workers);
     std::vector<std::vector<LineSegment>> segments(bins.tile_count());
     parallel_for(bins.tile_count(), stats.threads, [&](std::size_t index, int worker) {
         const auto w = static_cast<std::size_t>(worker);
         if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame, screen, bins, per_pixel, kernels);
+        if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame, screen);
         Stopwatch lap;
         tiles[w]->draw(index);
         times[w].raster += lap.lap();
         tiles[w]->find_lines(segments[index]);
         times[w].lines += lap.lap();
-        fill_pixels(frame, *tiles[w], film);
+        fillers[w]->fill(*tiles[w], film);
         times[w].shade += lap.lap();
         if (options.progress != nullptr) options.progress->advance();
     });

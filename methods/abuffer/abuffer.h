@@ -15,4 +15,8 @@ namespace burin {
 ///  4. Pixels are filled from their samples; then strokes are drawn over them.
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film);
 
+/// Makes what is the same for all frames of a scene with these line settings. Frames are right without
+/// it, but take longer.
+void prepare_for_abuffer(Scene& scene, int threads);
+
 }  // namespace burin

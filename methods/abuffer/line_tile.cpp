@@ -14,6 +14,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       bins_(bins),
       per_pixel_(samples_per_pixel),
       kernels_(kernels),
+      fast_(screen, frame.criteria),
       tracer_(frame.surfaces) {}
 
 SampleView LineTile::view() {
@@ -28,6 +29,8 @@ SurfaceId LineTile::surface_at(std::size_t sample) const {
 
 void LineTile::draw(std::size_t tile) {
     rect_ = bins_.tile(tile);
+    is_empty_ = bins_.small(tile).empty() && bins_.large_in(tile).empty();
+    if (is_empty_) return;
     samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
                    rect_.height() * per_pixel_ + 1, per_pixel_);
     const auto small = bins_.small(tile);
@@ -69,16 +72,34 @@ VisiblePoint LineTile::point(int column, int row) const {
 }
 
 bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
+    const auto number = [this](std::size_t sample) {
+        const std::uint32_t id = samples_.ids[sample];
+        return id == SampleTile::kBackground ? FastDecision::kNoSurface : id >> 1;
+    };
+    const std::int32_t pitch = kSubpixelsPerPixel / per_pixel_;
+    const std::size_t at = static_cast<std::size_t>(pair.row) * static_cast<std::size_t>(samples_.stride) + pair.column;
+    const NeighbourSamples neighbours{(samples_.first_column + pair.column) * pitch + pitch / 2,
+                                      (samples_.first_row + pair.row) * pitch + pitch / 2,
+                                      pitch,
+                                      pair.down,
+                                      number(at),
+                                      number(at + (pair.down ? static_cast<std::size_t>(samples_.stride) : 1))};
+    LineDecision decision;
     const VisiblePoint a = point(pair.column, pair.row);
     const VisiblePoint b = point(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));
-    const LineDecision decision = decide_line(frame_.surfaces, a, b, frame_.criteria);
+    if (!fast_.decide(neighbours, decision, crossing.nearness)) {
+        decision = decide_line(frame_.surfaces, a, b, frame_.criteria);
+        const VisiblePoint& front = decision.front == 0 ? a : b;
+        if (!decision.classes.empty()) {
+            crossing.nearness = frame_.surfaces.plane(front.surface).nearness(glm::mix(a.pixel, b.pixel, decision.fraction));
+        }
+    }
     crossing.classes = decision.classes & frame_.criteria.classes;
     if (crossing.classes.empty()) return false;
     crossing.pixel = glm::mix(a.pixel, b.pixel, std::clamp(decision.fraction, 0.0, 1.0));
     crossing.edge = decision.edge;
     const VisiblePoint& front = decision.front == 0 ? a : b;
     crossing.towards_front = decision.front == 0 ? a.pixel - b.pixel : b.pixel - a.pixel;
-    crossing.nearness = frame_.surfaces.plane(front.surface).nearness(crossing.pixel);
     if (decision.edge.half_edge != kNoHalfEdge) {
         const Mesh& mesh = frame_.surfaces.mesh_of(decision.edge.surface);
         const HalfEdge h = decision.edge.half_edge;
@@ -92,6 +113,7 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
 }
 
 void LineTile::find_lines(std::vector<LineSegment>& segments) {
+    if (is_empty_) return;
     pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows));
     // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
     const Projection& p = frame_.surfaces.projection;

@@ -6,6 +6,7 @@
 #include "abuffer/tile_kernels.h"
 #include "lines/cell_tracer.h"
 #include "lines/line_decision.h"
+#include "methods/abuffer/fast_decision.h"
 #include "methods/abuffer/triangle_bins.h"
 #include "render/frame.h"
 
@@ -24,6 +25,8 @@ class LineTile {
 
     const SampleTile& samples() const { return samples_; }
     PixelRect rect() const { return rect_; }
+    /// Whether nothing touches the tile.
+    bool is_empty() const { return is_empty_; }
     SurfaceId surface_at(std::size_t sample) const;
     std::uint64_t sample_tests() const { return drawn_; }
 
@@ -39,8 +42,10 @@ class LineTile {
     const TriangleBins& bins_;
     int per_pixel_;
     const TileKernels& kernels_;
+    FastDecision fast_;
     CellTracer tracer_;
     PixelRect rect_;
+    bool is_empty_ = true;
     SampleTile samples_;
     std::vector<ScreenTriangle> triangles_;
     std::vector<SamplePair> pairs_;

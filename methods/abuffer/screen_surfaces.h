@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "abuffer/screen_triangle.h"
+#include "lines/sharp_edges.h"
 #include "lines/surface_set.h"
 #include "lines/surface_walk.h"
 
@@ -37,14 +39,20 @@ class ScreenSurfaces {
 
     const SurfaceSet& surfaces() const { return surfaces_; }
 
+    /// find_sharp_edges() of the instance's mesh; nullptr where its transform changes angles.
+    const std::uint8_t* sharp_edges(std::uint32_t instance) const { return sharp_[instance]; }
+
   private:
+    const std::uint8_t* sharp_edges_of(const SurfaceInstance& instance);
+
     const SurfaceSet& surfaces_;
+    const LineCriteria& criteria_;
     std::vector<std::size_t> first_vertex_;
     std::vector<std::uint32_t> first_triangle_;  // one more than instances
     std::vector<ScreenVertex> vertices_;
     std::vector<std::uint8_t> facing_;
-    std::vector<std::vector<std::uint8_t>> smooth_;  // per mesh used: per triangle, see .cpp
-    std::vector<std::uint32_t> smooth_of_;           // per instance: number into smooth_
+    std::vector<const std::uint8_t*> sharp_;  // per instance
+    std::map<const Mesh*, std::vector<std::uint8_t>> made_here_;
 };
 
 }  // namespace burin

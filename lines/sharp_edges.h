@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lines/surface_walk.h"
+
+namespace burin {
+
+/// Per triangle of a mesh, bit k: its half-edge k may be a line in some view without being a contour.
+/// That is, it has not exactly one partner wound the other way, or a class asked for. An edge without
+/// its bit is none, under any transform that keeps angles.
+std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria);
+
+/// Whether a transform keeps angles: rotation, translation and one scale for all directions.
+bool keeps_angles(const glm::dmat4& transform);
+
+}  // namespace burin

@@ -1,0 +1,178 @@
+#include "methods/abuffer/fast_decision.h"
+
+#include <cmath>
+
+namespace burin {
+namespace {
+
+constexpr int kMaxSteps = 24;
+constexpr double kNegligibleFoldPx = 1.0 / 64;
+/// A triangle that is at least this high on the screen is no sliver. In 1/256 pixel.
+constexpr double kSurelySolid = 256.0 / 64 + 1;
+
+/// Where an edge crosses the walking line, along it. `u` runs along the walk, `v` across.
+double crossing(std::int32_t u0, std::int32_t v0, std::int32_t u1, std::int32_t v1, std::int32_t v) {
+    return u0 + static_cast<double>(v - v0) * (u1 - u0) / (v1 - v0);
+}
+
+}  // namespace
+
+FastDecision::Walk FastDecision::walk(const NeighbourSamples& pair, bool backwards, double goal) const {
+    Walk result;
+    const SurfaceId start = screen_.surface_of(backwards ? pair.second : pair.first);
+    const Mesh& mesh = surfaces_.mesh_of(start);
+    const ScreenVertex* const vertices = screen_.vertices(start.instance);
+    const std::uint8_t* const sharp = screen_.sharp_edges(start.instance);
+    if (sharp == nullptr) return result;
+    const std::int32_t across = pair.down ? pair.x : pair.y;
+    const double origin = (pair.down ? pair.y : pair.x) + (backwards ? pair.pitch : 0);
+    const double per_unit = (backwards ? -1.0 : 1.0) / pair.pitch;
+    const double negligible = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
+
+    // The half-edge where the line leaves a triangle that it entered by `entry`, and where.
+    std::uint32_t t = start.triangle;
+    HalfEdge entry = kNoHalfEdge;
+    HalfEdge farthest_edge = kNoHalfEdge;
+    double farthest = -1e300;
+    for (int step = 0; step < kMaxSteps; ++step) {
+        const auto& c = mesh.triangles[t];
+        std::int32_t u[3], v[3];
+        bool side[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const ScreenVertex& p = vertices[c[k]];
+            if (p.x == ScreenVertex::kOffScreen) return result;
+            u[k] = pair.down ? p.y : p.x;
+            v[k] = pair.down ? p.x : p.y;
+            side[k] = v[k] > across;  // samples on a vertex lie a trifle further right and down
+        }
+        // The edge opposite to the odd corner is not crossed.
+        HalfEdge exit = kNoHalfEdge;
+        double reached = -1e300;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t n = k == 2 ? 0 : k + 1;
+            const HalfEdge h = 3 * t + k;
+            if (side[k] == side[n] || h == entry) continue;
+            const double at = (crossing(u[k], v[k], u[n], v[n], across) - origin) * per_unit;
+            if (entry == kNoHalfEdge ? at > reached : true) {
+                reached = at;
+                exit = h;
+            }
+        }
+        if (exit == kNoHalfEdge) return result;
+        if (entry != kNoHalfEdge) {
+            const double longest = std::max({std::hypot(u[0] - u[1], v[0] - v[1]), std::hypot(u[1] - u[2], v[1] - v[2]),
+                                             std::hypot(u[2] - u[0], v[2] - v[0])});
+            const double area = std::abs(static_cast<double>(
+                std::int64_t{u[1] - u[0]} * (v[2] - v[0]) - std::int64_t{v[1] - v[0]} * (u[2] - u[0])));
+            if (area < kSurelySolid * longest && is_sliver(surfaces_, {start.instance, t})) return result;
+            if (reached < farthest - negligible) {
+                result.end = Walk::fold;
+                result.triangle = farthest_edge / 3;
+                result.half_edge = farthest_edge;
+                result.fraction = farthest;
+                return result;
+            }
+            if (reached < farthest) return result;
+            if ((sharp[entry / 3] >> entry % 3 & 1) != 0) {
+                const HalfEdge own = mesh.next_on_edge[entry];
+                const LineClassSet classes =
+                    edge_classes(surfaces_, {{start.instance, own / 3}, own}, criteria_) & criteria_.classes;
+                if (!classes.empty() && result.crossed.empty()) {
+                    result.crossed_edge = own;
+                    result.crossed_fraction = farthest;
+                }
+                result.crossed |= classes;
+            }
+        }
+        farthest = reached;
+        farthest_edge = exit;
+        if (reached >= goal) {
+            result.end = Walk::arrived;
+            result.triangle = t;
+            return result;
+        }
+        const HalfEdge partner = mesh.next_on_edge[exit];
+        if (partner == exit || mesh.next_on_edge[partner] != exit) return result;
+        t = partner / 3;
+        entry = partner;
+    }
+    return result;
+}
+
+double FastDecision::nearness_at(SurfaceId s, double x, double y) const {
+    const ScreenTriangle t = screen_.triangle(s);
+    const ScreenVertex &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
+    const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
+    const double area = ux * vy - uy * vx;
+    const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa;
+    const double qc = static_cast<double>(c.nearness) - qa;
+    if (area == 0) return surfaces_.farthest_nearness + qa + std::max({0.0, qb, qc});
+    const double px = x - a.x, py = y - a.y;
+    const double q = ((px * vy - py * vx) * qb + (ux * py - uy * px) * qc) / area;
+    return surfaces_.farthest_nearness + qa + std::clamp(q, std::min({0.0, qb, qc}), std::max({0.0, qb, qc}));
+}
+
+bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness) const {
+    const auto place = [&](double fraction) {
+        const double along = fraction * pair.pitch;
+        return pair.down ? glm::dvec2(pair.x, pair.y + along) : glm::dvec2(pair.x + along, pair.y);
+    };
+    const auto take_edge = [&](const Walk& w, HalfEdge h, std::uint32_t instance, int i, double fraction) {
+        decision.edge = {{instance, h / 3}, h};
+        decision.front = i;
+        decision.fraction = i == 0 ? fraction : 1 - fraction;
+        const glm::dvec2 at = place(decision.fraction);
+        nearness = nearness_at({instance, w.triangle}, at.x, at.y);
+    };
+    decision = LineDecision{};
+    const std::uint32_t numbers[2] = {pair.first, pair.second};
+    Walk walks[2];
+    for (const int i : {0, 1}) {
+        if (numbers[i] == kNoSurface) continue;
+        const std::uint32_t other = numbers[1 - i];
+        Walk& w = walks[i] = walk(pair, i == 1, 1.0);
+        if (w.end == Walk::unsure) return false;
+        const SurfaceId s = screen_.surface_of(numbers[i]);
+        if (w.end == Walk::arrived) {
+            if (other == kNoSurface) return false;
+            if (screen_.number_of({s.instance, w.triangle}) != other) continue;
+            decision.classes = w.crossed;
+            decision.reason = w.crossed.empty() ? LineReason::smooth : LineReason::feature_edge;
+            if (!w.crossed.empty()) take_edge(w, w.crossed_edge, s.instance, i, w.crossed_fraction);
+            return true;
+        }
+        if (other == kNoSurface) {
+            take_edge(w, w.half_edge, s.instance, i, w.fraction);
+            decision.reason = LineReason::turns_away;
+            decision.classes = LineClass::silhouette;
+            if (screen_.sharp_edges(s.instance)[w.half_edge / 3] >> w.half_edge % 3 & 1) {
+                decision.classes |= edge_classes(surfaces_, decision.edge, criteria_);
+            }
+            return true;
+        }
+    }
+    // Exactly one folds over, clearly in front of the other.
+    if ((walks[0].end == Walk::fold) == (walks[1].end == Walk::fold)) return false;
+    const int i = walks[0].end == Walk::fold ? 0 : 1;
+    const Walk& w = walks[i];
+    const Walk to_end = walk(pair, i == 0, 1 - w.fraction);
+    if (to_end.end != Walk::arrived) return false;
+    const SurfaceId own = screen_.surface_of(numbers[i]), behind = screen_.surface_of(numbers[1 - i]);
+    take_edge(w, w.half_edge, own.instance, i, w.fraction);
+    const glm::dvec2 at = place(decision.fraction);
+    const Projection& p = surfaces_.projection;
+    const SurfaceId behind_triangle{behind.instance, to_end.triangle};
+    const double other_nearness = nearness_at(behind_triangle, at.x, at.y);
+    const double distance = distance_of(p, nearness);
+    const double gap = distance_of(p, other_nearness) - distance;
+    // The tolerance depends on the other's slope; where that matters, it is not an ordinary case.
+    if (!(gap > depth_tolerance(surfaces_, distance, surfaces_.plane(behind_triangle)))) return false;
+    decision.reason = LineReason::turns_away;
+    decision.classes = LineClass::silhouette;
+    if (screen_.sharp_edges(own.instance)[w.half_edge / 3] >> w.half_edge % 3 & 1) {
+        decision.classes |= edge_classes(surfaces_, decision.edge, criteria_);
+    }
+    return true;
+}
+
+}  // namespace burin
