@@ -1,36 +1,97 @@
 #include "mesh/edge_links.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <new>
 #include <utility>
 
+#include "base/huge_pages.h"
 #include "base/interrupt.h"
 
 namespace burin {
 namespace {
 
-struct Entry {
-    std::uint32_t larger_vertex;
-    HalfEdge half_edge;
-    auto operator<=>(const Entry&) const = default;
+/// Edges met so far, in buckets of a few that one cache line holds whole. An edge is known by its
+/// two vertices: the bucket is that of one, the other is the key.
+class EdgeTable {
+  public:
+    explicit EdgeTable(std::size_t vertex_count)
+        : buckets_(static_cast<Bucket*>(
+              std::calloc(std::max<std::size_t>(1, vertex_count), sizeof(Bucket)))) {
+        if (buckets_ == nullptr) throw std::bad_alloc();
+        advise_huge_pages(buckets_.get(), vertex_count * sizeof(Bucket));
+    }
+
+    static constexpr HalfEdge kFull = kNoHalfEdge;
+
+    /// Notes half-edge h as the newest one on edge uv. Returns the newest before, h itself if there
+    /// was none, kFull if there is no place: then there is none for any half-edge of this edge.
+    HalfEdge exchange(std::uint32_t u, std::uint32_t v, HalfEdge h) {
+        const std::uint32_t owner = owner_of(u, v), other = u ^ v ^ owner;
+        const HalfEdge before = exchange_in(owner, other, h);
+        // A bucket that is full stays full, so that the next half-edge will come here too.
+        return before == kFull ? exchange_in(other, owner, h) : before;
+    }
+    void prefetch(std::uint32_t u, std::uint32_t v) const {
+        __builtin_prefetch(&buckets_.get()[owner_of(u, v)], 1);
+    }
+
+  private:
+    /// The vertex in whose bucket the edge is if there is place. The choice is even, however
+    /// vertices are numbered: a vertex of a closed surface has six edges on average, so three are
+    /// in its bucket.
+    static std::uint32_t owner_of(std::uint32_t u, std::uint32_t v) {
+        const std::uint32_t u_owns = 0u - ((u < v ? 1u : 0u) ^ ((u ^ v) & 1));
+        return v ^ ((u ^ v) & u_owns);
+    }
+    /// Without branches, which would guess wrong half of the time: masks are 0 or ~0.
+    HalfEdge exchange_in(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
+        const std::uint32_t key = other + 1;  // 0 = free
+        Bucket& bucket = buckets_.get()[owner];
+        std::uint32_t used = 0, match = 0, is_known = 0;
+        for (std::uint32_t i = 0; i < kSlots; ++i) {
+            const std::uint32_t is_here = 0u - static_cast<std::uint32_t>(bucket.keys[i] == key);
+            used += static_cast<std::uint32_t>(bucket.keys[i] != 0);
+            match |= i & is_here;
+            is_known |= is_here;
+        }
+        const std::uint32_t slot = used ^ ((used ^ match) & is_known);
+        if (slot == kSlots) return kFull;
+        const HalfEdge newest = h ^ ((h ^ bucket.half_edges[slot]) & is_known);
+        bucket.keys[slot] = key;
+        bucket.half_edges[slot] = h;
+        return newest;
+    }
+
+    static constexpr std::uint32_t kSlots = 4;
+    struct Bucket {
+        std::uint32_t keys[kSlots];
+        HalfEdge half_edges[kSlots];
+    };
+    struct Free {
+        void operator()(Bucket* p) const { std::free(p); }
+    };
+    std::unique_ptr<Bucket, Free> buckets_;  // calloc's pages are zero without being written
 };
 
-/// Links the entries of one bucket: all half-edges whose smaller vertex is the same.
-void link_bucket(std::span<Entry> bucket, std::vector<HalfEdge>& next_on_edge) {
-    constexpr std::size_t kSmall = 32;  // above, sorting beats comparing all pairs
-    if (bucket.size() > kSmall) std::sort(bucket.begin(), bucket.end());
-    for (std::size_t i = 0; i < bucket.size(); ++i) {
-        const HalfEdge first = bucket[i].half_edge;
-        if (next_on_edge[first] != kNoHalfEdge) continue;
-        HalfEdge last = first;
-        for (std::size_t j = i + 1; j < bucket.size(); ++j) {
-            if (bucket[j].larger_vertex == bucket[i].larger_vertex) {
-                next_on_edge[last] = bucket[j].half_edge;
-                last = bucket[j].half_edge;
-            } else if (bucket.size() > kSmall) {
-                break;
-            }
+/// A half-edge that found no place in the table.
+struct LeftOver {
+    std::uint32_t smaller_vertex, larger_vertex;
+    HalfEdge half_edge;
+    auto operator<=>(const LeftOver&) const = default;
+};
+
+void link_by_sorting(std::vector<LeftOver>& left_over, std::vector<HalfEdge>& next_on_edge) {
+    std::sort(left_over.begin(), left_over.end());
+    for (std::size_t i = 0, first = 0; i < left_over.size(); ++i) {
+        const LeftOver& here = left_over[i];
+        if (here.smaller_vertex != left_over[first].smaller_vertex ||
+            here.larger_vertex != left_over[first].larger_vertex) {
+            first = i;
         }
-        next_on_edge[last] = first;
+        if (i > first) next_on_edge[left_over[i - 1].half_edge] = here.half_edge;
+        next_on_edge[here.half_edge] = left_over[first].half_edge;
     }
 }
 
@@ -38,28 +99,33 @@ void link_bucket(std::span<Entry> bucket, std::vector<HalfEdge>& next_on_edge) {
 
 std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
                                  std::size_t vertex_count) {
-    std::vector<std::uint32_t> bucket_end(vertex_count + 1, 0);
-    for (const auto& t : triangles) {
-        ++bucket_end[std::min(t[0], t[1]) + 1];
-        ++bucket_end[std::min(t[1], t[2]) + 1];
-        ++bucket_end[std::min(t[2], t[0]) + 1];
-    }
-    for (std::size_t v = 0; v < vertex_count; ++v) bucket_end[v + 1] += bucket_end[v];
-    // Now bucket_end[v] is where bucket v starts; filling moves it to where the bucket ends.
-    std::vector<Entry> entries(3 * triangles.size());
-    HalfEdge h = 0;
-    for (const auto& t : triangles) {
-        for (const auto& [u, v] : {std::pair{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}}) {
-            entries[bucket_end[std::min(u, v)]++] = {std::max(u, v), h++};
+    std::vector<HalfEdge> next_on_edge = large_vector<HalfEdge>(3 * triangles.size());
+    EdgeTable table(vertex_count);
+    std::vector<LeftOver> left_over;
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if ((t & 0xFFFF) == 0) throw_if_interrupted();
+        if (t + kAhead < triangles.size()) {
+            const auto& [a, b, c] = triangles[t + kAhead];
+            table.prefetch(a, b);
+            table.prefetch(b, c);
+            table.prefetch(c, a);
+        }
+        const auto& [a, b, c] = triangles[t];
+        HalfEdge h = static_cast<HalfEdge>(3 * t);
+        for (const auto& [u, v] : {std::pair{a, b}, {b, c}, {c, a}}) {
+            const HalfEdge before = table.exchange(u, v, h);
+            if (before == EdgeTable::kFull) {
+                left_over.push_back({std::min(u, v), std::max(u, v), h});
+            } else {
+                // The newest one of a ring leads back to the oldest.
+                next_on_edge[h] = h;
+                std::swap(next_on_edge[h], next_on_edge[before]);
+            }
+            ++h;
         }
     }
-    throw_if_interrupted();
-    std::vector<HalfEdge> next_on_edge(3 * triangles.size(), kNoHalfEdge);
-    std::size_t begin = 0;
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        link_bucket({entries.data() + begin, bucket_end[v] - begin}, next_on_edge);
-        begin = bucket_end[v];
-    }
+    link_by_sorting(left_over, next_on_edge);
     return next_on_edge;
 }
 
@@ -68,8 +134,8 @@ BorderIndex index_borders(const Mesh& mesh) {
     for (HalfEdge h = 0; h < mesh.next_on_edge.size(); ++h) {
         if (mesh.next_on_edge[h] != h) continue;
         const auto& t = mesh.triangles[h / 3];
-        segments.push_back({h, mesh.polygon_of(h / 3), mesh.positions[t[h % 3]],
-                            mesh.positions[t[(h + 1) % 3]]});
+        segments.push_back(
+            {h, mesh.polygon_of(h / 3), mesh.positions[t[h % 3]], mesh.positions[t[(h + 1) % 3]]});
     }
     return BorderIndex(std::move(segments));
 }

@@ -129,6 +129,10 @@ int PlyElement::find(std::string_view name_a, std::string_view name_b) const {
     return -1;
 }
 
+bool PlyElement::has_lists() const {
+    return std::any_of(properties.begin(), properties.end(), [](const PlyProperty& p) { return p.is_list; });
+}
+
 std::uint64_t PlyElement::smallest_binary_size() const {
     std::uint64_t size = 0;
     for (const PlyProperty& p : properties) size += size_of(p.is_list ? p.count_type : p.type);

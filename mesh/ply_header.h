@@ -29,6 +29,7 @@ struct PlyElement {
 
     /// Index of the first property with one of these names, or -1.
     int find(std::string_view name_a, std::string_view name_b = {}) const;
+    bool has_lists() const;
     /// Bytes of one item in a binary file, or the fewest possible if it has lists.
     std::uint64_t smallest_binary_size() const;
 };

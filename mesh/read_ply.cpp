@@ -1,156 +1,21 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <filesystem>
+#include <span>
+#include <type_traits>
 #include <utility>
 
+#include "base/huge_pages.h"
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
 #include "mesh/ply_header.h"
+#include "mesh/ply_values.h"
 #include "mesh/readers.h"
 #include "mesh/text_scan.h"
 
 namespace burin {
 namespace {
-
-/// A real that stands for an integer, as some writers put vertex numbers.
-bool to_integer(double number, std::int64_t& value) {
-    if (!(std::abs(number) <= 9e15) || number != std::floor(number)) return false;
-    value = static_cast<std::int64_t>(number);
-    return true;
-}
-
-/// Values of an ASCII body, in order. The values of one item stand on one line by convention, but
-/// readers everywhere take any white space, so this does too.
-class AsciiValues {
-  public:
-    AsciiValues(std::string_view body, std::size_t first_line)
-        : p_(body.data()), end_(body.data() + body.size()), line_(first_line) {}
-
-    bool number(PlyType, double& value) {
-        skip_space();
-        const char* const next = scan_number(p_, end_, value);
-        return accept(next);
-    }
-    bool integer(PlyType type, std::int64_t& value) {
-        if (type >= PlyType::float32) {
-            skip_space();
-            double number_value = 0;
-            const char* const next = scan_number(p_, end_, number_value);
-            return next != nullptr && to_integer(number_value, value) && accept(next);
-        }
-        skip_space();
-        if (p_ < end_ && is_digit(*p_)) {
-            // Nearly all numbers here are short and without a sign.
-            const char* q = p_;
-            std::int64_t v = 0;
-            while (q < end_ && is_digit(*q) && q - p_ < 18) v = 10 * v + (*q++ - '0');
-            if (q == end_ || !is_digit(*q)) {
-                value = v;
-                return accept(q);
-            }
-        }
-        return accept(scan_integer(p_, end_, value));
-    }
-    bool skip(PlyType, std::uint64_t count) {
-        for (; count > 0; --count) {
-            skip_space();
-            if (p_ == end_) return false;
-            while (p_ < end_ && !is_space(*p_)) ++p_;
-        }
-        return true;
-    }
-    /// How many values the rest can hold at most: each takes a character and a space.
-    std::uint64_t room() const { return static_cast<std::uint64_t>(end_ - p_ + 1) / 2; }
-    bool at_end() {
-        skip_space();
-        return p_ == end_;
-    }
-    std::size_t line() const { return line_; }
-
-  private:
-    static bool is_space(char c) { return is_blank(c) || c == '\n'; }
-    void skip_space() {
-        while (p_ < end_ && static_cast<unsigned char>(*p_) <= ' ' && is_space(*p_)) {
-            line_ += *p_++ == '\n';
-        }
-    }
-    bool accept(const char* next) {
-        if (next == nullptr || (next < end_ && !is_space(*next))) return false;
-        p_ = next;
-        return true;
-    }
-
-    const char* p_;
-    const char* end_;
-    std::size_t line_;
-};
-
-/// Values of a binary body, in order.
-class BinaryValues {
-  public:
-    BinaryValues(std::string_view body, bool big_endian)
-        : p_(body.data()), end_(body.data() + body.size()), big_endian_(big_endian) {}
-
-    bool number(PlyType type, double& value) {
-        if (room_bytes() < size_of(type)) return reach_end();
-        switch (type) {
-            case PlyType::int8: value = load<std::int8_t>(); break;
-            case PlyType::uint8: value = load<std::uint8_t>(); break;
-            case PlyType::int16: value = load<std::int16_t>(); break;
-            case PlyType::uint16: value = load<std::uint16_t>(); break;
-            case PlyType::int32: value = load<std::int32_t>(); break;
-            case PlyType::uint32: value = load<std::uint32_t>(); break;
-            case PlyType::float32: value = static_cast<double>(load<float>()); break;
-            case PlyType::float64: value = load<double>(); break;
-        }
-        return true;
-    }
-    bool integer(PlyType type, std::int64_t& value) {
-        const char* const start = p_;
-        double number_value = 0;  // 32-bit integers fit exactly
-        if (!number(type, number_value)) return false;
-        if (to_integer(number_value, value)) return true;
-        p_ = start;
-        return false;
-    }
-    bool skip(PlyType type, std::uint64_t count) {
-        if (count > room_bytes() / size_of(type)) return reach_end();
-        p_ += count * size_of(type);
-        return true;
-    }
-    std::uint64_t room() const { return room_bytes(); }
-    bool at_end() const { return p_ == end_; }
-    std::size_t line() const { return 0; }
-
-  private:
-    /// For a value that the file has only a part of.
-    bool reach_end() {
-        p_ = end_;
-        return false;
-    }
-    std::size_t room_bytes() const { return static_cast<std::size_t>(end_ - p_); }
-    template <typename T>
-    T load() {
-        char bytes[sizeof(T)];
-        std::memcpy(bytes, p_, sizeof(T));
-        p_ += sizeof(T);
-        const bool swap = big_endian_ == (std::endian::native == std::endian::little);
-        if (swap) {
-            for (std::size_t i = 0; i < sizeof(T) / 2; ++i) {
-                std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
-            }
-        }
-        T value;
-        std::memcpy(&value, bytes, sizeof(T));
-        return value;
-    }
-
-    const char* p_;
-    const char* end_;
-    bool big_endian_;
-};
 
 template <typename Values>
 class BodyReader {
@@ -176,10 +41,12 @@ class BodyReader {
             }
         }
         if (soup_.positions.empty()) {
-            throw InputError(path_ + ": the file has no vertices; burin draws the lines of surfaces");
+            throw InputError(path_ +
+                             ": the file has no vertices; burin draws the lines of surfaces");
         }
         if (soup_.polygon_count() == 0) {
-            throw InputError(path_ + ": the file has no polygons; burin draws the lines of surfaces");
+            throw InputError(path_ +
+                             ": the file has no polygons; burin draws the lines of surfaces");
         }
         check_references();
         return std::move(soup_);
@@ -188,7 +55,8 @@ class BodyReader {
   private:
     [[noreturn]] void fail(const std::string& message) const {
         const std::string item =
-            values_.line() > 0 ? "" : printable(element_->name) + " " + std::to_string(item_) + ": ";
+            values_.line() > 0 ? ""
+                               : printable(element_->name) + " " + std::to_string(item_) + ": ";
         throw InputError({path_, values_.line()}, item + message);
     }
     [[noreturn]] void fail_value() {
@@ -202,19 +70,18 @@ class BodyReader {
 
     /// Refuses counts that the file has no room for, before anything is allocated.
     void check_room(const PlyElement& element) const {
-        const std::uint64_t values_each =
-            header_.encoding == PlyEncoding::ascii ? element.properties.size()
-                                                   : element.smallest_binary_size();
+        const std::uint64_t values_each = header_.encoding == PlyEncoding::ascii
+                                              ? element.properties.size()
+                                              : element.smallest_binary_size();
         if (element.count > 0 && values_each == 0) {
             throw InputError(path_ + ": element '" + printable(element.name) +
                              "' has a count but no properties; repair the file");
         }
         if (element.count > 0 && values_.room() / values_each < element.count) {
-            throw InputError(path_ + ": the header promises " + std::to_string(element.count) +
-                             " of element '" + printable(element.name) +
-                             "', the file has room for at most " +
-                             std::to_string(values_.room() / values_each) +
-                             "; was it written completely?");
+            throw InputError(
+                path_ + ": the header promises " + std::to_string(element.count) + " of element '" +
+                printable(element.name) + "', the file has room for at most " +
+                std::to_string(values_.room() / values_each) + "; was it written completely?");
         }
         if (element.name == "vertex" && element.count > 0xFFFFFFFFu) {
             throw InputError(path_ + ": more than 4 billion vertices; split the model");
@@ -264,9 +131,11 @@ class BodyReader {
             }
             axis_of[static_cast<std::size_t>(p)] = axis;
         }
-        soup_.positions.reserve(soup_.positions.size() + element.count);
+        reserve_large(soup_.positions, soup_.positions.size() + element.count);
         for (item_ = 0; item_ < element.count; ++item_) {
             poll();
+            read_plain_positions(element, axis_of);
+            if (item_ == element.count) break;
             glm::dvec3 position;
             for (std::size_t i = 0; i < axis_of.size(); ++i) {
                 if (axis_of[i] < 0) {
@@ -277,10 +146,50 @@ class BodyReader {
             }
             const double largest =
                 std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
-            if (!(largest <= kLargestCoordinate) || std::isnan(position.x + position.y + position.z)) {
+            if (!(largest <= kLargestCoordinate) ||
+                std::isnan(position.x + position.y + position.z)) {
                 fail("a coordinate is not finite or beyond 1e30; repair or re-export the file");
             }
             soup_.positions.push_back(position);
+        }
+    }
+
+    /// Reads items in the usual form; the rest of this class reads any form, one item at a time.
+    void read_plain_positions(const PlyElement& element, std::span<const int> axis_of) {
+        if constexpr (kHasPlainRows) {
+            if (element.has_lists()) return;
+            std::array<glm::dvec3, 1024> rows;
+            for (std::size_t count = rows.size(); count == rows.size(); item_ += count) {
+                throw_if_interrupted();
+                const std::uint64_t left = element.count - item_;
+                count = values_.plain_positions(
+                    axis_of, std::span(rows).first(std::min<std::uint64_t>(left, rows.size())));
+                soup_.positions.insert(soup_.positions.end(), rows.begin(),
+                                       rows.begin() + static_cast<std::ptrdiff_t>(count));
+            }
+        }
+    }
+    void read_plain_triangles(const PlyElement& element) {
+        if constexpr (kHasPlainRows) {
+            if (element.properties.size() != 1) return;
+            AsciiValues::PlainTriangles rows;
+            for (std::size_t count = rows.kMax; count == rows.kMax; item_ += count) {
+                throw_if_interrupted();
+                const std::uint64_t left = std::min(
+                    element.count - item_, (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
+                count = values_.plain_triangles(std::min<std::uint64_t>(left, rows.kMax), rows);
+                const std::span corners = std::span(rows.corners).first(3 * count);
+                soup_.corners.insert(soup_.corners.end(), corners.begin(), corners.end());
+                std::uint32_t largest = 0;
+                for (const std::uint32_t v : corners) largest = std::max(largest, v);
+                if (count > 0 && largest > largest_index_) {
+                    const auto at =
+                        std::find(corners.begin(), corners.end(), largest) - corners.begin();
+                    largest_index_ = largest;
+                    largest_index_line_ = rows.lines[static_cast<std::size_t>(at / 3)];
+                    largest_index_item_ = item_ + static_cast<std::uint64_t>(at / 3);
+                }
+            }
         }
     }
 
@@ -300,7 +209,8 @@ class BodyReader {
     std::uint32_t vertex_index(const PlyProperty& property) {
         const std::int64_t index = list_index(property);
         if (index < 0 || index > std::int64_t{0xFFFFFFFF}) {
-            fail("vertex " + std::to_string(index) + " does not exist; repair or re-export the file");
+            fail("vertex " + std::to_string(index) +
+                 " does not exist; repair or re-export the file");
         }
         return static_cast<std::uint32_t>(index);
     }
@@ -311,10 +221,12 @@ class BodyReader {
             throw InputError(path_ + ": element 'face' has no list 'vertex_indices'; " +
                              "repair or re-export the file");
         }
-        soup_.corners.reserve(3 * element.count);
+        reserve_large(soup_.corners, soup_.corners.size() + 3 * element.count);
         bool all_triangles = soup_.polygon_ends.empty();
         for (item_ = 0; item_ < element.count; ++item_) {
             poll();
+            if (all_triangles) read_plain_triangles(element);
+            if (item_ == element.count) break;
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const PlyProperty& property = element.properties[i];
                 if (i != static_cast<std::size_t>(list)) {
@@ -424,6 +336,8 @@ class BodyReader {
                              std::to_string(soup_.positions.size()) +
                              ", counted from 0); repair or re-export the file");
     }
+
+    static constexpr bool kHasPlainRows = std::is_same_v<Values, AsciiValues>;
 
     const std::string& path_;
     const PlyHeader& header_;

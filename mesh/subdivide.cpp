@@ -132,13 +132,11 @@ PolygonMesh subdivide_as(const PolygonMesh& cage, int levels, const std::string&
         result.positions.emplace_back(static_cast<float>(p[0]), static_cast<float>(p[1]),
                                       static_cast<float>(p[2]));
     }
+    std::vector<std::uint32_t> corners;
     for (const auto f : om.faces()) {
-        for (const auto v : om.fv_range(f)) {
-            result.corners.push_back(static_cast<std::uint32_t>(v.idx()));
-        }
-        if constexpr (!std::is_same_v<OmMesh, TriangleMesh>) {
-            result.ends.push_back(static_cast<std::uint32_t>(result.corners.size()));
-        }
+        corners.clear();
+        for (const auto v : om.fv_range(f)) corners.push_back(static_cast<std::uint32_t>(v.idx()));
+        result.add_polygon(corners);
     }
     for (const auto e : om.edges()) {
         if (!marked[static_cast<std::size_t>(e.idx())]) continue;
@@ -156,7 +154,7 @@ void check_size(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
     std::uint64_t polygons = mesh.polygon_count();
     for (int level = 0; level < levels; ++level) {
         const bool by_corners = level == 0 && scheme == SubdivisionScheme::catmull_clark;
-        polygons = by_corners ? mesh.corners.size() : 4 * polygons;
+        polygons = by_corners ? mesh.corner_count() : 4 * polygons;
         if (polygons > kMaxPolygons) {
             throw InputError("object '" + object_name + "': " + std::to_string(levels) +
                              " subdivisions give more than 268 million polygons; use fewer");

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "mesh/digit_scan.h"
 
 namespace burin {
 
@@ -23,6 +24,9 @@ inline const char* scan_number(const char* p, const char* end, double& value) {
     static constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                               1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                               1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    if (end - p >= kScanReach) {
+        if (const char* const next = scan_plain_decimal(p, value)) return next;
+    }
     const char* const start = p;
     const bool negative = p < end && *p == '-';
     if (p < end && (*p == '-' || *p == '+')) ++p;

@@ -1,0 +1,68 @@
+// load_bench MODEL.ply RUNS: what it costs to read a model and link its edges, beside OpenMesh.
+// Prints the JSON object of section "load": seconds of CPU time of one thread, medians over the
+// runs.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "base/json_writer.h"
+#include "bench/openmesh_read.h"
+#include "bench/statistics.h"
+#include "mesh/build_meshes.h"
+#include "mesh/readers.h"
+
+namespace burin::bench {
+namespace {
+
+std::string measure_loading(const std::string& path, int runs) {
+    Samples read, build, ours, theirs;
+    std::size_t triangles = 0, openmesh_faces = 0;
+    for (int run = -1; run < runs; ++run) {  // run -1 warms the page cache
+        const double start = thread_cpu_s();
+        PolygonSoup soup = read_ply(path);
+        const double middle = thread_cpu_s();
+        std::vector<Mesh> meshes = build_meshes(std::move(soup), {});
+        const double end = thread_cpu_s();
+        triangles = meshes.front().triangles.size();
+        meshes.clear();
+        const double openmesh_start = thread_cpu_s();
+        openmesh_faces = openmesh_read(path);
+        const double openmesh_end = thread_cpu_s();
+        if (run < 0) continue;
+        read.add(middle - start);
+        build.add(end - middle);
+        ours.add(end - start);
+        theirs.add(openmesh_end - openmesh_start);
+    }
+    JsonWriter json;
+    json.begin_object();
+    json.key("runs").value(runs);
+    json.key("triangles").value(std::uint64_t{triangles});
+    json.key("openmesh_faces").value(std::uint64_t{openmesh_faces});
+    write_samples(json, "read_s", read);
+    write_samples(json, "build_s", build);
+    write_samples(json, "load_s", ours);
+    write_samples(json, "openmesh_read_mesh_s", theirs);
+    write_ratio(json, "ratio", ours, theirs);
+    json.end_object();
+    return json.text();
+}
+
+}  // namespace
+}  // namespace burin::bench
+
+int main(int argc, char** argv) {
+    const int runs = argc == 3 ? std::atoi(argv[2]) : 0;
+    if (runs < 1) {
+        std::fputs("usage: load_bench MODEL.ply RUNS\n", stderr);
+        return 2;
+    }
+    try {
+        std::fputs(burin::bench::measure_loading(argv[1], runs).c_str(), stdout);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "load_bench: %s\n", error.what());
+        return 1;
+    }
+}

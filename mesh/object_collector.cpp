@@ -1,0 +1,159 @@
+#include "mesh/object_collector.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/interrupt.h"
+
+namespace burin {
+
+PolygonsByObject group_by_object(const PolygonSoup& soup) {
+    PolygonsByObject groups;
+    const std::size_t objects = std::max<std::size_t>(1, soup.object_names.size());
+    groups.end.assign(objects, 0);
+    if (soup.polygon_object.empty()) {
+        groups.end[0] = soup.polygon_count();
+        return groups;
+    }
+    for (const std::uint32_t object : soup.polygon_object) ++groups.end[object];
+    std::size_t sum = 0;
+    for (std::size_t& end : groups.end) end = std::exchange(sum, sum + end);
+    groups.order.resize(soup.polygon_count());
+    for (std::uint32_t i = 0; i < groups.order.size(); ++i) {
+        groups.order[groups.end[soup.polygon_object[i]]++] = i;
+    }
+    return groups;
+}
+
+glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners) {
+    glm::dvec3 along(0.0);
+    for (const glm::dvec3& corner : corners.subspan(1)) {
+        const glm::dvec3 d = corner - corners[0];
+        if (along == glm::dvec3(0.0)) {
+            along = d;
+        } else if (const glm::dvec3 normal = glm::cross(along, d); normal != glm::dvec3(0.0)) {
+            return normal;
+        }
+    }
+    return glm::dvec3(0.0);
+}
+
+ObjectCollector::ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
+                                 const std::vector<std::uint32_t>& welded)
+    : soup_(soup),
+      positions_(positions),
+      welded_(welded),
+      local_(positions.size(), kUnused),
+      is_corner_(positions.size(), false),
+      is_welded_corner_(positions.size(), false) {
+    for (const auto& [a, b] : soup.marked_edges) {
+        const std::uint32_t u = welded[a], v = welded[b];
+        if (u != v) marks_.push_back({std::min(u, v), std::max(u, v)});
+    }
+    std::sort(marks_.begin(), marks_.end());
+}
+
+PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t begin,
+                                     std::size_t end, MeshRepairs& repairs) {
+    PolygonMesh mesh;
+    mesh.triangles.reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+        if ((i & 0xFFFF) == 0) throw_if_interrupted();
+        const std::size_t polygon = groups.order.empty() ? i : groups.order[i];
+        collapse(soup_.polygon(polygon), repairs);
+        if (corners_.size() < 3 || has_no_area()) {
+            ++repairs.degenerate_polygons;
+            continue;
+        }
+        for (std::uint32_t& v : corners_) v = local_number(v, mesh);
+        mesh.add_polygon(corners_);
+        if (!soup_.polygon_material.empty()) {
+            mesh.polygon_material.push_back(soup_.material_of(polygon));
+        }
+    }
+    add_marks(mesh);
+    repairs.welded_vertices = corners_seen_ - welded_corners_seen_;
+    forget(groups, begin, end);
+    return mesh;
+}
+
+/// The polygon's welded corners, without repetitions in a row and spikes, into corners_.
+void ObjectCollector::collapse(std::span<const std::uint32_t> corners, MeshRepairs& repairs) {
+    ++repairs.input_polygons;
+    if (corners.size() > 2) repairs.input_triangles += corners.size() - 2;
+    corners_.clear();
+    for (const std::uint32_t corner : corners) {
+        const std::uint32_t v = welded_[corner];
+        if (!is_corner_[corner]) {
+            is_corner_[corner] = true;
+            ++corners_seen_;
+            welded_corners_seen_ += !is_welded_corner_[v];
+            is_welded_corner_[v] = true;
+        }
+        const std::size_t n = corners_.size();
+        if (n > 0 && corners_[n - 1] == v) continue;
+        if (n > 1 && corners_[n - 2] == v) {
+            corners_.pop_back();  // there and back: a spike
+        } else {
+            corners_.push_back(v);
+        }
+    }
+    // The same where the end meets the start.
+    std::size_t first = 0, end = corners_.size();
+    while (end - first > 1) {
+        if (corners_[first] == corners_[end - 1] || corners_[first + 1] == corners_[end - 1]) {
+            first += corners_[first] != corners_[end - 1];
+            --end;
+        } else if (corners_[first] == corners_[end - 2]) {
+            --end;
+        } else {
+            break;
+        }
+    }
+    corners_.resize(end);
+    corners_.erase(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+/// The marks between vertices of the object.
+void ObjectCollector::add_marks(PolygonMesh& mesh) const {
+    if (marks_.empty()) return;
+    for (const std::uint32_t u : used_) {
+        const std::array<std::uint32_t, 2> first{u, u + 1};
+        for (auto it = std::lower_bound(marks_.begin(), marks_.end(), first);
+             it != marks_.end() && (*it)[0] == u; ++it) {
+            const std::uint32_t v = local_[(*it)[1]];
+            if (v != kUnused) mesh.marked_edges.push_back({local_[u], v});
+        }
+    }
+}
+
+/// Makes ready for the next object.
+void ObjectCollector::forget(const PolygonsByObject& groups, std::size_t begin, std::size_t end) {
+    for (const std::uint32_t v : used_) local_[v] = kUnused;
+    used_.clear();
+    corners_seen_ = welded_corners_seen_ = 0;
+    if (groups.order.empty()) return;  // there is no other object
+    for (std::size_t i = begin; i < end; ++i) {
+        for (const std::uint32_t corner : soup_.polygon(groups.order[i])) {
+            is_corner_[corner] = false;
+            is_welded_corner_[welded_[corner]] = false;
+        }
+    }
+}
+
+bool ObjectCollector::has_no_area() {
+    places_.clear();
+    for (const std::uint32_t v : corners_) places_.emplace_back(positions_[v]);
+    return normal_of_any_corners(places_) == glm::dvec3(0.0);
+}
+
+std::uint32_t ObjectCollector::local_number(std::uint32_t v, PolygonMesh& mesh) {
+    if (local_[v] == kUnused) {
+        local_[v] = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.push_back(positions_[v]);
+        used_.push_back(v);
+    }
+    return local_[v];
+}
+
+}  // namespace burin

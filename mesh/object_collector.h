@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/polygon_mesh.h"
+#include "mesh/polygon_soup.h"
+
+namespace burin {
+
+/// Polygons of the soup, object by object, in their order.
+struct PolygonsByObject {
+    std::vector<std::uint32_t> order;  ///< empty: one object, in the soup's order
+    std::vector<std::size_t> end;      ///< per object
+};
+PolygonsByObject group_by_object(const PolygonSoup& soup);
+
+/// A normal to any three corners that do not lie on one line; 0 if all do.
+glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners);
+
+/// Collects one object's polygons: own vertex numbers in the order of their use, nothing repeated,
+/// nothing without area.
+class ObjectCollector {
+  public:
+    /// `welded`: per vertex of the soup the number of the first one at its place.
+    ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
+                    const std::vector<std::uint32_t>& welded);
+
+    /// The polygons groups.order[begin, end), which are all of one object.
+    PolygonMesh collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end,
+                        MeshRepairs& repairs);
+
+  private:
+    static constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
+
+    void collapse(std::span<const std::uint32_t> corners, MeshRepairs& repairs);
+    void add_marks(PolygonMesh& mesh) const;
+    void forget(const PolygonsByObject& groups, std::size_t begin, std::size_t end);
+    bool has_no_area();
+    std::uint32_t local_number(std::uint32_t v, PolygonMesh& mesh);
+
+    const PolygonSoup& soup_;
+    const std::vector<glm::vec3>& positions_;
+    const std::vector<std::uint32_t>& welded_;
+    std::vector<std::uint32_t> local_;  // per soup vertex: its number in the object
+    std::vector<std::uint32_t> used_;
+    // Per soup vertex, whether a polygon of the object has it as a corner, before and after
+    // welding.
+    std::vector<bool> is_corner_, is_welded_corner_;
+    std::uint64_t corners_seen_ = 0, welded_corners_seen_ = 0;
+    std::vector<std::array<std::uint32_t, 2>> marks_;  // welded, smaller vertex first, sorted
+    std::vector<std::uint32_t> corners_;
+    std::vector<glm::dvec3> places_;  // of corners_
+};
+
+}  // namespace burin

@@ -1,0 +1,227 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "mesh/ply_header.h"
+#include "mesh/text_scan.h"
+
+namespace burin {
+
+/// A real that stands for an integer, as some writers put vertex numbers.
+inline bool to_integer(double number, std::int64_t& value) {
+    if (!(std::abs(number) <= 9e15) || number != std::floor(number)) return false;
+    value = static_cast<std::int64_t>(number);
+    return true;
+}
+
+/// Values of an ASCII body, in order. The values of one item stand on one line by convention, but
+/// readers everywhere take any white space, so this does too.
+class AsciiValues {
+  public:
+    AsciiValues(std::string_view body, std::size_t first_line)
+        : p_(body.data()), end_(body.data() + body.size()), line_(first_line) {}
+
+    bool number(PlyType, double& value) {
+        skip_space();
+        const char* const next = scan_number(p_, end_, value);
+        return accept(next);
+    }
+    bool integer(PlyType type, std::int64_t& value) {
+        if (type >= PlyType::float32) {
+            skip_space();
+            double number_value = 0;
+            const char* const next = scan_number(p_, end_, number_value);
+            return next != nullptr && to_integer(number_value, value) && accept(next);
+        }
+        skip_space();
+        if (end_ - p_ >= kScanReach) {
+            std::uint32_t plain = 0;
+            if (const char* const next = scan_plain_integer(p_, plain)) {
+                value = plain;
+                return accept(next);
+            }
+        }
+        return accept(scan_integer(p_, end_, value));
+    }
+    bool skip(PlyType, std::uint64_t count) {
+        for (; count > 0; --count) {
+            skip_space();
+            if (p_ == end_) return false;
+            while (p_ < end_ && !is_space(*p_)) ++p_;
+        }
+        return true;
+    }
+    /// How many values the rest can hold at most: each takes a character and a space.
+    std::uint64_t room() const { return static_cast<std::uint64_t>(end_ - p_ + 1) / 2; }
+    bool at_end() {
+        skip_space();
+        return p_ == end_;
+    }
+    std::size_t line() const { return line_; }
+
+    /// Reads rows of plain numbers from here on, as many as `rows` holds, and returns how many.
+    /// Stops in front of the first row that is not plain, for number() and skip() to have a look
+    /// at. `axis_of` says for every value of a row which coordinate it is, or -1.
+    std::size_t plain_positions(std::span<const int> axis_of, std::span<glm::dvec3> rows) {
+        return plain_rows(rows.size(), [&](const char* p, std::size_t row, std::size_t) {
+            for (const int axis : axis_of) {
+                p = skip_blanks(p);
+                if (end_ - p < kScanReach) return kNotPlain;
+                if (axis >= 0) {
+                    p = scan_plain_decimal(p, rows[row][axis]);
+                    if (p == nullptr || !is_space(*p)) return kNotPlain;
+                } else {
+                    while (p < end_ && !is_space(*p)) ++p;
+                }
+            }
+            return p;
+        });
+    }
+
+    /// Triangles, each of them a row of the number 3 and three vertex numbers on one line.
+    struct PlainTriangles {
+        static constexpr std::size_t kMax = 1024;
+        std::array<std::uint32_t, 3 * kMax> corners;
+        std::array<std::size_t, kMax> lines;
+    };
+    std::size_t plain_triangles(std::size_t max_count, PlainTriangles& rows) {
+        return plain_rows(max_count, [&](const char* p, std::size_t row, std::size_t line) {
+            if (end_ - p < kScanReach || p[0] != '3' || !is_blank(p[1])) return kNotPlain;
+            ++p;
+            for (std::size_t k = 0; k < 3; ++k) {
+                p = skip_blanks(p);
+                if (end_ - p < kScanReach) return kNotPlain;
+                p = scan_plain_integer(p, rows.corners[3 * row + k]);
+                if (p == nullptr || !is_space(*p)) return kNotPlain;
+            }
+            rows.lines[row] = line;
+            return p;
+        });
+    }
+
+  private:
+    static constexpr const char* kNotPlain = nullptr;
+
+    /// Calls read_row(place, row, line) for one row after the other; it returns the place behind.
+    template <typename ReadRow>
+    std::size_t plain_rows(std::size_t max_count, ReadRow read_row) {
+        std::size_t row = 0;
+        for (; row < max_count; ++row) {
+            skip_space();
+            const char* const next = read_row(p_, row, line_);
+            if (next == kNotPlain) break;
+            p_ = next;
+        }
+        return row;
+    }
+    const char* skip_blanks(const char* p) const {
+        while (p < end_ && is_blank(*p)) ++p;
+        return p;
+    }
+    static bool is_space(char c) { return is_blank(c) || c == '\n'; }
+    void skip_space() {
+        while (p_ < end_ && static_cast<unsigned char>(*p_) <= ' ' && is_space(*p_)) {
+            line_ += *p_++ == '\n';
+        }
+    }
+    bool accept(const char* next) {
+        if (next == nullptr || (next < end_ && !is_space(*next))) return false;
+        p_ = next;
+        return true;
+    }
+
+    const char* p_;
+    const char* end_;
+    std::size_t line_;
+};
+
+/// Values of a binary body, in order.
+class BinaryValues {
+  public:
+    BinaryValues(std::string_view body, bool big_endian)
+        : p_(body.data()), end_(body.data() + body.size()), big_endian_(big_endian) {}
+
+    bool number(PlyType type, double& value) {
+        if (room_bytes() < size_of(type)) return reach_end();
+        switch (type) {
+            case PlyType::int8:
+                value = load<std::int8_t>();
+                break;
+            case PlyType::uint8:
+                value = load<std::uint8_t>();
+                break;
+            case PlyType::int16:
+                value = load<std::int16_t>();
+                break;
+            case PlyType::uint16:
+                value = load<std::uint16_t>();
+                break;
+            case PlyType::int32:
+                value = load<std::int32_t>();
+                break;
+            case PlyType::uint32:
+                value = load<std::uint32_t>();
+                break;
+            case PlyType::float32:
+                value = static_cast<double>(load<float>());
+                break;
+            case PlyType::float64:
+                value = load<double>();
+                break;
+        }
+        return true;
+    }
+    bool integer(PlyType type, std::int64_t& value) {
+        const char* const start = p_;
+        double number_value = 0;  // 32-bit integers fit exactly
+        if (!number(type, number_value)) return false;
+        if (to_integer(number_value, value)) return true;
+        p_ = start;
+        return false;
+    }
+    bool skip(PlyType type, std::uint64_t count) {
+        if (count > room_bytes() / size_of(type)) return reach_end();
+        p_ += count * size_of(type);
+        return true;
+    }
+    std::uint64_t room() const { return room_bytes(); }
+    bool at_end() const { return p_ == end_; }
+    std::size_t line() const { return 0; }
+
+  private:
+    /// For a value that the file has only a part of.
+    bool reach_end() {
+        p_ = end_;
+        return false;
+    }
+    std::size_t room_bytes() const { return static_cast<std::size_t>(end_ - p_); }
+    template <typename T>
+    T load() {
+        char bytes[sizeof(T)];
+        std::memcpy(bytes, p_, sizeof(T));
+        p_ += sizeof(T);
+        const bool swap = big_endian_ == (std::endian::native == std::endian::little);
+        if (swap) {
+            for (std::size_t i = 0; i < sizeof(T) / 2; ++i) {
+                std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+            }
+        }
+        T value;
+        std::memcpy(&value, bytes, sizeof(T));
+        return value;
+    }
+
+    const char* p_;
+    const char* end_;
+    bool big_endian_;
+};
+
+}  // namespace burin

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace burin {
+
+/// For every position the number of the first one with equal coordinates. There must be no -0 and
+/// no NaN among the coordinates.
+std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> positions);
+
+}  // namespace burin

@@ -1,0 +1,117 @@
+// Rows of plain numbers in ASCII PLY files are read in blocks, everything else value by value. Where
+// one way ends and the other goes on must not show, in what is read and in what errors say.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "mesh/readers.h"
+#include "tests/mesh/model_files.h"
+#include "tests/support/random.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin {
+namespace {
+
+using test::Random;
+
+constexpr int kVertices = 1500, kFaces = 2500;  // more than a block
+constexpr int kFirstVertexLine = 11;
+
+/// The lines of the body of a file: vertices with a colour between y and z, then triangles.
+std::vector<std::string> plain_rows() {
+    Random random(1);
+    std::vector<std::string> rows;
+    for (int i = 0; i < kVertices; ++i) {
+        const auto decimal = [&] {
+            std::string text = std::to_string(random.real(-2, 2));
+            text.resize(text.size() - static_cast<std::size_t>(random.integer(0, 5)));
+            return text;
+        };
+        rows.push_back(decimal() + " " + decimal() + " 255 " + decimal());
+    }
+    for (int i = 0; i < kFaces; ++i) {
+        rows.push_back("3");
+        for (int k = 0; k < 3; ++k) rows.back() += " " + std::to_string(random.integer(0, kVertices - 1));
+    }
+    return rows;
+}
+
+std::string file_of(const std::vector<std::string>& rows) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kVertices) +
+                       "\nproperty float x\nproperty float y\nproperty uchar red\nproperty float z\nelement face " +
+                       std::to_string(kFaces) + "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const std::string& row : rows) text += row + "\n";
+    return text;
+}
+
+class PlainPly : public testing::Test {
+  protected:
+    PolygonSoup read(const std::vector<std::string>& rows) { return read_ply(folder_.write("part.ply", file_of(rows))); }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(PlainPly, UnusualSpellingsMeanTheSame) {
+    const std::vector<std::string> plain = plain_rows();
+    const PolygonSoup expected = read(plain);
+    ASSERT_EQ(expected.positions.size(), static_cast<std::size_t>(kVertices));
+    ASSERT_EQ(expected.corners.size(), static_cast<std::size_t>(3 * kFaces));
+    EXPECT_TRUE(expected.polygon_ends.empty());
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        Random random(seed);
+        std::vector<std::string> rows = plain;
+        const int rarity = seed % 2 == 0 ? 3 : 400;
+        for (std::string& row : rows) {
+            const std::size_t blank = row.find(' ');
+            switch (random.integer(0, rarity)) {
+                case 0: row = "\t" + row.substr(0, blank) + "  \t" + row.substr(blank) + " \r"; break;
+                case 1: row = row[0] == '-' ? row : "+" + row; break;
+                case 2: row = row.substr(0, blank) + "\n\n" + row.substr(blank + 1); break;
+                case 3: row.insert(row[0] == '-' ? 1 : 0, "00000000000000000000"); break;
+                default: break;
+            }
+        }
+        const PolygonSoup soup = read(rows);
+        ASSERT_EQ(soup.positions, expected.positions) << "seed " << seed;
+        ASSERT_EQ(soup.corners, expected.corners) << "seed " << seed;
+        ASSERT_TRUE(soup.polygon_ends.empty());
+    }
+}
+
+TEST_F(PlainPly, OtherPolygonsMayFollowAnywhere) {
+    for (const int at : {0, 1, 1023, 1024, 1025, 2048, kFaces - 1}) {
+        std::vector<std::string> rows = plain_rows();
+        rows[static_cast<std::size_t>(kVertices + at)] = "4 0 1 2 3";
+        const PolygonSoup soup = read(rows);
+        ASSERT_EQ(soup.polygon_count(), static_cast<std::size_t>(kFaces));
+        for (int i = 0; i < kFaces; ++i) ASSERT_EQ(soup.polygon(static_cast<std::size_t>(i)).size(), i == at ? 4u : 3u) << i;
+    }
+}
+
+TEST_F(PlainPly, ErrorsNameTheLine) {
+    const auto refused = [&](int row, const std::string& text, std::string_view what) {
+        std::vector<std::string> rows = plain_rows();
+        rows[static_cast<std::size_t>(row)] = text;
+        const std::string place = ":" + std::to_string(kFirstVertexLine + row) + ":";
+        return test::refuses(read_ply, folder_.write("part.ply", file_of(rows)), {place, what});
+    };
+    for (const int row : {0, 1, 500, 1023, 1024, 1025, kVertices - 1}) {
+        EXPECT_TRUE(refused(row, "0 x 255 0", "no number")) << row;
+        EXPECT_TRUE(refused(row, "0 1e31 255 0", "beyond 1e30")) << row;
+    }
+    for (const int row : {0, 1, 1023, 1024, 1025, kFaces - 1}) {
+        EXPECT_TRUE(refused(kVertices + row, "3 0 1.5 2", "no number")) << row;
+        EXPECT_TRUE(refused(kVertices + row, "3 0 -1 2", "vertex -1 does not exist")) << row;
+        EXPECT_TRUE(refused(kVertices + row, "3 0 1500 2", "vertex 1500 does not exist")) << row;
+        EXPECT_TRUE(refused(kVertices + row, "3 0 99999999 2", "vertex 99999999 does not exist")) << row;
+    }
+}
+
+TEST_F(PlainPly, AFileThatEndsTooEarlyIsRefused) {
+    std::vector<std::string> rows = plain_rows();
+    rows.back() = "3 0 1";
+    EXPECT_TRUE(test::refuses(read_ply, folder_.write("part.ply", file_of(rows)), {"ends in the middle"}));
+}
+
+}  // namespace
+}  // namespace burin
