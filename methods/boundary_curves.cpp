@@ -130,7 +130,7 @@ bool BoundaryCurves::can_pass(Node node) const {
     return a.line_class == b.line_class && a.front_side == (turned ? -b.front_side : b.front_side);
 }
 
-std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px) const {
+std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px, double cell_px) const {
     struct Point {
         glm::dvec2 at;
         double depth_px;
@@ -140,9 +140,6 @@ std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px) const
     std::vector<Point> chain;
     std::int8_t front_side = 0;
 
-    const auto emit = [&](const Point& a, const Point& b, std::uint8_t line_class) {
-        result.push_back({a.at, b.at, a.depth_px, b.depth_px, line_class, front_side});
-    };
     /// Whether all points between two of the chain lie on the straight piece between them.
     const auto is_straight = [&](std::size_t first, std::size_t last) {
         const Point &a = chain[first], &b = chain[last];
@@ -159,7 +156,26 @@ std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px) const
         }
         return true;
     };
+    /// Cells cut corners. Where a short piece lies between two longer ones that meet when extended by
+    /// less than a cell, their meeting point is the corner.
+    std::vector<Point> simple;
+    const auto restore_corners = [&] {
+        for (std::size_t i = 1; i + 2 < simple.size(); ++i) {
+            const glm::dvec2 a = simple[i - 1].at, b = simple[i].at, c = simple[i + 1].at, d = simple[i + 2].at;
+            const double cut = glm::distance(b, c);
+            if (cut > 1.5 * cell_px || glm::distance(a, b) < 2 * cut || glm::distance(c, d) < 2 * cut) continue;
+            const double turn = cross(b - a, d - c);
+            if (turn == 0) continue;
+            const double ahead = cross(c - b, d - c) / turn, back = cross(c - b, b - a) / turn;
+            const glm::dvec2 corner = b + (b - a) * ahead;
+            // Ahead of the first piece's end and before the second one's start.
+            if (ahead < 0 || back > 0 || glm::distance(corner, 0.5 * (b + c)) > cell_px) continue;
+            simple[i].at = corner;
+            simple.erase(simple.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        }
+    };
     const auto emit_chain = [&](std::uint8_t line_class) {
+        simple.assign(1, chain.front());
         constexpr std::size_t kLongest = 1024;  // bounds the work
         std::size_t first = 0;
         while (first + 1 < chain.size()) {
@@ -175,8 +191,13 @@ std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px) const
             for (; step > 0; step /= 2) {
                 if (ok(good + step)) good += step;
             }
-            emit(chain[first], chain[good], line_class);
+            simple.push_back(chain[good]);
             first = good;
+        }
+        restore_corners();
+        for (std::size_t i = 0; i + 1 < simple.size(); ++i) {
+            const Point &a = simple[i], &b = simple[i + 1];
+            result.push_back({a.at, b.at, a.depth_px, b.depth_px, line_class, front_side});
         }
     };
     const auto walk = [&](std::uint32_t edge, Node start) {
@@ -197,6 +218,12 @@ std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px) const
             const std::uint32_t next = n.edges[0] == edge ? n.edges[1] : n.edges[0];
             if (done[next]) break;
             edge = next;
+        }
+        if (chain.size() > 3 && node == start) {
+            // A closed curve found from its topmost point, which is often a corner: start elsewhere.
+            chain.pop_back();
+            std::rotate(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(chain.size() * 3 / 8), chain.end());
+            chain.push_back(chain.front());
         }
         emit_chain(line_class);
     };

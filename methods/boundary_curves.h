@@ -43,8 +43,9 @@ class BoundaryCurves {
     /// The crossings on the sides of a cell, clockwise from the top (kNone: none), and whether its
     /// samples at the top left and bottom right, or at the top right and bottom left, see one surface.
     void add_cell(const std::array<Node, 4>& sides, glm::dvec2 middle, bool falling_joined, bool rising_joined);
-    /// All curves, with pieces joined while they are straight within `tolerance_px`.
-    std::vector<BoundarySegment> segments(double tolerance_px) const;
+    /// All curves, with pieces joined while they are straight within `tolerance_px`, and with the corners
+    /// that lie inside of cells of side `cell_px`.
+    std::vector<BoundarySegment> segments(double tolerance_px, double cell_px) const;
 
   private:
     struct Edge {

@@ -33,7 +33,21 @@ struct EmbreeScene::Handles {
 
 namespace {
 
-void attach_object(RTCDevice device, RTCScene scene, const RayGeometry& geometry, std::uint32_t object) {
+/// Embree's single precision must not over- or underflow: the scene is scaled by a power of two, which
+/// loses nothing, so that it reaches about 1 unit from the eye.
+double unit_scale(const RayGeometry& geometry) {
+    double reach = 0;
+    for (std::uint32_t object = 0; object < geometry.object_count(); ++object) {
+        for (std::uint32_t v = 0; v < geometry.mesh(object).positions.size(); ++v) {
+            const glm::dvec3 p = glm::abs(geometry.position(object, v));
+            reach = std::max({reach, p.x, p.y, p.z});
+        }
+    }
+    return reach > 0 ? std::exp2(-std::ceil(std::log2(reach))) : 1;
+}
+
+void attach_object(RTCDevice device, RTCScene scene, const RayGeometry& geometry, double scale,
+                   std::uint32_t object) {
     const Mesh& mesh = geometry.mesh(object);
     const RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* const positions = static_cast<float*>(
@@ -44,7 +58,7 @@ void attach_object(RTCDevice device, RTCScene scene, const RayGeometry& geometry
                                 std::max<std::size_t>(mesh.triangles.size(), 1)));
     if (positions == nullptr || corners == nullptr) throw InputError("not enough memory for rays");
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        const glm::dvec3 p = geometry.position(object, v);
+        const glm::dvec3 p = geometry.position(object, v) * scale;
         for (int k = 0; k < 3; ++k) positions[3 * v + static_cast<unsigned>(k)] = static_cast<float>(p[k]);
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -55,9 +69,10 @@ void attach_object(RTCDevice device, RTCScene scene, const RayGeometry& geometry
     rtcReleaseGeometry(g);
 }
 
-RTCRayHit ray_through(const RayGeometry& geometry, glm::dvec2 pixel) {
+RTCRayHit ray_through(const RayGeometry& geometry, double scale, glm::dvec2 pixel) {
     glm::dvec3 origin, direction;
     geometry.projection().view_ray(pixel, origin, direction);
+    origin *= scale;
     RTCRayHit ray{};
     ray.ray.org_x = static_cast<float>(origin.x);
     ray.ray.org_y = static_cast<float>(origin.y);
@@ -65,7 +80,7 @@ RTCRayHit ray_through(const RayGeometry& geometry, glm::dvec2 pixel) {
     ray.ray.dir_x = static_cast<float>(direction.x);
     ray.ray.dir_y = static_cast<float>(direction.y);
     ray.ray.dir_z = static_cast<float>(direction.z);
-    ray.ray.tnear = static_cast<float>(geometry.projection().near_distance);
+    ray.ray.tnear = static_cast<float>(geometry.projection().near_distance * scale);
     ray.ray.tfar = std::numeric_limits<float>::infinity();
     ray.ray.mask = 0xFFFFFFFFu;
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -93,11 +108,11 @@ void keep_first(const RTCFilterFunctionNArguments* arguments) {
 }  // namespace
 
 EmbreeScene::EmbreeScene(const RayGeometry& geometry)
-    : geometry_(geometry), handles_(std::make_unique<Handles>()) {
+    : geometry_(geometry), scale_(unit_scale(geometry)), handles_(std::make_unique<Handles>()) {
     for (std::uint32_t object = 0; object < geometry.object_count(); ++object) {
         throw_if_interrupted();
         if (geometry.mesh(object).triangles.empty()) continue;
-        attach_object(handles_->device, handles_->scene, geometry, object);
+        attach_object(handles_->device, handles_->scene, geometry, scale_, object);
     }
     rtcCommitScene(handles_->scene);
     if (rtcGetDeviceError(handles_->device) != RTC_ERROR_NONE) {
@@ -119,7 +134,7 @@ void EmbreeScene::cast_row(glm::dvec2 first, double step, std::span<Facet> hits)
         for (std::size_t i = 0; i < kPacket; ++i) {
             valid[i] = i < count ? -1 : 0;
             const double x = first.x + step * static_cast<double>(begin + i);
-            const RTCRayHit ray = ray_through(geometry_, {x, first.y});
+            const RTCRayHit ray = ray_through(geometry_, scale_, {x, first.y});
             packet.ray.org_x[i] = ray.ray.org_x;
             packet.ray.org_y[i] = ray.ray.org_y;
             packet.ray.org_z[i] = ray.ray.org_z;
@@ -143,7 +158,7 @@ void EmbreeScene::cast_row(glm::dvec2 first, double step, std::span<Facet> hits)
 }
 
 Facet EmbreeScene::cast(glm::dvec2 pixel) const {
-    RTCRayHit ray = ray_through(geometry_, pixel);
+    RTCRayHit ray = ray_through(geometry_, scale_, pixel);
     RTCRayHit again = ray;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -155,8 +170,9 @@ Facet EmbreeScene::cast(glm::dvec2 pixel) const {
     const glm::vec3 direction(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z);
     const float across = std::abs(glm::dot(normal, direction)) / std::max(glm::length(normal), 1e-30f);
     const double distance = static_cast<double>(ray.ray.tfar);
-    const double reach = std::min(2 * geometry_.coordinate_error() / std::max(static_cast<double>(across), 1e-9),
-                                  geometry_.projection().pixel_size(distance)) + 4e-7 * std::abs(distance);
+    const double error = 2 * geometry_.coordinate_error() / std::max(static_cast<double>(across), 1e-9);
+    const double pixel_size = geometry_.projection().pixel_size(distance / scale_);
+    const double reach = std::min(error, pixel_size) * scale_ + 4e-7 * std::abs(distance);
     FirstFacet first{{}, {ray.hit.geomID, ray.hit.primID}};
     rtcInitIntersectContext(&first.context);
     first.context.filter = keep_first;

@@ -28,6 +28,7 @@ class EmbreeScene {
   private:
     struct Handles;
     const RayGeometry& geometry_;
+    double scale_;  // from world units to Embree's
     std::unique_ptr<Handles> handles_;
 };
 

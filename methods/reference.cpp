@@ -12,7 +12,7 @@ namespace burin {
 namespace {
 
 /// The number of samples that a tile holds grows with n and with the margin of wide strokes.
-int tile_px(int samples) { return samples <= 16 ? 64 : samples <= 32 ? 32 : 16; }
+int tile_px(int samples) { return samples <= 16 ? 64 : 32; }
 
 struct WorkerTimes {
     double cast = 0, lines = 0, shade = 0;

@@ -95,7 +95,7 @@ void ReferenceTile::find_curves() {
                             sample(row - 1, column + 1) == sample(row, column));
         }
     }
-    segments_ = curves.segments(kStraightPx);
+    segments_ = curves.segments(kStraightPx, 1.0 / per_pixel_);
 }
 
 void ReferenceTile::shade(Film& film) {
@@ -235,7 +235,8 @@ bool ReferenceTile::is_hidden(const BoundarySegment& line, const NearestPoint& o
     const double length = glm::length(way);
     if (length == 0) return false;
     // A little beyond the line's end, which lies on the boundary that hides the rest of it.
-    const double beyond = 1 + 1.0 / (per_pixel_ * length);
+    const double close = 1.0 / (per_pixel_ * length);
+    const double beyond = 1 + close;
     struct Step {
         double t;
         bool down;  // from a surface to what is behind it
@@ -252,10 +253,11 @@ bool ReferenceTile::is_hidden(const BoundarySegment& line, const NearestPoint& o
         if ((from_side >= 0) == (to_side >= 0)) continue;
         const double side_a = cross(way, s.a - from), side_b = cross(way, s.b - from);
         if ((side_a >= 0) == (side_b >= 0)) continue;
+        const double t = from_side / (from_side - to_side), u = side_a / (side_a - side_b);
+        const bool down = (from_side >= 0) == (s.front_side > 0);
+        if (!down && t > 1 - close) continue;  // on to the surface that the line belongs to
         if (count == kMaxSteps) return false;
-        const double u = side_a / (side_a - side_b);
-        steps[count++] = {from_side / (from_side - to_side), (from_side >= 0) == (s.front_side > 0),
-                          s.depth_a + (s.depth_b - s.depth_a) * u};
+        steps[count++] = {t, down, s.depth_a + (s.depth_b - s.depth_a) * u};
     }
     std::sort(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(count),
               [](const Step& a, const Step& b) { return a.t < b.t; });
