@@ -5,6 +5,7 @@
 
 #include "methods/abuffer/abuffer.h"
 #include "methods/patel.h"
+#include "methods/reference.h"
 
 namespace burin {
 namespace {
@@ -14,11 +15,13 @@ constexpr std::array kMethods = {
            render_abuffer},
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
            LineClassSet::all(), render_patel},
+    Method{"reference", "ground truth: rays, and exact distances to the lines between them",
+           LineClassSet::all(), render_reference},
 };
 
 constexpr std::string_view kPlanned[] = {
     "gbuffer", "single-pass", "solid-wireframe", "id-buffer",    "simple",  "offset",
-    "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil", "reference"};
+    "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil"};
 
 }  // namespace
 

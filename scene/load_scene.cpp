@@ -38,6 +38,7 @@ class SceneLoader {
         scene_.surfaces = from_.surfaces;
         scene_.abuffer = from_.abuffer;
         scene_.patel = from_.patel;
+        scene_.reference = from_.reference;
     }
 
     Scene load() {

@@ -53,6 +53,7 @@ struct Scene {
     /// Per mesh, see find_sharp_edges(); empty: not made. It saves the method `abuffer` making them
     /// for every frame, and is for the line classes and the crease angle above.
     std::vector<std::vector<std::uint8_t>> sharp_edges;
+    ReferenceSettings reference;
     std::uint64_t skipped_primitives = 0;
 };
 
