@@ -16,6 +16,7 @@
 #include "cli/job.h"
 #include "mesh/text_scan.h"
 #include "methods/explain.h"
+#include "methods/gbuffer.h"
 #include "methods/patel.h"
 #include "render/output.h"
 
@@ -132,6 +133,12 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
         std::fprintf(stderr,
                      "burin: note: method patel draws lines %.3g px wide with %d-bit masks, not %.3g px\n",
                      drawn, frame.scene->patel.mask_bits, wanted);
+    }
+    const double gbuffer_px = gbuffer_line_width_px(*frame.scene);
+    if (method.name == "gbuffer" && std::abs(gbuffer_px - wanted) > 0.01 * wanted) {
+        std::fprintf(stderr,
+                     "burin: note: method gbuffer draws lines %.3g px wide with --supersample %d, not %.3g px\n",
+                     gbuffer_px, frame.scene->gbuffer.supersample, wanted);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "methods/gbuffer.h"
 #include "methods/patel.h"
 
 namespace burin {
@@ -11,10 +12,14 @@ namespace {
 constexpr std::array kMethods = {
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
            LineClassSet::all(), render_patel},
+    Method{"gbuffer", "Saito and Takahashi, Comprehensible Rendering of 3-D Shapes, SIGGRAPH 1990",
+           LineClass::silhouette | LineClass::crease | LineClass::object | LineClass::material |
+               LineClass::polygon,
+           render_gbuffer},
 };
 
 constexpr std::string_view kPlanned[] = {
-    "abuffer", "gbuffer", "single-pass", "solid-wireframe", "id-buffer",    "simple",  "offset",
+    "abuffer", "single-pass", "solid-wireframe", "id-buffer",    "simple",  "offset",
     "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil", "reference"};
 
 }  // namespace

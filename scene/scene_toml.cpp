@@ -10,6 +10,7 @@
 #include "mesh/shapes.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
+#include "scene/gbuffer_toml.h"
 #include "scene/scene_description.h"
 #include "scene/toml_reader.h"
 
@@ -106,6 +107,7 @@ class SceneReader {
         if (auto t = root_.table("lines")) read_lines(*t);
         if (auto t = root_.table("surfaces")) read_surfaces(*t);
         if (auto t = root_.table("patel")) read_patel(*t);
+        if (auto t = root_.table("gbuffer")) scene_.gbuffer = read_gbuffer(*t);
         root_.finish();
         if (scene_.objects.empty()) {
             root_.fail("the scene has no [[object]]; add one with a file or a shape");
