@@ -77,15 +77,15 @@ Raster<double> GBufferTile::contour_field(ContourField field, PixelRect samples)
     });
 }
 
-/// How much of a sample contour lines or hatching cover. Not beside other surfaces, where the field's
-/// gradient means nothing.
+/// How much of a sample contour lines or hatching cover. Not beside other objects and jumps, where the
+/// field's gradient means nothing.
 float GBufferTile::hatched(int x, int y) const {
     const std::uint32_t object = g_.object.at(x, y);
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
         if (g_.object.at(x + dx, y + dy) != object) return 0;
     }
     const Raster<float>& jumps = lines_[static_cast<std::size_t>(LineClass::silhouette)];
-    if (!jumps.empty() && jumps.at(x, y) > 0) return 0;
+    if (!jumps.empty() && jumps.at(x, y) > 0.5f) return 0;
     const double darkness = 1 - std::abs(glm::dot(g_.normal.at(x, y), to_eye(x, y)));
     double width = settings_.contour_width_px * s_, cross_width = width;
     if (settings_.hatching) {

@@ -7,19 +7,26 @@
 
 namespace burin {
 
-/// Largest value within a disc of `radius` samples. The result is floor(radius) samples smaller.
+/// Largest value (0 or more) within a disc of `radius` samples. The result is floor(radius) samples smaller.
 inline Raster<float> dilate(const Raster<float>& image, double radius) {
     const int reach = static_cast<int>(radius);
     if (reach < 1) return image;
-    return raster_of(grown(image.rect(), -reach), [&](int x, int y) {
-        float largest = 0;
-        for (int dy = -reach; dy <= reach; ++dy) {
-            for (int dx = -reach; dx <= reach; ++dx) {
-                if (dx * dx + dy * dy <= radius * radius) largest = std::max(largest, image.at(x + dx, y + dy));
+    const PixelRect from = image.rect(), to = grown(from, -reach);
+    Raster<float> result(to);
+    // Lines are sparse: every sample of one is spread, instead of every sample looking around.
+    for (int y = from.y0; y < from.y1; ++y) {
+        for (int x = from.x0; x < from.x1; ++x) {
+            const float value = image.at(x, y);
+            if (value <= 0) continue;
+            for (int v = std::max(y - reach, to.y0); v < std::min(y + reach + 1, to.y1); ++v) {
+                const int half = static_cast<int>(std::sqrt(radius * radius - (v - y) * (v - y)));
+                for (int u = std::max(x - half, to.x0); u < std::min(x + half + 1, to.x1); ++u) {
+                    result.at(u, v) = std::max(result.at(u, v), value);
+                }
             }
         }
-        return largest;
-    });
+    }
+    return result;
 }
 
 /// The value between four samples; (0, 0) is the middle of sample (x, y).

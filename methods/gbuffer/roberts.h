@@ -38,12 +38,13 @@ inline Raster<float> roberts_depth(const Raster<double>& distance, const Raster<
     });
 }
 
-/// 1 where 1 - n00.n11 or 1 - n10.n01 is more than `limit` (1 - cos of the crease angle).
+/// 1 where 1 - n00.n11 or 1 - n10.n01 is more than `limit` (1 - cos of the crease angle). Written as half
+/// the squared difference, which is the same for unit normals and 0 between two samples of background.
 inline Raster<float> roberts_normal(const Raster<glm::dvec3>& normals, double limit) {
     return raster_of(without_last(normals.rect()), [&](int x, int y) {
-        const double falling = 1 - glm::dot(normals.at(x, y), normals.at(x + 1, y + 1));
-        const double rising = 1 - glm::dot(normals.at(x + 1, y), normals.at(x, y + 1));
-        return std::max(falling, rising) > limit ? 1.0f : 0.0f;
+        const glm::dvec3 falling = normals.at(x, y) - normals.at(x + 1, y + 1);
+        const glm::dvec3 rising = normals.at(x + 1, y) - normals.at(x, y + 1);
+        return 0.5 * std::max(glm::dot(falling, falling), glm::dot(rising, rising)) > limit ? 1.0f : 0.0f;
     });
 }
 

@@ -126,6 +126,10 @@ TEST(NormalOperators, MeasureTheAngleBetweenFaces) {
     }
 }
 
+TEST(Roberts, FindsNothingWithinTheBackground) {
+    for_each(roberts_normal(Raster<glm::dvec3>(kRect, glm::dvec3(0.0)), 0.01), [](int, int, float v) { EXPECT_EQ(v, 0); });
+}
+
 TEST(Roberts, DrawsOneColumnBetweenTwoDepths) {
     const auto distance = raster_of(kRect, [](int x, int) { return x < 0 ? 10.0 : 10.6; });
     const Raster<double> facing(kRect, 1.0);
