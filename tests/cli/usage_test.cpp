@@ -85,6 +85,9 @@ TEST_F(Usage, WhatIsNotInThisVersion) {
 TEST_F(Usage, UnknownNames) {
     expect_bad_options({"-m", "magic"}, "--method: unknown method 'magic'");
     expect_bad_options({"--lines", "silhouette,edge"}, "--lines: unknown line class 'edge'");
+    expect_bad_options({"-m", "gbuffer", "--operator", "id,edges"}, "--operator: unknown operator 'edges'; known are first,second");
+    expect_bad_options({"--supersample", "3"}, "--supersample: must be 1, 2, 4 or 8");
+    expect_bad_options({"--supersample", "16"}, "--supersample: must be from 1 to 8");
     expect_bad_options({"--layers", "beauty,depth"}, "--layers: unknown layer 'depth'");
     expect_bad_options({"--hidden", "dotted"}, "--hidden");
     expect_bad_options({"--progress", "fancy"}, "--progress");
