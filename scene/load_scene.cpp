@@ -38,6 +38,7 @@ class SceneLoader {
         scene_.surfaces = from_.surfaces;
         scene_.patel = from_.patel;
         scene_.gbuffer = from_.gbuffer;
+        scene_.zbuffer = from_.zbuffer;
     }
 
     Scene load() {

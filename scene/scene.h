@@ -50,6 +50,7 @@ struct Scene {
     SurfaceStyle surfaces;
     PatelSettings patel;
     GBufferSettings gbuffer;
+    ZBufferSettings zbuffer;
     std::uint64_t skipped_primitives = 0;
 };
 

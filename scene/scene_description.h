@@ -35,6 +35,7 @@ struct SceneDescription {
     SurfaceStyle surfaces;
     PatelSettings patel;
     GBufferSettings gbuffer;
+    ZBufferSettings zbuffer;
 };
 
 /// "KEY=VALUE" of --set: overrides a value of the scene file, for example "lines.width=2".
