@@ -9,8 +9,8 @@ namespace burin {
 /// GBufferSettings choose the operators; docs/methods/gbuffer.md describes them.
 RenderStats render_gbuffer(const Frame& frame, const RunOptions& options, Film& film);
 
-/// The width of lines of the operators asked for, which is at least two samples (one for Roberts' cross
-/// and one-sided comparisons).
+/// The width of lines of the operators asked for, which is at least two samples (one for Roberts'
+/// cross and one-sided comparisons).
 double gbuffer_line_width_px(const Scene& scene);
 
 }  // namespace burin

@@ -22,8 +22,8 @@ enum class GBufferOperator : std::uint8_t {
 };
 constexpr int kGBufferOperatorCount = 10;
 constexpr std::array<std::string_view, kGBufferOperatorCount> kGBufferOperatorNames = {
-    "first", "second", "profile", "internal", "sobel",
-    "roberts", "id", "normal", "decaudin", "hertzmann"};
+    "first",   "second", "profile", "internal", "sobel",
+    "roberts", "id",     "normal",  "decaudin", "hertzmann"};
 
 /// A set of operators, one bit each.
 struct GBufferOperatorSet {
@@ -66,26 +66,27 @@ struct GBufferSettings {
     bool smooth = false;  ///< blur along the lines afterwards, as FXAA does
     LineComposition composition = LineComposition::multiply;
 
-    double depth_scale = 1;         ///< multiplies depth
-    double reference_distance = 0;  ///< where depth is in samples, world units; 0: middle of the scene
-    int depth_bits = 0;             ///< 8, 16, 24: depth is stored in so many bits; 0: as it is
+    double depth_scale = 1;  ///< multiplies depth
+    double reference_distance =
+        0;               ///< where depth is in samples, world units; 0: middle of the scene
+    int depth_bits = 0;  ///< 8, 16, 24: depth is stored in so many bits; 0: as it is
 
-    double jump_limit = 4;     ///< k_g: first-order differential that is a depth jump
-    double profile_limit = 2;  ///< k_p: variation of it that makes a line black
-    double profile_power = 1;  ///< e
-    bool gate = true;          ///< only the two columns beside a jump, not four
-    double crease_limit = 0.5; ///< k_e: second-order differential that makes a line black
-    double relative_jump = 0.02;       ///< Roberts: jump relative to the distance
-    double relative_jump_slope = 1;    ///< Roberts: how much more grazing faces may jump
+    double jump_limit = 4;           ///< k_g: first-order differential that is a depth jump
+    double profile_limit = 2;        ///< k_p: variation of it that makes a line black
+    double profile_power = 1;        ///< e
+    bool gate = true;                ///< only the two columns beside a jump, not four
+    double crease_limit = 0.5;       ///< k_e: second-order differential that makes a line black
+    double relative_jump = 0.02;     ///< Roberts: jump relative to the distance
+    double relative_jump_slope = 1;  ///< Roberts: how much more grazing faces may jump
     IdComparison id_comparison = IdComparison::differs;
     int id_neighbours = 8;  ///< 4 or 8
 
     ContourField contours = ContourField::none;
-    double contour_step = 0.1;      ///< world units
-    double contour_width_px = 1;    ///< of hatching: where it is darkest
-    bool hatching = false;          ///< contours as wide as the surface is dark
+    double contour_step = 0.1;                         ///< world units
+    double contour_width_px = 1;                       ///< of hatching: where it is darkest
+    bool hatching = false;                             ///< contours as wide as the surface is dark
     ContourField cross_hatching = ContourField::none;  ///< a second family, where it is darker
-    double cross_darkness = 0.5;    ///< than this, 0..1
+    double cross_darkness = 0.5;                       ///< than this, 0..1
 };
 
 }  // namespace burin

@@ -52,8 +52,7 @@ GBufferSettings read_gbuffer(TomlReader& t) {
     s.composition = kCompositions[t.choice("composition", {"multiply", "maximum"}).value_or(0)];
 
     s.depth_scale = t.number("depth_scale", kPositive).value_or(s.depth_scale);
-    s.reference_distance =
-        t.number("reference_distance", {0, 1e30}).value_or(s.reference_distance);
+    s.reference_distance = t.number("reference_distance", {0, 1e30}).value_or(s.reference_distance);
     s.depth_bits = t.integer("depth_bits", 0, 24).value_or(s.depth_bits);
     if (s.depth_bits != 0 && s.depth_bits != 8 && s.depth_bits != 16 && s.depth_bits != 24) {
         t.fail("depth_bits", "must be 8, 16, 24, or 0 for exact depth");
@@ -65,16 +64,19 @@ GBufferSettings read_gbuffer(TomlReader& t) {
     s.gate = t.boolean("gate").value_or(s.gate);
     s.crease_limit = t.number("crease_limit", kPositive).value_or(s.crease_limit);
     s.relative_jump = t.number("relative_jump", kPositive).value_or(s.relative_jump);
-    s.relative_jump_slope = t.number("relative_jump_slope", {0, 1e30}).value_or(s.relative_jump_slope);
+    s.relative_jump_slope =
+        t.number("relative_jump_slope", {0, 1e30}).value_or(s.relative_jump_slope);
     static constexpr IdComparison kComparisons[] = {IdComparison::differs, IdComparison::less,
                                                     IdComparison::greater};
-    s.id_comparison = kComparisons[t.choice("id_comparison", {"differs", "less", "greater"}).value_or(0)];
+    s.id_comparison =
+        kComparisons[t.choice("id_comparison", {"differs", "less", "greater"}).value_or(0)];
     s.id_neighbours = t.integer("id_neighbours", 4, 8).value_or(s.id_neighbours);
     if (s.id_neighbours != 4 && s.id_neighbours != 8) t.fail("id_neighbours", "must be 4 or 8");
 
     s.contours = read_field(t, "contours");
     s.contour_step = t.number("contour_step", kPositive).value_or(s.contour_step);
-    s.contour_width_px = t.number("contour_width", {0, 1024, true, false}).value_or(s.contour_width_px);
+    s.contour_width_px =
+        t.number("contour_width", {0, 1024, true, false}).value_or(s.contour_width_px);
     s.hatching = t.boolean("hatching").value_or(s.hatching);
     s.cross_hatching = read_field(t, "cross_hatching");
     s.cross_darkness = t.number("cross_darkness", {0, 1}).value_or(s.cross_darkness);

@@ -17,15 +17,16 @@ inline Raster<double> first_order(const Raster<double>& image) {
     return raster_of(grown(image.rect(), -1), [&](int x, int y) {
         const Block<double> n = block_at(image, x, y);
         return (std::abs(n.a + 2 * n.b + n.c - n.f - 2 * n.g - n.h) +
-                std::abs(n.c + 2 * n.e + n.h - n.a - 2 * n.d - n.f)) / 8;
+                std::abs(n.c + 2 * n.e + n.h - n.a - 2 * n.d - n.f)) /
+               8;
     });
 }
 
 /// Second order: l = (8X - A - B - C - D - E - F - G - H) / 3.
 ///
 /// On affine depth it is 0. A step of height h gives -h in front and h behind it. A crease of depth
-/// s |x| gives -2s in one column if it lies on samples, -s in two if it lies between them; with depth
-/// growing away from the eye, ridges (towards the eye) are negative and valleys positive.
+/// s |x| gives -2s in one column if it lies on samples, -s in two if it lies between them; with
+/// depth growing away from the eye, ridges (towards the eye) are negative and valleys positive.
 inline Raster<double> second_order(const Raster<double>& image) {
     return raster_of(grown(image.rect(), -1), [&](int x, int y) {
         const Block<double> n = block_at(image, x, y);

@@ -7,7 +7,8 @@
 
 namespace burin {
 
-/// Largest value (0 or more) within a disc of `radius` samples. The result is floor(radius) samples smaller.
+/// Largest value (0 or more) within a disc of `radius` samples. The result is floor(radius) samples
+/// smaller.
 inline Raster<float> dilate(const Raster<float>& image, double radius) {
     const int reach = static_cast<int>(radius);
     if (reach < 1) return image;
@@ -41,9 +42,9 @@ inline float bilinear(const Raster<float>& image, int x, int y, double dx, doubl
 
 constexpr int kSmoothReach = 5;  ///< how many samples smaller smooth_along_lines() is on every side
 
-/// Blurs along lines, as Timothy Lottes' "FXAA" (NVIDIA, 2009) does in its short form: the four diagonal
-/// neighbours tell the direction of the line; two, then four values along it are averaged, the four
-/// only if they stay within the range of the neighbours.
+/// Blurs along lines, as Timothy Lottes' "FXAA" (NVIDIA, 2009) does in its short form: the four
+/// diagonal neighbours tell the direction of the line; two, then four values along it are averaged,
+/// the four only if they stay within the range of the neighbours.
 inline Raster<float> smooth_along_lines(const Raster<float>& image) {
     constexpr double kLongest = 8;
     return raster_of(grown(image.rect(), -kSmoothReach), [&](int x, int y) {
@@ -54,7 +55,9 @@ inline Raster<float> smooth_along_lines(const Raster<float>& image) {
         const double scale = 1 / (std::min(std::abs(along_x), std::abs(along_y)) + steady);
         along_x = std::clamp(along_x * scale, -kLongest, kLongest);
         along_y = std::clamp(along_y * scale, -kLongest, kLongest);
-        const auto value = [&](double t) { return bilinear(image, x, y, along_x * t, along_y * t); };
+        const auto value = [&](double t) {
+            return bilinear(image, x, y, along_x * t, along_y * t);
+        };
         const float two = 0.5f * (value(-1.0 / 6) + value(1.0 / 6));
         const float four = 0.5f * two + 0.25f * (value(-0.5) + value(0.5));
         const auto [low, high] = std::minmax({n.a, n.c, n.x, n.f, n.h});

@@ -50,7 +50,8 @@ DepthScale depth_scale(const Frame& frame, int samples_per_pixel) {
     scale.per_nearness = settings.depth_scale * samples_per_pixel * projection.focal_px;
     if (!(range.nearest <= range.farthest)) return scale;  // nothing there
     if (projection.orthographic) {
-        scale.background = scale.per_nearness * range.farthest + kBackgroundGapPx * samples_per_pixel;
+        scale.background =
+            scale.per_nearness * range.farthest + kBackgroundGapPx * samples_per_pixel;
     } else {
         scale.per_nearness *= settings.reference_distance > 0
                                   ? settings.reference_distance
@@ -94,14 +95,20 @@ GBuffer draw_gbuffer(const Frame& frame, std::span<const SurfaceId> surfaces, Pi
     }
 
     const auto has = [&](int x, int y) { return g.surface.at(x, y) != GBuffer::kNoSurface; };
-    const auto at = [&](int x, int y) -> const GBufferSurface& { return g.surfaces[g.surface.at(x, y)]; };
+    const auto at = [&](int x, int y) -> const GBufferSurface& {
+        return g.surfaces[g.surface.at(x, y)];
+    };
     const int bits = frame.scene->gbuffer.depth_bits;
     g.depth = raster_of(samples, [&](int x, int y) {
-        return has(x, y) ? quantized(-scale.per_nearness * nearness.at(x, y), scale, bits) : scale.background;
+        return has(x, y) ? quantized(-scale.per_nearness * nearness.at(x, y), scale, bits)
+                         : scale.background;
     });
-    g.normal = raster_of(samples, [&](int x, int y) { return has(x, y) ? at(x, y).normal : glm::dvec3(0.0); });
+    g.normal = raster_of(
+        samples, [&](int x, int y) { return has(x, y) ? at(x, y).normal : glm::dvec3(0.0); });
     const auto ids = [&](const auto& id_of) {
-        return raster_of(samples, [&](int x, int y) -> std::uint32_t { return has(x, y) ? id_of(at(x, y).id) : 0; });
+        return raster_of(samples, [&](int x, int y) -> std::uint32_t {
+            return has(x, y) ? id_of(at(x, y).id) : 0;
+        });
     };
     g.object = ids([&](SurfaceId s) { return frame.surfaces.object_id(s); });
     g.material = ids([&](SurfaceId s) { return frame.surfaces.material_id(s); });

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "methods/gbuffer/profile.h"
 #include "methods/gbuffer/differentials.h"
+#include "methods/gbuffer/profile.h"
 #include "methods/gbuffer/raster.h"
 
 namespace burin {
 
-/// Length of the gradient per sample by Sobel's operator (Irwin Sobel, Gary Feldman, 1968; as an edge
-/// image of depth and normals: Aaron Hertzmann, "Introduction to 3D Non-Photorealistic Rendering:
-/// Silhouettes and Outlines", SIGGRAPH 1999 course notes). Slope a gives |a|, a step of height h
-/// gives h / 2 in both columns.
+/// Length of the gradient per sample by Sobel's operator (Irwin Sobel, Gary Feldman, 1968; as an
+/// edge image of depth and normals: Aaron Hertzmann, "Introduction to 3D Non-Photorealistic
+/// Rendering: Silhouettes and Outlines", SIGGRAPH 1999 course notes). Slope a gives |a|, a step of
+/// height h gives h / 2 in both columns.
 inline Raster<double> sobel_magnitude(const Raster<double>& image) {
     return raster_of(grown(image.rect(), -1), [&](int x, int y) {
         const Block<double> n = block_at(image, x, y);
@@ -34,14 +34,14 @@ inline Raster<double> sobel_magnitude(const Raster<glm::dvec3>& image) {
 }
 
 /// Squared difference of a normal to those of the four neighbours: |X-B|^2 + |X-G|^2 + |X-E|^2 +
-/// |X-D|^2, as in deferred line rendering. Faces that meet at angle t along a row or column of samples
-/// give 2 - 2 cos t on both sides.
+/// |X-D|^2, as in deferred line rendering. Faces that meet at angle t along a row or column of
+/// samples give 2 - 2 cos t on both sides.
 inline Raster<double> normal_difference(const Raster<glm::dvec3>& normals) {
     return raster_of(grown(normals.rect(), -1), [&](int x, int y) {
         const glm::dvec3 center = normals.at(x, y);
         double sum = 0;
-        for (const glm::dvec3& n : {normals.at(x, y - 1), normals.at(x, y + 1), normals.at(x + 1, y),
-                                    normals.at(x - 1, y)}) {
+        for (const glm::dvec3& n : {normals.at(x, y - 1), normals.at(x, y + 1),
+                                    normals.at(x + 1, y), normals.at(x - 1, y)}) {
             sum += glm::dot(center - n, center - n);
         }
         return sum;
@@ -57,7 +57,8 @@ inline Raster<float> normal_profile_image(const Raster<glm::dvec3>& normals,
         const auto component = raster_of(
             normals.rect(), [&](int x, int y) { return static_cast<double>(normals.at(x, y)[k]); });
         const Raster<float> p = profile_image(first_order(component), parameters);
-        strongest = raster_of(p.rect(), [&](int x, int y) { return std::max(strongest.at(x, y), p.at(x, y)); });
+        strongest = raster_of(
+            p.rect(), [&](int x, int y) { return std::max(strongest.at(x, y), p.at(x, y)); });
     }
     return strongest;
 }

@@ -20,10 +20,10 @@ struct DetectionContext {
 /// How many samples more than asked for detect_lines() needs on every side of the G-buffer.
 int detection_margin(const Frame& frame, int samples_per_pixel);
 
-/// Runs the operators that the scene asks for on the G-buffer, widens their lines, and sorts them into
-/// classes: a jump of depth is a silhouette, a bend of depth or normal a crease, differing numbers are
-/// object, material and polygon lines. Beside the background, bends and differing numbers of
-/// objects are silhouettes. `samples` is what is asked for.
+/// Runs the operators that the scene asks for on the G-buffer, widens their lines, and sorts them
+/// into classes: a jump of depth is a silhouette, a bend of depth or normal a crease, differing
+/// numbers are object, material and polygon lines. Beside the background, bends and differing
+/// numbers of objects are silhouettes. `samples` is what is asked for.
 LineImages detect_lines(const GBuffer& g, const DetectionContext& context, PixelRect samples);
 
 }  // namespace burin

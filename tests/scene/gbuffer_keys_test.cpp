@@ -13,20 +13,25 @@ GBufferSettings read(const std::string& keys) {
 
 TEST(GBufferKeys, EveryValueIsRead) {
     const GBufferSettings empty = read("");
-    EXPECT_EQ(empty.operators, GBufferOperatorSet::of({GBufferOperator::profile, GBufferOperator::internal,
-                                                       GBufferOperator::id}));
+    EXPECT_EQ(empty.operators,
+              GBufferOperatorSet::of(
+                  {GBufferOperator::profile, GBufferOperator::internal, GBufferOperator::id}));
     EXPECT_EQ(empty.supersample, 1);
     for (int o = 0; o < kGBufferOperatorCount; ++o) {
         const std::string name(kGBufferOperatorNames[static_cast<std::size_t>(o)]);
         EXPECT_EQ(read("operators=['" + name + "']").operators,
                   GBufferOperatorSet::of({static_cast<GBufferOperator>(o)}));
     }
-    for (const int s : {1, 2, 4, 8}) EXPECT_EQ(read("supersample=" + std::to_string(s)).supersample, s);
-    for (const int bits : {0, 8, 16, 24}) EXPECT_EQ(read("depth_bits=" + std::to_string(bits)).depth_bits, bits);
+    for (const int s : {1, 2, 4, 8})
+        EXPECT_EQ(read("supersample=" + std::to_string(s)).supersample, s);
+    for (const int bits : {0, 8, 16, 24})
+        EXPECT_EQ(read("depth_bits=" + std::to_string(bits)).depth_bits, bits);
     const GBufferSettings s = read(
-        "dilate=false\nsmooth=true\ncomposition='maximum'\ndepth_scale=2\nreference_distance=3\njump_limit=5\n"
+        "dilate=false\nsmooth=true\ncomposition='maximum'\ndepth_scale=2\nreference_distance="
+        "3\njump_limit=5\n"
         "profile_limit=6\nprofile_power=1.5\ngate=false\ncrease_limit=0.25\nrelative_jump=0.5\n"
-        "relative_jump_slope=0\nid_comparison='less'\nid_neighbours=4\ncontours='y'\ncontour_step=7\n"
+        "relative_jump_slope=0\nid_comparison='less'\nid_neighbours=4\ncontours='y'\ncontour_step="
+        "7\n"
         "contour_width=8\nhatching=true\ncross_hatching='distance'\ncross_darkness=0.75");
     EXPECT_FALSE(s.dilate);
     EXPECT_TRUE(s.smooth);
