@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <array>
 
+#include "methods/feature_edges.h"
 #include "methods/gbuffer.h"
 #include "methods/patel.h"
+#include "methods/zbuffer/methods.h"
 
 namespace burin {
 namespace {
+
+constexpr std::string_view kHerrell =
+    "Herrell, Baldwin, Wilcox, High-Quality Polygon Edging, 1995";
 
 constexpr std::array kMethods = {
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
@@ -16,11 +21,16 @@ constexpr std::array kMethods = {
            LineClass::silhouette | LineClass::crease | LineClass::object | LineClass::material |
                LineClass::polygon,
            render_gbuffer},
+    Method{"simple", kHerrell, kEdgeClasses, render_simple},
+    Method{"offset", kHerrell, kEdgeClasses, render_offset},
+    Method{"slope-offset", "OpenGL 1.1, glPolygonOffset, 1997", kEdgeClasses, render_slope_offset},
+    Method{"decal", kHerrell, kEdgeClasses, render_decal},
+    Method{"edging-plane", kHerrell, kEdgeClasses, render_edging_plane},
+    Method{"virgin-plane", kHerrell, kEdgeClasses, render_virgin_plane},
+    Method{"stencil", kHerrell, kEdgeClasses, render_stencil},
 };
 
-constexpr std::string_view kPlanned[] = {
-    "abuffer", "single-pass", "solid-wireframe", "id-buffer",    "simple",  "offset",
-    "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil", "reference"};
+constexpr std::string_view kPlanned[] = {"abuffer", "single-pass", "solid-wireframe", "id-buffer", "reference"};
 
 }  // namespace
 
