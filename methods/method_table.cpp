@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "methods/feature_edges.h"
+#include "methods/id_buffer.h"
 #include "methods/patel.h"
+#include "methods/single_pass.h"
 
 namespace burin {
 namespace {
@@ -11,10 +14,18 @@ namespace {
 constexpr std::array kMethods = {
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
            LineClassSet::all(), render_patel},
+    Method{"single-pass", "Baerentzen, Nielsen, Gjoel, Larsen and Christensen, Single-pass Wireframe Rendering, 2006",
+           kEdgeClasses, render_single_pass},
+    Method{"solid-wireframe", "Samuel Gateau, Solid Wireframe, NVIDIA white paper WP-03014-001, 2007",
+           kEdgeClasses, render_solid_wireframe},
+    Method{"id-buffer",
+           "Baerentzen, Nielsen, Gjoel and Larsen, Two Methods for Antialiased Wireframe Drawing with Hidden Line "
+           "Removal, 2008",
+           kEdgeClasses, render_id_buffer},
 };
 
 constexpr std::string_view kPlanned[] = {
-    "abuffer", "gbuffer", "single-pass", "solid-wireframe", "id-buffer",    "simple",  "offset",
+    "abuffer", "gbuffer", "simple",   "offset",
     "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil", "reference"};
 
 }  // namespace

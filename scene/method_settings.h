@@ -1,6 +1,7 @@
 #pragma once
 
 #include "abuffer/halo_shape.h"
+#include "scene/wire_settings.h"
 
 namespace burin {
 

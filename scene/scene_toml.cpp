@@ -12,6 +12,7 @@
 #include "scene/color.h"
 #include "scene/scene_description.h"
 #include "scene/toml_reader.h"
+#include "scene/wire_settings_toml.h"
 
 namespace burin {
 namespace {
@@ -106,6 +107,7 @@ class SceneReader {
         if (auto t = root_.table("lines")) read_lines(*t);
         if (auto t = root_.table("surfaces")) read_surfaces(*t);
         if (auto t = root_.table("patel")) read_patel(*t);
+        if (auto t = root_.table("wire")) scene_.wire = read_wire_settings(*t);
         root_.finish();
         if (scene_.objects.empty()) {
             root_.fail("the scene has no [[object]]; add one with a file or a shape");
