@@ -49,6 +49,7 @@ struct Scene {
     LineSettings lines;
     SurfaceStyle surfaces;
     PatelSettings patel;
+    ZBufferSettings zbuffer;
     WireSettings wire;
     std::uint64_t skipped_primitives = 0;
 };

@@ -34,6 +34,7 @@ struct SceneDescription {
     LineSettings lines;
     SurfaceStyle surfaces;
     PatelSettings patel;
+    ZBufferSettings zbuffer;
     WireSettings wire;
 };
 
