@@ -5,7 +5,9 @@
 
 #include "methods/feature_edges.h"
 #include "methods/gbuffer.h"
+#include "methods/id_buffer.h"
 #include "methods/patel.h"
+#include "methods/single_pass.h"
 #include "methods/zbuffer/methods.h"
 
 namespace burin {
@@ -28,9 +30,17 @@ constexpr std::array kMethods = {
     Method{"edging-plane", kHerrell, kEdgeClasses, render_edging_plane},
     Method{"virgin-plane", kHerrell, kEdgeClasses, render_virgin_plane},
     Method{"stencil", kHerrell, kEdgeClasses, render_stencil},
+    Method{"single-pass", "Baerentzen, Nielsen, Gjoel, Larsen and Christensen, Single-pass Wireframe Rendering, 2006",
+           kEdgeClasses, render_single_pass},
+    Method{"solid-wireframe", "Samuel Gateau, Solid Wireframe, NVIDIA white paper WP-03014-001, 2007",
+           kEdgeClasses, render_solid_wireframe},
+    Method{"id-buffer",
+           "Baerentzen, Nielsen, Gjoel and Larsen, Two Methods for Antialiased Wireframe Drawing with Hidden Line "
+           "Removal, 2008",
+           kEdgeClasses, render_id_buffer},
 };
 
-constexpr std::string_view kPlanned[] = {"abuffer", "single-pass", "solid-wireframe", "id-buffer", "reference"};
+constexpr std::string_view kPlanned[] = {"abuffer", "reference"};
 
 }  // namespace
 

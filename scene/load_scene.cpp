@@ -39,6 +39,7 @@ class SceneLoader {
         scene_.patel = from_.patel;
         scene_.gbuffer = from_.gbuffer;
         scene_.zbuffer = from_.zbuffer;
+        scene_.wire = from_.wire;
     }
 
     Scene load() {

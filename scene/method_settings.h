@@ -10,6 +10,7 @@
 #include "abuffer/halo_shape.h"
 #include "lines/line_class.h"
 #include "scene/gbuffer_settings.h"
+#include "scene/wire_settings.h"
 
 namespace burin {
 

@@ -51,6 +51,7 @@ struct Scene {
     PatelSettings patel;
     GBufferSettings gbuffer;
     ZBufferSettings zbuffer;
+    WireSettings wire;
     std::uint64_t skipped_primitives = 0;
 };
 

@@ -36,6 +36,7 @@ struct SceneDescription {
     PatelSettings patel;
     GBufferSettings gbuffer;
     ZBufferSettings zbuffer;
+    WireSettings wire;
 };
 
 /// "KEY=VALUE" of --set: overrides a value of the scene file, for example "lines.width=2".

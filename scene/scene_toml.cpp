@@ -13,6 +13,7 @@
 #include "scene/gbuffer_toml.h"
 #include "scene/scene_description.h"
 #include "scene/toml_reader.h"
+#include "scene/wire_settings_toml.h"
 
 namespace burin {
 namespace {
@@ -109,6 +110,7 @@ class SceneReader {
         if (auto t = root_.table("patel")) read_patel(*t);
         if (auto t = root_.table("gbuffer")) scene_.gbuffer = read_gbuffer(*t);
         if (auto t = root_.table("zbuffer")) read_zbuffer(*t);
+        if (auto t = root_.table("wire")) scene_.wire = read_wire_settings(*t);
         root_.finish();
         if (scene_.objects.empty()) {
             root_.fail("the scene has no [[object]]; add one with a file or a shape");
