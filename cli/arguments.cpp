@@ -114,9 +114,25 @@ LayerSet layer_set(std::string_view text) {
     return layers;
 }
 
+GBufferOperatorSet gbuffer_operators(std::string_view text) {
+    GBufferOperatorSet set;
+    for (const std::string_view name : split(text, ',')) {
+        const auto found = gbuffer_operator_named(name);
+        if (!found) {
+            std::string known;
+            for (const std::string_view n : kGBufferOperatorNames) {
+                known += (known.empty() ? "" : ",") + std::string(n);
+            }
+            fail("--operator", "unknown operator '" + printable(name) + "'; known are " + known);
+        }
+        set.add(*found);
+    }
+    return set;
+}
+
 /// Options as they were typed.
 struct Texts {
-    std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines;
+    std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators, supersample;
     std::string width, crease, hidden, style, layers, frames, crop, threads, memory, stats, bits;
     std::string repeat, progress, pixel, background;
     std::vector<std::string> sets;
@@ -136,6 +152,10 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("-m,--method", t.method, "how lines are found (see burin methods)");
     app.add_option("--mask", t.mask, "method patel: bits of the extended mask, 16, 64 or 256 (default 64)");
     app.add_option("--samples", t.samples, "method abuffer: samples per pixel and axis, 2, 4 or 8 (default 4)");
+    app.add_option("--operator", t.operators,
+                   "method gbuffer: operators, comma separated: first second profile internal sobel roberts id "
+                   "normal decaudin hertzmann (default profile,internal,id)");
+    app.add_option("--supersample", t.supersample, "method gbuffer: samples per pixel and axis, 1, 2, 4 or 8 (default 1)");
     app.add_option("--lines", t.lines,
                    "line classes, comma separated: silhouette border crease intersection object material "
                    "polygon mark, or all, none (default silhouette,border,crease,intersection,object)");
@@ -226,7 +246,6 @@ void fill_scene_options(const Texts& t, Arguments& a) {
         fail("--camera", "cannot stand beside --eye, --target, --up, --fov or --ortho; remove one");
     }
     if (!t.method.empty() && find_method(t.method) == nullptr) {
-        if (is_planned_method(t.method)) fail("--method", t.method + " is not in this version");
         fail("--method", "unknown method '" + printable(t.method) + "'; burin methods lists them");
     }
     a.method = t.method;
@@ -239,6 +258,13 @@ void fill_scene_options(const Texts& t, Arguments& a) {
     if (!t.samples.empty()) {
         a.samples_per_pixel = integer("--samples", t.samples, 2, 8);
         if (*a.samples_per_pixel % 2 != 0 || *a.samples_per_pixel == 6) fail("--samples", "must be 2, 4 or 8");
+    }
+    if (!t.operators.empty()) a.gbuffer_operators = gbuffer_operators(t.operators);
+    if (!t.supersample.empty()) {
+        a.supersample = integer("--supersample", t.supersample, 1, 8);
+        if (*a.supersample != 1 && *a.supersample != 2 && *a.supersample != 4 && *a.supersample != 8) {
+            fail("--supersample", "must be 1, 2, 4 or 8");
+        }
     }
     if (!t.lines.empty()) a.lines = line_classes(t.lines);
     if (!t.width.empty()) {

@@ -13,7 +13,4 @@ std::span<const Method> methods();
 /// nullptr if there is none of that name.
 const Method* find_method(std::string_view name);
 
-/// Names that are reserved for methods of later versions.
-bool is_planned_method(std::string_view name);
-
 }  // namespace burin

@@ -54,6 +54,9 @@ struct Scene {
     /// for every frame, and is for the line classes and the crease angle above.
     std::vector<std::vector<std::uint8_t>> sharp_edges;
     ReferenceSettings reference;
+    GBufferSettings gbuffer;
+    ZBufferSettings zbuffer;
+    WireSettings wire;
     std::uint64_t skipped_primitives = 0;
 };
 
