@@ -1,0 +1,15 @@
+#pragma once
+
+#include "compare/render_lines.h"
+
+namespace burin {
+
+/// The view of frame j: the camera moved by j / 32 of a pixel along (1, .618), pixels as they are in
+/// the middle of the scene.
+View moved_view(const Scene& scene, const View& view, int j);
+
+/// The part of the picture, at most 320x240 pixels, with the most line coverage: what is looked at
+/// while the camera moves.
+PixelRect busiest_part(const Plane& coverage, PixelRect crop);
+
+}  // namespace burin

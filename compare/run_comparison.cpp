@@ -1,0 +1,261 @@
+#include "compare/run_comparison.h"
+
+#include <cmath>
+
+#include "base/parallel.h"
+#include "compare/chart_metrics.h"
+#include "compare/difference_picture.h"
+#include "compare/metrics_temporal.h"
+#include "compare/moving_frames.h"
+#include "compare/picture_metrics.h"
+#include "compare/truth.h"
+#include "compare/width_match.h"
+#include "compare/method_notes.h"
+
+namespace burin {
+namespace {
+
+/// Rough costs of the parts, for the progress bar.
+constexpr std::uint64_t kTruthWeight = 40, kSceneWeight = 4, kChartWeight = 6, kFrameWeight = 1;
+
+/// Truths at a method's own width are drawn at widths rounded to this, so that methods share them.
+constexpr double kOwnWidthStep_px = 0.05;
+
+class ComparisonRunner {
+  public:
+    ComparisonRunner(Scene& scene, const View& view, const ComparisonOptions& options)
+        : scene_(scene), view_(view), options_(options), run_{options.threads, options.progress},
+          truths_(scene, run_), width_px_(scene.lines.style.width_px) {
+        if (width_px_ <= kWidestChartLine_px) chart_ = make_test_chart(width_px_);
+    }
+
+    Comparison run(const std::string& input, const std::function<void(const Comparison&)>& done) {
+        describe(input);
+        plan();
+        next_part("truth", kTruthWeight);
+        const LineRendering truth = truths_.render(c_.classes, width_px_, view_);
+        c_.truth_time_s = truth.time_s;
+        c_.truth_picture = "truth.png";
+        write_picture(c_.truth_picture, picture_of(truth.image));
+        if (c_.frames > 1) move_truth(truth.coverage);
+        for (const Method* const method : options_.methods) {
+            c_.methods.push_back(measure(*method));
+            c_.complete = c_.methods.size() == options_.methods.size();
+            done(c_);
+        }
+        next_part("report", 0);
+        if (run_.progress != nullptr) run_.progress->advance();
+        return std::move(c_);
+    }
+
+  private:
+    void describe(const std::string& input) {
+        c_.input = input;
+        c_.width = view_.width;
+        c_.height = view_.height;
+        c_.crop = view_.crop;
+        c_.classes = scene_.lines.classes;
+        c_.line_width_px = width_px_;
+        for (const SceneObject& object : scene_.objects) c_.triangles += scene_.meshes[object.mesh].triangles.size();
+        c_.frames = options_.frames;
+        c_.threads = resolve_thread_count(options_.threads);
+        c_.truth_method = truth_method().name;
+        c_.chart_width_px = chart_ ? width_px_ : 0;
+    }
+
+    void plan() {
+        if (run_.progress == nullptr) return;
+        const std::uint64_t per_method = kTruthWeight + 2 * kSceneWeight + kChartWeight +
+                                         static_cast<std::uint64_t>(options_.frames) * kFrameWeight;
+        run_.progress->plan(kTruthWeight + static_cast<std::uint64_t>(options_.frames) * kTruthWeight / 6 +
+                            per_method * options_.methods.size());
+    }
+    void next_part(const std::string& label, std::uint64_t weight) {
+        if (run_.progress != nullptr) run_.progress->next_part(label, weight);
+    }
+
+    DisplayImage picture_of(const Image& image) const {
+        const PictureSettings& picture = scene_.picture;
+        std::optional<glm::vec3> background = picture.background;
+        if (!background && !picture.transparent) background = glm::vec3(1.0f);
+        return cropped(to_display(image, background));
+    }
+    /// The pictures of a comparison show the part that was rendered.
+    DisplayImage cropped(const DisplayImage& whole) const {
+        const PixelRect r = view_.crop;
+        DisplayImage part;
+        part.width = r.width();
+        part.height = r.height();
+        part.channels = whole.channels;
+        for (int y = r.y0; y < r.y1; ++y) {
+            const auto row = static_cast<std::ptrdiff_t>(y) * whole.width;
+            part.pixels.insert(part.pixels.end(), whole.pixels.begin() + (row + r.x0) * whole.channels,
+                               whole.pixels.begin() + (row + r.x1) * whole.channels);
+        }
+        return part;
+    }
+    void write_picture(const std::string& name, const DisplayImage& picture) const {
+        write_display_image(options_.folder + "/" + name, picture, 8);
+    }
+
+    /// Draws the scene's lines of some classes in some width.
+    LineRendering draw(const Method& method, LineClassSet classes, double width_px, const View& view, bool timed) {
+        const LineSettings lines = scene_.lines;
+        scene_.lines.classes = classes;
+        scene_.lines.style.width_px = width_px;
+        LineRendering rendering = timed ? render_lines_timed(method, scene_, view, run_)
+                                        : render_lines(method, scene_, view, run_);
+        scene_.lines = lines;
+        return rendering;
+    }
+    Plane draw_chart(const Method& method, double width_px) {
+        chart_->scene.lines.classes = chart_classes(method.draws);
+        chart_->scene.lines.style.width_px = width_px;
+        chart_->scene.patel = scene_.patel;
+        const View view{chart_->camera, chart_->width, chart_->height, {0, 0, chart_->width, chart_->height}};
+        return render_lines(method, chart_->scene, view, run_).coverage;
+    }
+
+    MethodResult measure(const Method& method) {
+        const std::string name(method.name);
+        MethodResult result;
+        result.method = &method;
+        result.drawn = c_.classes & method.draws;
+        result.not_drawn = LineClassSet::from_bits(c_.classes.bits & ~method.draws.bits);
+        result.published.asked_width_px = result.published.truth_width_px = width_px_;
+        if (const MethodNote* const note = find_method_note(method.name)) {
+            result.published.values[Metric::passes] = note->passes;
+        }
+        next_part(name, kSceneWeight);
+        std::optional<LineRendering> drawing;
+        if (!result.drawn.empty()) {
+            drawing = draw(method, result.drawn, width_px_, view_, true);
+            MetricValues& v = result.published.values;
+            v[Metric::time_s] = drawing->time_s;
+            if (drawing->memory_bytes) {
+                v[Metric::memory] = *drawing->memory_bytes / (static_cast<double>(view_.crop.width()) * view_.crop.height());
+            }
+        }
+        next_part(name, kChartWeight);
+        const WidthMatch match = measure_on_chart(method, result);
+        next_part(name + ", truth", kTruthWeight);
+        if (drawing) {
+            measure_on_scene(method, match, *drawing, result);
+            if (c_.frames > 1) measure_in_motion(method, result);
+        }
+        return result;
+    }
+
+    /// Both rows' chart metrics; which width the second row asks for.
+    WidthMatch measure_on_chart(const Method& method, MethodResult& result) {
+        ComparisonRow& published = result.published;
+        ComparisonRow& equal = result.equal_width;
+        equal = published;
+        WidthMatch match{width_px_, width_px_, true};
+        const LineClassSet classes = chart_classes(method.draws);
+        if (!chart_ || !(classes.has(LineClass::crease) || classes.has(LineClass::polygon))) return match;
+        std::vector<std::pair<double, Plane>> drawings;
+        match = match_width(width_px_, [&](double asked) {
+            drawings.emplace_back(asked, draw_chart(method, asked));
+            return star_width_px(*chart_, drawings.back().second);
+        });
+        measure_chart(*chart_, drawings.front().second, method.draws, width_px_, published);
+        equal.asked_width_px = match.asked_px;
+        if (!match.matches && match.measured_px > 0) {
+            equal.truth_width_px = std::max(1.0, std::round(match.measured_px / kOwnWidthStep_px)) * kOwnWidthStep_px;
+        }
+        const auto drawn = std::find_if(drawings.begin(), drawings.end(),
+                                        [&](const auto& d) { return d.first == match.asked_px; });
+        measure_chart(*chart_, drawn->second, method.draws, equal.truth_width_px, equal);
+        return match;
+    }
+
+    void measure_on_scene(const Method& method, const WidthMatch& match, const LineRendering& drawing,
+                          MethodResult& result) {
+        const std::string name(method.name);
+        const Plane& truth = truths_.coverage(result.drawn, width_px_, view_, 0);
+        measure_picture(drawing.coverage, truth, c_.threads, result.published.values);
+        ComparisonRow& equal = result.equal_width;
+        next_part(name + ", equal width", kSceneWeight);
+        if (match.asked_px == width_px_) {
+            measure_picture(drawing.coverage, truths_.coverage(result.drawn, equal.truth_width_px, view_, 0),
+                            c_.threads, equal.values);
+        } else {
+            measure_picture(draw(method, result.drawn, match.asked_px, view_, false).coverage,
+                            truths_.coverage(result.drawn, equal.truth_width_px, view_, 0), c_.threads, equal.values);
+        }
+        result.picture = name + ".png";
+        result.difference = name + "_diff.png";
+        write_picture(result.picture, picture_of(drawing.image));
+        write_picture(result.difference, difference_picture(drawing.coverage, truth));
+    }
+
+    View frame_view(int j) const {
+        View view = moved_view(scene_, view_, j);
+        view.crop = c_.frames_crop;
+        return view;
+    }
+    /// The truth of all frames, for the classes and width of the scene.
+    void move_truth(const Plane& coverage) {
+        c_.frames_crop = busiest_part(coverage, view_.crop);
+        next_part("truth, moving", static_cast<std::uint64_t>(c_.frames) * kTruthWeight / 6);
+        const std::vector<Plane> truth = true_frames(c_.classes, width_px_);
+        c_.truth_frame_coverage = relative_coverage(truth, truth);
+    }
+    std::vector<Plane> true_frames(LineClassSet classes, double width_px) {
+        std::vector<Plane> frames;
+        for (int j = 0; j < c_.frames; ++j) {
+            frames.push_back(truths_.coverage(classes, width_px, frame_view(j), j + 1));
+        }
+        return frames;
+    }
+    static std::vector<double> relative_coverage(const std::vector<Plane>& frames, const std::vector<Plane>& truth) {
+        double mean = 0;
+        for (const Plane& plane : truth) mean += total_coverage(plane) / static_cast<double>(truth.size());
+        std::vector<double> result;
+        for (const Plane& plane : frames) result.push_back(mean > 0 ? total_coverage(plane) / mean : 0);
+        return result;
+    }
+    void measure_in_motion(const Method& method, MethodResult& result) {
+        next_part(std::string(method.name) + ", moving", static_cast<std::uint64_t>(c_.frames) * kFrameWeight);
+        for (ComparisonRow* const row : {&result.published, &result.equal_width}) {
+            if (row == &result.equal_width && row->asked_width_px == result.published.asked_width_px &&
+                row->truth_width_px == result.published.truth_width_px) {
+                for (const Metric m : {Metric::flicker_sd, Metric::energy_sd, Metric::pop}) {
+                    row->values[m] = result.published.values[m];
+                }
+                row->frame_coverage = result.published.frame_coverage;
+                continue;
+            }
+            std::vector<Plane> frames;
+            for (int j = 0; j < c_.frames; ++j) {
+                frames.push_back(draw(method, result.drawn, row->asked_width_px, frame_view(j), false).coverage);
+            }
+            const std::vector<Plane> truth = true_frames(result.drawn, row->truth_width_px);
+            row->frame_coverage = relative_coverage(frames, truth);
+            if (const auto f = flicker(frames, truth)) {
+                row->values[Metric::flicker_sd] = f->flicker_sd;
+                row->values[Metric::energy_sd] = f->energy_sd;
+                row->values[Metric::pop] = f->pop;
+            }
+        }
+    }
+
+    Scene& scene_;
+    View view_;
+    const ComparisonOptions& options_;
+    RunOptions run_;
+    TruthCache truths_;
+    double width_px_;
+    std::optional<TestChart> chart_;
+    Comparison c_;
+};
+
+}  // namespace
+
+Comparison run_comparison(Scene& scene, const std::string& input, const View& view,
+                          const ComparisonOptions& options, const std::function<void(const Comparison&)>& done) {
+    return ComparisonRunner(scene, view, options).run(input, done);
+}
+
+}  // namespace burin
