@@ -8,6 +8,7 @@ find_package(OpenMesh CONFIG REQUIRED)
 find_package(tomlplusplus CONFIG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
+find_package(embree 3 CONFIG REQUIRED)
 
 # OpenImageIO's targets list a folder of OpenCV that exists only where libopencv-dev is installed.
 foreach(target OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)

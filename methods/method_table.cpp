@@ -4,6 +4,7 @@
 #include <array>
 
 #include "methods/patel.h"
+#include "methods/reference.h"
 
 namespace burin {
 namespace {
@@ -11,11 +12,13 @@ namespace {
 constexpr std::array kMethods = {
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
            LineClassSet::all(), render_patel},
+    Method{"reference", "ground truth: rays, and exact distances to the lines between them",
+           LineClassSet::all(), render_reference},
 };
 
 constexpr std::string_view kPlanned[] = {
     "abuffer", "gbuffer", "single-pass", "solid-wireframe", "id-buffer",    "simple",  "offset",
-    "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil", "reference"};
+    "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil"};
 
 }  // namespace
 

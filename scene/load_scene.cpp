@@ -37,6 +37,7 @@ class SceneLoader {
         scene_.lines = from_.lines;
         scene_.surfaces = from_.surfaces;
         scene_.patel = from_.patel;
+        scene_.reference = from_.reference;
     }
 
     Scene load() {

@@ -10,4 +10,9 @@ struct PatelSettings {
     HaloShape halo = HaloShape::four;
 };
 
+/// What only the method `reference` looks at.
+struct ReferenceSettings {
+    int samples = 16;  ///< rays per pixel and axis, 4 to 64
+};
+
 }  // namespace burin

@@ -49,6 +49,7 @@ struct Scene {
     LineSettings lines;
     SurfaceStyle surfaces;
     PatelSettings patel;
+    ReferenceSettings reference;
     std::uint64_t skipped_primitives = 0;
 };
 

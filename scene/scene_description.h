@@ -34,6 +34,7 @@ struct SceneDescription {
     LineSettings lines;
     SurfaceStyle surfaces;
     PatelSettings patel;
+    ReferenceSettings reference;
 };
 
 /// "KEY=VALUE" of --set: overrides a value of the scene file, for example "lines.width=2".

@@ -106,6 +106,7 @@ class SceneReader {
         if (auto t = root_.table("lines")) read_lines(*t);
         if (auto t = root_.table("surfaces")) read_surfaces(*t);
         if (auto t = root_.table("patel")) read_patel(*t);
+        if (auto t = root_.table("reference")) read_reference(*t);
         root_.finish();
         if (scene_.objects.empty()) {
             root_.fail("the scene has no [[object]]; add one with a file or a shape");
@@ -260,6 +261,11 @@ class SceneReader {
         scene_.patel.mask_bits = bits;
         static constexpr HaloShape kShapes[] = {HaloShape::four, HaloShape::eight, HaloShape::octagon};
         scene_.patel.halo = kShapes[t.choice("halo", {"four", "eight", "octagon"}).value_or(0)];
+        t.finish();
+    }
+
+    void read_reference(TomlReader& t) {
+        scene_.reference.samples = t.integer("samples", 4, 64).value_or(scene_.reference.samples);
         t.finish();
     }
 
