@@ -46,6 +46,7 @@ struct Comparison {
     LineClassSet classes;
     double line_width_px = 1;
     std::uint64_t triangles = 0;
+    glm::ivec2 focus{0};  ///< a place with many lines, counted from the crop's corner
     int frames = 0;
     PixelRect frames_crop;  ///< the part of the picture that moves, if there are frames
     int threads = 1;

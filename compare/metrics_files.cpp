@@ -133,6 +133,7 @@ std::string metrics_json(const Comparison& c) {
     json.key("width").value(c.width).key("height").value(c.height);
     json.key("crop");
     write_rect(json, c.crop);
+    json.key("focus").begin_array().value(c.focus.x).value(c.focus.y).end_array();
     json.key("triangles").value(c.triangles);
     json.key("lines");
     write_classes(json, c.classes);

@@ -6,7 +6,6 @@
 namespace burin {
 namespace {
 
-constexpr int kPartWidth = 320, kPartHeight = 240;
 constexpr int kPartStep = 16;
 constexpr glm::dvec2 kStep_px{1.0 / 32, .618 / 32};
 
@@ -35,8 +34,9 @@ View moved_view(const Scene& scene, const View& view, int j) {
     return moved;
 }
 
-PixelRect busiest_part(const Plane& coverage, PixelRect crop) {
-    const int width = std::min(kPartWidth, crop.width()), height = std::min(kPartHeight, crop.height());
+PixelRect busiest_part(const Plane& coverage, PixelRect crop, int width, int height) {
+    width = std::min(width, crop.width());
+    height = std::min(height, crop.height());
     // Sums over all rectangles from the corner.
     std::vector<double> sums(static_cast<std::size_t>(coverage.width + 1) * static_cast<std::size_t>(coverage.height + 1));
     const auto sum = [&](int x, int y) -> double& {

@@ -8,8 +8,7 @@ namespace burin {
 /// the middle of the scene.
 View moved_view(const Scene& scene, const View& view, int j);
 
-/// The part of the picture, at most 320x240 pixels, with the most line coverage: what is looked at
-/// while the camera moves.
-PixelRect busiest_part(const Plane& coverage, PixelRect crop);
+/// The part of the picture, at most width x height pixels, with the most line coverage.
+PixelRect busiest_part(const Plane& coverage, PixelRect crop, int width, int height);
 
 }  // namespace burin

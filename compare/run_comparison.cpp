@@ -18,6 +18,9 @@ namespace {
 /// Rough costs of the parts, for the progress bar.
 constexpr std::uint64_t kTruthWeight = 40, kSceneWeight = 4, kChartWeight = 6, kFrameWeight = 1;
 
+/// Motion is measured in a part of the picture: the truth of many frames takes time.
+constexpr int kMovingWidth = 320, kMovingHeight = 240;
+
 /// Truths at a method's own width are drawn at widths rounded to this, so that methods share them.
 constexpr double kOwnWidthStep_px = 0.05;
 
@@ -37,6 +40,8 @@ class ComparisonRunner {
         c_.truth_time_s = truth.time_s;
         c_.truth_picture = "truth.png";
         write_picture(c_.truth_picture, picture_of(truth.image));
+        const PixelRect busy = busiest_part(truth.coverage, view_.crop, 40, 40);
+        c_.focus = {(busy.x0 + busy.x1) / 2 - view_.crop.x0, (busy.y0 + busy.y1) / 2 - view_.crop.y0};
         if (c_.frames > 1) move_truth(truth.coverage);
         for (const Method* const method : options_.methods) {
             c_.methods.push_back(measure(*method));
@@ -197,7 +202,7 @@ class ComparisonRunner {
     }
     /// The truth of all frames, for the classes and width of the scene.
     void move_truth(const Plane& coverage) {
-        c_.frames_crop = busiest_part(coverage, view_.crop);
+        c_.frames_crop = busiest_part(coverage, view_.crop, kMovingWidth, kMovingHeight);
         next_part("truth, moving", static_cast<std::uint64_t>(c_.frames) * kTruthWeight / 6);
         const std::vector<Plane> truth = true_frames(c_.classes, width_px_);
         c_.truth_frame_coverage = relative_coverage(truth, truth);

@@ -122,11 +122,14 @@ class ChartBuilder {
     void add_pyramid(double angle_rad) {
         const glm::dvec2 c = next_cell(), d(std::cos(angle_rad), std::sin(angle_rad)), n(-d.y, d.x);
         const double h = half_length_ - 4;
+        // From the corners run creases to the apex, and must not get into the silhouettes' profiles.
+        const double inset = chart_.reach_px + 1.5 - kEndMargin_px;
         const glm::dvec2 corners[] = {c - d * h - n * h, c + d * h - n * h, c + d * h + n * h, c - d * h + n * h};
         std::uint32_t base[4];
         for (std::size_t i = 0; i < 4; ++i) {
             base[i] = add_vertex(pyramids_, corners[i], -h);
-            chart_.silhouettes.push_back({on_picture(corners[i]), on_picture(corners[(i + 1) % 4])});
+            const glm::dvec2 next = corners[(i + 1) % 4], along = glm::normalize(next - corners[i]);
+            chart_.silhouettes.push_back({on_picture(corners[i] + along * inset), on_picture(next - along * inset)});
         }
         const std::uint32_t apex = add_vertex(pyramids_, c, 0);
         for (std::size_t i = 0; i < 4; ++i) {

@@ -104,6 +104,15 @@ function resized(target) {
   target.height = Math.round(target.clientHeight * ratio);
 }
 const crops = [];
+function markCrop([x, y], scale) {
+  if (!crops.length) return;
+  const ratio = window.devicePixelRatio || 1, context = canvas.getContext('2d');
+  const side = crops[0].canvas.clientWidth / scale * state.scale;
+  const at = [(x - state.x) * state.scale + canvas.clientWidth / 2, (y - state.y) * state.scale + canvas.clientHeight / 2];
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.strokeStyle = 'rgba(193, 70, 30, .8)';
+  context.strokeRect(at[0] - side / 2, at[1] - side / 2, side, side);
+}
 function draw() {
   const truth = imageOf(data.truth.picture);
   if (!truth.complete || !truth.naturalWidth) return;
@@ -120,11 +129,15 @@ function draw() {
   byId('zoom-level').textContent = `${state.scale >= 10 ? state.scale.toFixed(0) : state.scale.toFixed(2)}×`;
   byId('tag-left').textContent = labelOf(left.value);
   byId('tag-right').textContent = labelOf(right.value);
+  // As long as all of the picture is shown, the crops show a place with many lines.
+  const focus = state.scale > fitScale() * 1.01 ? [state.x, state.y] : data.scene.focus;
+  const cropScale = Math.max(4, state.scale);
+  markCrop(focus, cropScale);
   for (const crop of crops) {
     const image = imageOf(crop.file);
     if (!image.complete || !image.naturalWidth) continue;
     resized(crop.canvas);
-    drawInto(crop.canvas, image, Math.max(4, state.scale), state.x, state.y, null);
+    drawInto(crop.canvas, image, cropScale, focus[0], focus[1], null);
     crop.figure.classList.toggle('shown', crop.file === right.value || crop.file === left.value);
   }
   viewer.dataset.drawn = 'yes';
@@ -222,8 +235,8 @@ function merit(metric, value) {
     default: return null;
   }
 }
-function shown(metric, value) {
-  if (value === null) return '—';
+function shown(metric, value, row) {
+  if (value === null) return row && row.rmse === 0 && metric.key.startsWith('psnr') ? 'exact' : '—';
   if (metric.digits === 0) return grouped(value);
   return value.toFixed(metric.digits).replace('-', '\u2212');
 }
@@ -233,7 +246,7 @@ function table(kind, [group, title, note]) {
   const used = metrics.filter(m => rows.some(r => r[m.key] !== null));
   if (!used.length) return element('p', {class: 'hint'}, `${title}: ${note}.`);
   const head = element('tr', {}, element('th', {}, 'method'));
-  const columns = used.concat(group === 'chart' || group === 'scene'
+  const columns = used.concat(group === 'scene'
     ? [{key: 'asked_width_px', title: 'asked px', what: 'Line width that the method was asked for.', digits: 2, better: 'none'},
        {key: 'truth_width_px', title: 'truth px', what: 'Line width of the truth that it is compared with.', digits: 2, better: 'none'}] : []);
   for (const m of columns) head.append(element('th', {title: m.what, scope: 'col'}, m.title));
@@ -249,12 +262,12 @@ function table(kind, [group, title, note]) {
       const value = rows[i][m.key];
       const isBest = value !== null && best[k] !== null && rows.length > 1 &&
         shown(m, Math.abs(merit(m, value))) === shown(m, Math.abs(best[k]));
-      line.append(element('td', {class: value === null ? 'none' : isBest ? 'best' : ''}, shown(m, value)));
+      line.append(element('td', {class: value === null ? 'none' : isBest ? 'best' : ''}, shown(m, value, rows[i])));
     });
     body.append(line);
   });
   const result = element('table', {class: kind}, element('caption', {}, `${title} `,
-    element('small', {}, `${note}; ${kind === 'published' ? 'as published' : 'at equal width'}`)),
+    element('small', {}, group === 'cost' ? note : `${note}; ${kind === 'published' ? 'as published' : 'at equal width'}`)),
     element('thead', {}, head), body);
   [...head.children].forEach((cell, k) => { cell.onclick = () => sortBy(body, head, k, k ? columns[k - 1] : null); });
   return element('div', {class: 'scroll'}, result);
