@@ -114,9 +114,25 @@ LayerSet layer_set(std::string_view text) {
     return layers;
 }
 
+GBufferOperatorSet gbuffer_operators(std::string_view text) {
+    GBufferOperatorSet set;
+    for (const std::string_view name : split(text, ',')) {
+        const auto found = gbuffer_operator_named(name);
+        if (!found) {
+            std::string known;
+            for (const std::string_view n : kGBufferOperatorNames) {
+                known += (known.empty() ? "" : ",") + std::string(n);
+            }
+            fail("--operator", "unknown operator '" + printable(name) + "'; known are " + known);
+        }
+        set.add(*found);
+    }
+    return set;
+}
+
 /// Options as they were typed.
 struct Texts {
-    std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines;
+    std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators, supersample;
     std::string width, crease, hidden, style, layers, frames, crop, threads, memory, stats, bits;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
@@ -135,6 +151,10 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--camera", t.camera, "a camera of the scene, by name");
     app.add_option("--mask", t.mask, "method patel: bits of the extended mask, 16, 64 or 256 (default 64)");
     app.add_option("--samples", t.samples, "method abuffer: samples per pixel and axis (not in this version)");
+    app.add_option("--operator", t.operators,
+                   "method gbuffer: operators, comma separated: first second profile internal sobel roberts id "
+                   "normal decaudin hertzmann (default profile,internal,id)");
+    app.add_option("--supersample", t.supersample, "method gbuffer: samples per pixel and axis, 1, 2, 4 or 8 (default 1)");
     app.add_option("--lines", t.lines,
                    "line classes, comma separated: silhouette border crease intersection object material "
                    "polygon mark, or all, none (default silhouette,border,crease,intersection,object)");
@@ -249,6 +269,13 @@ void fill_scene_options(const Texts& t, Arguments& a) {
         a.mask_bits = integer("--mask", t.mask, 16, 256);
         if (*a.mask_bits != 16 && *a.mask_bits != 64 && *a.mask_bits != 256) {
             fail("--mask", "must be 16, 64 or 256");
+        }
+    }
+    if (!t.operators.empty()) a.gbuffer_operators = gbuffer_operators(t.operators);
+    if (!t.supersample.empty()) {
+        a.supersample = integer("--supersample", t.supersample, 1, 8);
+        if (*a.supersample != 1 && *a.supersample != 2 && *a.supersample != 4 && *a.supersample != 8) {
+            fail("--supersample", "must be 1, 2, 4 or 8");
         }
     }
     if (!t.samples.empty()) fail_version("--samples");

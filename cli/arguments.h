@@ -27,6 +27,8 @@ struct Arguments {
     std::string camera;
     std::string method;
     std::optional<int> mask_bits;
+    std::optional<GBufferOperatorSet> gbuffer_operators;
+    std::optional<int> supersample;
     std::optional<LineClassSet> lines;
     std::optional<double> line_width_px, crease_angle_deg;
     LayerSet layers;

@@ -16,6 +16,7 @@
 #include "cli/job.h"
 #include "mesh/text_scan.h"
 #include "methods/explain.h"
+#include "methods/gbuffer.h"
 #include "methods/patel.h"
 #include "render/output.h"
 
@@ -126,12 +127,23 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
                    stderr);
     }
     const LineSettings& lines = frame.scene->lines;
+    const auto missing = LineClassSet::from_bits(lines.classes.bits & ~unsigned{method.draws.bits});
+    if (!missing.empty()) {
+        std::fprintf(stderr, "burin: note: method %s cannot draw %s\n", std::string(method.name).c_str(),
+                     to_string(missing).c_str());
+    }
     const double wanted = lines.style.width_px;
     const double drawn = patel_line_width_px(frame.scene->patel.mask_bits, wanted);
     if (method.name == "patel" && std::abs(drawn - wanted) > 0.01 * wanted) {
         std::fprintf(stderr,
                      "burin: note: method patel draws lines %.3g px wide with %d-bit masks, not %.3g px\n",
                      drawn, frame.scene->patel.mask_bits, wanted);
+    }
+    const double gbuffer_px = gbuffer_line_width_px(*frame.scene);
+    if (method.name == "gbuffer" && std::abs(gbuffer_px - wanted) > 0.01 * wanted) {
+        std::fprintf(stderr,
+                     "burin: note: method gbuffer draws lines %.3g px wide with --supersample %d, not %.3g px\n",
+                     gbuffer_px, frame.scene->gbuffer.supersample, wanted);
     }
 }
 

@@ -90,6 +90,8 @@ Scene load_input(const Arguments& a) {
         scene.picture.background = color_from_hex(a.background);
     }
     if (a.mask_bits) scene.patel.mask_bits = *a.mask_bits;
+    if (a.gbuffer_operators) scene.gbuffer.operators = *a.gbuffer_operators;
+    if (a.supersample) scene.gbuffer.supersample = *a.supersample;
     if (a.lines) scene.lines.classes = *a.lines;
     if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
     if (a.crease_angle_deg) scene.lines.crease_angle_deg = *a.crease_angle_deg;

@@ -30,6 +30,7 @@ class ComparisonRunner {
         : scene_(scene), view_(view), options_(options), run_{options.threads, options.progress},
           truths_(scene, run_), width_px_(scene.lines.style.width_px) {
         if (width_px_ <= kWidestChartLine_px) chart_ = make_test_chart(width_px_);
+        if (chart_) copy_method_settings();
     }
 
     Comparison run(const std::string& input, const std::function<void(const Comparison&)>& done) {
@@ -66,6 +67,19 @@ class ComparisonRunner {
         c_.threads = resolve_thread_count(options_.threads);
         c_.truth_method = truth_method().name;
         c_.chart_width_px = chart_ ? width_px_ : 0;
+    }
+
+    /// The chart is drawn as the scene is, but for what the scene says about itself.
+    void copy_method_settings() {
+        Scene& chart = chart_->scene;
+        chart.patel = scene_.patel;
+        chart.reference = scene_.reference;
+        chart.gbuffer = scene_.gbuffer;
+        chart.wire = scene_.wire;
+        chart.zbuffer = scene_.zbuffer;
+        chart.zbuffer.depth_range.reset();
+        chart.zbuffer.highlight_objects.clear();
+        chart.zbuffer.highlight_classes = LineClassSet();
     }
 
     void plan() {
@@ -116,7 +130,6 @@ class ComparisonRunner {
     Plane draw_chart(const Method& method, double width_px) {
         chart_->scene.lines.classes = chart_classes(method.draws);
         chart_->scene.lines.style.width_px = width_px;
-        chart_->scene.patel = scene_.patel;
         const View view{chart_->camera, chart_->width, chart_->height, {0, 0, chart_->width, chart_->height}};
         return render_lines(method, chart_->scene, view, run_).coverage;
     }

@@ -38,6 +38,9 @@ class SceneLoader {
         scene_.surfaces = from_.surfaces;
         scene_.patel = from_.patel;
         scene_.reference = from_.reference;
+        scene_.gbuffer = from_.gbuffer;
+        scene_.zbuffer = from_.zbuffer;
+        scene_.wire = from_.wire;
     }
 
     Scene load() {

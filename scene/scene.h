@@ -50,6 +50,9 @@ struct Scene {
     SurfaceStyle surfaces;
     PatelSettings patel;
     ReferenceSettings reference;
+    GBufferSettings gbuffer;
+    ZBufferSettings zbuffer;
+    WireSettings wire;
     std::uint64_t skipped_primitives = 0;
 };
 

@@ -35,6 +35,9 @@ struct SceneDescription {
     SurfaceStyle surfaces;
     PatelSettings patel;
     ReferenceSettings reference;
+    GBufferSettings gbuffer;
+    ZBufferSettings zbuffer;
+    WireSettings wire;
 };
 
 /// "KEY=VALUE" of --set: overrides a value of the scene file, for example "lines.width=2".

@@ -10,8 +10,10 @@
 #include "mesh/shapes.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
+#include "scene/gbuffer_toml.h"
 #include "scene/scene_description.h"
 #include "scene/toml_reader.h"
+#include "scene/wire_settings_toml.h"
 
 namespace burin {
 namespace {
@@ -107,6 +109,9 @@ class SceneReader {
         if (auto t = root_.table("surfaces")) read_surfaces(*t);
         if (auto t = root_.table("patel")) read_patel(*t);
         if (auto t = root_.table("reference")) read_reference(*t);
+        if (auto t = root_.table("gbuffer")) scene_.gbuffer = read_gbuffer(*t);
+        if (auto t = root_.table("zbuffer")) read_zbuffer(*t);
+        if (auto t = root_.table("wire")) scene_.wire = read_wire_settings(*t);
         root_.finish();
         if (scene_.objects.empty()) {
             root_.fail("the scene has no [[object]]; add one with a file or a shape");
@@ -266,6 +271,44 @@ class SceneReader {
 
     void read_reference(TomlReader& t) {
         scene_.reference.samples = t.integer("samples", 4, 64).value_or(scene_.reference.samples);
+        t.finish();
+    }
+
+    void read_zbuffer(TomlReader& t) {
+        ZBufferSettings& z = scene_.zbuffer;
+        const int bits = t.integer("depth_bits", 16, 64).value_or(24);
+        if (bits != 16 && bits != 24 && bits != 32 && bits != 64) {
+            t.fail("depth_bits", "must be 16, 24, 32 or 64");
+        }
+        z.depth_bits = bits;
+        if (const auto range = t.numbers("depth_range", 2)) {
+            if (!((*range)[0] >= 0 && (*range)[1] > (*range)[0])) {
+                t.fail("depth_range", "must be two distances from the eye, the nearer one first");
+            }
+            z.depth_range = {(*range)[0], (*range)[1]};
+        }
+        z.eps = t.number("eps", {0, 1}).value_or(1e-3);
+        z.factor = t.number("factor", {0, 1e6}).value_or(1);
+        z.units = t.number("units", {0, 1e6}).value_or(1);
+        z.clamp = t.number("clamp", {0, 1});
+        if (const auto adjust = t.choice("adjust", {"edges", "fills"})) {
+            z.adjust = *adjust == 0 ? DepthAdjust::edges : DepthAdjust::fills;
+        }
+        z.canonical_edges = t.boolean("canonical_edges").value_or(true);
+        std::vector<std::string> highlight;
+        if (t.is_text("highlight")) {
+            highlight.push_back(*t.text("highlight"));
+        } else if (const auto names = t.texts("highlight")) {
+            highlight = *names;
+        }
+        for (const std::string& name : highlight) {
+            if (const auto line_class = line_class_named(name)) {
+                z.highlight_classes |= *line_class;
+            } else {
+                z.highlight_objects.push_back(name);
+            }
+        }
+        z.highlight_color = t.color("highlight_color").value_or(z.highlight_color);
         t.finish();
     }
 

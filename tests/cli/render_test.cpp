@@ -247,6 +247,11 @@ TEST_F(Render, WidthsAnglesAndMasks) {
     EXPECT_EQ(sum(exr({"--lines", "crease", "--crease-angle", "91"}), "lines.A"), 0);
     EXPECT_FALSE(bytes({"--mask", "16"}) == bytes({"--mask", "256"}));
     EXPECT_TRUE(bytes({"--mask", "64"}) == bytes({}));
+    EXPECT_FALSE(bytes({"-m", "gbuffer"}) == bytes({"-m", "gbuffer", "--operator", "sobel,roberts"}));
+    EXPECT_FALSE(bytes({"-m", "gbuffer"}) == bytes({"-m", "gbuffer", "--supersample", "4"}));
+    EXPECT_TRUE(bytes({"-m", "gbuffer", "--operator", "first,second,profile,sobel,roberts,id", "--supersample", "2"}) ==
+                bytes({"-m", "gbuffer", "--set", "gbuffer.operators=['id','first','second','profile','sobel','roberts']",
+                       "--set", "gbuffer.supersample=2"}));
     EXPECT_TRUE(bytes({"-m", "patel", "--mask", "16"}) == bytes({"--method=patel", "--mask=16"}));
 }
 

@@ -16,8 +16,9 @@ void add_stroke(Plane& plane, const Segment& s, double width_px, double overhang
     const glm::dvec2 along = s.along(), across = s.across();
     const glm::dvec2 low = glm::min(s.a, s.b) - width_px - 2.0 - overhang_px;
     const glm::dvec2 high = glm::max(s.a, s.b) + width_px + 2.0 + overhang_px;
-    for (int y = static_cast<int>(low.y); y <= static_cast<int>(high.y); ++y) {
-        for (int x = static_cast<int>(low.x); x <= static_cast<int>(high.x); ++x) {
+    const auto inside = [](double v, int size) { return std::clamp(static_cast<int>(v), 0, size - 1); };
+    for (int y = inside(low.y, plane.height); y <= inside(high.y, plane.height); ++y) {
+        for (int x = inside(low.x, plane.width); x <= inside(high.x, plane.width); ++x) {
             const glm::dvec2 p = glm::dvec2(x + 0.5, y + 0.5) - s.a;
             const double t = glm::dot(p, along);
             if (t < -overhang_px || t > s.length() + overhang_px) continue;

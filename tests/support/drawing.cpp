@@ -62,13 +62,14 @@ Camera perspective_camera(glm::dvec3 eye, glm::dvec3 target, double fov_deg) {
 Drawing::Drawing(const Scene& scene, const Camera& camera, int width, int height, int threads)
     : Drawing(scene, camera, width, height, {0, 0, width, height}, threads) {}
 
-Drawing::Drawing(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop, int threads) {
+Drawing::Drawing(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop, int threads,
+                 RenderFunction render) {
     const Frame frame = make_frame(scene, camera, width, height, crop);
     const LayerSet all{true, true, true, true, true, true, true};
     Film film({0, 0, width, height}, crop, all, frame.criteria.classes);
     RunOptions options;
     options.threads = threads;
-    render_patel(frame, options, film);
+    render(frame, options, film);
     image_ = film.image();
 }
 

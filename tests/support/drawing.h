@@ -24,11 +24,14 @@ PolygonSoup transformed(PolygonSoup soup, const std::function<glm::dvec3(glm::dv
 Camera pixel_camera(int width, int height, double eye_z = 1000);
 Camera perspective_camera(glm::dvec3 eye, glm::dvec3 target, double fov_deg = 35);
 
-/// A finished drawing with every layer.
+using RenderFunction = RenderStats (*)(const Frame&, const RunOptions&, Film&);
+
+/// A finished drawing with every layer, by method patel unless another is given.
 class Drawing {
   public:
     Drawing(const Scene& scene, const Camera& camera, int width, int height, int threads = 2);
-    Drawing(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop, int threads);
+    Drawing(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop, int threads,
+            RenderFunction render = render_patel);
 
     const Image& image() const { return image_; }
     int width() const { return image_.width(); }

@@ -1,0 +1,26 @@
+// The edging plane: one bit per pixel says where the polygon was just filled; there its edges win
+// whatever their z. Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging", IEEE Computer Graphics
+// and Applications 15(4), 1995, software form.
+
+#include "methods/zbuffer/methods.h"
+#include "methods/zbuffer/render_zbuffer.h"
+
+namespace burin {
+namespace {
+
+constexpr Pass kFill{.depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace};
+constexpr Pass kEdges{.depth_test = DepthTest::less_equal, .bit_passes_depth = true};
+
+}  // namespace
+
+RenderStats render_edging_plane(const Frame& frame, const RunOptions& options, Film& film) {
+    ZBufferMethod method;
+    method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
+        z.fill(polygon, kFill);
+        z.edges(polygon, kEdges);
+        z.set_bits_of_box(polygon, false);
+    }};
+    return render_zbuffer(frame, options, film, method);
+}
+
+}  // namespace burin

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "scene/gbuffer_settings.h"
+#include "scene/toml_reader.h"
+
+namespace burin {
+
+/// The table [gbuffer] of a scene file.
+GBufferSettings read_gbuffer(TomlReader& t);
+
+}  // namespace burin
