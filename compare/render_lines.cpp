@@ -9,8 +9,6 @@
 namespace burin {
 namespace {
 
-constexpr double kQuick_s = 0.5;
-
 Plane plane_of(const Image& image, const char* name) {
     const Channel& channel = *image.find(name);
     Plane plane(image.width(), image.height());
@@ -34,19 +32,6 @@ LineRendering render_lines(const Method& method, const Scene& scene, const View&
     if (const auto bytes = memory.bytes()) result.memory_bytes = static_cast<double>(*bytes);
     result.coverage = plane_of(film.image(), "lines.A");
     result.image = film.image();
-    return result;
-}
-
-LineRendering render_lines_timed(const Method& method, const Scene& scene, const View& view,
-                                 const RunOptions& options) {
-    LineRendering result = render_lines(method, scene, view, options);
-    if (result.time_s > kQuick_s) return result;
-    RunOptions again = options;
-    again.progress = nullptr;
-    double times[] = {result.time_s, render_lines(method, scene, view, again).time_s,
-                      render_lines(method, scene, view, again).time_s};
-    std::sort(std::begin(times), std::end(times));
-    result.time_s = times[1];
     return result;
 }
 

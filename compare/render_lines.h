@@ -28,10 +28,6 @@ struct View {
 /// Lets the method draw the scene as it is set up.
 LineRendering render_lines(const Method& method, const Scene& scene, const View& view, const RunOptions& options);
 
-/// The same, for a comparison of speed: quick methods run three times, and the median time counts.
-LineRendering render_lines_timed(const Method& method, const Scene& scene, const View& view,
-                                 const RunOptions& options);
-
 /// Black ink of this coverage on white paper, sRGB-encoded: what SSIM and FLIP look at.
 Plane ink_on_paper(const Plane& coverage);
 
