@@ -38,7 +38,7 @@ class ComparisonRunner {
 
     Comparison run(const std::string& input, const std::function<void(const Comparison&)>& done) {
         describe(input);
-        plan();
+        if (run_.progress != nullptr) run_.progress->plan(total_weight());
         next_part("truth", kTruthWeight);
         const LineRendering truth = truths_.render(c_.classes, width_px_, view_);
         c_.truth_time_s = truth.time_s;
@@ -52,7 +52,7 @@ class ComparisonRunner {
             c_.complete = c_.methods.size() == options_.methods.size();
             done(c_);
         }
-        next_part("report", 0);
+        next_part("report", total_weight());  // whatever parts were left out
         if (run_.progress != nullptr) run_.progress->advance();
         return std::move(c_);
     }
@@ -85,12 +85,10 @@ class ComparisonRunner {
         chart.zbuffer.highlight_classes = LineClassSet();
     }
 
-    void plan() {
-        if (run_.progress == nullptr) return;
-        const std::uint64_t per_method = kTruthWeight + 2 * kSceneWeight + kChartWeight +
-                                         static_cast<std::uint64_t>(options_.frames) * kFrameWeight;
-        run_.progress->plan(kTruthWeight + static_cast<std::uint64_t>(options_.frames) * kTruthWeight / 6 +
-                            per_method * options_.methods.size());
+    std::uint64_t total_weight() const {
+        const auto frames = static_cast<std::uint64_t>(options_.frames);
+        const std::uint64_t per_method = kTruthWeight + 2 * kSceneWeight + kChartWeight + frames * kFrameWeight;
+        return kTruthWeight + frames * kTruthWeight / 6 + per_method * options_.methods.size();
     }
     void next_part(const std::string& label, std::uint64_t weight) {
         if (run_.progress != nullptr) run_.progress->next_part(label, weight);

@@ -123,6 +123,9 @@ function draw() {
     const image = imageOf(file);
     if (image.complete && image.naturalWidth) drawInto(canvas, image, state.scale, state.x, state.y, [from, to]);
   }
+  const line = canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
+  line.fillStyle = '#1b65a7';
+  line.fillRect((edge - 1) * ratio, 0, 2 * ratio, canvas.height);
   wipe.style.left = `${edge}px`;
   wipe.setAttribute('aria-valuenow', Math.round(100 * state.wipe));
   viewer.dataset.zoom = state.scale.toFixed(3);
@@ -256,7 +259,7 @@ function table(kind, [group, title, note]) {
     return merits.length && merits[0] !== null ? Math.max(...merits) : null;
   });
   methods.forEach((method, i) => {
-    const missing = method.not_drawn.length ? element('small', {}, `without ${method.not_drawn.join(', ')}`) : '';
+    const missing = group === 'scene' && method.not_drawn.length ? element('small', {}, `without ${method.not_drawn.join(', ')}`) : '';
     const line = element('tr', {}, element('th', {scope: 'row'}, method.name, missing));
     columns.forEach((m, k) => {
       const value = rows[i][m.key];

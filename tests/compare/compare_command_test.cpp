@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "tests/cli/models.h"
@@ -23,13 +25,27 @@ ProgramResult run_compare(const TemporaryFolder& folder, std::vector<std::string
     return run_burin(folder.path(), arguments, options);
 }
 
+/// One bar for the whole comparison: it never falls, and ends at 100.
+void expect_rising_progress(const std::string& out) {
+    std::istringstream lines(out);
+    std::string line;
+    int last = -1;
+    while (std::getline(lines, line)) {
+        int percent = 0;
+        ASSERT_EQ(std::sscanf(line.c_str(), "ALF_PROGRESS %d%%", &percent), 1) << line;
+        EXPECT_GT(percent, last);
+        last = percent;
+    }
+    EXPECT_EQ(last, 100);
+}
+
 TEST(Compare, WritesPicturesMetricsAndAReport) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
     const ProgramResult r = run_compare(folder, {"cube.obj", "-o", "a/b", "--size", "64x48", "--methods", "patel",
-                                                 "--lines", "silhouette,crease", "--frames", "2"});
+                                                 "--lines", "silhouette,crease", "--frames", "2", "--progress", "alf"});
     ASSERT_EQ(r.status, 0) << r.err;
-    EXPECT_EQ(r.out, "");
+    expect_rising_progress(r.out);
     for (const char* name : {"truth.png", "patel.png", "patel_diff.png", "metrics.csv", "report.html"}) {
         EXPECT_GT(fs::file_size(folder.file("a/b/") + name), 100u) << name;
     }
