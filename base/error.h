@@ -34,7 +34,9 @@ class UsageError : public std::runtime_error {
 /// The user pressed Ctrl-C (or the process got SIGTERM): exit status 130.
 class Interrupted : public std::runtime_error {
   public:
-    Interrupted() : std::runtime_error("interrupted") {}
+    Interrupted() : std::runtime_error("interrupted; no file was written") {}
+    /// When there is something to say about what is left.
+    explicit Interrupted(const std::string& message) : std::runtime_error(message) {}
 };
 
 }  // namespace burin

@@ -20,15 +20,48 @@ std::string minutes_and_seconds(double seconds) {
 
 }  // namespace
 
+void Progress::start_phase(std::uint64_t steps) {
+    steps_ = std::max<std::uint64_t>(steps, 1);
+    done_ = 0;
+    any_phase_ = true;
+}
+
 void Progress::begin(std::string label, std::uint64_t steps) {
     if (style_ == ProgressStyle::none) return;
     const std::lock_guard lock(mutex_);
+    start_phase(steps);
+    if (total_weight_ > 0) return;
     label_ = std::move(label);
-    steps_ = std::max<std::uint64_t>(steps, 1);
-    done_ = 0;
     start_ = Clock::now();
     next_show_ = (start_ + kShowInterval).time_since_epoch().count();
-    any_phase_ = true;
+}
+
+void Progress::plan(std::uint64_t total_weight) {
+    if (style_ == ProgressStyle::none) return;
+    const std::lock_guard lock(mutex_);
+    total_weight_ = std::max<std::uint64_t>(total_weight, 1);
+    weight_before_ = part_weight_ = 0;
+    highest_ = 0;
+    start_ = Clock::now();
+    next_show_ = (start_ + kShowInterval).time_since_epoch().count();
+    start_phase(1);
+}
+
+void Progress::next_part(std::string label, std::uint64_t weight) {
+    if (style_ == ProgressStyle::none) return;
+    const std::lock_guard lock(mutex_);
+    label_ = std::move(label);
+    weight_before_ += part_weight_;
+    part_weight_ = weight;
+    start_phase(1);
+}
+
+double Progress::fraction(std::uint64_t done) {
+    const double of_phase = std::min(1.0, static_cast<double>(done) / static_cast<double>(steps_));
+    if (total_weight_ == 0) return of_phase;
+    const double weight = static_cast<double>(weight_before_) + of_phase * static_cast<double>(part_weight_);
+    highest_ = std::max(highest_, std::min(1.0, weight / static_cast<double>(total_weight_)));
+    return highest_;
 }
 
 void Progress::advance(std::uint64_t steps) {
@@ -43,9 +76,8 @@ void Progress::advance(std::uint64_t steps) {
 }
 
 void Progress::show(std::uint64_t done) {
-    const double fraction =
-        std::min(1.0, static_cast<double>(done) / static_cast<double>(steps_));
-    const int percent = static_cast<int>(fraction * 100.0);
+    const double complete = fraction(done);
+    const int percent = static_cast<int>(complete * 100.0);
     if (style_ == ProgressStyle::alf) {
         if (percent == last_percent_) return;
         std::printf("ALF_PROGRESS %d%%\n", percent);
@@ -54,8 +86,8 @@ void Progress::show(std::uint64_t done) {
         return;
     }
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    const double left_s = fraction > 0 ? elapsed_s * (1 - fraction) / fraction : 0;
-    const int filled = static_cast<int>(fraction * kBarWidth);
+    const double left_s = complete > 0 ? elapsed_s * (1 - complete) / complete : 0;
+    const int filled = static_cast<int>(complete * kBarWidth);
     std::string bar(static_cast<std::size_t>(filled), '#');
     bar.resize(kBarWidth, '.');
     std::fprintf(stderr, "\r%-10s [%s] %3d %%  %s left \x1b[K", label_.c_str(), bar.c_str(), percent,
@@ -71,7 +103,8 @@ void Progress::finish() {
         std::fflush(stderr);
         bar_visible_ = false;
     }
-    if (style_ == ProgressStyle::alf && any_phase_ && done_ >= steps_ && last_percent_ != 100) {
+    if (style_ == ProgressStyle::alf && any_phase_ && done_ >= steps_ && last_percent_ != 100 &&
+        weight_before_ + part_weight_ >= total_weight_) {
         std::printf("ALF_PROGRESS 100%%\n");
         std::fflush(stdout);
         last_percent_ = 100;

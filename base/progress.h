@@ -26,6 +26,11 @@ class Progress {
 
     /// Starts a phase of `steps` steps. `label` is shown in front of the bar.
     void begin(std::string label, std::uint64_t steps);
+    /// From now on all phases are parts of one job of this weight, with one bar and one time left.
+    void plan(std::uint64_t total_weight);
+    /// The phases that follow are one part of the planned job. The weights of all parts add up to
+    /// the total.
+    void next_part(std::string label, std::uint64_t weight);
     void advance(std::uint64_t steps = 1);
     /// Clears the bar from the screen, or reports 100 %. Idempotent.
     void finish();
@@ -33,6 +38,8 @@ class Progress {
   private:
     using Clock = std::chrono::steady_clock;
     void show(std::uint64_t done);
+    void start_phase(std::uint64_t steps);
+    double fraction(std::uint64_t done);
 
     ProgressStyle style_;
     std::mutex mutex_;  // guards everything below but done_
@@ -41,6 +48,10 @@ class Progress {
     std::atomic<std::uint64_t> done_{0};
     Clock::time_point start_{};
     std::atomic<Clock::rep> next_show_{0};
+    std::uint64_t total_weight_ = 0;  // 0: every phase is a job of its own
+    std::uint64_t weight_before_ = 0;
+    std::uint64_t part_weight_ = 0;
+    double highest_ = 0;  // a planned job's bar never moves back
     int last_percent_ = -1;
     bool bar_visible_ = false;
     bool any_phase_ = false;

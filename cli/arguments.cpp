@@ -134,7 +134,7 @@ GBufferOperatorSet gbuffer_operators(std::string_view text) {
 struct Texts {
     std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators, supersample;
     std::string width, crease, hidden, style, layers, frames, crop, threads, memory, stats, bits;
-    std::string repeat, progress, pixel, background;
+    std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
     bool quiet = false, json = false;
@@ -149,7 +149,6 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--fov", t.fov, "vertical field of view in degrees (default 35)");
     app.add_option("--ortho", t.ortho, "orthographic view, full visible height in world units");
     app.add_option("--camera", t.camera, "a camera of the scene, by name");
-    app.add_option("-m,--method", t.method, "how lines are found (see burin methods)");
     app.add_option("--mask", t.mask, "method patel: bits of the extended mask, 16, 64 or 256 (default 64)");
     app.add_option("--samples", t.samples, "method abuffer: samples per pixel and axis, 2, 4 or 8 (default 4)");
     app.add_option("--operator", t.operators,
@@ -171,6 +170,10 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_flag("-q", t.quiet, "say nothing but errors");
 }
 
+void add_method_option(CLI::App& app, Texts& t) {
+    app.add_option("-m,--method", t.method, "how lines are found (see burin methods)");
+}
+
 void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("-o,--output", t.output, "file to write, .exr .png or .tif (default: INPUT's name with .png)");
     app.add_option("--layers", t.layers, "layers of an EXR: beauty lines Z N ids coverage surface (default: the first five)");
@@ -180,6 +183,18 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
     app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
     app.add_option("--repeat", t.repeat, "render this many times and report the median times in --stats");
+    app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
+}
+
+void add_compare_options(CLI::App& app, Texts& t) {
+    app.add_option("-o,--output", t.output, "folder for the pictures, metrics.json, metrics.csv and report.html; "
+                   "it is made if it does not exist")->required();
+    app.add_option("--methods", t.methods, "methods to compare, comma separated (default: all; see burin methods)");
+    app.add_option("--frames", t.compare_frames,
+                   "also draw this many frames, 2 to 1024, while the camera moves by 1/32 pixel each, and measure "
+                   "what flickers (32 is the customary number)");
+    app.add_option("--crop", t.crop, "compare only these pixels, X0,Y0,X1,Y1, half open");
+    app.add_option("--background", t.background, "colour of the paper of the pictures, #rrggbb, or transparent");
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }
 
@@ -216,7 +231,7 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
         });
     if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
         throw UsageError("'" + printable(first) +
-                         "' is no command; commands are render, info, explain and methods");
+                         "' is no command; commands are render, compare, info, explain and methods");
     }
     std::rotate(arguments.begin(), command, command + 1);
 }
@@ -315,6 +330,25 @@ void fill_render_options(const Texts& t, Arguments& a) {
     a.alf_progress = t.progress == "alf";
 }
 
+/// Known methods, each once, in the order given.
+std::vector<std::string> method_names(std::string_view text) {
+    std::vector<std::string> names;
+    for (const std::string_view part : split(text, ',')) {
+        const std::string name(part);
+        if (find_method(name) == nullptr) {
+            if (is_planned_method(name)) fail("--methods", name + " is not in this version");
+            fail("--methods", "unknown method '" + printable(name) + "'; burin methods lists them");
+        }
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
+void fill_compare_options(const Texts& t, Arguments& a) {
+    if (!t.methods.empty()) a.methods = method_names(t.methods);
+    if (!t.compare_frames.empty()) a.frames = integer("--frames", t.compare_frames, 2, 1024);
+}
+
 }  // namespace
 
 std::optional<Arguments> parse_arguments(int argc, char** argv) {
@@ -324,17 +358,24 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     app.require_subcommand(1);
     CLI::App* const render = app.add_subcommand("render", "draw a scene or a model");
     add_scene_options(*render, t);
+    add_method_option(*render, t);
     add_render_options(*render, t);
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
     info->add_option("INPUT", t.input, "a scene .toml or a model")->required();
     info->add_flag("--json", t.json, "as JSON");
     CLI::App* const explain = app.add_subcommand("explain", "show how one pixel was decided");
     add_scene_options(*explain, t);
+    add_method_option(*explain, t);
     explain->add_option("--pixel", t.pixel, "the pixel, X,Y from the upper left corner")->required();
     CLI::App* const list = app.add_subcommand("methods", "list the methods");
     list->add_flag("--json", t.json, "as JSON");
-    CLI::App* const compare = app.add_subcommand("compare", "compare methods (not in this version)");
-    compare->allow_extras();
+    CLI::App* const compare =
+        app.add_subcommand("compare", "draw a scene with several methods and measure them against the ground truth");
+    add_scene_options(*compare, t);
+    add_compare_options(*compare, t);
+    compare->footer("Writes DIR/truth.png, DIR/METHOD.png, DIR/METHOD_diff.png, DIR/metrics.json, DIR/metrics.csv and\n"
+                    "DIR/report.html, one page with tables, plots and a viewer. docs/compare.md says what is measured.\n"
+                    "Example: burin compare scenes/engine.toml -o comparison --size 960x540 --methods patel,gbuffer");
 
     std::vector<std::string> arguments = join_vectors(argc, argv);
     if (arguments.empty()) {
@@ -361,7 +402,6 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     for (const CLI::App* used : app.get_subcommands()) check_values(*used);
 
     Arguments a;
-    if (*compare) fail_version("compare");
     a.json = t.json;
     if (*list) {
         a.command = Command::methods;
@@ -369,9 +409,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         a.command = Command::info;
         a.input = t.input;
     } else {
-        a.command = *render ? Command::render : Command::explain;
+        a.command = *render ? Command::render : *compare ? Command::compare : Command::explain;
         fill_scene_options(t, a);
         fill_render_options(t, a);
+        if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
     }
     return a;

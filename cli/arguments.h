@@ -13,7 +13,7 @@
 
 namespace burin {
 
-enum class Command : std::uint8_t { render, info, explain, methods };
+enum class Command : std::uint8_t { render, info, explain, methods, compare };
 
 /// What stands on the command line, checked as far as that is possible without the scene.
 /// Everything optional overrides the scene when it is given.
@@ -41,6 +41,8 @@ struct Arguments {
     int bits = 8;
     int threads = 0;
     int repeat = 0;
+    std::vector<std::string> methods;  ///< compare: names, in order; empty: all
+    int frames = 0;                    ///< compare: how many the camera moves through
     std::string stats;
     bool json = false;
     bool verbose = false;

@@ -37,6 +37,7 @@ void run(const burin::Arguments& arguments) {
         case burin::Command::info: return run_info(arguments);
         case burin::Command::explain: return run_explain(arguments);
         case burin::Command::methods: return run_methods(arguments);
+        case burin::Command::compare: return run_compare(arguments);
     }
 }
 
@@ -64,8 +65,8 @@ int main(int argc, char** argv) {
     } catch (const burin::UsageError& error) {
         print_error("burin: ", error.what());
         return kWrongUsage;
-    } catch (const burin::Interrupted&) {
-        std::fputs("burin: interrupted; no file was written\n", stderr);
+    } catch (const burin::Interrupted& interrupted) {
+        print_error("burin: ", interrupted.what());
         return kInterrupted;
     } catch (const burin::InputError& error) {
         print_error("", error.what());

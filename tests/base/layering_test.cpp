@@ -22,7 +22,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"scene", {"shading", "lines", "abuffer", "mesh", "image", "base"}},
     {"render", {"scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
     {"methods", {"render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
-    {"cli", {"methods", "render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
+    {"compare", {"methods", "render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
+    {"cli", {"compare", "methods", "render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
 };
 
 // A library is used in these source files and nowhere else.

@@ -63,8 +63,6 @@ TEST_F(Usage, CommandsAndInputs) {
 
 TEST_F(Usage, WhatIsNotInThisVersion) {
     const std::string words = "not in this version";
-    expect_refused({"compare"}, words);
-    expect_refused({"compare", "cube.obj", "-o", "folder", "--size", "10x10"}, words);
     expect_bad_options({"--hidden", "solid"}, words);
     expect_bad_options({"--hidden", "dashed"}, words);
     expect_bad_options({"--samples", "4"}, words);

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "compare/metric_table.h"
+#include "compare/plane.h"
+
+namespace burin {
+
+/// The metrics of the group "scene": a result's line coverage against the truth's.
+void measure_picture(const Plane& result, const Plane& truth, int threads, MetricValues& values);
+
+}  // namespace burin

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+namespace burin {
+
+/// The report's text, style and script (compare/page). The text has the marks {{style}}, {{script}},
+/// {{data}} and {{pictures}} where the rest goes.
+std::string_view report_text();
+std::string_view report_style();
+std::string_view report_script();
+
+}  // namespace burin

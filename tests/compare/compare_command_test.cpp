@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "tests/cli/models.h"
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+ProgramResult run_compare(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "compare");
+    ProgramOptions options;
+    options.time_limit_s = kSanitized ? 300 : 60;
+    return run_burin(folder.path(), arguments, options);
+}
+
+/// One bar for the whole comparison: it never falls, and ends at 100.
+void expect_rising_progress(const std::string& out) {
+    std::istringstream lines(out);
+    std::string line;
+    int last = -1;
+    while (std::getline(lines, line)) {
+        int percent = 0;
+        ASSERT_EQ(std::sscanf(line.c_str(), "ALF_PROGRESS %d%%", &percent), 1) << line;
+        EXPECT_GT(percent, last);
+        last = percent;
+    }
+    EXPECT_EQ(last, 100);
+}
+
+TEST(Compare, WritesPicturesMetricsAndAReport) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    const ProgramResult r = run_compare(folder, {"cube.obj", "-o", "a/b", "--size", "64x48", "--methods", "patel",
+                                                 "--lines", "silhouette,crease", "--frames", "2", "--progress", "alf"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    expect_rising_progress(r.out);
+    for (const char* name : {"truth.png", "patel.png", "patel_diff.png", "metrics.csv", "report.html"}) {
+        EXPECT_GT(fs::file_size(folder.file("a/b/") + name), 100u) << name;
+    }
+    const auto metrics = nlohmann::json::parse(read_file(folder.file("a/b/metrics.json")));
+    EXPECT_EQ(metrics["complete"], true);
+    EXPECT_EQ(metrics["scene"]["lines"], (nlohmann::json{"silhouette", "crease"}));
+    ASSERT_EQ(metrics["methods"].size(), 1u);
+    const auto& patel = metrics["methods"][0];
+    EXPECT_EQ(patel["name"], "patel");
+    EXPECT_EQ(patel["drawn"], (nlohmann::json{"silhouette", "crease"}));
+    EXPECT_GT(patel["rmse"], 0.0);
+    EXPECT_LT(patel["rmse"], 0.2);
+    EXPECT_EQ(patel["missed_share"], 0.0);
+    EXPECT_EQ(patel["false_share"], 0.0);
+    EXPECT_NEAR(patel["width_px"].get<double>(), 0.9, 0.03);
+    EXPECT_GT(patel["time_s"], 0.0);
+    EXPECT_TRUE(patel["ms_ssim"].is_null());  // too small a picture
+    EXPECT_TRUE(patel["flicker_sd"].is_number());
+    EXPECT_EQ(patel["asked_width_px"], 1.0);
+    EXPECT_NEAR(patel["equal_width"]["truth_width_px"].get<double>(), 0.9, 1e-9);
+}
+
+TEST(Compare, RefusesWhatCannotBe) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    folder.write("file", "");
+    const struct {
+        std::vector<std::string> arguments;
+        int status;
+        const char* words;
+    } cases[] = {
+        {{"cube.obj"}, 2, "--output"},
+        {{"cube.obj", "-o", "d", "--methods", "magic"}, 2, "unknown method 'magic'"},
+        {{"cube.obj", "-o", "d", "--frames", "1"}, 2, "--frames"},
+        {{"cube.obj", "-o", "d", "-m", "patel"}, 2, "-m"},
+        {{"missing.obj", "-o", "d"}, 1, "missing.obj"},
+        {{"cube.obj", "-o", "file"}, 1, "file"},
+        {{"cube.obj", "-o", "file/d"}, 1, "file/d"},
+    };
+    for (const auto& c : cases) {
+        const ProgramResult r = run_compare(folder, c.arguments);
+        EXPECT_EQ(r.status, c.status) << c.words;
+        EXPECT_TRUE(is_one_line(r.err)) << r.err;
+        EXPECT_NE(r.err.find(c.words), std::string::npos) << r.err;
+    }
+    EXPECT_FALSE(fs::exists(folder.file("d")));
+}
+
+TEST(Compare, AnInterruptLeavesNothingHalfWritten) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    Program program(folder.path(), {"compare", "cube.obj", "-o", "d", "--size", "3000x3000", "--methods", "patel"});
+    while (!fs::exists(folder.file("d"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    program.send(SIGINT);
+    const ProgramResult r = program.wait();
+    EXPECT_EQ(r.status, 130);
+    EXPECT_EQ(r.err, "burin: interrupted; no method was finished\n");
+    for (const auto& entry : fs::directory_iterator(folder.file("d"))) {
+        EXPECT_EQ(entry.path().filename(), "truth.png");  // whole, if at all
+    }
+}
+
+}  // namespace
+}  // namespace burin::test
