@@ -336,7 +336,6 @@ std::vector<std::string> method_names(std::string_view text) {
     for (const std::string_view part : split(text, ',')) {
         const std::string name(part);
         if (find_method(name) == nullptr) {
-            if (is_planned_method(name)) fail("--methods", name + " is not in this version");
             fail("--methods", "unknown method '" + printable(name) + "'; burin methods lists them");
         }
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
