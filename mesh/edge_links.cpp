@@ -99,7 +99,8 @@ void link_by_sorting(std::vector<LeftOver>& left_over, std::vector<HalfEdge>& ne
 
 std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
                                  std::size_t vertex_count) {
-    std::vector<HalfEdge> next_on_edge = large_vector<HalfEdge>(3 * triangles.size());
+    std::vector<HalfEdge> next_on_edge;
+    reserve_large(next_on_edge, 3 * triangles.size());
     EdgeTable table(vertex_count);
     std::vector<LeftOver> left_over;
     constexpr std::size_t kAhead = 16;
@@ -115,11 +116,11 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
         HalfEdge h = static_cast<HalfEdge>(3 * t);
         for (const auto& [u, v] : {std::pair{a, b}, {b, c}, {c, a}}) {
             const HalfEdge before = table.exchange(u, v, h);
+            next_on_edge.push_back(h);
             if (before == EdgeTable::kFull) {
                 left_over.push_back({std::min(u, v), std::max(u, v), h});
             } else {
                 // The newest one of a ring leads back to the oldest.
-                next_on_edge[h] = h;
                 std::swap(next_on_edge[h], next_on_edge[before]);
             }
             ++h;

@@ -10,7 +10,8 @@
 namespace burin {
 
 /// Links the half-edges of triangles that join the same two vertices into rings, in increasing
-/// order (see Mesh::next_on_edge). Winding plays no part. Linear in the number of triangles.
+/// order (see Mesh::next_on_edge). Winding plays no part. The time is linear in the number of triangles,
+/// times a logarithm where very many meet at few vertices.
 std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
                                  std::size_t vertex_count);
 
