@@ -11,8 +11,11 @@
 namespace burin {
 namespace {
 
-/// The number of samples that a tile holds grows with n and with the margin of wide strokes.
-int tile_px(int samples) { return samples <= 16 ? 64 : 32; }
+/// Large enough that margins do not cost more than tiles, small enough to fit into memory.
+int tile_px(int samples, int margin_px) {
+    if (samples > 16) return margin_px > 16 ? 64 : 32;
+    return margin_px > 16 ? 128 : 64;
+}
 
 struct WorkerTimes {
     double cast = 0, lines = 0, shade = 0;
@@ -42,7 +45,7 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
                                std::max(frame.width, frame.height));
     stats.prepare_s = watch.lap();
 
-    const auto tiles = tiles_of(frame, tile_px(frame.scene->reference.samples));
+    const auto tiles = tiles_of(frame, tile_px(frame.scene->reference.samples, ReferenceTile::margin_px(frame)));
     if (options.progress != nullptr) options.progress->begin("casting rays", tiles.size());
     std::vector<std::unique_ptr<ReferenceTile>> workers(static_cast<std::size_t>(stats.threads));
     std::vector<WorkerTimes> times(workers.size());

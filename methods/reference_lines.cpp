@@ -360,10 +360,14 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const Mesh& mesh = geometry_.mesh(f.object);
     const auto& t = mesh.triangles[f.triangle];
     const std::uint32_t v = t[border % 3], w = t[(border + 1) % 3];
+    const Projection& p = geometry_.projection();
+    // Away from the edge's ends, where the next edge of the same border is as near as the other patch.
+    const double length_px = glm::distance(p.to_pixel(geometry_.position(f.object, v)), p.to_pixel(geometry_.position(f.object, w)));
+    const double margin = std::min(0.5, 0.5 * kWidestCrackPx / length_px);
+    along_edge = std::clamp(along_edge, margin, 1 - margin);
     const auto seam = mesh.borders.seam_partner(
         border, glm::mix(glm::dvec3(mesh.positions[v]), glm::dvec3(mesh.positions[w]), along_edge));
     if (!seam) return false;
-    const Projection& p = geometry_.projection();
     const glm::dvec3 place = glm::mix(geometry_.position(f.object, v), geometry_.position(f.object, w), along_edge);
     const auto& u = mesh.triangles[*seam / 3];
     glm::dvec3 c[3];

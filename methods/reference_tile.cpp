@@ -151,17 +151,28 @@ void ReferenceTile::draw_strokes(const SegmentGrid& grid, glm::ivec2 pixel) {
     strokes_.clear();
     const glm::dvec2 center = glm::dvec2(pixel) + 0.5;
     const double reach = 0.5 * width_px_ + kHalfDiagonal * (1 + 1.0 / cells_per_pixel_);
-    LineClassSet present;
+    std::array<double, kLineClassCount> nearest{};
+    nearest.fill(reach + 1);
     std::uint8_t lowest_occluder = 0;
     grid.near(center, reach, [&](std::uint32_t number) {
         const BoundarySegment& s = segments_[number];
         const double distance = nearest_point(s, center).distance;
         if (distance > reach) return;
         strokes_.push_back({number, distance});
-        if (s.line_class != kUndrawn) present |= static_cast<LineClass>(s.line_class);
+        if (s.line_class != kUndrawn) nearest[s.line_class] = std::min(nearest[s.line_class], distance);
         if (s.front_side != 0) lowest_occluder = std::max(lowest_occluder, s.line_class);
     });
-    if (present.empty()) return;
+    const auto first = std::find_if(nearest.begin(), nearest.end(), [&](double d) { return d <= reach; });
+    if (first == nearest.end()) return;
+    // Deep inside of a stroke all is clear.
+    const auto first_class = static_cast<std::uint8_t>(first - nearest.begin());
+    const bool whole = frame_.scene->lines.style.side == StrokeSide::both &&
+                       *first + kHalfDiagonal * (1 + 1.0 / cells_per_pixel_) <= 0.5 * width_px_;
+    if (whole && lowest_occluder <= first_class) {
+        cell_total_.assign(cells, 1.0);
+        class_sum_[first_class] = static_cast<double>(cells);
+        return;
+    }
     std::sort(strokes_.begin(), strokes_.end(), [](const Stroke& a, const Stroke& b) {
         return a.distance != b.distance ? a.distance < b.distance : a.segment < b.segment;
     });
@@ -171,29 +182,18 @@ void ReferenceTile::draw_strokes(const SegmentGrid& grid, glm::ivec2 pixel) {
     // Where a surface hides a part of a stroke, its boundary is nearer than the stroke's line. If that
     // boundary is drawn and its class comes first, it covers the place by itself.
     for (std::uint8_t c = 0; c < kLineClassCount; ++c) {
-        if (present.has(static_cast<LineClass>(c))) draw_class(strokes_, c, lowest_occluder > c, pixel);
+        if (nearest[c] <= reach) draw_class(strokes_, c, nearest[c], lowest_occluder > c, pixel);
     }
 }
 
-void ReferenceTile::draw_class(std::span<const Stroke> strokes, std::uint8_t line_class, bool may_be_hidden,
-                               glm::ivec2 pixel) {
+void ReferenceTile::draw_class(std::span<const Stroke> strokes, std::uint8_t line_class,
+                               double nearest_to_center, bool may_be_hidden, glm::ivec2 pixel) {
     const LineStyle& style = frame_.scene->lines.style;
     const double size = 1.0 / cells_per_pixel_;
     const double half = 0.5 * width_px_;
-    const auto first = std::find_if(strokes.begin(), strokes.end(), [&](const Stroke& s) {
-        return segments_[s.segment].line_class == line_class;
-    });
-    const bool one_sided = style.side != StrokeSide::both;
-    if (!may_be_hidden && !one_sided && first->distance + kHalfDiagonal + size <= half) {
-        for (double& total : cell_total_) {
-            class_sum_[line_class] += 1 - total;
-            total = 1;
-        }
-        return;
-    }
     // No cell's nearest segment is farther from the centre than this.
     const double farthest = may_be_hidden ? std::numeric_limits<double>::infinity()
-                                          : first->distance + 2 * kHalfDiagonal;
+                                          : nearest_to_center + 2 * kHalfDiagonal;
     for (int row = 0; row < cells_per_pixel_; ++row) {
         for (int column = 0; column < cells_per_pixel_; ++column) {
             double& total = cell_total_[static_cast<std::size_t>(row * cells_per_pixel_ + column)];

@@ -43,7 +43,8 @@ class ReferenceTile {
     BoundaryCurves::Node crossing(BoundaryCurves& curves, int row_a, int column_a, int row_b, int column_b) const;
     PixelResult shade_pixel(const SegmentGrid& grid, int x, int y);
     void draw_strokes(const SegmentGrid& grid, glm::ivec2 pixel);
-    void draw_class(std::span<const Stroke> strokes, std::uint8_t line_class, bool may_be_hidden, glm::ivec2 pixel);
+    void draw_class(std::span<const Stroke> strokes, std::uint8_t line_class, double nearest_to_center,
+                    bool may_be_hidden, glm::ivec2 pixel);
     bool is_hidden(const BoundarySegment& line, const NearestPoint& on_line, glm::dvec2 from,
                    std::span<const Stroke> strokes) const;
     glm::vec4 color_of(Facet facet, glm::dvec2 at) const;

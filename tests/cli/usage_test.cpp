@@ -65,14 +65,10 @@ TEST_F(Usage, WhatIsNotInThisVersion) {
     const std::string words = "not in this version";
     expect_bad_options({"--hidden", "solid"}, words);
     expect_bad_options({"--hidden", "dashed"}, words);
-    expect_bad_options({"--samples", "4"}, words);
     expect_bad_options({"--style", "blueprint"}, words);
     expect_bad_options({"--frames", "1-10"}, words);
     expect_bad_options({"-f", "1,5"}, words);
     expect_bad_options({"--memory", "2G"}, words);
-    for (const char* method : {"abuffer", "reference"}) {
-        expect_bad_options({"-m", method}, words);
-    }
     for (const char* output : {"a.svg", "a.pdf", "a.####.exr", "a.%04d.png"}) {
         expect_refused({"render", "cube.obj", "-o", output}, words);
     }
@@ -82,6 +78,7 @@ TEST_F(Usage, UnknownNames) {
     expect_bad_options({"-m", "magic"}, "--method: unknown method 'magic'");
     expect_bad_options({"--lines", "silhouette,edge"}, "--lines: unknown line class 'edge'");
     expect_bad_options({"-m", "gbuffer", "--operator", "id,edges"}, "--operator: unknown operator 'edges'; known are first,second");
+    expect_bad_options({"--samples", "3"}, "--samples: must be 2, 4 or 8");
     expect_bad_options({"--supersample", "3"}, "--supersample: must be 1, 2, 4 or 8");
     expect_bad_options({"--supersample", "16"}, "--supersample: must be from 1 to 8");
     expect_bad_options({"--layers", "beauty,depth"}, "--layers: unknown layer 'depth'");

@@ -105,6 +105,8 @@ TEST(SceneErrors, ValuesOutOfRange) {
         {"[lines]\ncrease_angle=-1", "4:14", "at least 0"},
         {"[lines]\ndraw=['crease','edge']", "4:6", "unknown line class 'edge'; known are"},
         {"[lines]\ncolor=[0,-1,0]", "4:7", "must not be negative"},
+        {"[reference]\nsamples=3", "4:9", "at least 4"},
+        {"[reference]\nsamples=65", "4:9", "at most 64"},
         {"[patel]\nmask=32", "4:6", "must be 16, 64 or 256"},
         {"[patel]\nmask=512", "4:6", "at most 256"},
         {"[[camera]]\nfov=0", "4:5", "greater than 0 and less than 180, got 0"},

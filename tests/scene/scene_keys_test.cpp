@@ -44,6 +44,7 @@ TEST(SceneKeys, TheSmallestSceneHasTheDocumentedDefaults) {
     EXPECT_EQ(scene.surfaces.paper_color, glm::vec3(1.0f));
     EXPECT_EQ(scene.patel.mask_bits, 64);
     EXPECT_EQ(scene.patel.halo, HaloShape::four);
+    EXPECT_EQ(scene.reference.samples, 16);
 }
 
 TEST(SceneKeys, EmptyTablesChangeNothing) {
@@ -294,6 +295,7 @@ TEST(SceneKeys, SurfacesPictureAndPatel) {
     for (const int bits : {16, 64, 256}) {
         EXPECT_EQ(scene("[patel]\nmask=" + std::to_string(bits)).patel.mask_bits, bits);
     }
+    EXPECT_EQ(scene("[reference]\nsamples=64").reference.samples, 64);
     EXPECT_EQ(scene("[patel]\nhalo='four'").patel.halo, HaloShape::four);
     EXPECT_EQ(scene("[patel]\nhalo='eight'").patel.halo, HaloShape::eight);
     EXPECT_EQ(scene("[patel]\nhalo='octagon'").patel.halo, HaloShape::octagon);
