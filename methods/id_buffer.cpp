@@ -10,6 +10,8 @@
 namespace burin {
 namespace {
 
+/// How far snapped ends may lie beside their line.
+constexpr double kSnapPx = 0.01;
 constexpr std::uint64_t kIdCount = std::uint64_t{1} << 24;
 
 class IdBufferTile {
@@ -90,7 +92,7 @@ class IdBufferTile {
         double low = std::min(edge.from.x, edge.to.x) - reach, high = std::max(edge.from.x, edge.to.x) + reach;
         if (std::abs(edge.line.x) > 1e-6) {  // between the two parallels of the line
             const double middle = -(edge.line.y * y + edge.line.z) / edge.line.x;
-            const double half = reach / std::abs(edge.line.x) + 1e-3;
+            const double half = (reach + kSnapPx) / std::abs(edge.line.x);
             low = std::max(low, middle - half);
             high = std::min(high, middle + half);
         }

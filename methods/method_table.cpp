@@ -25,8 +25,8 @@ constexpr std::array kMethods = {
 };
 
 constexpr std::string_view kPlanned[] = {
-    "abuffer", "gbuffer", "simple",   "offset",
-    "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil", "reference"};
+    "abuffer", "gbuffer", "simple", "offset", "slope-offset",
+    "decal", "edging-plane", "virgin-plane", "stencil", "reference"};
 
 }  // namespace
 
