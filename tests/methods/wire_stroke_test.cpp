@@ -56,7 +56,7 @@ TEST(WireStroke, DashesInSpaceGetShorterWithDistance) {
     settings.repeats = 4;
     const WireStroke stroke(settings, 1, WireProfileKind::gauss, 0);
     // The first of four dashes, half of 1/4 of the edge in space, ends where s / 4 / (100 - s + s / 4) = 1/8.
-    const double end = 100.0 / 3;
+    const double end = 400.0 / 11;
     EXPECT_NEAR(stroke.intensity(e, 0, end - 2, 0), 1, 1e-9);
     EXPECT_NEAR(stroke.intensity(e, 0, end, 0), 0.5, 0.02);
     EXPECT_NEAR(stroke.intensity(e, 0, end + 2, 0), 0, 1e-9);
@@ -129,7 +129,7 @@ TEST(WireStroke, SqueezedLinesAreThinInTheMiddle) {
         s.scene.wire.squeeze_min = 0.25;
         const Drawing d = draw(s, render);
         const glm::dvec2 a = s.lines[0].a, b = s.lines[0].b;
-        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.49), glm::mix(a, b, 0.51)), 1.5, 0.1);
+        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.45), glm::mix(a, b, 0.55)), 1.5, 0.08);
         EXPECT_GT(integrated_width(d, glm::mix(a, b, 0.02), glm::mix(a, b, 0.06)), 5);
     }
 }
