@@ -15,7 +15,7 @@
 namespace burin {
 
 /// Reads the keys of one TOML table, each with its type and range checked, and at the end refuses
-/// keys that nobody asked for. Only the scene_toml and toml_reader sources include this header.
+/// keys that nobody asked for. Only the sources that read scene files include this header.
 class TomlReader {
   public:
     /// `context` names the table in messages ("[camera]"); empty for the whole file. `file` is

@@ -11,7 +11,8 @@ namespace {
 
 using namespace test;
 
-constexpr RenderFunction kMethods[] = {render_single_pass, render_solid_wireframe, render_id_buffer};
+constexpr RenderFunction kMethods[] = {render_single_pass, render_solid_wireframe,
+                                       render_id_buffer};
 
 WireEdge level_edge(double length) {
     WireEdge e;
@@ -55,7 +56,8 @@ TEST(WireStroke, DashesInSpaceGetShorterWithDistance) {
     settings.pattern = WirePattern::dash;
     settings.repeats = 4;
     const WireStroke stroke(settings, 1, WireProfileKind::gauss, 0);
-    // The first of four dashes, half of 1/4 of the edge in space, ends where s / 4 / (100 - s + s / 4) = 1/8.
+    // The first of four dashes, half of 1/4 of the edge in space, ends where s / 4 / (100 - s + s /
+    // 4) = 1/8.
     const double end = 400.0 / 11;
     EXPECT_NEAR(stroke.intensity(e, 0, end - 2, 0), 1, 1e-9);
     EXPECT_NEAR(stroke.intensity(e, 0, end, 0), 0.5, 0.02);
@@ -79,8 +81,10 @@ TEST(WireStroke, DashesHaveNoJumpAcrossASharedEdge) {
                 const auto [distance, along] = segment_distance(a, b, {x + 0.5, y + 0.5});
                 if (along < 2 || along > length - 2 || distance > 1.5) continue;
                 for (const int from_b : {0, 1}) {
-                    const double dash = dash_coverage((from_b ? length - along : along) / 12, 1.0 / 12, 0.5);
-                    jump[from_b] = std::max(jump[from_b], std::abs(d.line(x, y) - dash * profile.intensity(distance)));
+                    const double dash =
+                        dash_coverage((from_b ? length - along : along) / 12, 1.0 / 12, 0.5);
+                    jump[from_b] = std::max(
+                        jump[from_b], std::abs(d.line(x, y) - dash * profile.intensity(distance)));
                 }
             }
         }
@@ -113,7 +117,8 @@ TEST(WireStroke, DualStrokesAreHollow) {
         const auto between = [&](double low, double high) {
             return darkest(d, [&](glm::dvec2 p) {
                 const auto [distance, along] = segment_distance(line.a, line.b, p);
-                return along > 20 && along < glm::distance(line.a, line.b) - 20 && distance >= low && distance <= high;
+                return along > 20 && along < glm::distance(line.a, line.b) - 20 &&
+                       distance >= low && distance <= high;
             });
         };
         EXPECT_EQ(between(0, 0.5), 0);
@@ -140,10 +145,13 @@ TEST(WireStroke, LinesGetThinnerWithDepth) {
         s.scene.lines.style.width_px = 6;
         s.scene.wire.thinning = WireThinning::linear;
         const Drawing d = draw(s, render);
-        // z runs over the square from top to bottom; the line from (1 - .37) / 2 to (1 + .37) / 2 of it.
+        // z runs over the square from top to bottom; the line from (1 - .37) / 2 to (1 + .37) / 2
+        // of it.
         const glm::dvec2 a = s.lines[0].a, b = s.lines[0].b;
-        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.0), glm::mix(a, b, 0.2)), 6 * (1 - 0.352), 0.15);
-        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.8), glm::mix(a, b, 1.0)), 6 * (1 - 0.648), 0.15);
+        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.0), glm::mix(a, b, 0.2)), 6 * (1 - 0.352),
+                    0.15);
+        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.8), glm::mix(a, b, 1.0)), 6 * (1 - 0.648),
+                    0.15);
     }
 }
 
