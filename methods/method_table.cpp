@@ -39,7 +39,7 @@ constexpr std::array kMethods = {
     Method{"solid-wireframe", "Samuel Gateau, Solid Wireframe, NVIDIA white paper WP-03014-001, 2007",
            kEdgeClasses, render_solid_wireframe},
     Method{"id-buffer",
-           "Baerentzen, Nielsen, Gjoel and Larsen, Two Methods for Antialiased Wireframe Drawing with Hidden Line "
+           "Baerentzen et al., Two Methods for Antialiased Wireframe Drawing with Hidden Line "
            "Removal, 2008",
            kEdgeClasses, render_id_buffer},
     Method{"reference", "ground truth: rays, and exact distances to the lines between them",
