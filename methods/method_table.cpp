@@ -16,13 +16,13 @@ constexpr std::string_view kHerrell =
 constexpr std::array kMethods = {
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
            LineClassSet::all(), render_patel},
-    Method{"simple", kHerrell, kEdgeClasses, render_simple},
-    Method{"offset", kHerrell, kEdgeClasses, render_offset},
-    Method{"slope-offset", "OpenGL 1.1, glPolygonOffset, 1997", kEdgeClasses, render_slope_offset},
-    Method{"decal", kHerrell, kEdgeClasses, render_decal},
-    Method{"edging-plane", kHerrell, kEdgeClasses, render_edging_plane},
-    Method{"virgin-plane", kHerrell, kEdgeClasses, render_virgin_plane},
-    Method{"stencil", kHerrell, kEdgeClasses, render_stencil},
+    Method{"simple", kHerrell, kEdgeClasses, render_with<simple_method>},
+    Method{"offset", kHerrell, kEdgeClasses, render_with<offset_method>},
+    Method{"slope-offset", "OpenGL 1.1, glPolygonOffset, 1997", kEdgeClasses, render_with<slope_offset_method>},
+    Method{"decal", kHerrell, kEdgeClasses, render_with<decal_method>},
+    Method{"edging-plane", kHerrell, kEdgeClasses, render_with<edging_plane_method>},
+    Method{"virgin-plane", kHerrell, kEdgeClasses, render_with<virgin_plane_method>},
+    Method{"stencil", kHerrell, kEdgeClasses, render_with<stencil_method>},
 };
 
 constexpr std::string_view kPlanned[] = {"abuffer",         "gbuffer",   "single-pass",
