@@ -38,7 +38,7 @@ const std::map<std::string, std::set<std::string>> kLibraryFiles = {
 TEST(Layering, FoldersIncludeOnlyWhatTheyMay) {
     const std::regex include("^#include [\"<]([a-z_]+)/[^\">]+[\">]");
     for (const auto& [folder, allowed] : kMayInclude) {
-        for (const auto& entry : fs::directory_iterator(fs::path(BURIN_SOURCE_FOLDER) / folder)) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(BURIN_SOURCE_FOLDER) / folder)) {
             std::ifstream file(entry.path());
             std::string line;
             std::smatch match;
@@ -56,7 +56,7 @@ TEST(Layering, EachLibraryLivesInOneFile) {
     for (const auto& [pattern, files] : kLibraryFiles) {
         const std::regex include("^#include [\"<](" + pattern + ")");
         for (const auto& [folder, allowed] : kMayInclude) {
-            for (const auto& entry : fs::directory_iterator(fs::path(BURIN_SOURCE_FOLDER) / folder)) {
+            for (const auto& entry : fs::recursive_directory_iterator(fs::path(BURIN_SOURCE_FOLDER) / folder)) {
                 const std::string name = folder + "/" + entry.path().filename().string();
                 std::ifstream file(entry.path());
                 std::string line;

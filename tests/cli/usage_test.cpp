@@ -73,8 +73,7 @@ TEST_F(Usage, WhatIsNotInThisVersion) {
     expect_bad_options({"-f", "1,5"}, words);
     expect_bad_options({"--memory", "2G"}, words);
     for (const char* method :
-         {"abuffer", "gbuffer", "single-pass", "solid-wireframe", "id-buffer", "simple", "offset",
-          "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil", "reference"}) {
+         {"abuffer", "gbuffer", "single-pass", "solid-wireframe", "id-buffer", "reference"}) {
         expect_bad_options({"-m", method}, words);
     }
     for (const char* output : {"a.svg", "a.pdf", "a.####.exr", "a.%04d.png"}) {

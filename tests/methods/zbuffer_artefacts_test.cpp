@@ -222,6 +222,8 @@ TEST(NarrowPolygonAtTheContour, LosesItsLineToTheNextOne) {
         EXPECT_EQ(missing(method, 16), 0) << method;
         EXPECT_EQ(missing(method, 400), 1) << method;
     }
+    EXPECT_EQ(missing("decal", 400), 1);
+    EXPECT_EQ(missing("slope-offset", 400), 0);
 }
 
 TEST(ThinWedge, ShowsItsBackWhereDepthIsTooCoarse) {

@@ -26,8 +26,8 @@ TEST(Fill, CoversEachPixelOnceWhereTrianglesMeet) {
         for (int i = 0; i <= 4; ++i) {
             for (int j = 0; j <= 3; ++j) {
                 glm::dvec2 p(i * 10, j * 10);
-                if (i > 0 && i < 4) p.x += random.integer(-8, 8) * 0.5;
-                if (j > 0 && j < 3) p.y += random.integer(-8, 8) * 0.5;
+                if (i > 0 && i < 4) p.x += random.integer(-4, 4) * 0.5;
+                if (j > 0 && j < 3) p.y += random.integer(-4, 4) * 0.5;
                 if (random.integer(0, 1) && i > 0 && i < 4 && j > 0 && j < 3) p += glm::dvec2(random.real(-0.5, 0.5), random.real(-0.5, 0.5));
                 points[{i, j}] = p;
             }
