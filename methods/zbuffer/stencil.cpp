@@ -2,7 +2,6 @@
 // "High-Quality Polygon Edging", IEEE Computer Graphics and Applications 15(4), 1995.
 
 #include "methods/zbuffer/methods.h"
-#include "methods/zbuffer/render_zbuffer.h"
 
 namespace burin {
 namespace {
@@ -18,7 +17,7 @@ constexpr Pass kClear{.depth_test = DepthTest::never, .writes_depth = false, .wr
 
 }  // namespace
 
-RenderStats render_stencil(const Frame& frame, const RunOptions& options, Film& film) {
+ZBufferMethod stencil_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
         z.fill(polygon, kFill);
@@ -26,7 +25,7 @@ RenderStats render_stencil(const Frame& frame, const RunOptions& options, Film& 
         z.edges(polygon, kEdgesOnFill);
         z.fill(polygon, kClear);
     }};
-    return render_zbuffer(frame, options, film, method);
+    return method;
 }
 
 }  // namespace burin

@@ -7,7 +7,6 @@
 // edge makes the pixel an ordinary one.
 
 #include "methods/zbuffer/methods.h"
-#include "methods/zbuffer/render_zbuffer.h"
 
 namespace burin {
 namespace {
@@ -21,7 +20,7 @@ constexpr Pass kGiveBack{.depth_test = DepthTest::always, .writes_depth = false,
 
 }  // namespace
 
-RenderStats render_virgin_plane(const Frame& frame, const RunOptions& options, Film& film) {
+ZBufferMethod virgin_plane_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.initial_bit = true;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
@@ -29,7 +28,7 @@ RenderStats render_virgin_plane(const Frame& frame, const RunOptions& options, F
         z.edges(polygon, kEdges);
         z.fill(polygon, kGiveBack);
     }};
-    return render_zbuffer(frame, options, film, method);
+    return method;
 }
 
 }  // namespace burin

@@ -23,12 +23,6 @@ bool compare(BitTest test, bool reference, bool stored) {
     return test == BitTest::always || (test == BitTest::equal) == (reference == stored);
 }
 
-/// The object itself, one of its parts ("engine/piston"), or an instance ("tree#2").
-bool is_named(const std::string& object, const std::string& name) {
-    return object.starts_with(name) &&
-           (object.size() == name.size() || object[name.size()] == '/' || object[name.size()] == '#');
-}
-
 }  // namespace
 
 ZBuffer::ZBuffer(const Frame& frame)
@@ -39,7 +33,7 @@ ZBuffer::ZBuffer(const Frame& frame)
     for (const SceneObject& object : frame.scene->objects) {
         const auto& names = settings_.highlight_objects;
         highlighted_instances_.push_back(std::any_of(
-            names.begin(), names.end(), [&](const auto& name) { return is_named(object.name, name); }));
+            names.begin(), names.end(), [&](const auto& name) { return is_named(object, name); }));
     }
 }
 
