@@ -178,6 +178,14 @@ TEST(Flat, IsLostInAnEightBitDepthBuffer) {
     EXPECT_GT(sum_of(row(scene, 70, 90)), 1);
 }
 
+TEST(Composition, DarkensWhatIsLeftOrTakesTheStrongest) {
+    // Profile .064 and internal edge .512, as above.
+    Scene scene = with(scene_flat(), {kProfile, kInternal}, LineClass::silhouette | LineClass::crease);
+    EXPECT_NEAR(row(scene, 79, 80)[0], 1 - (1 - 0.064) * (1 - 0.512), 0.001);
+    scene.gbuffer.composition = LineComposition::maximum;
+    EXPECT_NEAR(row(scene, 79, 80)[0], 0.512, 0.001);
+}
+
 // ---- false lines ----
 
 TEST(Grazing, FloorFillsWithFalseLinesOnlyByAbsoluteDepth) {
