@@ -141,6 +141,14 @@ TEST(IdBuffer, SteepSurfacesLeakWhatTheyDescendWithinAStroke) {
     EXPECT_GT(integrated_width(d, s.lines[1].a, s.lines[1].b), 0.1);
 }
 
+TEST(IdBuffer, HiddenEdgesShowAtTheLimbOfASphere) {
+    // A pixel below the surface: deep in the middle of the sphere, less than a stroke at its limb.
+    const Drawing d = draw(scene_sphere(), render_id_buffer);
+    const auto is_inner = [](glm::dvec2 p) { return glm::distance(p, {128.2, 127.9}) < 70; };
+    EXPECT_EQ(darkest(d, is_inner), 0);
+    EXPECT_GT(d.sum("lines.A"), 0);
+}
+
 TEST(IdBuffer, TheSlopeVariantLeaksHalfAPixelsSlopeMore) {
     MinimalScene s = covered_edge(1e-2, 0.004);
     const double plain = draw(s, render_id_buffer).sum("lines.A");

@@ -72,7 +72,8 @@ TEST(SinglePass, WidthAtSilhouettesDependsOnPhase) {
 }
 
 TEST(SinglePass, NothingIsDrawnBesideSurfaces) {
-    for (const MinimalScene& s : {scene_sil(), scene_concave(), scene_sphere()}) {
+    const MinimalScene sphere = with_classes(scene_sphere(), LineClassSet::all());
+    for (const MinimalScene& s : {scene_sil(), scene_concave(), sphere}) {
         const Drawing d = draw(s, render_single_pass);
         int lines = 0;
         for (int y = 0; y < 256; ++y) {
@@ -120,6 +121,7 @@ TEST(SinglePass, NothingLeaksThroughAnyGap) {
                   0)
             << gap;
     }
+    EXPECT_EQ(draw(scene_sphere(), render_single_pass).sum("lines.A"), 0);
     const Drawing d = draw(scene_dilemma(), render_single_pass);
     const MinimalScene s = scene_dilemma();
     EXPECT_NEAR(integrated_width(d, s.lines[0].a, s.lines[0].b), 1, 0.01);
@@ -273,7 +275,7 @@ TEST(SinglePass, AlphaTestSeesThroughSurfaces) {
 TEST(SinglePass, ThreadsAndCropsChangeNothing) {
     for (const RenderFunction render :
          {render_single_pass, render_solid_wireframe, render_id_buffer}) {
-        const MinimalScene s = scene_unedged();
+        const MinimalScene s = with_classes(scene_sphere(), LineClassSet::all());
         const Drawing one = draw(s, render, 1), three = draw(s, render, 3);
         EXPECT_TRUE(same_bits(one.image(), three.image()));
         const Drawing part(s.scene, s.camera, 256, 256, {70, 41, 171, 190}, 2, render);
@@ -287,7 +289,7 @@ TEST(SinglePass, ThreadsAndCropsChangeNothing) {
 TEST(SinglePass, LayersFitTogether) {
     for (const RenderFunction render :
          {render_single_pass, render_solid_wireframe, render_id_buffer}) {
-        const Drawing d = draw(scene_unedged(), render);
+        const Drawing d = draw(with_classes(scene_sphere(), LineClassSet::all()), render);
         for (int y = 0; y < 256; y += 5) {
             for (int x = 0; x < 256; x += 5) {
                 double sum = 0;
