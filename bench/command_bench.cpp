@@ -1,6 +1,6 @@
-// command_bench BURIN MODEL RUNS: what the whole command `burin render MODEL -o d.exr` costs, beside
-// OpenMesh reading the same file. Prints the JSON object of section "command": seconds of CPU time of
-// processes (all their threads, user and system), medians over the runs.
+// command_bench BURIN MODEL RUNS: what the whole command `burin render MODEL -o d.exr` costs,
+// beside OpenMesh reading the same file. Prints the JSON object of section "command": seconds of
+// CPU time of processes (all their threads, user and system), medians over the runs.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -41,20 +41,21 @@ double process_cpu_s(const char* what, const Work& work) {
 }
 
 std::string measure_command(const std::string& burin, const std::string& model, int runs) {
-    const std::string picture =
-        (std::filesystem::temp_directory_path() / ("burin-bench-" + std::to_string(::getpid()) + ".exr"))
-            .string();
+    const std::string picture = (std::filesystem::temp_directory_path() /
+                                 ("burin-bench-" + std::to_string(::getpid()) + ".exr"))
+                                    .string();
     Samples command, openmesh;
     for (int run = -1; run < runs; ++run) {  // run -1 warms the page cache
         const double ours = process_cpu_s("burin render", [&] {
             const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
             ::dup2(nowhere, STDOUT_FILENO);
             ::dup2(nowhere, STDERR_FILENO);
-            ::execl(burin.c_str(), "burin", "render", model.c_str(), "-o", picture.c_str(), nullptr);
+            ::execl(burin.c_str(), "burin", "render", model.c_str(), "-o", picture.c_str(),
+                    nullptr);
             return 127;
         });
-        const double theirs = process_cpu_s("OpenMesh's read_mesh",
-                                            [&] { return openmesh_read(model) > 0 ? 0 : 1; });
+        const double theirs =
+            process_cpu_s("OpenMesh's read_mesh", [&] { return openmesh_read(model) > 0 ? 0 : 1; });
         if (run < 0) continue;
         command.add(ours);
         openmesh.add(theirs);

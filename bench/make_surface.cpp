@@ -1,12 +1,13 @@
-// make_surface FILE.ply: a closed surface of as many triangles as the Stanford dragon, in the same kind
-// of file, for measuring where the dragon cannot be fetched.
+// make_surface FILE.ply: a closed surface of as many triangles as the Stanford dragon, in the same
+// kind of file, for measuring where the dragon cannot be fetched.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 namespace {
 
-constexpr int kAround = 933, kAlong = 467;  // 2 * 933 * 467 = 871,422 triangles; the dragon has 871,414
+constexpr int kAround = 933,
+              kAlong = 467;  // 2 * 933 * 467 = 871,422 triangles; the dragon has 871,414
 
 /// A torus with bumps, of the dragon's size.
 void write_vertex(std::FILE* file, int i, int j) {
@@ -25,10 +26,11 @@ int main(int argc, char** argv) {
         std::fputs("usage: make_surface FILE.ply\n", stderr);
         return 2;
     }
-    std::fprintf(file,
-                 "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
-                 "property float z\nelement face %d\nproperty list uchar int vertex_indices\nend_header\n",
-                 kAround * kAlong, 2 * kAround * kAlong);
+    std::fprintf(
+        file,
+        "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
+        "property float z\nelement face %d\nproperty list uchar int vertex_indices\nend_header\n",
+        kAround * kAlong, 2 * kAround * kAlong);
     for (int i = 0; i < kAround; ++i) {
         for (int j = 0; j < kAlong; ++j) write_vertex(file, i, j);
     }

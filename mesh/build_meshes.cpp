@@ -37,11 +37,10 @@ glm::dvec3 choose_origin(const PolygonSoup& soup) {
     return distance > 16 * std::max({half.x, half.y, half.z}) ? center : glm::dvec3(0.0);
 }
 
-/// Triangles, their polygons, and the polygons' normals. Polygons that are all triangles move to
-/// the mesh.
-void triangulate_into(PolygonMesh& polygons, Mesh& mesh) {
+/// Triangles, their polygons, and the polygons' normals.
+void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
     mesh.polygon_count = static_cast<std::uint32_t>(polygons.polygon_count());
-    if (3 * (polygons.corner_count() - 2 * polygons.polygon_count()) >= kNoHalfEdge) {
+    if (3 * (polygons.corners.size() - 2 * polygons.polygon_count()) >= kNoHalfEdge) {
         throw InputError("object '" + mesh.name +
                          "': more than 1.4 billion triangles; split the model");
     }
@@ -49,7 +48,11 @@ void triangulate_into(PolygonMesh& polygons, Mesh& mesh) {
     mesh.triangle_polygon.clear();
     mesh.polygon_normals.clear();
     if (polygons.ends.empty()) {
-        mesh.triangles = std::move(polygons.triangles);
+        reserve_large(mesh.triangles, polygons.polygon_count());
+        for (std::size_t i = 0; i < polygons.corners.size(); i += 3) {
+            const std::uint32_t* const c = &polygons.corners[i];
+            mesh.triangles.push_back({c[0], c[1], c[2]});
+        }
         return;
     }
     std::vector<glm::dvec3> corners;
@@ -103,7 +106,7 @@ void mark_edges(const PolygonMesh& polygons, Mesh& mesh) {
     }
 }
 
-void triangulate_and_link(PolygonMesh& polygons, Mesh& mesh) {
+void triangulate_and_link(const PolygonMesh& polygons, Mesh& mesh) {
     triangulate_into(polygons, mesh);
     mesh.next_on_edge = link_edges(mesh.triangles, polygons.positions.size());
 }
@@ -114,9 +117,6 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh) {
     mesh.repairs.duplicate_polygons = duplicates.size();
     const bool is_subdivided =
         options.subdivision_levels > 0 && mesh.polygon_count > duplicates.size();
-    if ((!duplicates.empty() || is_subdivided) && polygons.ends.empty()) {
-        polygons.triangles = std::move(mesh.triangles);
-    }
     if (!duplicates.empty()) polygons = without(polygons, duplicates);
     if (is_subdivided) {
         polygons = subdivide(polygons, options.scheme, options.subdivision_levels, mesh.name);

@@ -43,7 +43,7 @@ PolygonMesh collect_triangles(const PolygonSoup& soup, const std::vector<glm::ve
         large_vector(positions.size(), kUnused);  // number in the object
     PolygonMesh mesh;
     reserve_large(mesh.positions, positions.size());
-    reserve_large(mesh.triangles, count);
+    reserve_large(mesh.corners, 3 * count);
     for (std::size_t i = 0; i < count; ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
         const std::uint32_t* const corners = &soup.corners[3 * i];
@@ -57,10 +57,10 @@ PolygonMesh collect_triangles(const PolygonSoup& soup, const std::vector<glm::ve
             }
             v = local[v];
         }
-        mesh.triangles.push_back(t);
+        mesh.corners.insert(mesh.corners.end(), t.begin(), t.end());
     }
     repairs.input_polygons = repairs.input_triangles = count;
-    repairs.degenerate_polygons = count - mesh.triangles.size();
+    repairs.degenerate_polygons = count - mesh.polygon_count();
     repairs.welded_vertices = count_welded(soup, welded);
     return mesh;
 }

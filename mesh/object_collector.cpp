@@ -56,7 +56,7 @@ ObjectCollector::ObjectCollector(const PolygonSoup& soup, const std::vector<glm:
 PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t begin,
                                      std::size_t end, MeshRepairs& repairs) {
     PolygonMesh mesh;
-    mesh.triangles.reserve(end - begin);
+    mesh.corners.reserve(3 * (end - begin));
     for (std::size_t i = begin; i < end; ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
         const std::size_t polygon = groups.order.empty() ? i : groups.order[i];

@@ -9,39 +9,30 @@
 namespace burin {
 
 /// One object's polygons after welding and dropping, before triangulation: what subdivision works
-/// on. Corners are numbers into `positions`. While all polygons are triangles, they are in
-/// `triangles`, else all are in `corners` and `ends`.
+/// on. Corners are numbers into `positions`.
 struct PolygonMesh {
     std::vector<glm::vec3> positions;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint32_t> corners;
-    std::vector<std::uint32_t> ends;              ///< polygon i ends before corners[ends[i]]
+    std::vector<std::uint32_t> ends;              ///< empty: all polygons are triangles
     std::vector<std::uint32_t> polygon_material;  ///< empty: all have material 0
     std::vector<std::array<std::uint32_t, 2>> marked_edges;
 
-    std::size_t polygon_count() const { return ends.empty() ? triangles.size() : ends.size(); }
-    std::size_t corner_count() const {
-        return ends.empty() ? 3 * triangles.size() : corners.size();
-    }
+    std::size_t polygon_count() const { return ends.empty() ? corners.size() / 3 : ends.size(); }
     std::span<const std::uint32_t> polygon(std::size_t i) const {
-        if (ends.empty()) return triangles[i];
+        if (ends.empty()) return {corners.data() + 3 * i, 3};
         const std::size_t begin = i == 0 ? 0 : ends[i - 1];
         return {corners.data() + begin, ends[i] - begin};
     }
     void add_polygon(std::span<const std::uint32_t> vertices) {
-        if (ends.empty() && vertices.size() == 3) {
-            triangles.push_back({vertices[0], vertices[1], vertices[2]});
-            return;
-        }
-        if (ends.empty()) {  // the first one that is no triangle
-            for (const auto& triangle : triangles) {
-                corners.insert(corners.end(), triangle.begin(), triangle.end());
-                ends.push_back(static_cast<std::uint32_t>(corners.size()));
+        if (ends.empty() && vertices.size() != 3) {
+            // The first one that is no triangle: list the ends of those before it.
+            for (std::size_t end = 3; end <= corners.size(); end += 3) {
+                ends.push_back(static_cast<std::uint32_t>(end));
             }
-            triangles = {};
         }
+        const bool has_ends = !ends.empty() || vertices.size() != 3;
         corners.insert(corners.end(), vertices.begin(), vertices.end());
-        ends.push_back(static_cast<std::uint32_t>(corners.size()));
+        if (has_ends) ends.push_back(static_cast<std::uint32_t>(corners.size()));
     }
 };
 

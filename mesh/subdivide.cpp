@@ -154,7 +154,7 @@ void check_size(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
     std::uint64_t polygons = mesh.polygon_count();
     for (int level = 0; level < levels; ++level) {
         const bool by_corners = level == 0 && scheme == SubdivisionScheme::catmull_clark;
-        polygons = by_corners ? mesh.corner_count() : 4 * polygons;
+        polygons = by_corners ? mesh.corners.size() : 4 * polygons;
         if (polygons > kMaxPolygons) {
             throw InputError("object '" + object_name + "': " + std::to_string(levels) +
                              " subdivisions give more than 268 million polygons; use fewer");
