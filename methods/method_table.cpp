@@ -15,8 +15,7 @@
 namespace burin {
 namespace {
 
-constexpr std::string_view kHerrell =
-    "Herrell, Baldwin, Wilcox, High-Quality Polygon Edging, 1995";
+constexpr std::string_view kHerrell = "Herrell, Baldwin, Wilcox, High-Quality Polygon Edging, 1995";
 
 constexpr std::array kMethods = {
     Method{"abuffer", "Burin; after Mayur Patel, 2000, and Loren Carpenter, 1984", LineClassSet::all(),
@@ -29,7 +28,8 @@ constexpr std::array kMethods = {
            render_gbuffer},
     Method{"simple", kHerrell, kEdgeClasses, render_with<simple_method>},
     Method{"offset", kHerrell, kEdgeClasses, render_with<offset_method>},
-    Method{"slope-offset", "OpenGL 1.1, glPolygonOffset, 1997", kEdgeClasses, render_with<slope_offset_method>},
+    Method{"slope-offset", "OpenGL 1.1, glPolygonOffset, 1997", kEdgeClasses,
+           render_with<slope_offset_method>},
     Method{"decal", kHerrell, kEdgeClasses, render_with<decal_method>},
     Method{"edging-plane", kHerrell, kEdgeClasses, render_with<edging_plane_method>},
     Method{"virgin-plane", kHerrell, kEdgeClasses, render_with<virgin_plane_method>},
@@ -48,7 +48,9 @@ constexpr std::array kMethods = {
 
 }  // namespace
 
-std::span<const Method> methods() { return kMethods; }
+std::span<const Method> methods() {
+    return kMethods;
+}
 
 const Method* find_method(std::string_view name) {
     const auto it = std::find_if(kMethods.begin(), kMethods.end(),

@@ -1,6 +1,6 @@
-// Decal edging: a polygon's edges are drawn before its fill is in the z-buffer, so they never meet it.
-// Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging", IEEE Computer Graphics and Applications
-// 15(4), 1995.
+// Decal edging: a polygon's edges are drawn before its fill is in the z-buffer, so they never meet
+// it. Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging", IEEE Computer Graphics and
+// Applications 15(4), 1995.
 
 #include "methods/zbuffer/methods.h"
 

@@ -4,8 +4,8 @@
 
 namespace burin {
 
-// Lines over surfaces on a z-buffered machine, polygon edges as vectors. Each has a file that lists its
-// passes, and a page in docs/methods/.
+// Lines over surfaces on a z-buffered machine, polygon edges as vectors. Each has a file that lists
+// its passes, and a page in docs/methods/.
 ZBufferMethod simple_method(const ZBufferSettings& settings);
 ZBufferMethod offset_method(const ZBufferSettings& settings);
 ZBufferMethod slope_offset_method(const ZBufferSettings& settings);

@@ -1,5 +1,6 @@
-// Simple edging: fills, then edges over them. Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging",
-// IEEE Computer Graphics and Applications 15(4), 1995, as the state of the art that they improve on.
+// Simple edging: fills, then edges over them. Herrell, Baldwin, Wilcox, "High-Quality Polygon
+// Edging", IEEE Computer Graphics and Applications 15(4), 1995, as the state of the art that they
+// improve on.
 
 #include "methods/zbuffer/methods.h"
 

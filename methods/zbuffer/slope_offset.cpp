@@ -1,6 +1,6 @@
 // Slope-dependent depth offset: as simple edging, but fills are moved away by their own slope.
-// glPolygonOffset, OpenGL 1.1, 1997; a pixel's worth of slope (factor 1) is what an edge and a fill can
-// differ by at the corner of a pixel.
+// glPolygonOffset, OpenGL 1.1, 1997; a pixel's worth of slope (factor 1) is what an edge and a fill
+// can differ by at the corner of a pixel.
 
 #include "methods/zbuffer/methods.h"
 

@@ -41,10 +41,12 @@ TEST(ZBufferLines, WidthVariesWithTheAngle) {
         const glm::dvec2 middle = 0.5 * (s.lines[i].a + s.lines[i].b);
         double pixels = 0;
         for (int y = static_cast<int>(middle.y) - 8; y <= middle.y + 8; ++y) {
-            for (int x = static_cast<int>(middle.x) - 8; x <= middle.x + 8; ++x) pixels += d.has_line(x, y);
+            for (int x = static_cast<int>(middle.x) - 8; x <= middle.x + 8; ++x)
+                pixels += d.has_line(x, y);
         }
         const double angle = glm::radians(static_cast<double>(i));
-        EXPECT_NEAR(pixels, 14 * std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle))), 1) << i;
+        EXPECT_NEAR(pixels, 14 * std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle))), 1)
+            << i;
     }
 }
 
@@ -53,7 +55,8 @@ TEST(ZBufferLines, WideOnesAreRepeatedAcrossTheMajorAxis) {
     const double one = MethodDrawing("edging-plane", s).sum("lines.A");
     for (const int width : {2, 3, 5}) {
         s.scene.lines.style.width_px = width;
-        EXPECT_NEAR(MethodDrawing("edging-plane", s).sum("lines.A"), width * one, 4 * width * width) << width;
+        EXPECT_NEAR(MethodDrawing("edging-plane", s).sum("lines.A"), width * one, 4 * width * width)
+            << width;
     }
     s.scene.lines.style.width_px = 1.5;
     EXPECT_EQ(MethodDrawing("edging-plane", s).sum("lines.A"), one);
@@ -111,7 +114,8 @@ TEST(ZBufferLines, GrazingFloorsHaveNoFalseLines) {
         const MethodDrawing d(method, floor);
         EXPECT_GT(d.sum("coverage.border"), 100) << method;
         for (int y = 33; y < 224; ++y) {
-            for (int x = 32; x < 224; ++x) ASSERT_EQ(d.at("lines.A", x, y), 0) << method << x << " " << y;
+            for (int x = 32; x < 224; ++x)
+                ASSERT_EQ(d.at("lines.A", x, y), 0) << method << x << " " << y;
         }
     }
 }
@@ -153,7 +157,8 @@ TEST(SharedEdge, DrawnInOneDirectionIsClean) {
                 const MethodDrawing d(method, s);
                 // Ties go to the row ahead, which is the one that pixels_along() names.
                 EXPECT_EQ(missing_share(d, s.lines[0]), 0) << method << same << b;
-                EXPECT_EQ(share_along(s.lines[0], [&](int x, int y) { return d.has_line(x, y - 1); }), 0);
+                EXPECT_EQ(
+                    share_along(s.lines[0], [&](int x, int y) { return d.has_line(x, y - 1); }), 0);
             }
         }
     }
@@ -162,15 +167,16 @@ TEST(SharedEdge, DrawnInOneDirectionIsClean) {
 TEST(SharedEdge, DrawnInBothDirectionsTakesOtherPixelsAtTies) {
     for (const std::string_view method : {"decal", "edging-plane", "virgin-plane", "stencil"}) {
         const auto above = [&](const MethodDrawing& d) {
-            return share_along(scene_pair(true).lines[0], [&](int x, int y) { return d.has_line(x, y - 1); });
+            return share_along(scene_pair(true).lines[0],
+                               [&](int x, int y) { return d.has_line(x, y - 1); });
         };
         const auto drawn = [&](bool same_direction, double b) {
             MinimalScene s = scene_pair(same_direction, b);
             s.scene.zbuffer.canonical_edges = false;
             return MethodDrawing(method, s);
         };
-        // The lower polygon's vector takes the upper row at ties; it shows unless the upper polygon's
-        // fill is nearer there.
+        // The lower polygon's vector takes the upper row at ties; it shows unless the upper
+        // polygon's fill is nearer there.
         EXPECT_NEAR(above(drawn(false, -4e-3)), 0.5, 0.01) << method << ": two pixels wide at ties";
         EXPECT_EQ(above(drawn(false, 4e-3)), 0) << method;
         EXPECT_EQ(above(drawn(true, -4e-3)), 0) << method;
@@ -180,8 +186,8 @@ TEST(SharedEdge, DrawnInBothDirectionsTakesOtherPixelsAtTies) {
 TEST(UnedgedNeighbour, DrawnLaterStitchesTheLine) {
     for (const std::string_view method : kZBufferMethods) {
         if (method == "slope-offset") continue;
-        // Away from the line on its own side it comes nearer (b < 0) and covers its half of the stroke,
-        // or goes behind it and covers nothing.
+        // Away from the line on its own side it comes nearer (b < 0) and covers its half of the
+        // stroke, or goes behind it and covers nothing.
         MinimalScene nearer = scene_unedged(-1e-2), farther = scene_unedged(1e-2);
         const double missing = measured_missing(method, nearer);
         const double missing_farther = measured_missing(method, farther);
@@ -200,12 +206,14 @@ TEST(UnedgedNeighbour, DrawnLaterStitchesTheLine) {
 }
 
 TEST(NarrowPolygonAtTheContour, LosesItsLineToTheNextOne) {
-    // The bit protects an edge from its own polygon only. On a smooth surface polygons at the contour
-    // may be narrower than half a pixel; then the next one, whose edge is no line, covers the stroke.
+    // The bit protects an edge from its own polygon only. On a smooth surface polygons at the
+    // contour may be narrower than half a pixel; then the next one, whose edge is no line, covers
+    // the stroke.
     const auto missing = [](std::string_view method, int segments) {
         MinimalScene s;
-        s.scene = scene_of({transformed(make_cylinder(60, 60, 200, segments),
-                                        [](glm::dvec3 p) { return p + glm::dvec3(128.3, 128.2, 0); })});
+        s.scene = scene_of({transformed(make_cylinder(60, 60, 200, segments), [](glm::dvec3 p) {
+            return p + glm::dvec3(128.3, 128.2, 0);
+        })});
         s.scene.lines.classes = LineClass::silhouette;
         s.camera = pixel_camera(256, 256);
         s.camera.to_world[3].y += 1;  // the caps are seen edge-on
