@@ -127,10 +127,10 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
                    stderr);
     }
     const LineSettings& lines = frame.scene->lines;
-    const auto missing = LineClassSet::from_bits(lines.classes.bits & ~unsigned{method.draws.bits});
-    if (!missing.empty()) {
-        std::fprintf(stderr, "burin: note: method %s cannot draw %s\n", std::string(method.name).c_str(),
-                     to_string(missing).c_str());
+    const unsigned beyond = lines.classes.bits & ~method.draws.bits;
+    if (beyond != 0) {
+        std::fprintf(stderr, "burin: note: method %s draws no %s lines\n", std::string(method.name).c_str(),
+                     to_string(LineClassSet::from_bits(beyond)).c_str());
     }
     const double wanted = lines.style.width_px;
     const double drawn = patel_line_width_px(frame.scene->patel.mask_bits, wanted);

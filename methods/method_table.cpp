@@ -13,8 +13,7 @@
 namespace burin {
 namespace {
 
-constexpr std::string_view kHerrell =
-    "Herrell, Baldwin, Wilcox, High-Quality Polygon Edging, 1995";
+constexpr std::string_view kHerrell = "Herrell, Baldwin, Wilcox, High-Quality Polygon Edging, 1995";
 
 constexpr std::array kMethods = {
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
@@ -23,13 +22,14 @@ constexpr std::array kMethods = {
            LineClass::silhouette | LineClass::crease | LineClass::object | LineClass::material |
                LineClass::polygon,
            render_gbuffer},
-    Method{"simple", kHerrell, kEdgeClasses, render_simple},
-    Method{"offset", kHerrell, kEdgeClasses, render_offset},
-    Method{"slope-offset", "OpenGL 1.1, glPolygonOffset, 1997", kEdgeClasses, render_slope_offset},
-    Method{"decal", kHerrell, kEdgeClasses, render_decal},
-    Method{"edging-plane", kHerrell, kEdgeClasses, render_edging_plane},
-    Method{"virgin-plane", kHerrell, kEdgeClasses, render_virgin_plane},
-    Method{"stencil", kHerrell, kEdgeClasses, render_stencil},
+    Method{"simple", kHerrell, kEdgeClasses, render_with<simple_method>},
+    Method{"offset", kHerrell, kEdgeClasses, render_with<offset_method>},
+    Method{"slope-offset", "OpenGL 1.1, glPolygonOffset, 1997", kEdgeClasses,
+           render_with<slope_offset_method>},
+    Method{"decal", kHerrell, kEdgeClasses, render_with<decal_method>},
+    Method{"edging-plane", kHerrell, kEdgeClasses, render_with<edging_plane_method>},
+    Method{"virgin-plane", kHerrell, kEdgeClasses, render_with<virgin_plane_method>},
+    Method{"stencil", kHerrell, kEdgeClasses, render_with<stencil_method>},
     Method{"single-pass", "Baerentzen, Nielsen, Gjoel, Larsen and Christensen, Single-pass Wireframe Rendering, 2006",
            kEdgeClasses, render_single_pass},
     Method{"solid-wireframe", "Samuel Gateau, Solid Wireframe, NVIDIA white paper WP-03014-001, 2007",
@@ -44,7 +44,9 @@ constexpr std::string_view kPlanned[] = {"abuffer", "reference"};
 
 }  // namespace
 
-std::span<const Method> methods() { return kMethods; }
+std::span<const Method> methods() {
+    return kMethods;
+}
 
 const Method* find_method(std::string_view name) {
     const auto it = std::find_if(kMethods.begin(), kMethods.end(),

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesh/model.h"
+#include "mesh/text_scan.h"
 #include "scene/scene_description.h"
 
 namespace burin {
@@ -47,10 +48,22 @@ class SceneLoader {
         if (scene_.cameras.empty()) scene_.cameras = std::move(file_cameras_);
         scene_.camera_is_default = scene_.cameras.empty();
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
+        check_highlights();
         return std::move(scene_);
     }
 
   private:
+    void check_highlights() const {
+        for (const std::string& name : scene_.zbuffer.highlight_objects) {
+            const bool exists = std::any_of(scene_.objects.begin(), scene_.objects.end(),
+                                            [&](const SceneObject& o) { return is_named(o, name); });
+            if (!exists) {
+                throw InputError("[zbuffer] highlight: '" + printable(name) + "' is neither a line class (" +
+                                 to_string(LineClassSet::all()) + ") nor an object");
+            }
+        }
+    }
+
     const LoadedModel& model_of(ObjectDescription& object) {
         const MeshOptions options{object.subdivide, object.scheme};
         if (object.file.empty()) {
@@ -135,6 +148,12 @@ class SceneLoader {
 }  // namespace
 
 Scene load_scene(SceneDescription description) { return SceneLoader(std::move(description)).load(); }
+
+bool is_named(const SceneObject& object, const std::string& name) {
+    const std::string& own = object.name;
+    return own.starts_with(name) &&
+           (own.size() == name.size() || own[name.size()] == '/' || own[name.size()] == '#');
+}
 
 PointSource scene_points(const Scene& scene) {
     return [&scene](const std::function<void(const glm::dvec3&)>& visit) {

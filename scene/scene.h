@@ -38,6 +38,10 @@ struct SceneObject {
     std::vector<std::uint32_t> materials;  ///< per material number of the mesh: scene's material
 };
 
+/// Whether the object is the one of this name, or one of its parts ("engine/piston") or instances
+/// ("tree#2").
+bool is_named(const SceneObject& object, const std::string& name);
+
 /// Everything that a picture is made of. Describes and computes nothing.
 struct Scene {
     std::vector<Mesh> meshes;

@@ -1,9 +1,8 @@
-// Decal edging: a polygon's edges are drawn before its fill is in the z-buffer, so they never meet it.
-// Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging", IEEE Computer Graphics and Applications
-// 15(4), 1995.
+// Decal edging: a polygon's edges are drawn before its fill is in the z-buffer, so they never meet
+// it. Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging", IEEE Computer Graphics and
+// Applications 15(4), 1995.
 
 #include "methods/zbuffer/methods.h"
-#include "methods/zbuffer/render_zbuffer.h"
 
 namespace burin {
 namespace {
@@ -14,14 +13,14 @@ constexpr Pass kDepthOfFill{.depth_test = DepthTest::less, .writes_frame = false
 
 }  // namespace
 
-RenderStats render_decal(const Frame& frame, const RunOptions& options, Film& film) {
+ZBufferMethod decal_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
         z.fill(polygon, kColorOfFill);
         z.edges(polygon, kEdges);
         z.fill(polygon, kDepthOfFill);
     }};
-    return render_zbuffer(frame, options, film, method);
+    return method;
 }
 
 }  // namespace burin

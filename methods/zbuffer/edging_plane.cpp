@@ -3,7 +3,6 @@
 // and Applications 15(4), 1995, software form.
 
 #include "methods/zbuffer/methods.h"
-#include "methods/zbuffer/render_zbuffer.h"
 
 namespace burin {
 namespace {
@@ -13,14 +12,14 @@ constexpr Pass kEdges{.depth_test = DepthTest::less_equal, .bit_passes_depth = t
 
 }  // namespace
 
-RenderStats render_edging_plane(const Frame& frame, const RunOptions& options, Film& film) {
+ZBufferMethod edging_plane_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
         z.fill(polygon, kFill);
         z.edges(polygon, kEdges);
         z.set_bits_of_box(polygon, false);
     }};
-    return render_zbuffer(frame, options, film, method);
+    return method;
 }
 
 }  // namespace burin

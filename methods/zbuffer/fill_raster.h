@@ -40,8 +40,8 @@ inline int first_centre_from(double position, int low, int high) {
     return static_cast<int>(std::clamp(std::ceil(position - 0.5), double(low), double(high)));
 }
 
-/// Calls visit(x, y, z) for the pixels of `rect` whose centres lie in the triangle, with z of its plane
-/// at the centre. A centre on an edge belongs to the triangle below or to the right of it, so
+/// Calls visit(x, y, z) for the pixels of `rect` whose centres lie in the triangle, with z of its
+/// plane at the centre. A centre on an edge belongs to the triangle below or to the right of it, so
 /// triangles that share an edge have each pixel along it once: where an edge crosses a row is
 /// computed from its upper to its lower end, whichever triangle asks.
 template <typename Visit>

@@ -1,9 +1,8 @@
-// Depth offsets: everything as in simple edging, but fills and edges are moved apart in z, by a
-// constant (z-adjust in Herrell, Baldwin, Wilcox 1995) or with the polygon's slope (glPolygonOffset,
-// OpenGL 1.1).
+// Constant depth offset: as simple edging, but edges are moved nearer by a constant. "z-adjust" in
+// Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging", IEEE Computer Graphics and Applications
+// 15(4), 1995.
 
 #include "methods/zbuffer/methods.h"
-#include "methods/zbuffer/render_zbuffer.h"
 
 namespace burin {
 namespace {
@@ -11,8 +10,9 @@ namespace {
 constexpr Pass kFill{.depth_test = DepthTest::less};
 constexpr Pass kEdges{.depth_test = DepthTest::less_equal};
 
-RenderStats render_with(const Frame& frame, const RunOptions& options, Film& film, DepthOffset offset,
-                        DepthAdjust adjust) {
+}  // namespace
+
+ZBufferMethod offset_edging(DepthOffset offset, DepthAdjust adjust) {
     const bool moves_fills = adjust == DepthAdjust::fills;
     offset.sign = moves_fills ? 1 : -1;
     const DepthOffset of_fills = moves_fills ? offset : DepthOffset{};
@@ -23,25 +23,13 @@ RenderStats render_with(const Frame& frame, const RunOptions& options, Film& fil
         [=](ZBuffer& z, const ProjectedPolygon& polygon) { z.edges(polygon, kEdges, of_edges); },
     };
     method.edge_offset = of_edges;
-    return render_zbuffer(frame, options, film, method);
+    return method;
 }
 
-}  // namespace
-
-RenderStats render_offset(const Frame& frame, const RunOptions& options, Film& film) {
-    const ZBufferSettings& settings = frame.scene->zbuffer;
+ZBufferMethod offset_method(const ZBufferSettings& settings) {
     DepthOffset offset;
     offset.constant = settings.eps;
-    return render_with(frame, options, film, offset, settings.adjust.value_or(DepthAdjust::edges));
-}
-
-RenderStats render_slope_offset(const Frame& frame, const RunOptions& options, Film& film) {
-    const ZBufferSettings& settings = frame.scene->zbuffer;
-    DepthOffset offset;
-    offset.factor = settings.factor;
-    offset.units = settings.units;
-    offset.limit = settings.clamp.value_or(1);
-    return render_with(frame, options, film, offset, settings.adjust.value_or(DepthAdjust::fills));
+    return offset_edging(offset, settings.adjust.value_or(DepthAdjust::edges));
 }
 
 }  // namespace burin

@@ -11,8 +11,8 @@ enum class BitTest : std::uint8_t { always, equal, not_equal };
 /// What becomes of the pixel's bit.
 enum class BitOp : std::uint8_t { keep, replace };  // replace: by the reference
 
-/// The state of the machine during one pass. Each pixel has one bit beside colour and z: the stencil
-/// of OpenGL, the edging plane or the virgin bit of Herrell, Baldwin and Wilcox.
+/// The state of the machine during one pass. Each pixel has one bit beside colour and z: the
+/// stencil of OpenGL, the edging plane or the virgin bit of Herrell, Baldwin and Wilcox.
 struct Pass {
     DepthTest depth_test = DepthTest::less;
     bool writes_depth = true;
@@ -27,8 +27,8 @@ struct Pass {
     bool bit_passes_depth = false;
 };
 
-/// Added to z before it is compared and stored: constant + factor * slope + units * smallest step, but
-/// no more than the clamp; see glPolygonOffset.
+/// Added to z before it is compared and stored: constant + factor * slope + units * smallest step,
+/// but no more than the clamp; see glPolygonOffset.
 struct DepthOffset {
     double constant = 0;
     double factor = 0;  ///< of max(|dz/dx|, |dz/dy|) of the polygon

@@ -16,7 +16,8 @@ struct Chunk {
 };
 
 /// Tiles that a polygon may touch, as columns and rows; empty if none.
-PixelRect touched_tiles(const ProjectedPolygon& polygon, PixelRect region, int tile_px, double reach_px) {
+PixelRect touched_tiles(const ProjectedPolygon& polygon, PixelRect region, int tile_px,
+                        double reach_px) {
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
     for (const ProjectedTriangle& triangle : polygon.triangles) {
         for (const ProjectedCorner& corner : triangle.corners) {
@@ -26,11 +27,13 @@ PixelRect touched_tiles(const ProjectedPolygon& polygon, PixelRect region, int t
     }
     low -= reach_px;
     high += reach_px;
-    const bool misses = !(low.x < region.x1 && low.y < region.y1 && high.x >= region.x0 && high.y >= region.y0);
+    const bool misses =
+        !(low.x < region.x1 && low.y < region.y1 && high.x >= region.x0 && high.y >= region.y0);
     if (misses) return {};
     const auto tile_of = [&](double position, int start, int end) {
         const double last = end - 1;
-        return static_cast<int>(std::clamp(std::floor(position), double(start), last) - start) / tile_px;
+        return static_cast<int>(std::clamp(std::floor(position), double(start), last) - start) /
+               tile_px;
     };
     return {tile_of(low.x, region.x0, region.x1), tile_of(low.y, region.y0, region.y1),
             tile_of(high.x, region.x0, region.x1) + 1, tile_of(high.y, region.y0, region.y1) + 1};
@@ -47,7 +50,8 @@ PolygonBins::PolygonBins(const Frame& frame, const FeatureEdges& features, const
     std::vector<Chunk> chunks;
     for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
         const std::uint32_t count = frame.surfaces.instances[i].mesh->polygon_count;
-        for (std::uint32_t first = 0; first < count; first += std::min(kChunkPolygons, count - first)) {
+        for (std::uint32_t first = 0; first < count;
+             first += std::min(kChunkPolygons, count - first)) {
             chunks.push_back({i, first, first + std::min(kChunkPolygons, count - first)});
         }
     }

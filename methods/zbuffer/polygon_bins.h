@@ -14,13 +14,13 @@ struct PolygonRef {
     std::uint32_t polygon = 0;
 };
 
-/// Sorts the polygons of a frame to square tiles of pixels. Within a tile they are in the order of the
-/// scene: by object, then as they stand in the file.
+/// Sorts the polygons of a frame to square tiles of pixels. Within a tile they are in the order of
+/// the scene: by object, then as they stand in the file.
 class PolygonBins {
   public:
     /// `reach_px`: how far lines reach beyond the polygons.
-    PolygonBins(const Frame& frame, const FeatureEdges& features, const DepthRange& depth, int tile_px,
-                double reach_px, int threads);
+    PolygonBins(const Frame& frame, const FeatureEdges& features, const DepthRange& depth,
+                int tile_px, double reach_px, int threads);
 
     std::size_t tile_count() const { return offsets_.size() - 1; }
     PixelRect tile(std::size_t index) const;

@@ -1,8 +1,8 @@
-// Simple edging: fills, then edges over them. Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging",
-// IEEE Computer Graphics and Applications 15(4), 1995, as the state of the art that they improve on.
+// Simple edging: fills, then edges over them. Herrell, Baldwin, Wilcox, "High-Quality Polygon
+// Edging", IEEE Computer Graphics and Applications 15(4), 1995, as the state of the art that they
+// improve on.
 
 #include "methods/zbuffer/methods.h"
-#include "methods/zbuffer/render_zbuffer.h"
 
 namespace burin {
 namespace {
@@ -12,13 +12,13 @@ constexpr Pass kEdges{.depth_test = DepthTest::less_equal};
 
 }  // namespace
 
-RenderStats render_simple(const Frame& frame, const RunOptions& options, Film& film) {
+ZBufferMethod simple_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {
         [](ZBuffer& z, const ProjectedPolygon& polygon) { z.fill(polygon, kFill); },
         [](ZBuffer& z, const ProjectedPolygon& polygon) { z.edges(polygon, kEdges); },
     };
-    return render_zbuffer(frame, options, film, method);
+    return method;
 }
 
 }  // namespace burin

@@ -2,23 +2,26 @@
 // "High-Quality Polygon Edging", IEEE Computer Graphics and Applications 15(4), 1995.
 
 #include "methods/zbuffer/methods.h"
-#include "methods/zbuffer/render_zbuffer.h"
 
 namespace burin {
 namespace {
 
-// glDepthFunc, glDepthMask, glColorMask; glStencilFunc(func, ref, 1); glStencilOp(fail, zfail, pass)
+// glDepthFunc, glDepthMask, glColorMask; glStencilFunc(func, ref, 1); glStencilOp(fail, zfail,
+// pass)
 constexpr Pass kFill{.depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace};
-constexpr Pass kEdgesBeside{.depth_test = DepthTest::less_equal, .bit_test = BitTest::not_equal,
-                            .reference = true};
-constexpr Pass kEdgesOnFill{.depth_test = DepthTest::always, .bit_test = BitTest::equal,
-                            .reference = true};
-constexpr Pass kClear{.depth_test = DepthTest::never, .writes_depth = false, .writes_frame = false,
-                      .reference = false, .on_depth_fail = BitOp::replace};
+constexpr Pass kEdgesBeside{
+    .depth_test = DepthTest::less_equal, .bit_test = BitTest::not_equal, .reference = true};
+constexpr Pass kEdgesOnFill{
+    .depth_test = DepthTest::always, .bit_test = BitTest::equal, .reference = true};
+constexpr Pass kClear{.depth_test = DepthTest::never,
+                      .writes_depth = false,
+                      .writes_frame = false,
+                      .reference = false,
+                      .on_depth_fail = BitOp::replace};
 
 }  // namespace
 
-RenderStats render_stencil(const Frame& frame, const RunOptions& options, Film& film) {
+ZBufferMethod stencil_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
         z.fill(polygon, kFill);
@@ -26,7 +29,7 @@ RenderStats render_stencil(const Frame& frame, const RunOptions& options, Film& 
         z.edges(polygon, kEdgesOnFill);
         z.fill(polygon, kClear);
     }};
-    return render_zbuffer(frame, options, film, method);
+    return method;
 }
 
 }  // namespace burin

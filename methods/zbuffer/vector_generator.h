@@ -11,16 +11,18 @@ inline int aliased_width_px(double width_px) {
     return width_px > 1.5 ? static_cast<int>(std::lround(std::min(width_px, 1024.0))) : 1;
 }
 
-/// Calls visit(x, y, z) for the pixels of `rect` on an aliased line, as hardware draws vectors (DDA):
-/// one pixel in each column of a line that is wider than high, or in each row of another (its *major*
-/// axis), for those whose centres lie from the first end on and before the second. A wide line is
-/// repeated across the major axis, as OpenGL does.
+/// Calls visit(x, y, z) for the pixels of `rect` on an aliased line, as hardware draws vectors
+/// (DDA): one pixel in each column of a line that is wider than high, or in each row of another
+/// (its *major* axis), for those whose centres lie from the first end on and before the second. A
+/// wide line is repeated across the major axis, as OpenGL does.
 ///
-/// z is that of the line where it crosses the middle of the column; it is *not* moved to the centre of
-/// the pixel. This difference to fills is what makes lines stitched (Herrell, Baldwin, Wilcox 1995).
+/// z is that of the line where it crosses the middle of the column; it is *not* moved to the centre
+/// of the pixel. This difference to fills is what makes lines stitched (Herrell, Baldwin, Wilcox
+/// 1995).
 ///
-/// Where the line runs exactly between two pixels the one ahead on the minor axis is taken when drawn
-/// towards larger major coordinates, and the one before when drawn back: ties depend on the direction.
+/// Where the line runs exactly between two pixels the one ahead on the minor axis is taken when
+/// drawn towards larger major coordinates, and the one before when drawn back: ties depend on the
+/// direction.
 template <typename Visit>
 void for_each_vector_pixel(const ProjectedCorner& from, const ProjectedCorner& to, int width_px,
                            PixelRect rect, const Visit& visit) {
@@ -37,8 +39,10 @@ void for_each_vector_pixel(const ProjectedCorner& from, const ProjectedCorner& t
     const auto first_after = [&](double position) {  // the first centre strictly behind
         return static_cast<int>(std::clamp(std::floor(position + 0.5), double(low), double(high)));
     };
-    int begin = forwards ? first_centre_from(from.pixel[major], low, high) : first_after(to.pixel[major]);
-    int end = forwards ? first_centre_from(to.pixel[major], low, high) : first_after(from.pixel[major]);
+    int begin =
+        forwards ? first_centre_from(from.pixel[major], low, high) : first_after(to.pixel[major]);
+    int end =
+        forwards ? first_centre_from(to.pixel[major], low, high) : first_after(from.pixel[major]);
 
     // Only where the line is within the rectangle; a margin for rounding and for its width.
     const double slope = d[minor] / length;

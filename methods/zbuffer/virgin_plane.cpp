@@ -1,27 +1,33 @@
-// The edging plane in hardware: the virgin bit, which a fast clear of the z-buffer sets and where z is
-// not looked at, is borrowed. Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging", IEEE Computer
-// Graphics and Applications 15(4), 1995, hardware form.
+// The edging plane in hardware: the virgin bit, which a fast clear of the z-buffer sets and where z
+// is not looked at, is borrowed. Herrell, Baldwin, Wilcox, "High-Quality Polygon Edging", IEEE
+// Computer Graphics and Applications 15(4), 1995, hardware form.
 //
-// After the first pass no pixel of the fill is truly virgin, so the bit is free there. An edge may also
-// fall on a truly virgin pixel beside the fill, whose z must count from then on: a write of z by an
-// edge makes the pixel an ordinary one.
+// After the first pass no pixel of the fill is truly virgin, so the bit is free there. An edge may
+// also fall on a truly virgin pixel beside the fill, whose z must count from then on: a write of z
+// by an edge makes the pixel an ordinary one.
 
 #include "methods/zbuffer/methods.h"
-#include "methods/zbuffer/render_zbuffer.h"
 
 namespace burin {
 namespace {
 
-constexpr Pass kFill{.depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace,
+constexpr Pass kFill{.depth_test = DepthTest::less,
+                     .reference = true,
+                     .on_pass = BitOp::replace,
                      .bit_passes_depth = true};
-constexpr Pass kEdges{.depth_test = DepthTest::less_equal, .reference = false, .on_pass = BitOp::replace,
+constexpr Pass kEdges{.depth_test = DepthTest::less_equal,
+                      .reference = false,
+                      .on_pass = BitOp::replace,
                       .bit_passes_depth = true};
-constexpr Pass kGiveBack{.depth_test = DepthTest::always, .writes_depth = false, .writes_frame = false,
-                         .reference = false, .on_pass = BitOp::replace};
+constexpr Pass kGiveBack{.depth_test = DepthTest::always,
+                         .writes_depth = false,
+                         .writes_frame = false,
+                         .reference = false,
+                         .on_pass = BitOp::replace};
 
 }  // namespace
 
-RenderStats render_virgin_plane(const Frame& frame, const RunOptions& options, Film& film) {
+ZBufferMethod virgin_plane_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.initial_bit = true;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
@@ -29,7 +35,7 @@ RenderStats render_virgin_plane(const Frame& frame, const RunOptions& options, F
         z.edges(polygon, kEdges);
         z.fill(polygon, kGiveBack);
     }};
-    return render_zbuffer(frame, options, film, method);
+    return method;
 }
 
 }  // namespace burin

@@ -11,22 +11,20 @@ namespace {
 
 bool compare(DepthTest test, double z, double stored) {
     switch (test) {
-        case DepthTest::never: return false;
-        case DepthTest::less: return z < stored;
-        case DepthTest::less_equal: return z <= stored;
-        case DepthTest::always: return true;
+        case DepthTest::never:
+            return false;
+        case DepthTest::less:
+            return z < stored;
+        case DepthTest::less_equal:
+            return z <= stored;
+        case DepthTest::always:
+            return true;
     }
     return false;
 }
 
 bool compare(BitTest test, bool reference, bool stored) {
     return test == BitTest::always || (test == BitTest::equal) == (reference == stored);
-}
-
-/// The object itself, one of its parts ("engine/piston"), or an instance ("tree#2").
-bool is_named(const std::string& object, const std::string& name) {
-    return object.starts_with(name) &&
-           (object.size() == name.size() || object[name.size()] == '/' || object[name.size()] == '#');
 }
 
 }  // namespace
@@ -39,13 +37,14 @@ ZBuffer::ZBuffer(const Frame& frame)
     for (const SceneObject& object : frame.scene->objects) {
         const auto& names = settings_.highlight_objects;
         highlighted_instances_.push_back(std::any_of(
-            names.begin(), names.end(), [&](const auto& name) { return is_named(object.name, name); }));
+            names.begin(), names.end(), [&](const auto& name) { return is_named(object, name); }));
     }
 }
 
 void ZBuffer::clear(PixelRect rect, bool bit) {
     rect_ = rect;
-    const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+    const auto count =
+        static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
     depth_.assign(count, stored(1));
     bits_.assign(count, bit ? 1 : 0);
     frame_.assign(count, FramePixel{});
@@ -97,7 +96,8 @@ void ZBuffer::fill(const ProjectedPolygon& polygon, const Pass& pass, const Dept
         const double added = offset_of(triangle, offset);
         for_each_fragment(triangle, rect_, [&](int x, int y, double z) {
             const std::size_t i = index(x, y);
-            if (draw(i, z + added, pass) && pass.writes_frame) frame_[i] = {triangle.surface, 0, false};
+            if (draw(i, z + added, pass) && pass.writes_frame)
+                frame_[i] = {triangle.surface, 0, false};
         });
     }
 }
@@ -111,8 +111,8 @@ void ZBuffer::highlight(const ProjectedPolygon& polygon, const DepthOffset& offs
     draw_edges(polygon, pass, offset, true);
 }
 
-void ZBuffer::draw_edges(const ProjectedPolygon& polygon, const Pass& pass, const DepthOffset& offset,
-                         bool highlighted) {
+void ZBuffer::draw_edges(const ProjectedPolygon& polygon, const Pass& pass,
+                         const DepthOffset& offset, bool highlighted) {
     for (const ProjectedEdge& edge : polygon.edges) {
         if (edge.classes.empty()) continue;
         const LineClass drawn = *edge.classes.first();
@@ -126,8 +126,8 @@ void ZBuffer::draw_edges(const ProjectedPolygon& polygon, const Pass& pass, cons
         const double added = beside == polygon.triangles.end() ? 0 : offset_of(*beside, offset);
         const bool turned = !settings_.canonical_edges && !edge.runs_with_outline;
         const auto line = static_cast<std::uint8_t>(1 + static_cast<int>(drawn));
-        for_each_vector_pixel(turned ? edge.to : edge.from, turned ? edge.from : edge.to, width_px_, rect_,
-                              [&](int x, int y, double z) {
+        for_each_vector_pixel(turned ? edge.to : edge.from, turned ? edge.from : edge.to, width_px_,
+                              rect_, [&](int x, int y, double z) {
                                   const std::size_t i = index(x, y);
                                   if (!draw(i, z + added, pass) || !pass.writes_frame) return;
                                   frame_[i].line = line;

@@ -12,13 +12,14 @@ namespace burin {
 /// What the frame buffer holds at a pixel. Colours are looked up when the picture is finished.
 struct FramePixel {
     SurfaceId surface;  ///< the last fill that was written
-    /// 0 = fill or background; else the line class from 1, and whether it is the highlight's colour.
+    /// 0 = fill or background; else the line class from 1, and whether it is the highlight's
+    /// colour.
     std::uint8_t line = 0;
     bool highlighted = false;
 };
 
-/// A z-buffered machine that draws polygons and vectors pass by pass, for a rectangle of pixels. Where
-/// a pixel lies in the rectangle makes no difference to what is drawn there.
+/// A z-buffered machine that draws polygons and vectors pass by pass, for a rectangle of pixels.
+/// Where a pixel lies in the rectangle makes no difference to what is drawn there.
 class ZBuffer {
   public:
     explicit ZBuffer(const Frame& frame);

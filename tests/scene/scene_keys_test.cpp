@@ -299,6 +299,34 @@ TEST(SceneKeys, SurfacesPictureAndPatel) {
     EXPECT_EQ(scene("[patel]\nhalo='octagon'").patel.halo, HaloShape::octagon);
 }
 
+TEST(SceneKeys, ZBuffer) {
+    const auto settings = [](const std::string& keys) { return described(kBox + ("[zbuffer]\n" + keys)).zbuffer; };
+    EXPECT_EQ(settings("").depth_bits, 24);
+    EXPECT_EQ(settings("").eps, 1e-3);
+    EXPECT_EQ(settings("").factor, 1);
+    EXPECT_EQ(settings("").units, 1);
+    EXPECT_FALSE(settings("").clamp || settings("").adjust || settings("").depth_range);
+    EXPECT_TRUE(settings("").canonical_edges);
+    for (const int bits : {16, 24, 32, 64}) {
+        EXPECT_EQ(settings("depth_bits=" + std::to_string(bits)).depth_bits, bits);
+    }
+    EXPECT_EQ((*settings("depth_range=[2,30]").depth_range)[1], 30);
+    EXPECT_EQ(settings("eps=0.25").eps, 0.25);
+    EXPECT_EQ(settings("factor=0").factor, 0);
+    EXPECT_EQ(settings("units=4").units, 4);
+    EXPECT_EQ(settings("clamp=0.01").clamp, 0.01);
+    EXPECT_EQ(settings("adjust='edges'").adjust, DepthAdjust::edges);
+    EXPECT_EQ(settings("adjust='fills'").adjust, DepthAdjust::fills);
+    EXPECT_FALSE(settings("canonical_edges=false").canonical_edges);
+    EXPECT_EQ(settings("highlight='crease'").highlight_classes, LineClass::crease);
+    const ZBufferSettings several = settings("highlight=['crease','mark','box']\nhighlight_color='#00f'");
+    EXPECT_EQ(several.highlight_classes, LineClass::crease | LineClass::mark);
+    EXPECT_EQ(several.highlight_objects, std::vector<std::string>{"box"});
+    EXPECT_EQ(several.highlight_color, glm::vec3(0, 0, 1));
+    EXPECT_NO_THROW(loaded(kBox + std::string("[zbuffer]\nhighlight=['box','crease']")));
+    EXPECT_THROW(loaded(kBox + std::string("[zbuffer]\nhighlight=['creases']")), InputError);
+}
+
 TEST(SceneKeys, ASingleTableCountsAsAListOfOne) {
     const SceneDescription scene =
         described("[object]\nshape='box'\n[camera]\nname='a'\n[material]\nname='m'\n");

@@ -119,12 +119,12 @@ MinimalScene scene_half_slope(double b, bool below) {
 }
 
 MinimalScene scene_gap(double gap) {
-    MinimalScene s = made({grid(20.3, 20.7, 21.3, 10, 10, flat(0.5)),
+    MinimalScene s = made({grid(20.3, 20.7, 21.271, 10, 10, flat(0.5)),
                            rectangle(-50, -50, kSize + 50, kSize + 50, flat(0.5 - gap))});
     for (int i = 0; i <= 10; ++i) {
-        const double at = 21.3 * i;
-        s.lines.push_back({{20.3, 20.7 + at}, {20.3 + 213, 20.7 + at}});
-        s.lines.push_back({{20.3 + at, 20.7}, {20.3 + at, 20.7 + 213}});
+        const double at = 21.271 * i;
+        s.lines.push_back({{20.3, 20.7 + at}, {20.3 + 212.71, 20.7 + at}});
+        s.lines.push_back({{20.3 + at, 20.7}, {20.3 + at, 20.7 + 212.71}});
     }
     return s;
 }
@@ -143,9 +143,11 @@ MinimalScene scene_dilemma() {
 }
 
 MinimalScene scene_sphere() {
-    PolygonSoup outer = sphere(128.2, 127.9, 90, 64, 32), inner = sphere(128.2, 127.9, 89.5, 64, 32);
+    PolygonSoup outer = sphere(128.2, 127.9, 90, 64, 32), inner = sphere(128.2, 127.9, 89, 64, 32);
     mark_all_edges(inner);
-    return made({outer, inner});
+    MinimalScene s = made({outer, inner});
+    s.scene.lines.classes = LineClass::mark;
+    return s;
 }
 
 MinimalScene scene_step() {
@@ -266,16 +268,14 @@ MinimalScene scene_pair(bool same_direction, double b) {
     return s;
 }
 
-MinimalScene scene_unedged() {
-    // A box turned so that three faces are seen, cut by a plane that rises to the right.
-    const auto turn = [](glm::dvec3 p) {
-        const double a = glm::radians(33.0), c = glm::radians(27.0);
-        p = {p.x * std::cos(a) + p.z * std::sin(a), p.y, -p.x * std::sin(a) + p.z * std::cos(a)};
-        p = {p.x, p.y * std::cos(c) - p.z * std::sin(c), p.y * std::sin(c) + p.z * std::cos(c)};
-        return p + world(128.2, 127.7, 0.5);
-    };
-    const DepthAt rising = [](double x, double y) { return 0.45 + 0.0015 * (y - 128) - 0.0011 * (x - 128); };
-    return made({transformed(make_box({110, 110, 110}), turn), rectangle(-20, -20, kSize + 20, kSize + 20, rising)});
+MinimalScene scene_unedged(double b) {
+    const CutSquare square({128.13, 127.71}, slope_side_px(b));
+    PolygonSoup edged = polygons(square.points, tilted(b), {square.above()});
+    mark_all_edges(edged);
+    MinimalScene s = made({edged, polygons(square.points, tilted(b), {square.below()})});
+    s.scene.lines.classes = LineClass::mark;
+    s.lines = {segment(square.points[4], square.points[5], tilted(b))};
+    return s;
 }
 
 MinimalScene scene_back(double b) {
@@ -283,9 +283,11 @@ MinimalScene scene_back(double b) {
     const double x0 = 28.4, x1 = 228.4;
     const DepthAt front = tilted(b);
     const DepthAt back = [=](double x, double y) { return front(x, y) + 1e-4 * (x - x0) / (x1 - x0); };
-    PolygonSoup marked = grid(x0 + 10, 28.7, 19, 10, 10, back);
+    PolygonSoup marked = grid(x0 + 10, 28.7, 18.93, 10, 10, back);
     mark_all_edges(marked);
-    return made({marked, rectangle(x0 - 1, 20, x1 + 10, 240, front)});
+    MinimalScene s = made({marked, rectangle(x0 - 1, 20, x1 + 10, 240, front)});
+    s.scene.lines.classes = LineClass::mark;
+    return s;
 }
 
 MinimalScene scene_hilite() {

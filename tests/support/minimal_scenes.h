@@ -37,7 +37,7 @@ MinimalScene scene_gap(double gap);
 /// S-DILEMMA: a 40-pixel S-SLOPE square with b = .02 beside, and one behind, a cover at a gap of .005.
 /// lines[0] is to be seen, lines[1] is hidden. The cover is parallel to what it covers.
 MinimalScene scene_dilemma();
-/// S-SPHERE: a sphere of 32 x 64 polygons without marks, and half a pixel within it a second one with
+/// S-SPHERE: a sphere of 32 x 64 polygons without marks, and a pixel within it a second one with
 /// all edges marked: of class mark, nothing may be seen.
 MinimalScene scene_sphere();
 /// S-STEP: a square at z = .3 before a wall at .6, with an edge at x = 100.37.
@@ -69,9 +69,10 @@ MinimalScene scene_cut(double angle_deg);
 /// along it in the same direction or in opposite ones (as consistent winding has it).
 /// Pixel centres lie exactly between rows on every second column of it.
 MinimalScene scene_pair(bool same_direction, double b = 4e-3);
-/// S-UNEDGED: a box, and a plane through it whose own edges lie outside of the picture; the plane is
-/// drawn last.
-MinimalScene scene_unedged();
+/// S-UNEDGED: the halves of S-SLOPE as two objects. The upper one has marked edges, the lower one,
+/// which is drawn later, has none; class mark only. (A plane through a box that is drawn with edges
+/// has this where it touches them.)
+MinimalScene scene_unedged(double b);
 /// S-BACK: a wedge, 1e-4 thick on the right and 5e-6 on the left; the back has marked edges, and of
 /// class mark nothing may be seen. Tilted by b.
 MinimalScene scene_back(double b = 0);
