@@ -8,11 +8,14 @@
 
 namespace burin {
 
-/// Distances from a pixel to the edges of a triangle, in the ways that the papers on wireframes have
-/// found. Positions are in pixels; w is the distance from the eye (1 in an orthographic view), and a
-/// screen position in homogeneous coordinates is (x w, y w, w). Edge k is opposite of corner k.
+/// Distances from a pixel to the edges of a triangle, in the ways that the papers on wireframes
+/// have found. Positions are in pixels; w is the distance from the eye (1 in an orthographic view),
+/// and a screen position in homogeneous coordinates is (x w, y w, w). Edge k is opposite of corner
+/// k.
 
-inline double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+inline double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 constexpr double kNoEdge = std::numeric_limits<double>::infinity();
 
@@ -24,14 +27,16 @@ inline glm::dvec3 line_through(const glm::dvec3& a, const glm::dvec3& b) {
     return length > 0 ? line / length : glm::dvec3(0.0);
 }
 
-inline bool is_line(const glm::dvec3& line) { return line.x != 0 || line.y != 0; }
+inline bool is_line(const glm::dvec3& line) {
+    return line.x != 0 || line.y != 0;
+}
 
 inline double signed_distance(const glm::dvec3& line, glm::dvec2 at) {
     return line.x * at.x + line.y * at.y + line.z;
 }
 
-/// Where on a segment a position is: the distance from it, with round ends, and the foot's way along
-/// the segment from its start, kept within it.
+/// Where on a segment a position is: the distance from it, with round ends, and the foot's way
+/// along the segment from its start, kept within it.
 struct SegmentDistance {
     double distance = 0;
     double along = 0;
@@ -69,7 +74,8 @@ inline double linear_distance(const EdgeChannel& channel, const glm::dvec3& lamb
 
 /// The same through an interpolator that is correct in perspective: each distance multiplied by its
 /// corner's w beforehand, and the result by the 1/w that is linear on the screen.
-inline double premultiplied_distance(const EdgeChannel& channel, const glm::dvec3& w, const glm::dvec3& lambda) {
+inline double premultiplied_distance(const EdgeChannel& channel, const glm::dvec3& w,
+                                     const glm::dvec3& lambda) {
     const glm::dvec3 weight = lambda / w;
     const double one_over_w = weight.x + weight.y + weight.z;
     const double interpolated = glm::dot(weight, channel * w) / one_over_w;
@@ -84,9 +90,9 @@ inline EdgeChannel channel_moved_away(int k, double height, double q) {
     return channel;
 }
 
-/// One row of the table of S. Gateau, Solid Wireframe, NVIDIA 2007: which lines to measure distances
-/// to when corners are behind the eye. A line through `a` in the direction of `a_to`, one through `b`
-/// in the direction of `b_to`, and the one from a to b if `has_third`.
+/// One row of the table of S. Gateau, Solid Wireframe, NVIDIA 2007: which lines to measure
+/// distances to when corners are behind the eye. A line through `a` in the direction of `a_to`, one
+/// through `b` in the direction of `b_to`, and the one from a to b if `has_third`.
 struct SolidWireframeCase {
     int a, a_to, b, b_to;
     bool has_third;
@@ -104,11 +110,15 @@ constexpr std::array<SolidWireframeCase, 7> kSolidWireframeCases = {{
 }};
 
 /// The edge between two corners.
-constexpr int edge_between_corners(int a, int b) { return 3 - a - b; }
+constexpr int edge_between_corners(int a, int b) {
+    return 3 - a - b;
+}
 
 /// Distances to edges 0, 1, 2 by that table; kNoEdge where it has none. Corners behind the eye are
-/// mirrored points, but these lie on the edges' lines too. Case 0 uses heights, case 7 is invisible.
-inline glm::dvec3 solid_wireframe_distances(const glm::dvec2 (&p)[3], const bool (&behind)[3], glm::dvec2 at) {
+/// mirrored points, but these lie on the edges' lines too. Case 0 uses heights, case 7 is
+/// invisible.
+inline glm::dvec3 solid_wireframe_distances(const glm::dvec2 (&p)[3], const bool (&behind)[3],
+                                            glm::dvec2 at) {
     glm::dvec3 result(kNoEdge);
     const int number = 4 * behind[0] + 2 * behind[1] + behind[2];
     if (number == 7) return result;

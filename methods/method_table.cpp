@@ -30,12 +30,12 @@ constexpr std::array kMethods = {
     Method{"edging-plane", kHerrell, kEdgeClasses, render_with<edging_plane_method>},
     Method{"virgin-plane", kHerrell, kEdgeClasses, render_with<virgin_plane_method>},
     Method{"stencil", kHerrell, kEdgeClasses, render_with<stencil_method>},
-    Method{"single-pass", "Baerentzen, Nielsen, Gjoel, Larsen and Christensen, Single-pass Wireframe Rendering, 2006",
-           kEdgeClasses, render_single_pass},
-    Method{"solid-wireframe", "Samuel Gateau, Solid Wireframe, NVIDIA white paper WP-03014-001, 2007",
-           kEdgeClasses, render_solid_wireframe},
+    Method{"single-pass", "Baerentzen et al., Single-pass Wireframe Rendering, 2006", kEdgeClasses,
+           render_single_pass},
+    Method{"solid-wireframe", "Samuel Gateau, Solid Wireframe, NVIDIA, 2007", kEdgeClasses,
+           render_solid_wireframe},
     Method{"id-buffer",
-           "Baerentzen, Nielsen, Gjoel and Larsen, Two Methods for Antialiased Wireframe Drawing with Hidden Line "
+           "Baerentzen et al., Two Methods for Antialiased Wireframe Drawing with Hidden Line "
            "Removal, 2008",
            kEdgeClasses, render_id_buffer},
 };

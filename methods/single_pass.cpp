@@ -14,11 +14,17 @@ class FillTile {
   public:
     FillTile(const Frame& frame, const FeatureEdges& features, const EdgeRules& rules,
              const WireStroke& stroke, const DepthRange& depth)
-        : frame_(frame), settings_(frame.scene->wire), features_(features), rules_(rules), stroke_(stroke), depth_(depth) {}
+        : frame_(frame),
+          settings_(frame.scene->wire),
+          features_(features),
+          rules_(rules),
+          stroke_(stroke),
+          depth_(depth) {}
 
     void render(PixelRect rect, std::span<const SurfaceId> surfaces, Film& film) {
         rect_ = rect;
-        pixels_.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), {});
+        pixels_.assign(
+            static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), {});
         planes_.clear();
         WireTriangle triangle(frame_, features_, rules_);
         for (const SurfaceId surface : surfaces) {
@@ -28,7 +34,8 @@ class FillTile {
         for (int y = rect.y0; y < rect.y1; ++y) {
             for (int x = rect.x0; x < rect.x1; ++x) {
                 const WirePixel& pixel = pixel_at(x, y);
-                const DepthPlane plane = pixel.surface.is_background() ? DepthPlane{} : planes_[pixel.slot];
+                const DepthPlane plane =
+                    pixel.surface.is_background() ? DepthPlane{} : planes_[pixel.slot];
                 film.put(x, y, finish_pixel(frame_, pixel, plane, x, y, settings_.alpha_test > 0));
             }
         }
@@ -59,7 +66,8 @@ class FillTile {
     void draw_line(const WireTriangle& triangle, glm::dvec2 at, WirePixel& pixel) const {
         const double distance = frame_.surfaces.projection.distance(pixel.nearness);
         const double z = depth_.z(distance);
-        const double fade = settings_.fade_distance > 0 ? std::min(settings_.fade_distance / distance, 1.0) : 1.0;
+        const double fade =
+            settings_.fade_distance > 0 ? std::min(settings_.fade_distance / distance, 1.0) : 1.0;
         const double reach = stroke_.reach_px();
         double nearest = kNoEdge, nearest_diagonal = kNoEdge, diagonal = 0;
         triangle.for_each_distance(at, [&](const WireTriangle::Channel& c, double d) {
@@ -67,7 +75,7 @@ class FillTile {
             const glm::dvec2 way = c.edge.to - c.edge.from;
             const double along = glm::dot(at - c.edge.from, way) / std::max(glm::length(way), 1e-9);
             if (c.is_dotted) {
-                if (d < nearest_diagonal) diagonal = stroke_.dots(c.edge, d, along);
+                if (d < nearest_diagonal) diagonal = stroke_.dots(d, along);
                 nearest_diagonal = std::min(d, nearest_diagonal);
                 return;
             }
@@ -91,8 +99,8 @@ class FillTile {
     std::vector<DepthPlane> planes_;
 };
 
-RenderStats render_filled(const Frame& frame, const RunOptions& options, Film& film, const EdgeRules& rules,
-                          const WireStroke& stroke) {
+RenderStats render_filled(const Frame& frame, const RunOptions& options, Film& film,
+                          const EdgeRules& rules, const WireStroke& stroke) {
     return render_wire_tiles(frame, options, film, 0, [&](const FeatureEdges& features) {
         return FillTile(frame, features, rules, stroke, DepthRange::fitted(frame));
     });
@@ -102,7 +110,8 @@ RenderStats render_filled(const Frame& frame, const RunOptions& options, Film& f
 
 RenderStats render_single_pass(const Frame& frame, const RunOptions& options, Film& film) {
     const WireSettings& s = frame.scene->wire;
-    const EdgeRules rules{s.path.value_or(WirePath::linear), s.exclude.value_or(WireExclude::polygon), s.q_px, false};
+    const EdgeRules rules{s.path.value_or(WirePath::linear),
+                          s.exclude.value_or(WireExclude::polygon), s.q_px, false};
     const WireStroke stroke(s, frame.scene->lines.style.width_px, WireProfileKind::gauss, 0);
     return render_filled(frame, options, film, rules, stroke);
 }
@@ -110,7 +119,8 @@ RenderStats render_single_pass(const Frame& frame, const RunOptions& options, Fi
 RenderStats render_solid_wireframe(const Frame& frame, const RunOptions& options, Film& film) {
     const WireSettings& s = frame.scene->wire;
     const bool dotted = s.dotted_diagonals && frame.scene->lines.classes.has(LineClass::polygon);
-    const EdgeRules rules{s.path.value_or(WirePath::cases), s.exclude.value_or(WireExclude::flags), s.q_px, dotted};
+    const EdgeRules rules{s.path.value_or(WirePath::cases), s.exclude.value_or(WireExclude::flags),
+                          s.q_px, dotted};
     const WireStroke stroke(s, frame.scene->lines.style.width_px, WireProfileKind::nv, 1.5);
     return render_filled(frame, options, film, rules, stroke);
 }

@@ -11,7 +11,7 @@ struct WirePixel {
     SurfaceId surface;
     std::uint32_t slot = 0;  ///< where the tile keeps the surface's plane
     double nearness = -std::numeric_limits<double>::infinity();
-    double line = 0;         ///< 0 to 1
+    double line = 0;  ///< 0 to 1
     LineClass line_class = LineClass::polygon;
 
     /// The darkest line wins; of equal ones the class with the highest priority. So the order of
@@ -25,7 +25,7 @@ struct WirePixel {
 };
 
 /// `plane` is the depth plane of pixel.surface. If `is_open`, the surface itself is not filled.
-PixelResult finish_pixel(const Frame& frame, const WirePixel& pixel, const DepthPlane& plane, int x, int y,
-                         bool is_open = false);
+PixelResult finish_pixel(const Frame& frame, const WirePixel& pixel, const DepthPlane& plane, int x,
+                         int y, bool is_open = false);
 
 }  // namespace burin

@@ -4,8 +4,10 @@ namespace burin {
 
 double thinning_factor(WireThinning thinning, double z) {
     switch (thinning) {
-        case WireThinning::none: return 1;
-        case WireThinning::linear: return std::clamp(1 - z, 0.0, 1.0);
+        case WireThinning::none:
+            return 1;
+        case WireThinning::linear:
+            return std::clamp(1 - z, 0.0, 1.0);
         case WireThinning::hermite: {
             const double v = std::clamp((z - 0.75) / 0.25, 0.0, 1.0);
             return 1 - v * v * (3 - 2 * v);
@@ -21,7 +23,8 @@ double dash_coverage(double x, double spread, double duty) {
         return whole * duty + std::min(at - whole, duty);
     };
     if (!(spread > 1e-12)) return x - std::floor(x) < duty ? 1 : 0;
-    return std::clamp((on_before(x + 0.5 * spread) - on_before(x - 0.5 * spread)) / spread, 0.0, 1.0);
+    return std::clamp((on_before(x + 0.5 * spread) - on_before(x - 0.5 * spread)) / spread, 0.0,
+                      1.0);
 }
 
 WireStroke::WireStroke(const WireSettings& settings, double width_px, WireProfileKind profile,
@@ -33,10 +36,12 @@ WireStroke::WireStroke(const WireSettings& settings, double width_px, WireProfil
         profile_ = matched_profile(kind, width_px, cut);
         dot_profile_ = matched_profile(kind, 2 * width_px, cut);
     } else {
-        profile_ = {kind, settings.thickness_px.value_or(kind == profile ? core_px : 0.5), 1, 1, cut};
+        profile_ = {kind, settings.thickness_px.value_or(kind == profile ? core_px : 0.5), 1, 1,
+                    cut};
         width_px_ = profile_.integrated_width_px();
         dot_profile_ = profile_;
-        dot_profile_.core_px += width_px_ / (kind == WireProfileKind::nv || kind == WireProfileKind::box ? 1 : 2);
+        dot_profile_.core_px +=
+            width_px_ / (kind == WireProfileKind::nv || kind == WireProfileKind::box ? 1 : 2);
     }
     is_plain_ = settings.pattern == WirePattern::solid && settings.thinning == WireThinning::none &&
                 settings.squeeze_min == 1 && settings.squeeze_max == 1 && settings.dual == 0;
@@ -45,7 +50,9 @@ WireStroke::WireStroke(const WireSettings& settings, double width_px, WireProfil
 }
 
 WireProfile WireStroke::thinned(double share, double part) const {
-    if (settings_.width == WireWidth::matched) return matched_profile(profile_.kind, width_px_ * share * part, profile_.cut);
+    if (settings_.width == WireWidth::matched) {
+        return matched_profile(profile_.kind, width_px_ * share * part, profile_.cut);
+    }
     WireProfile result = profile_;
     result.core_px *= share * part;
     return result;
@@ -53,7 +60,8 @@ WireProfile WireStroke::thinned(double share, double part) const {
 
 double WireStroke::dash(const WireEdge& edge, double along, double length) const {
     if (settings_.repeats == 0) {
-        return dash_coverage(along / settings_.period_px + settings_.phase, 1 / settings_.period_px, settings_.duty);
+        return dash_coverage(along / settings_.period_px + settings_.phase, 1 / settings_.period_px,
+                             settings_.duty);
     }
     // The place on the edge in space, and how fast it changes on the screen.
     const bool is_flat = edge.from_nearness <= 0;  // orthographic: nearness is no 1/w
@@ -61,10 +69,11 @@ double WireStroke::dash(const WireEdge& edge, double along, double length) const
     const double weight = (length - along) * w0 + along * w1;
     const double scale = (edge.to_part - edge.from_part) * settings_.repeats;
     const double x = edge.from_part * settings_.repeats + scale * along * w1 / weight;
-    return dash_coverage(x + settings_.phase, scale * length * w0 * w1 / (weight * weight), settings_.duty);
+    return dash_coverage(x + settings_.phase, scale * length * w0 * w1 / (weight * weight),
+                         settings_.duty);
 }
 
-double WireStroke::dots(const WireEdge&, double distance, double along) const {
+double WireStroke::dots(double distance, double along) const {
     const double spacing = 2 * settings_.dot_period * width_px_;
     const double phase = along / spacing + settings_.phase;
     const double from_dot = (phase - std::floor(phase)) * spacing - 0.5 * spacing;
@@ -81,11 +90,15 @@ double WireStroke::intensity(const WireEdge& edge, double distance, double along
                                                        (1 - std::sin(std::numbers::pi * q));
     const double part = squeeze * thinning_factor(settings_.thinning, z);
     double result = (part == 1 ? profile_ : thinned(1, part)).intensity(distance, normal);
-    if (settings_.dual > 0) result = std::abs(result - thinned(settings_.dual, part).intensity(distance, normal));
+    if (settings_.dual > 0)
+        result = std::abs(result - thinned(settings_.dual, part).intensity(distance, normal));
     switch (settings_.pattern) {
-        case WirePattern::solid: return result;
-        case WirePattern::dash: return length > 0 ? result * dash(edge, along, length) : 0;
-        case WirePattern::dots: return dots(edge, distance, along);
+        case WirePattern::solid:
+            return result;
+        case WirePattern::dash:
+            return length > 0 ? result * dash(edge, along, length) : 0;
+        case WirePattern::dots:
+            return dots(distance, along);
     }
     return result;
 }

@@ -5,15 +5,15 @@
 
 namespace burin {
 
-/// How the lines of the wireframe methods look: a profile, and what varies it along an edge and with
-/// depth. Dashes, squeezed and dual strokes after Baerentzen et al. 2006 and 2008, dots after Gateau
-/// 2007.
+/// How the lines of the wireframe methods look: a profile, and what varies it along an edge and
+/// with depth. Dashes, squeezed and dual strokes after Baerentzen et al. 2006 and 2008, dots after
+/// Gateau 2007.
 class WireStroke {
   public:
     /// `width_px` is the full width asked for. `profile` and `core_px` are the method's own, for
     /// settings that name none; `cut` see WireProfile.
-    WireStroke(const WireSettings& settings, double width_px, WireProfileKind profile, double core_px,
-               double cut = WireProfile::kNoCut);
+    WireStroke(const WireSettings& settings, double width_px, WireProfileKind profile,
+               double core_px, double cut = WireProfile::kNoCut);
 
     /// Beyond this distance from an edge nothing is drawn. Pixels.
     double reach_px() const { return reach_px_; }
@@ -22,7 +22,7 @@ class WireStroke {
     /// pixels from the edge's start. `z` is the depth from 0 to 1 (see DepthRange).
     double intensity(const WireEdge& edge, double distance, double along, double z) const;
     /// The same, drawn as dots (for diagonals).
-    double dots(const WireEdge& edge, double distance, double along) const;
+    double dots(double distance, double along) const;
 
     const WireProfile& profile() const { return profile_; }
 

@@ -31,8 +31,8 @@ class WireTriangle {
     WireTriangle(const Frame& frame, const FeatureEdges& features, const EdgeRules& rules)
         : frame_(frame), features_(features), rules_(rules) {}
 
-    /// Edges that come nowhere nearer than `reach_px` to the rectangle are left out. Triangles of one
-    /// polygon share its edges if they come one after the other, for the same rectangle.
+    /// Edges that come nowhere nearer than `reach_px` to the rectangle are left out. Triangles of
+    /// one polygon share its edges if they come one after the other, for the same rectangle.
     void load(SurfaceId surface, PixelRect rect, double reach_px);
 
     const ScreenPolygon& polygon() const { return polygon_; }
@@ -74,7 +74,8 @@ void WireTriangle::for_each_distance(glm::dvec2 at, const Visit& visit) const {
     const bool by_lines = rules_.path == WirePath::homogeneous || !is_whole();
     const bool by_cases = rules_.path == WirePath::cases && !is_whole();
     const glm::dvec3 lambda = by_lines ? glm::dvec3(0.0) : barycentric(p_, at);
-    const glm::dvec3 by_case = by_cases ? solid_wireframe_distances(p_, behind_, at) : glm::dvec3(0.0);
+    const glm::dvec3 by_case =
+        by_cases ? solid_wireframe_distances(p_, behind_, at) : glm::dvec3(0.0);
     for (const Channel& c : channels_) {
         double distance;
         if (by_cases && c.own_edge >= 0) {

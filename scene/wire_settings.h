@@ -44,20 +44,20 @@ struct WireSettings {
     double q_px = 100;
     double fade_distance = 0;  ///< lines are fade_distance / distance as dark; world units, 0 = off
     WireThinning thinning = WireThinning::none;
-    double alpha_test = 0;       ///< pixels of surfaces with less line than this are removed; 0 = off
+    double alpha_test = 0;  ///< pixels of surfaces with less line than this are removed; 0 = off
     bool dotted_diagonals = false;  ///< solid-wireframe: diagonals within polygons as dots
-    double transition_px = 1.8;  ///< id-buffer: where the flank of the profile is cut off
-    bool slope = false;          ///< id-buffer: allow for the slope of the surface beside the line
+    double transition_px = 1.8;     ///< id-buffer: where the flank of the profile is cut off
+    bool slope = false;  ///< id-buffer: allow for the slope of the surface beside the line
 
     WirePattern pattern = WirePattern::solid;
-    double period_px = 12;  ///< of dashes
+    double period_px = 12;    ///< of dashes
     double dot_period = 1.5;  ///< from dot to dot, in diameters of dots
-    double duty = 0.5;      ///< drawn part of a dash
-    double phase = 0;       ///< in periods
-    double repeats = 0;     ///< dashes per edge, in space; 0: dashes by period_px on the screen
-    double squeeze_min = 1;  ///< part of the width in the middle of an edge
-    double squeeze_max = 1;  ///< part of the width at its ends
-    double dual = 0;         ///< part of the width that is left empty inside of a line; 0 = off
+    double duty = 0.5;        ///< drawn part of a dash
+    double phase = 0;         ///< in periods
+    double repeats = 0;       ///< dashes per edge, in space; 0: dashes by period_px on the screen
+    double squeeze_min = 1;   ///< part of the width in the middle of an edge
+    double squeeze_max = 1;   ///< part of the width at its ends
+    double dual = 0;          ///< part of the width that is left empty inside of a line; 0 = off
 };
 
 }  // namespace burin
