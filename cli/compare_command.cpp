@@ -18,7 +18,8 @@ void make_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error || !std::filesystem::is_directory(folder)) {
-        throw InputError(folder + ": cannot make this folder" + (error ? ": " + error.message() : "") +
+        throw InputError(folder + ": cannot make this folder" +
+                         (error ? ": " + error.message() : "") +
                          "; give the name of a folder to write to");
     }
     if (::access(folder.c_str(), W_OK | X_OK) != 0) {
@@ -54,22 +55,24 @@ void run_compare(const Arguments& a) {
     ComparisonOptions options{a.output, chosen_methods(a.methods), a.frames, a.threads, &progress};
     Comparison so_far;
     try {
-        const Comparison comparison = run_comparison(scene, a.input, view, options, [&](const Comparison& c) {
-            so_far = c;
-            write_metrics(c, a.output);
-        });
+        const Comparison comparison =
+            run_comparison(scene, a.input, view, options, [&](const Comparison& c) {
+                so_far = c;
+                write_metrics(c, a.output);
+            });
         write_report(comparison, a.output);
     } catch (const Interrupted&) {
         progress.finish();
         if (so_far.methods.empty()) throw Interrupted("interrupted; no method was finished");
         throw Interrupted("interrupted; " + a.output + "/metrics.json has the " +
-                          std::to_string(so_far.methods.size()) + " of " + std::to_string(options.methods.size()) +
-                          " methods that were finished");
+                          std::to_string(so_far.methods.size()) + " of " +
+                          std::to_string(options.methods.size()) + " methods that were finished");
     }
     progress.finish();
     if (a.verbose || shows_bar) {
-        std::fprintf(stderr, "%s/report.html: %zu methods, %dx%d, %.1f s\n", a.output.c_str(), options.methods.size(),
-                     view.crop.width(), view.crop.height(), total.seconds());
+        std::fprintf(stderr, "%s/report.html: %zu methods, %dx%d, %.1f s\n", a.output.c_str(),
+                     options.methods.size(), view.crop.width(), view.crop.height(),
+                     total.seconds());
     }
 }
 

@@ -7,9 +7,9 @@ namespace burin {
 /// What a reader of a comparison should know about a method.
 struct MethodNote {
     std::string_view name;
-    int passes;              ///< times that the geometry or the picture is gone through
-    std::string_view how;    ///< how it finds and draws lines
-    std::string_view limits; ///< what it is known to do badly, from its source or its followers
+    int passes;               ///< times that the geometry or the picture is gone through
+    std::string_view how;     ///< how it finds and draws lines
+    std::string_view limits;  ///< what it is known to do badly, from its source or its followers
 };
 
 /// nullptr if there is none.

@@ -29,10 +29,12 @@ struct LineMass {
     double invented = 0;  ///< coverage of the result with no line of the truth within a pixel
 };
 
-/// Coverage below which a pixel does not count as having a line: the foot of a soft profile is no line.
+/// Coverage below which a pixel does not count as having a line: the foot of a soft profile is no
+/// line.
 constexpr float kLineFloor = 1.0f / 32;
 
-/// "Within a pixel" is the pixel itself or one of its eight neighbours. Nothing if the truth is empty.
+/// "Within a pixel" is the pixel itself or one of its eight neighbours. Nothing if the truth is
+/// empty.
 std::optional<LineMass> line_mass(const Plane& result, const Plane& truth);
 
 /// Number of different coverages in a picture, 0 not counted.

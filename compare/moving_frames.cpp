@@ -38,20 +38,24 @@ PixelRect busiest_part(const Plane& coverage, PixelRect crop, int width, int hei
     width = std::min(width, crop.width());
     height = std::min(height, crop.height());
     // Sums over all rectangles from the corner.
-    std::vector<double> sums(static_cast<std::size_t>(coverage.width + 1) * static_cast<std::size_t>(coverage.height + 1));
+    std::vector<double> sums(static_cast<std::size_t>(coverage.width + 1) *
+                             static_cast<std::size_t>(coverage.height + 1));
     const auto sum = [&](int x, int y) -> double& {
-        return sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(coverage.width + 1) + static_cast<std::size_t>(x)];
+        return sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(coverage.width + 1) +
+                    static_cast<std::size_t>(x)];
     };
     for (int y = 0; y < coverage.height; ++y) {
         for (int x = 0; x < coverage.width; ++x) {
-            sum(x + 1, y + 1) = sum(x, y + 1) + sum(x + 1, y) - sum(x, y) + static_cast<double>(coverage.at(x, y));
+            sum(x + 1, y + 1) =
+                sum(x, y + 1) + sum(x + 1, y) - sum(x, y) + static_cast<double>(coverage.at(x, y));
         }
     }
     PixelRect best{crop.x0, crop.y0, crop.x0 + width, crop.y0 + height};
     double most = -1;
     for (int y = 0; y + height <= coverage.height; y += kPartStep) {
         for (int x = 0; x + width <= coverage.width; x += kPartStep) {
-            const double mass = sum(x + width, y + height) - sum(x, y + height) - sum(x + width, y) + sum(x, y);
+            const double mass =
+                sum(x + width, y + height) - sum(x, y + height) - sum(x + width, y) + sum(x, y);
             if (mass <= most) continue;
             most = mass;
             best = {crop.x0 + x, crop.y0 + y, crop.x0 + x + width, crop.y0 + y + height};

@@ -15,10 +15,13 @@ struct Plane {
 
     Plane() = default;
     Plane(int w, int h, float value = 0)
-        : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
+        : width(w),
+          height(h),
+          values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
 
     std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
     }
     float& at(int x, int y) { return values[index(x, y)]; }
     float at(int x, int y) const { return values[index(x, y)]; }
@@ -28,7 +31,8 @@ struct Plane {
     }
 };
 
-/// Linear interpolation between pixel centres (at +0.5); beyond the border the nearest pixel counts.
+/// Linear interpolation between pixel centres (at +0.5); beyond the border the nearest pixel
+/// counts.
 float sample_bilinear(const Plane& plane, double x, double y);
 
 /// Separable convolution; both kernels have an odd number of values, the border is replicated.

@@ -4,7 +4,8 @@
 
 namespace burin {
 
-/// The report's text, style and script (compare/page). The text has the marks {{style}}, {{script}},
+/// The report's text, style and script (compare/page). The text has the marks {{style}},
+/// {{script}},
 /// {{data}} and {{pictures}} where the rest goes.
 std::string_view report_text();
 std::string_view report_style();

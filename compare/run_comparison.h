@@ -23,6 +23,7 @@ struct ComparisonOptions {
 ///
 /// The scene is changed on the way and is as it was at the end.
 Comparison run_comparison(Scene& scene, const std::string& input, const View& view,
-                          const ComparisonOptions& options, const std::function<void(const Comparison&)>& done);
+                          const ComparisonOptions& options,
+                          const std::function<void(const Comparison&)>& done);
 
 }  // namespace burin

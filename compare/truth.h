@@ -16,7 +16,8 @@ class TruthCache {
     /// `scene` is changed while a truth is drawn, and is as it was afterwards.
     TruthCache(Scene& scene, RunOptions options) : scene_(scene), options_(options) {}
 
-    /// The coverage of the true lines of these classes. `frame` stands for the view; 0 is the picture itself.
+    /// The coverage of the true lines of these classes. `frame` stands for the view; 0 is the
+    /// picture itself.
     const Plane& coverage(LineClassSet classes, double width_px, const View& view, int frame);
 
     /// The scene's own truth, with its colours and its time.

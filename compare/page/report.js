@@ -128,7 +128,7 @@ function draw() {
   line.fillRect((edge - 1) * ratio, 0, 2 * ratio, canvas.height);
   wipe.style.left = `${edge}px`;
   wipe.setAttribute('aria-valuenow', Math.round(100 * state.wipe));
-  viewer.dataset.zoom = state.scale.toFixed(3);
+  Object.assign(viewer.dataset, {zoom: state.scale.toFixed(3), x: state.x.toFixed(2), y: state.y.toFixed(2)});
   byId('zoom-level').textContent = `${state.scale >= 10 ? state.scale.toFixed(0) : state.scale.toFixed(2)}×`;
   byId('tag-left').textContent = labelOf(left.value);
   byId('tag-right').textContent = labelOf(right.value);

@@ -42,11 +42,13 @@ void expect_rising_progress(const std::string& out) {
 TEST(Compare, WritesPicturesMetricsAndAReport) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
-    const ProgramResult r = run_compare(folder, {"cube.obj", "-o", "a/b", "--size", "64x48", "--methods", "patel",
-                                                 "--lines", "silhouette,crease", "--frames", "2", "--progress", "alf"});
+    const ProgramResult r =
+        run_compare(folder, {"cube.obj", "-o", "a/b", "--size", "64x48", "--methods", "patel",
+                             "--lines", "silhouette,crease", "--frames", "2", "--progress", "alf"});
     ASSERT_EQ(r.status, 0) << r.err;
     expect_rising_progress(r.out);
-    for (const char* name : {"truth.png", "patel.png", "patel_diff.png", "metrics.csv", "report.html"}) {
+    for (const char* name :
+         {"truth.png", "patel.png", "patel_diff.png", "metrics.csv", "report.html"}) {
         EXPECT_GT(fs::file_size(folder.file("a/b/") + name), 100u) << name;
     }
     const auto metrics = nlohmann::json::parse(read_file(folder.file("a/b/metrics.json")));
@@ -97,7 +99,8 @@ TEST(Compare, RefusesWhatCannotBe) {
 TEST(Compare, AnInterruptLeavesNothingHalfWritten) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
-    Program program(folder.path(), {"compare", "cube.obj", "-o", "d", "--size", "3000x3000", "--methods", "patel"});
+    Program program(folder.path(), {"compare", "cube.obj", "-o", "d", "--size", "3000x3000",
+                                    "--methods", "patel"});
     while (!fs::exists(folder.file("d"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     program.send(SIGINT);
     const ProgramResult r = program.wait();

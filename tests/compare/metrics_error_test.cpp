@@ -9,7 +9,7 @@ namespace {
 
 TEST(CoverageError, CountsOnlyPixelsWithALineInEitherPicture) {
     Plane truth(10, 10), result(10, 10);
-    truth.at(2, 2) = 1;    // missing
+    truth.at(2, 2) = 1;      // missing
     result.at(5, 5) = 0.5f;  // invented
     truth.at(7, 7) = result.at(7, 7) = 1;
     const auto error = coverage_error(result, truth);
