@@ -18,7 +18,7 @@ namespace {
 using Arguments = std::vector<std::string>;
 
 Arguments render_at(const char* size) {
-    return {"render", "cube.obj", "-r", size, "-o", "out.exr", "--layers", "lines"};
+    return {"render", "cube.obj", "-m", "patel", "-r", size, "-o", "out.exr", "--layers", "lines"};
 }
 const Arguments kLongEnough = render_at("1200x900");  // to be shown some progress
 
