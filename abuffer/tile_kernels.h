@@ -29,14 +29,41 @@ struct SamplePair {
     bool down;                  ///< the second one lies below the first, else to its right
 };
 
+/// What takes the positions of a mesh to the screen: SurfaceSet::view_position() and Projection.
+struct ScreenTransform {
+    double to_view[4][3];  ///< columns
+    bool orthographic;
+    double focal_px, center_x, center_y, near_distance, guard_band_px, farthest_nearness;
+};
+
+/// The tiles of a picture, all kTileSamples x kTileSamples but the last ones. A tile also gets the
+/// samples next to its right and lower border.
+struct TileGrid {
+    static constexpr std::int32_t kTileShift = 7;
+    static constexpr std::int32_t kTileSamples = 1 << kTileShift;
+    std::int32_t first_column, first_row;  ///< of the upper left sample on the image's grid
+    std::int32_t width, height;            ///< in samples
+    std::int32_t columns;                  ///< of tiles
+    std::int32_t pitch_shift;              ///< log2 of the distance of samples, in 1/256 pixel
+};
+
 /// The inner loops of the production A-buffer. There is one set per instruction set; all give equal
 /// results to the bit, because they are the same source compiled twice and floating point is not
 /// contracted.
 struct TileKernels {
     std::string_view name;
-    /// Draws triangles into a tile: nearest wins, then the smaller id. Triangles must be smaller than
-    /// kLargestSmallTriangle in both directions.
-    void (*draw_small)(const SampleView& tile, const ScreenTriangle* triangles, std::size_t count);
+    /// Projects and snaps vertices; `positions` are three numbers each.
+    void (*project)(const ScreenTransform& transform, const float* positions, std::size_t count,
+                    ScreenVertex* vertices);
+    /// Sets the facing of triangles [begin, end) of a mesh (`facing`: that of the mesh's first one) and
+    /// lists those that may touch samples of the grid: the triangles' numbers in the mesh, and which
+    /// tile, kSeveralTiles or kNotSmall. Returns their number. The lists need room for end - begin + 8.
+    std::size_t (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
+                        std::uint8_t* facing, std::uint32_t* triangles, std::uint32_t* tiles);
+    /// Draws triangles of a mesh, given by their numbers in it, into a tile: nearest wins, then the
+    /// smaller id. They must be smaller than kLargestSmallTriangle in both directions.
+    void (*draw_small)(const SampleView& tile, const ScreenMesh& mesh, const std::uint32_t* triangles,
+                       std::size_t count);
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
                       const SpanPlane& plane);
@@ -46,6 +73,9 @@ struct TileKernels {
     std::size_t (*find_pairs)(const SampleView& tile, float level, float level_per_nearness, SamplePair* pairs);
 };
 
+constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
+/// Too large for draw_small(), or not all on the screen.
+constexpr std::uint32_t kNotSmall = 0xFFFFFFFEu;
 /// In 1/256 pixel. Products of such lengths fit 32 bits.
 constexpr std::int32_t kLargestSmallTriangle = 1 << 14;
 

@@ -8,7 +8,7 @@
 namespace burin {
 
 const TileKernels* avx2_kernels() {
-    static const TileKernels kernels{"avx2", draw_small, draw_span, find_pairs};
+    static const TileKernels kernels{"avx2", project, cull, draw_small, draw_span, find_pairs};
     return __builtin_cpu_supports("avx2") ? &kernels : nullptr;
 }
 

@@ -29,15 +29,14 @@ SurfaceId LineTile::surface_at(std::size_t sample) const {
 
 void LineTile::draw(std::size_t tile) {
     rect_ = bins_.tile(tile);
-    is_empty_ = bins_.small(tile).empty() && bins_.large_in(tile).empty();
+    is_empty_ = bins_.runs_in(tile).empty() && bins_.large_in(tile).empty();
     if (is_empty_) return;
     samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
                    rect_.height() * per_pixel_ + 1, per_pixel_);
-    const auto small = bins_.small(tile);
-    triangles_.assign(small.begin(), small.end());
-    for (ScreenTriangle& t : triangles_) t.id |= screen_.is_plain(t.id >> 1) ? 1u : 0u;
-    drawn_ += triangles_.size();
-    kernels_.draw_small(view(), triangles_.data(), triangles_.size());
+    for (const TriangleRun& run : bins_.runs_in(tile)) {
+        drawn_ += run.count;
+        kernels_.draw_small(view(), screen_.mesh(run.instance), run.triangles, run.count);
+    }
     for (const std::uint32_t i : bins_.large_in(tile)) {
         const LargePolygon& large = bins_.large(i);
         draw_large(large, screen_.is_plain(large.plane.id >> 1));

@@ -47,7 +47,6 @@ class LineTile {
     PixelRect rect_;
     bool is_empty_ = true;
     SampleTile samples_;
-    std::vector<ScreenTriangle> triangles_;
     std::vector<SamplePair> pairs_;
     std::vector<LineCrossing> crossings_;
     std::vector<SamplePair> crossing_places_;

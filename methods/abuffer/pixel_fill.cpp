@@ -24,10 +24,10 @@ const PixelFiller::Look& PixelFiller::look_of(std::uint32_t number) {
     const glm::dvec3 normal = mesh.polygon_normals.empty()
                                   ? area / std::max(glm::length(area), 1e-300)
                                   : surfaces.view_normal(id);
-    const ScreenSurfaces::Facing facing = screen_.facing(number);
+    const Facing facing = screen_.facing(number);
     const glm::dvec3 to_corner = surfaces.projection.orthographic ? glm::dvec3(0, 0, -1) : corners[0];
-    const bool away = facing == ScreenSurfaces::off_screen ? glm::dot(area, to_corner) > 0
-                                                           : facing == ScreenSurfaces::clockwise;
+    const bool away = facing == off_screen ? glm::dot(area, to_corner) > 0
+                                                           : facing == clockwise;
     const double mirror = glm::dot(surfaces.instance_of(id).normal_to_view * mesh.polygon_area_vector(id.triangle), area) < 0 ? -1.0 : 1.0;
     look.normal = (away ? -1.0 : 1.0) * (mesh.polygon_normals.empty() ? 1.0 : mirror) * normal;
     look.corner = corners[0];
