@@ -34,6 +34,16 @@ struct ScreenTransform {
     double to_view[4][3];  ///< columns
     bool orthographic;
     double focal_px, center_x, center_y, near_distance, guard_band_px, farthest_nearness;
+    double view_to_world[3][3];  ///< columns
+};
+
+/// What all pixels of a triangle have in common.
+struct TriangleLook {
+    double normal[3];       ///< unit length, in view space, towards the eye
+    double corner[3];       ///< in view space
+    double nearest, farthest;  ///< distances
+    float world_normal[3];
+    std::uint32_t object_id, material_id, polygon_id;
 };
 
 /// The tiles of a picture, all kTileSamples x kTileSamples but the last ones. A tile also gets the
@@ -71,6 +81,13 @@ struct TileKernels {
     /// difference in nearness is at most `level + level_per_nearness * nearness`. Returns their number;
     /// `pairs` must have room for 2 * columns * rows.
     std::size_t (*find_pairs)(const SampleView& tile, float level, float level_per_nearness, SamplePair* pairs);
+    /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
+    /// three counts more than asked for may be written.
+    void (*count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,
+                          std::int32_t pixels, std::uint8_t* counts);
+    /// Fills in all but the ids of triangles that are polygons of their own; none may be off screen.
+    void (*look)(const ScreenTransform& transform, const float* positions, const ScreenMesh& mesh,
+                 const std::uint32_t* triangles, std::size_t count, TriangleLook* looks);
 };
 
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;

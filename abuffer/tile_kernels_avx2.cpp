@@ -8,7 +8,8 @@
 namespace burin {
 
 const TileKernels* avx2_kernels() {
-    static const TileKernels kernels{"avx2", project, cull, draw_small, draw_span, find_pairs};
+    static const TileKernels kernels{"avx2", project, cull, draw_small, draw_span, find_pairs,
+                                     count_covered, look};
     return __builtin_cpu_supports("avx2") ? &kernels : nullptr;
 }
 

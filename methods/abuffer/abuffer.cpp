@@ -53,7 +53,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     parallel_for(bins.tile_count(), stats.threads, [&](std::size_t index, int worker) {
         const auto w = static_cast<std::size_t>(worker);
         if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame, screen, bins, per_pixel, kernels);
-        if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame, screen);
+        if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame, screen, kernels);
         Stopwatch lap;
         tiles[w]->draw(index);
         times[w].raster += lap.lap();

@@ -23,6 +23,9 @@ ScreenTransform transform_of(const SurfaceSet& surfaces, const SurfaceInstance& 
     for (int column = 0; column < 4; ++column) {
         for (int c = 0; c < 3; ++c) t.to_view[column][c] = instance.to_view[column][c];
     }
+    for (int column = 0; column < 3; ++column) {
+        for (int c = 0; c < 3; ++c) t.view_to_world[column][c] = surfaces.view_to_world[column][c];
+    }
     const Projection& p = surfaces.projection;
     t.orthographic = p.orthographic;
     t.focal_px = p.focal_px;
@@ -55,7 +58,7 @@ ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& c
     facing_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
     for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
         const SurfaceInstance& instance = surfaces.instances[i];
-        const ScreenTransform transform = transform_of(surfaces, instance);
+        const ScreenTransform& transform = transforms_.emplace_back(transform_of(surfaces, instance));
         for_chunks(instance.mesh->positions.size(), threads, [&](std::size_t begin, std::size_t end) {
             const float* const positions = glm::value_ptr(instance.mesh->positions[begin]);
             kernels.project(transform, positions, end - begin, vertices_.get() + first_vertex_[i] + begin);

@@ -33,6 +33,7 @@ class ScreenSurfaces {
     }
     /// An instance as the kernels see it.
     ScreenMesh mesh(std::uint32_t instance) const;
+    const ScreenTransform& transform(std::uint32_t instance) const { return transforms_[instance]; }
 
     Facing facing(std::uint32_t number) const { return static_cast<Facing>(facing_[number]); }
     void set_facing(std::uint32_t number, Facing f) { facing_[number] = f; }
@@ -53,6 +54,7 @@ class ScreenSurfaces {
     const LineCriteria& criteria_;
     std::vector<std::size_t> first_vertex_;
     std::vector<std::uint32_t> first_triangle_;  // one more than instances
+    std::vector<ScreenTransform> transforms_;  // per instance
     std::unique_ptr<ScreenVertex[]> vertices_;
     std::unique_ptr<std::uint8_t[]> facing_;
     std::vector<const std::uint8_t*> sharp_;  // per instance
