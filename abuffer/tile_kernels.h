@@ -29,6 +29,13 @@ struct SamplePair {
     bool down;                  ///< the second one lies below the first, else to its right
 };
 
+/// A round pen's stroke along a segment from a to b, in pixels: all that is closer than `radius`.
+struct PenStroke {
+    double ax, ay, bx, by;
+    double ux, uy, length;  ///< unit direction from a to b
+    double radius;
+};
+
 /// What takes the positions of a mesh to the screen: SurfaceSet::view_position() and Projection.
 struct ScreenTransform {
     double to_view[4][3];  ///< columns
@@ -66,14 +73,19 @@ struct TileKernels {
     void (*project)(const ScreenTransform& transform, const float* positions, std::size_t count,
                     ScreenVertex* vertices);
     /// Sets the facing of triangles [begin, end) of a mesh (`facing`: that of the mesh's first one) and
-    /// lists those that may touch samples of the grid: the triangles' numbers in the mesh, and which
-    /// tile, kSeveralTiles or kNotSmall. Returns their number. The lists need room for end - begin + 8.
+    /// lists those that may touch samples of the grid: the triangles' numbers in the mesh, and the key
+    /// of their tile, kSeveralTiles or kNotSmall. Returns their number. The lists need room for end - begin + 8.
     std::size_t (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
                         std::uint8_t* facing, std::uint32_t* triangles, std::uint32_t* tiles);
     /// Draws triangles of a mesh, given by their numbers in it, into a tile: nearest wins, then the
     /// smaller id. They must be smaller than kLargestSmallTriangle in both directions.
-    void (*draw_small)(const SampleView& tile, const ScreenMesh& mesh, const std::uint32_t* triangles,
-                       std::size_t count);
+    /// `farthest` (from find_farthest()) lets it leave out what is hidden; nullptr: nothing is known.
+    /// Returns how many were drawn.
+    std::size_t (*draw_small)(const SampleView& tile, const float* farthest, const ScreenMesh& mesh,
+                              const std::uint32_t* triangles, std::size_t count);
+    /// The least nearness in every block of kBlockSamples x kBlockSamples samples, row by row;
+    /// stride / kBlockSamples blocks to a row.
+    void (*find_farthest)(const SampleView& tile, float* farthest);
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
                       const SpanPlane& plane);
@@ -88,8 +100,17 @@ struct TileKernels {
     /// Fills in all but the ids of triangles that are polygons of their own; none may be off screen.
     void (*look)(const ScreenTransform& transform, const float* positions, const ScreenMesh& mesh,
                  const std::uint32_t* triangles, std::size_t count, TriangleLook* looks);
+    /// The columns [begin, end) that a stroke covers in `count` rows of a stroke canvas (StrokeMask's
+    /// samples), cut off at `columns`. Up to three more may be written.
+    void (*stroke_spans)(const PenStroke& stroke, std::int32_t row, std::int32_t count, std::int32_t columns,
+                         std::int32_t* begin, std::int32_t* end);
+    /// How many bits are set in 16 numbers, without those of `hidden`.
+    int (*count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
 };
 
+constexpr std::int32_t kBlockShift = 3;
+constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
+/// A tile's key for triangles wound one way: twice its number, and 1 for clockwise ones.
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
 /// Too large for draw_small(), or not all on the screen.
 constexpr std::uint32_t kNotSmall = 0xFFFFFFFEu;

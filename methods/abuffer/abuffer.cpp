@@ -76,7 +76,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     stats.raster_s = sum.raster * scale;
     stats.lines_s = sum.lines * scale;
     stats.shade_s = sum.shade * scale;
-    draw_strokes(frame, segments, stats.threads, film);
+    draw_strokes(frame, segments, kernels, stats.threads, film);
     stats.lines_s += watch.lap();
     stats.triangles = frame.surfaces.triangle_count();
     stats.fragments = sum.fragments;

@@ -43,9 +43,9 @@ Box box_of(const Corners& corners, int count) {
     return box;
 }
 
-/// What one chunk has in one tile.
+/// What one chunk has in one tile, wound one way.
 struct TileRun {
-    std::uint32_t tile, begin, count;
+    std::uint32_t key, begin, count;
 };
 
 /// One chunk's triangles with the tiles they touch.
@@ -58,9 +58,9 @@ struct Records {
 
 /// Buffers of one thread.
 struct Scratch {
-    std::vector<std::uint32_t> triangles, tiles;        // what the kernel found
-    std::vector<std::uint32_t> more_triangles, more_tiles;  // of triangles in several tiles
-    std::vector<std::uint32_t> count, used;             // per tile; tiles with a count
+    std::vector<std::uint32_t> triangles, keys;            // what the kernel found
+    std::vector<std::uint32_t> more_triangles, more_keys;  // of triangles in several tiles
+    std::vector<std::uint32_t> count, used;                // per key; keys with a count
 };
 
 SpanPlane plane_of_triangle(const ScreenTriangle& t, std::uint32_t id) {
@@ -88,11 +88,11 @@ class Binner {
     void bin(const Chunk& chunk, Scratch& scratch, Records& records) const {
         const std::size_t room = kChunkTriangles + 8;
         scratch.triangles.resize(room);
-        scratch.tiles.resize(room);
-        scratch.count.resize(tile_count(), 0);
+        scratch.keys.resize(room);
+        scratch.count.resize(2 * tile_count(), 0);
         std::size_t found = kernels_.cull(surfaces_.mesh(chunk.instance), chunk.first, chunk.end, grid_,
                                           surfaces_.facings(chunk.instance), scratch.triangles.data(),
-                                          scratch.tiles.data());
+                                          scratch.keys.data());
         find_tiles_of_others(chunk.instance, found, scratch, records);
         sort(found, scratch, records);
     }
@@ -106,48 +106,49 @@ class Binner {
     /// Takes what is not in exactly one tile out of the kernel's lists.
     void find_tiles_of_others(std::uint32_t instance, std::size_t& found, Scratch& scratch, Records& records) const {
         scratch.more_triangles.clear();
-        scratch.more_tiles.clear();
+        scratch.more_keys.clear();
         std::size_t kept = 0;
         for (std::size_t i = 0; i < found; ++i) {
-            const std::uint32_t triangle = scratch.triangles[i], tile = scratch.tiles[i];
+            const std::uint32_t triangle = scratch.triangles[i], key = scratch.keys[i];
             scratch.triangles[kept] = triangle;
-            scratch.tiles[kept] = tile;
-            if (tile < kNotSmall) {
+            scratch.keys[kept] = key;
+            if (key < kNotSmall) {
                 ++kept;
-            } else if (tile == kNotSmall) {
+            } else if (key == kNotSmall) {
                 add_not_small({instance, triangle}, records);
             } else {
                 const ScreenTriangle t = surfaces_.triangle({instance, triangle});
+                const bool turned = surfaces_.facing(surfaces_.number_of({instance, triangle})) == clockwise;
                 for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched) {
                     scratch.more_triangles.push_back(triangle);
-                    scratch.more_tiles.push_back(touched);
+                    scratch.more_keys.push_back(2 * touched + (turned ? 1 : 0));
                 });
             }
         }
         found = kept;
     }
 
-    /// Counting sort by tile.
+    /// Counting sort by key.
     static void sort(std::size_t found, Scratch& scratch, Records& records) {
         auto& count = scratch.count;
         scratch.used.clear();
-        const auto add = [&](std::uint32_t tile) {
-            if (count[tile]++ == 0) scratch.used.push_back(tile);
+        const auto add = [&](std::uint32_t key) {
+            if (count[key]++ == 0) scratch.used.push_back(key);
         };
-        for (std::size_t i = 0; i < found; ++i) add(scratch.tiles[i]);
-        for (const std::uint32_t tile : scratch.more_tiles) add(tile);
+        for (std::size_t i = 0; i < found; ++i) add(scratch.keys[i]);
+        for (const std::uint32_t key : scratch.more_keys) add(key);
         std::uint32_t begin = 0;
         records.runs.reserve(scratch.used.size());
-        for (const std::uint32_t tile : scratch.used) {
-            records.runs.push_back({tile, begin, count[tile]});
-            begin += std::exchange(count[tile], begin);
+        for (const std::uint32_t key : scratch.used) {
+            records.runs.push_back({key, begin, count[key]});
+            begin += std::exchange(count[key], begin);
         }
         records.small.resize(begin);
-        for (std::size_t i = 0; i < found; ++i) records.small[count[scratch.tiles[i]]++] = scratch.triangles[i];
-        for (std::size_t i = 0; i < scratch.more_tiles.size(); ++i) {
-            records.small[count[scratch.more_tiles[i]]++] = scratch.more_triangles[i];
+        for (std::size_t i = 0; i < found; ++i) records.small[count[scratch.keys[i]]++] = scratch.triangles[i];
+        for (std::size_t i = 0; i < scratch.more_keys.size(); ++i) {
+            records.small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
         }
-        for (const std::uint32_t tile : scratch.used) count[tile] = 0;
+        for (const std::uint32_t key : scratch.used) count[key] = 0;
     }
 
     void add_not_small(SurfaceId s, Records& records) const {
@@ -261,7 +262,7 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
     run_end_.assign(tile_count() + 1, 0);
     large_end_.assign(tile_count() + 1, 0);
     for (Records& r : records) {
-        for (const TileRun& run : r.runs) ++run_end_[run.tile + 1];
+        for (const TileRun& run : r.runs) ++run_end_[run.key / 2 + 1];
         for (const std::uint32_t tile : r.large_tiles) ++large_end_[tile + 1];
     }
     make_ends_of_counts(run_end_);
@@ -274,7 +275,8 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
         Records& r = records[c];
         triangles_[c] = std::move(r.small);
         for (const TileRun& run : r.runs) {
-            runs_[next_run[run.tile]++] = {chunks[c].instance, run.count, triangles_[c].data() + run.begin};
+            runs_[next_run[run.key / 2]++] = {chunks[c].instance, run.count, run.key % 2 == 1,
+                                              triangles_[c].data() + run.begin};
         }
         const auto before = static_cast<std::uint32_t>(large_.size());
         for (std::size_t i = 0; i < r.large.size(); ++i) {

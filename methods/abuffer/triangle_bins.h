@@ -16,9 +16,10 @@ struct LargePolygon {
     SurfaceId surface;
 };
 
-/// Some small triangles of one instance, by their numbers in its mesh.
+/// Some small triangles of one instance, wound one way, by their numbers in its mesh.
 struct TriangleRun {
     std::uint32_t instance, count;
+    bool is_clockwise;
     const std::uint32_t* triangles;
 };
 
