@@ -14,7 +14,8 @@ namespace burin {
 /// triangle is plain: no edge of it can be a line.
 struct SampleTile {
     static constexpr std::uint32_t kBackground = 0xFFFFFFFEu;
-    /// Rows are this many samples longer than asked for, so that eight can be handled at once.
+    /// Rows are this many samples longer than asked for, and there are as many rows more, so that
+    /// eight samples of four rows can be handled at once.
     static constexpr int kPadding = 8;
 
     int first_column = 0, first_row = 0;  ///< on the image's grid
@@ -31,7 +32,7 @@ struct SampleTile {
         rows = row_count;
         samples_per_pixel = per_pixel;
         stride = (columns + 2 * kPadding - 1) / kPadding * kPadding;
-        const auto size = static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows);
+        const auto size = static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows + kPadding);
         nearness.assign(size, -std::numeric_limits<float>::infinity());
         ids.assign(size, kBackground);
     }

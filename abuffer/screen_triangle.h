@@ -10,7 +10,7 @@ namespace burin {
 /// A vertex on the screen: snapped position in 1/256 pixel and nearness, less a constant of the
 /// frame so that single precision resolves the scene. `x == kOffScreen`: it lies behind the near
 /// plane or outside the guard band, and its triangles need clipping.
-struct ScreenVertex {
+struct alignas(16) ScreenVertex {
     static constexpr std::int32_t kOffScreen = std::numeric_limits<std::int32_t>::min();
     std::int32_t x = 0;
     std::int32_t y = 0;
@@ -20,9 +20,21 @@ struct ScreenVertex {
 /// A triangle whose corners all lie on the screen.
 struct ScreenTriangle {
     ScreenVertex corners[3];
-    std::uint32_t id = 0;  ///< see SampleTile
 };
-static_assert(sizeof(ScreenTriangle) == 40);
+
+/// The triangles of one instance of a mesh on the screen.
+struct ScreenMesh {
+    const ScreenVertex* vertices = nullptr;
+    const std::uint32_t* corners = nullptr;  ///< vertex numbers, three per triangle
+    std::uint32_t first_number = 0;          ///< of the mesh's first triangle, among all of the frame
+    /// What tells plain triangles (see SampleTile). `sharp` == nullptr: none is plain.
+    const std::uint8_t* sharp = nullptr;      ///< per triangle, 0: no edge is sharp
+    const std::uint32_t* partners = nullptr;  ///< half-edges on the other side, three per triangle
+    const std::uint8_t* facing = nullptr;     ///< Facing, per triangle
+};
+
+/// Which way a triangle is wound on the screen.
+enum Facing : std::uint8_t { edge_on, clockwise, counterclockwise, off_screen };
 
 /// Twice the area in (1/256 pixel)^2; positive if the corners run clockwise as seen on the screen.
 inline std::int64_t doubled_area(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {

@@ -29,14 +29,63 @@ struct SamplePair {
     bool down;                  ///< the second one lies below the first, else to its right
 };
 
+/// A round pen's stroke along a segment from a to b, in pixels: all that is closer than `radius`.
+struct PenStroke {
+    double ax, ay, bx, by;
+    double ux, uy, length;  ///< unit direction from a to b
+    double radius;
+};
+
+/// What takes the positions of a mesh to the screen: SurfaceSet::view_position() and Projection.
+struct ScreenTransform {
+    double to_view[4][3];  ///< columns
+    bool orthographic;
+    double focal_px, center_x, center_y, near_distance, guard_band_px, farthest_nearness;
+    double view_to_world[3][3];  ///< columns
+};
+
+/// What all pixels of a triangle have in common.
+struct TriangleLook {
+    double normal[3];       ///< unit length, in view space, towards the eye
+    double corner[3];       ///< in view space
+    double nearest, farthest;  ///< distances
+    float world_normal[3];
+    std::uint32_t object_id, material_id, polygon_id;
+};
+
+/// The tiles of a picture, all kTileSamples x kTileSamples but the last ones. A tile also gets the
+/// samples next to its right and lower border.
+struct TileGrid {
+    static constexpr std::int32_t kTileShift = 7;
+    static constexpr std::int32_t kTileSamples = 1 << kTileShift;
+    std::int32_t first_column, first_row;  ///< of the upper left sample on the image's grid
+    std::int32_t width, height;            ///< in samples
+    std::int32_t columns;                  ///< of tiles
+    std::int32_t pitch_shift;              ///< log2 of the distance of samples, in 1/256 pixel
+};
+
 /// The inner loops of the production A-buffer. There is one set per instruction set; all give equal
 /// results to the bit, because they are the same source compiled twice and floating point is not
 /// contracted.
 struct TileKernels {
     std::string_view name;
-    /// Draws triangles into a tile: nearest wins, then the smaller id. Triangles must be smaller than
-    /// kLargestSmallTriangle in both directions.
-    void (*draw_small)(const SampleView& tile, const ScreenTriangle* triangles, std::size_t count);
+    /// Projects and snaps vertices; `positions` are three numbers each.
+    void (*project)(const ScreenTransform& transform, const float* positions, std::size_t count,
+                    ScreenVertex* vertices);
+    /// Sets the facing of triangles [begin, end) of a mesh (`facing`: that of the mesh's first one) and
+    /// lists those that may touch samples of the grid: the triangles' numbers in the mesh, and the key
+    /// of their tile, kSeveralTiles or kNotSmall. Returns their number. The lists need room for end - begin + 8.
+    std::size_t (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
+                        std::uint8_t* facing, std::uint32_t* triangles, std::uint32_t* tiles);
+    /// Draws triangles of a mesh, given by their numbers in it, into a tile: nearest wins, then the
+    /// smaller id. They must be smaller than kLargestSmallTriangle in both directions.
+    /// `farthest` (from find_farthest()) lets it leave out what is hidden; nullptr: nothing is known.
+    /// Returns how many were drawn.
+    std::size_t (*draw_small)(const SampleView& tile, const float* farthest, const ScreenMesh& mesh,
+                              const std::uint32_t* triangles, std::size_t count);
+    /// The least nearness in every block of kBlockSamples x kBlockSamples samples, row by row;
+    /// stride / kBlockSamples blocks to a row.
+    void (*find_farthest)(const SampleView& tile, float* farthest);
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
                       const SpanPlane& plane);
@@ -44,8 +93,27 @@ struct TileKernels {
     /// difference in nearness is at most `level + level_per_nearness * nearness`. Returns their number;
     /// `pairs` must have room for 2 * columns * rows.
     std::size_t (*find_pairs)(const SampleView& tile, float level, float level_per_nearness, SamplePair* pairs);
+    /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
+    /// three counts more than asked for may be written.
+    void (*count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,
+                          std::int32_t pixels, std::uint8_t* counts);
+    /// Fills in all but the ids of triangles that are polygons of their own; none may be off screen.
+    void (*look)(const ScreenTransform& transform, const float* positions, const ScreenMesh& mesh,
+                 const std::uint32_t* triangles, std::size_t count, TriangleLook* looks);
+    /// The columns [begin, end) that a stroke covers in `count` rows of a stroke canvas (StrokeMask's
+    /// samples), cut off at `columns`. Up to three more may be written.
+    void (*stroke_spans)(const PenStroke& stroke, std::int32_t row, std::int32_t count, std::int32_t columns,
+                         std::int32_t* begin, std::int32_t* end);
+    /// How many bits are set in 16 numbers, without those of `hidden`.
+    int (*count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
 };
 
+constexpr std::int32_t kBlockShift = 3;
+constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
+/// A tile's key for triangles wound one way: twice its number, and 1 for clockwise ones.
+constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
+/// Too large for draw_small(), or not all on the screen.
+constexpr std::uint32_t kNotSmall = 0xFFFFFFFEu;
 /// In 1/256 pixel. Products of such lengths fit 32 bits.
 constexpr std::int32_t kLargestSmallTriangle = 1 << 14;
 

@@ -22,13 +22,10 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
     }
 }
 
-void StrokeCanvas::draw_row(int sub_row, double x0, double x1) {
-    const double last = static_cast<double>(width_) * StrokeMask::kColumns;
-    const int begin = static_cast<int>(std::ceil(std::clamp(x0 * StrokeMask::kColumns - 0.5, -1.0, last)));
-    const int end = static_cast<int>(std::ceil(std::clamp(x1 * StrokeMask::kColumns - 0.5, -1.0, last)));
+void StrokeCanvas::draw_row(int sub_row, int begin, int end) {
     const int row = sub_row % StrokeMask::kRows;
     const int first_pixel = sub_row / StrokeMask::kRows * width_;
-    for (int column = std::max(begin, 0); column < end;) {
+    for (int column = begin; column < end;) {
         const int pixel = column / StrokeMask::kColumns;
         const int low = column % StrokeMask::kColumns;
         const int high = std::min(end - pixel * StrokeMask::kColumns, StrokeMask::kColumns);
@@ -47,36 +44,19 @@ void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
     const double last = height_ * rows;
     const int begin = static_cast<int>(std::ceil(std::clamp((std::min(a.y, b.y) - r) * rows - 0.5, 0.0, last)));
     const int end = static_cast<int>(std::ceil(std::clamp((std::max(a.y, b.y) + r) * rows - 0.5, 0.0, last)));
+    if (begin >= end) return;
     const double length = glm::distance(a, b);
     const glm::dvec2 u = length > 0 ? (b - a) / length : glm::dvec2(1, 0);
+    const auto count = static_cast<std::size_t>(end - begin);
+    if (begin_.size() < count + 3) {
+        begin_.resize(count + 3);
+        end_.resize(count + 3);
+    }
+    kernels_->stroke_spans({a.x, a.y, b.x, b.y, u.x, u.y, length, r}, begin, end - begin,
+                           width_ * StrokeMask::kColumns, begin_.data(), end_.data());
     for (int i = begin; i < end; ++i) {
-        const double y = (i + 0.5) / rows;
-        double low = 1e300, high = -1e300;
-        for (const glm::dvec2& p : {a, b}) {
-            const double h = r * r - (y - p.y) * (y - p.y);
-            if (h < 0) continue;
-            const double reach = std::sqrt(h);
-            low = std::min(low, p.x - reach);
-            high = std::max(high, p.x + reach);
-        }
-        // The rectangle: |(p - a) x u| <= r and 0 <= (p - a).u <= length.
-        double s0 = -1e300, s1 = 1e300;
-        const auto limit = [&](double slope, double at, double lowest, double highest) {
-            if (std::abs(slope) < 1e-12) {
-                if (at < lowest || at > highest) s1 = -1e300;
-                return;
-            }
-            const double p = (lowest - at) / slope, q = (highest - at) / slope;
-            s0 = std::max(s0, std::min(p, q));
-            s1 = std::min(s1, std::max(p, q));
-        };
-        limit(u.y, -(y - a.y) * u.x, -r, r);
-        limit(u.x, (y - a.y) * u.y, 0, length);
-        if (s0 <= s1) {
-            low = std::min(low, a.x + s0);
-            high = std::max(high, a.x + s1);
-        }
-        if (low < high) draw_row(i, low, high);
+        const auto k = static_cast<std::size_t>(i - begin);
+        draw_row(i, begin_[k], end_[k]);
     }
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
+
+#include "abuffer/tile_kernels.h"
 
 namespace burin {
 
@@ -15,17 +16,13 @@ struct StrokeMask {
     static constexpr int kColumns = 32;
     std::array<std::uint32_t, kRows> rows{};
 
-    int count() const {
-        int sum = 0;
-        for (const std::uint32_t row : rows) sum += std::popcount(row);
-        return sum;
-    }
 };
 
 /// Coverage masks of a rectangle of pixels, into which strokes are drawn. Pieces that overlap or meet
 /// count once, so pieces of a line need no joins.
 class StrokeCanvas {
   public:
+    explicit StrokeCanvas(const TileKernels& kernels = best_kernels()) : kernels_(&kernels) {}
     void reset(int x0, int y0, int width, int height);
 
     /// Adds all that is closer than `radius_px` to a segment: a round pen's stroke.
@@ -41,8 +38,10 @@ class StrokeCanvas {
     }
 
   private:
-    void draw_row(int sub_row, double x0, double x1);
+    void draw_row(int sub_row, int begin, int end);
 
+    const TileKernels* kernels_;
+    std::vector<std::int32_t> begin_, end_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
     std::vector<StrokeMask> masks_;
     std::vector<std::uint8_t> touched_;

@@ -13,9 +13,6 @@
 namespace burin {
 namespace {
 
-/// Half precision holds 0..1 well; anything beyond its range would turn infinite.
-std::uint16_t to_half(float value) { return half_from_float(std::min(value, 65504.0f)); }
-
 void check_memory(PixelRect crop, std::size_t bytes_per_pixel) {
     const double needed = static_cast<double>(crop.width()) * crop.height() *
                           static_cast<double>(bytes_per_pixel);
@@ -31,6 +28,8 @@ void check_memory(PixelRect crop, std::size_t bytes_per_pixel) {
 }
 
 }  // namespace
+
+std::uint16_t Film::to_half(float value) { return half_from_float(std::min(value, 65504.0f)); }
 
 Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes)
     : image_(display, crop) {
@@ -91,6 +90,26 @@ void Film::put_background(int x0, int x1, int y) {
     for (std::size_t c = 0; c < 3; ++c) {
         clear(planes_.normal[c], 0.0f);
         clear(planes_.ids[c], std::uint32_t{0});
+    }
+}
+
+void Film::put_row(int x0, int x1, int y, const SurfaceRow& row) {
+    const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
+    const auto copy = [&](auto* plane, const auto* values) {
+        if (plane != nullptr) std::copy_n(values, count, plane + begin);
+    };
+    for (std::size_t c = 0; c < 4; ++c) {
+        copy(planes_.beauty[c], row.color[c]);
+        copy(planes_.surface[c], row.color[c]);
+        if (planes_.lines[c] != nullptr) std::fill_n(planes_.lines[c] + begin, count, std::uint16_t{0});
+    }
+    for (std::uint16_t* plane : planes_.coverage) {
+        if (plane != nullptr) std::fill_n(plane + begin, count, std::uint16_t{0});
+    }
+    copy(planes_.depth, row.distance);
+    for (std::size_t c = 0; c < 3; ++c) {
+        copy(planes_.normal[c], row.normal[c]);
+        copy(planes_.ids[c], row.ids[c]);
     }
 }
 

@@ -35,6 +35,14 @@ struct PixelResult {
     std::uint32_t polygon_id = 0;
 };
 
+/// Part of a row of pixels without lines, channel by channel.
+struct SurfaceRow {
+    const std::uint16_t* color[4];  ///< half precision, linear, premultiplied
+    const float* distance;
+    const float* normal[3];
+    const std::uint32_t* ids[3];  ///< object, material, polygon
+};
+
 /// Lines of one pixel, to be drawn over what is there.
 struct LinePixel {
     glm::vec4 color{0.0f};  ///< linear, premultiplied; a = coverage of all lines
@@ -50,10 +58,15 @@ class Film {
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
 
     void put(int x, int y, const PixelResult& pixel);
+    /// The same for pixels [x0, x1) of a row, without lines.
+    void put_row(int x0, int x1, int y, const SurfaceRow& row);
     /// Puts the background into pixels [x0, x1) of a row.
     void put_background(int x0, int x1, int y);
     /// Draws lines over a pixel that was put without any.
     void draw_over(int x, int y, const LinePixel& lines);
+    /// As colours are kept: half precision holds 0..1 well, what is beyond its range becomes its largest
+    /// number.
+    static std::uint16_t to_half(float value);
     const Image& image() const { return image_; }
 
   private:

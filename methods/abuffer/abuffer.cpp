@@ -36,13 +36,12 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     RenderStats stats;
     stats.threads = resolve_thread_count(options.threads);
     const int per_pixel = frame.scene->abuffer.samples_per_pixel;
-    const int tile_px = 128 / per_pixel;
     const TileKernels& kernels = best_kernels();
     Stopwatch watch;
-    ScreenSurfaces screen(frame.surfaces, frame.criteria, stats.threads);
+    ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads);
     const int margin_px = static_cast<int>(std::ceil(0.5 * frame.scene->lines.style.width_px)) + 1;
     const PixelRect region = grown(frame.crop, margin_px);
-    const TriangleBins bins(screen, region, tile_px, per_pixel, stats.threads);
+    const TriangleBins bins(screen, region, per_pixel, kernels, stats.threads);
     stats.prepare_s = watch.lap();
 
     if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());
@@ -54,7 +53,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     parallel_for(bins.tile_count(), stats.threads, [&](std::size_t index, int worker) {
         const auto w = static_cast<std::size_t>(worker);
         if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame, screen, bins, per_pixel, kernels);
-        if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame, screen);
+        if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame, screen, kernels);
         Stopwatch lap;
         tiles[w]->draw(index);
         times[w].raster += lap.lap();
@@ -77,7 +76,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     stats.raster_s = sum.raster * scale;
     stats.lines_s = sum.lines * scale;
     stats.shade_s = sum.shade * scale;
-    draw_strokes(frame, segments, stats.threads, film);
+    draw_strokes(frame, segments, kernels, stats.threads, film);
     stats.lines_s += watch.lap();
     stats.triangles = frame.surfaces.triangle_count();
     stats.fragments = sum.fragments;

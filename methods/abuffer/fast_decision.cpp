@@ -60,11 +60,16 @@ FastDecision::Walk FastDecision::walk(const NeighbourSamples& pair, bool backwar
         }
         if (exit == kNoHalfEdge) return result;
         if (entry != kNoHalfEdge) {
-            const double longest = std::max({std::hypot(u[0] - u[1], v[0] - v[1]), std::hypot(u[1] - u[2], v[1] - v[2]),
-                                             std::hypot(u[2] - u[0], v[2] - v[0])});
-            const double area = std::abs(static_cast<double>(
-                std::int64_t{u[1] - u[0]} * (v[2] - v[0]) - std::int64_t{v[1] - v[0]} * (u[2] - u[0])));
-            if (area < kSurelySolid * longest && is_sliver(surfaces_, {start.instance, t})) return result;
+            const auto squared = [&](int a, int b) {
+                const double du = u[a] - u[b], dv = v[a] - v[b];
+                return du * du + dv * dv;
+            };
+            const double longest = std::max({squared(0, 1), squared(1, 2), squared(2, 0)});
+            const double area = static_cast<double>(std::int64_t{u[1] - u[0]} * (v[2] - v[0]) -
+                                                    std::int64_t{v[1] - v[0]} * (u[2] - u[0]));
+            if (area * area < kSurelySolid * kSurelySolid * longest && is_sliver(surfaces_, {start.instance, t})) {
+                return result;
+            }
             if (reached < farthest - negligible) {
                 result.end = Walk::fold;
                 result.triangle = farthest_edge / 3;

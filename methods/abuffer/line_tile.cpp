@@ -4,6 +4,7 @@
 #include <array>
 
 #include "abuffer/scan_convert.h"
+#include "lines/merge_segments.h"
 
 namespace burin {
 
@@ -29,19 +30,51 @@ SurfaceId LineTile::surface_at(std::size_t sample) const {
 
 void LineTile::draw(std::size_t tile) {
     rect_ = bins_.tile(tile);
-    is_empty_ = bins_.small(tile).empty() && bins_.large_in(tile).empty();
+    is_empty_ = bins_.runs_in(tile).empty() && bins_.large_in(tile).empty();
     if (is_empty_) return;
     samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
                    rect_.height() * per_pixel_ + 1, per_pixel_);
-    const auto small = bins_.small(tile);
-    triangles_.assign(small.begin(), small.end());
-    for (ScreenTriangle& t : triangles_) t.id |= screen_.is_plain(t.id >> 1) ? 1u : 0u;
-    drawn_ += triangles_.size();
-    kernels_.draw_small(view(), triangles_.data(), triangles_.size());
     for (const std::uint32_t i : bins_.large_in(tile)) {
         const LargePolygon& large = bins_.large(i);
         draw_large(large, screen_.is_plain(large.plane.id >> 1));
     }
+    order_runs(tile);
+    // What is hidden by what was drawn so far need not be drawn. The picture does not depend on the
+    // order, only the time does.
+    constexpr std::size_t kWorthALook = 256;  // triangles
+    std::size_t since_look = bins_.large_in(tile).empty() ? 0 : kWorthALook;
+    bool has_look = false;
+    farthest_.resize(samples_.nearness.size() / kBlockSamples);
+    for (const PlacedRun& placed : runs_) {
+        const TriangleRun& run = *placed.run;
+        if (since_look >= kWorthALook) {
+            kernels_.find_farthest(view(), farthest_.data());
+            since_look = 0;
+            has_look = true;
+        }
+        const std::size_t drawn = kernels_.draw_small(view(), has_look ? farthest_.data() : nullptr,
+                                                      screen_.mesh(run.instance), run.triangles, run.count);
+        since_look += drawn;
+        drawn_ += drawn;
+    }
+}
+
+/// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it
+/// near runs first, by the nearness of one triangle of each.
+void LineTile::order_runs(std::size_t tile) {
+    runs_.clear();
+    double sum[2] = {0, 0}, count[2] = {0, 0};
+    for (const TriangleRun& run : bins_.runs_in(tile)) {
+        const ScreenTriangle t = screen_.triangle({run.instance, run.triangles[run.count / 2]});
+        runs_.push_back({&run, t.corners[0].nearness});
+        sum[run.is_clockwise] += static_cast<double>(t.corners[0].nearness) * run.count;
+        count[run.is_clockwise] += run.count;
+    }
+    const bool is_clockwise_near = sum[1] * count[0] > sum[0] * count[1];
+    std::sort(runs_.begin(), runs_.end(), [&](const PlacedRun& a, const PlacedRun& b) {
+        const bool a_near = a.run->is_clockwise == is_clockwise_near, b_near = b.run->is_clockwise == is_clockwise_near;
+        return a_near != b_near ? a_near : a.nearness > b.nearness;
+    });
 }
 
 void LineTile::draw_large(const LargePolygon& large, bool plain) {
@@ -139,6 +172,7 @@ void LineTile::find_lines(std::vector<LineSegment>& segments) {
               pairs_[i].column] = static_cast<std::uint32_t>(crossings_.size());
     }
     trace_cells(segments);
+    merge_segments(segments);
     for (const SamplePair& place : crossing_places_) {
         (place.down ? down_ : right_)[static_cast<std::size_t>(place.row) *
                                           static_cast<std::size_t>(samples_.stride) +

@@ -32,6 +32,7 @@ class LineTile {
 
   private:
     SampleView view();
+    void order_runs(std::size_t tile);
     void draw_large(const LargePolygon& large, bool plain);
     bool decide(const SamplePair& pair, LineCrossing& crossing) const;
     VisiblePoint point(int column, int row) const;
@@ -47,7 +48,12 @@ class LineTile {
     PixelRect rect_;
     bool is_empty_ = true;
     SampleTile samples_;
-    std::vector<ScreenTriangle> triangles_;
+    struct PlacedRun {
+        const TriangleRun* run;
+        float nearness;  // of one of its triangles
+    };
+    std::vector<PlacedRun> runs_;  // in the order of drawing
+    std::vector<float> farthest_;  // per block of samples
     std::vector<SamplePair> pairs_;
     std::vector<LineCrossing> crossings_;
     std::vector<SamplePair> crossing_places_;

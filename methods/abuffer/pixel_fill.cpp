@@ -1,70 +1,177 @@
 #include "methods/abuffer/pixel_fill.h"
 
 #include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
 #include <limits>
 
 #include "shading/surface_shader.h"
 
 namespace burin {
+namespace {
 
-const PixelFiller::Look& PixelFiller::look_of(std::uint32_t number) {
-    Look& look = looks_[number % kSlots];
-    if (look.number == number) return look;
+glm::dvec3 vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels)
+    : frame_(frame), screen_(screen), kernels_(kernels) {
+    const int per_pixel = frame.scene->abuffer.samples_per_pixel;
+    const auto samples = static_cast<float>(per_pixel * per_pixel);
+    for (int covered = 0; covered <= per_pixel * per_pixel; ++covered) {
+        const glm::vec4 sum = glm::vec4(frame.scene->surfaces.paper_color, 1.0f) * static_cast<float>(covered);
+        const glm::vec4 color = sum / samples;
+        paper_.push_back({Film::to_half(color.r), Film::to_half(color.g), Film::to_half(color.b), Film::to_half(color.a)});
+    }
+}
+
+void PixelFiller::find_looks(const SampleTile& samples, PixelRect rect) {
+    const int s = samples.samples_per_pixel;
+    const auto width = static_cast<std::size_t>(rect.width());
+    look_at_.resize(width * static_cast<std::size_t>(rect.height()));
+    numbers_.assign(1, 0);
+    std::uint32_t above[kWidth], here[kWidth];
+    std::fill_n(above, kWidth, SampleTile::kBackground);
+    std::size_t at = 0;
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        const std::uint32_t* id = &samples.ids[samples.index(rect.x0 * s + s / 2, y * s + s / 2)];
+        std::uint32_t left = SampleTile::kBackground;
+        for (std::size_t x = 0; x < width; ++x, ++at, id += s) {
+            here[x] = *id;
+            if (*id == SampleTile::kBackground) {
+                look_at_[at] = 0;
+            } else if (*id == left) {
+                look_at_[at] = look_at_[at - 1];
+            } else if (*id == above[x]) {
+                look_at_[at] = look_at_[at - width];
+            } else {
+                look_at_[at] = static_cast<std::uint16_t>(numbers_.size());
+                numbers_.push_back(*id >> 1);
+            }
+            left = *id;
+        }
+        std::copy_n(here, width, above);
+    }
+}
+
+void PixelFiller::make_looks() {
+    looks_.resize(numbers_.size());
+    looks_[0] = TriangleLook{};
+    looks_[0].nearest = looks_[0].farthest = std::numeric_limits<double>::infinity();
+    std::uint32_t triangles[kWidth];
+    for (std::size_t i = 1; i < numbers_.size();) {
+        const SurfaceId first = screen_.surface_of(numbers_[i]);
+        const Mesh& mesh = screen_.surfaces().mesh_of(first);
+        const std::uint32_t offset = numbers_[i] - first.triangle;
+        std::size_t count = 0;
+        while (count < kWidth && i + count < numbers_.size() && mesh.polygon_normals.empty()) {
+            const std::uint32_t number = numbers_[i + count];
+            if (number - offset >= mesh.triangles.size() || screen_.facing(number) == off_screen) break;
+            triangles[count++] = number - offset;
+        }
+        if (count == 0) {
+            looks_[i] = look_of(numbers_[i]);
+            ++i;
+            continue;
+        }
+        kernels_.look(screen_.transform(first.instance), glm::value_ptr(mesh.positions.front()),
+                      screen_.mesh(first.instance), triangles, count, &looks_[i]);
+        for (; count > 0; --count, ++i) fill_ids(numbers_[i], looks_[i]);
+    }
+}
+
+void PixelFiller::fill_ids(std::uint32_t number, TriangleLook& look) const {
     const SurfaceSet& surfaces = frame_.surfaces;
     const SurfaceId id = screen_.surface_of(number);
-    look.number = number;
     look.object_id = surfaces.object_id(id);
     look.material_id = surfaces.material_id(id);
     look.polygon_id = surfaces.polygon_id(id);
+}
+
+TriangleLook PixelFiller::look_of(std::uint32_t number) const {
+    TriangleLook look{};
+    fill_ids(number, look);
+    const SurfaceSet& surfaces = frame_.surfaces;
+    const SurfaceId id = screen_.surface_of(number);
     glm::dvec3 corners[3];
     surfaces.view_corners(id, corners);
     const glm::dvec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const Mesh& mesh = surfaces.mesh_of(id);
     // A polygon of several triangles has one normal; which side is seen, the triangle says.
-    const glm::dvec3 normal = mesh.polygon_normals.empty()
-                                  ? area / std::max(glm::length(area), 1e-300)
-                                  : surfaces.view_normal(id);
-    const ScreenSurfaces::Facing facing = screen_.facing(number);
+    glm::dvec3 normal = area / std::max(glm::length(area), 1e-300);
+    if (!mesh.polygon_normals.empty()) {
+        const glm::dvec3 own = surfaces.instance_of(id).normal_to_view * mesh.polygon_area_vector(id.triangle);
+        normal = (glm::dot(own, area) < 0 ? -1.0 : 1.0) * surfaces.view_normal(id);
+    }
+    const Facing facing = screen_.facing(number);
     const glm::dvec3 to_corner = surfaces.projection.orthographic ? glm::dvec3(0, 0, -1) : corners[0];
-    const bool away = facing == ScreenSurfaces::off_screen ? glm::dot(area, to_corner) > 0
-                                                           : facing == ScreenSurfaces::clockwise;
-    const double mirror = glm::dot(surfaces.instance_of(id).normal_to_view * mesh.polygon_area_vector(id.triangle), area) < 0 ? -1.0 : 1.0;
-    look.normal = (away ? -1.0 : 1.0) * (mesh.polygon_normals.empty() ? 1.0 : mirror) * normal;
-    look.corner = corners[0];
-    look.world_normal = glm::vec3(surfaces.view_to_world * look.normal);
+    const bool away = facing == off_screen ? glm::dot(area, to_corner) > 0 : facing == clockwise;
+    normal *= away ? -1.0 : 1.0;
+    const glm::vec3 world(surfaces.view_to_world * normal);
+    for (int c = 0; c < 3; ++c) {
+        look.normal[c] = normal[c];
+        look.corner[c] = corners[0][c];
+        look.world_normal[c] = world[c];
+    }
     look.nearest = std::max(std::min({-corners[0].z, -corners[1].z, -corners[2].z}), surfaces.projection.near_distance);
     look.farthest = std::max({-corners[0].z, -corners[1].z, -corners[2].z});
     return look;
 }
 
-glm::vec4 PixelFiller::color(std::uint32_t number, int x, int y) {
-    const Scene& scene = *frame_.scene;
-    if (scene.surfaces.shading == SurfaceShading::paper) return glm::vec4(scene.surfaces.paper_color, 1.0f);
+double PixelFiller::distance(const TriangleLook& look, int x, int y) const {
     glm::dvec3 origin, ray;
     frame_.surfaces.projection.view_ray({x + 0.5, y + 0.5}, origin, ray);
-    const Look& look = look_of(number);
-    return surface_color(scene.surfaces, scene.materials[look.material_id - 1], look.normal, -glm::normalize(ray));
+    const glm::dvec3 normal = vector_of(look.normal);
+    const double at = glm::dot(normal, vector_of(look.corner) - origin) / glm::dot(normal, ray);
+    // A triangle seen edge-on may be met anywhere along the ray, or nowhere.
+    return std::isfinite(at) ? std::clamp(at, look.nearest, look.farthest) : look.nearest;
 }
 
-void PixelFiller::shade(const SampleTile& samples, int x, int y, PixelResult& result) {
+void PixelFiller::put_geometry(PixelRect rect, int y) {
+    const auto width = static_cast<std::size_t>(rect.width());
+    const std::uint16_t* const look_at = &look_at_[static_cast<std::size_t>(y - rect.y0) * width];
+    for (std::size_t i = 0; i < width; ++i) {
+        const TriangleLook& look = looks_[look_at[i]];
+        row_.distance[i] = look_at[i] == 0 ? std::numeric_limits<float>::infinity()
+                                           : static_cast<float>(distance(look, rect.x0 + static_cast<int>(i), y));
+        for (std::size_t c = 0; c < 3; ++c) row_.normal[c][i] = look.world_normal[c];
+        row_.ids[0][i] = look.object_id;
+        row_.ids[1][i] = look.material_id;
+        row_.ids[2][i] = look.polygon_id;
+    }
+}
+
+void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, int y) {
     const int s = samples.samples_per_pixel;
-    const auto stride = static_cast<std::size_t>(samples.stride);
-    const std::size_t first = samples.index(x * s, y * s);
-    glm::vec4 sum(0.0f);
-    if (frame_.scene->surfaces.shading == SurfaceShading::paper) {
-        int covered = 0;
-        for (std::size_t row = 0; row < static_cast<std::size_t>(s); ++row) {
-            for (std::size_t column = 0; column < static_cast<std::size_t>(s); ++column) {
-                covered += samples.ids[first + row * stride + column] != SampleTile::kBackground;
-            }
-        }
-        sum = glm::vec4(frame_.scene->surfaces.paper_color, 1.0f) * static_cast<float>(covered);
-    } else {
+    std::uint8_t covered[kWidth + 8];
+    const std::size_t first = samples.index(rect.x0 * s, y * s);
+    kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rect.width()); ++i) {
+        const auto& color = paper_[covered[i]];
+        for (std::size_t c = 0; c < 4; ++c) row_.color[c][i] = color[c];
+    }
+}
+
+glm::vec4 PixelFiller::color(std::uint32_t number, int x, int y) {
+    if (number != shaded_number_) {
+        shaded_number_ = number;
+        shaded_look_ = look_of(number);
+    }
+    const Scene& scene = *frame_.scene;
+    glm::dvec3 origin, ray;
+    frame_.surfaces.projection.view_ray({x + 0.5, y + 0.5}, origin, ray);
+    return surface_color(scene.surfaces, scene.materials[shaded_look_.material_id - 1], vector_of(shaded_look_.normal),
+                         -glm::normalize(ray));
+}
+
+void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y) {
+    const int s = samples.samples_per_pixel;
+    for (int x = rect.x0; x < rect.x1; ++x) {
+        glm::vec4 sum(0.0f);
         std::uint32_t last_id = SampleTile::kBackground;
         glm::vec4 last_color(0.0f);
-        for (std::size_t row = 0; row < static_cast<std::size_t>(s); ++row) {
-            for (std::size_t column = 0; column < static_cast<std::size_t>(s); ++column) {
-                const std::uint32_t id = samples.ids[first + row * stride + column];
+        for (int row = 0; row < s; ++row) {
+            for (int column = 0; column < s; ++column) {
+                const std::uint32_t id = samples.ids[samples.index(x * s + column, y * s + row)];
                 if (id != last_id) {
                     last_id = id;
                     last_color = id == SampleTile::kBackground ? glm::vec4(0.0f) : color(id >> 1, x, y);
@@ -72,45 +179,32 @@ void PixelFiller::shade(const SampleTile& samples, int x, int y, PixelResult& re
                 sum += last_color;
             }
         }
+        sum /= static_cast<float>(s * s);
+        for (int c = 0; c < 4; ++c) row_.color[c][x - rect.x0] = Film::to_half(sum[c]);
     }
-    result.surface = sum / static_cast<float>(s * s);
-    result.beauty = result.surface;
-    // The sample next to the pixel's centre stands for the pixel in depth, normal and numbers.
-    const std::uint32_t central = samples.ids[first + static_cast<std::size_t>(s / 2) * (stride + 1)];
-    if (central == SampleTile::kBackground) {
-        result.distance = std::numeric_limits<float>::infinity();
-        result.normal = glm::vec3(0.0f);
-        result.object_id = result.material_id = result.polygon_id = 0;
-        return;
-    }
-    const Look& look = look_of(central >> 1);
-    glm::dvec3 origin, ray;
-    frame_.surfaces.projection.view_ray({x + 0.5, y + 0.5}, origin, ray);
-    const double distance = glm::dot(look.normal, look.corner - origin) / glm::dot(look.normal, ray);
-    // A triangle seen edge-on may be met anywhere along the ray, or nowhere.
-    result.distance = static_cast<float>(std::isfinite(distance) ? std::clamp(distance, look.nearest, look.farthest)
-                                                                 : look.nearest);
-    result.normal = look.world_normal;
-    result.object_id = look.object_id;
-    result.material_id = look.material_id;
-    result.polygon_id = look.polygon_id;
 }
 
 void PixelFiller::fill(const LineTile& tile, Film& film) {
-    const PixelRect rect = tile.rect();
-    const int x0 = std::max(rect.x0, frame_.crop.x0), x1 = std::min(rect.x1, frame_.crop.x1);
-    if (x0 >= x1) return;
+    PixelRect rect = tile.rect();
+    rect = {std::max(rect.x0, frame_.crop.x0), std::max(rect.y0, frame_.crop.y0), std::min(rect.x1, frame_.crop.x1),
+            std::min(rect.y1, frame_.crop.y1)};
+    if (rect.x0 >= rect.x1) return;
+    if (tile.is_empty()) {
+        for (int y = rect.y0; y < rect.y1; ++y) film.put_background(rect.x0, rect.x1, y);
+        return;
+    }
     const SampleTile& samples = tile.samples();
-    PixelResult result;
-    for (int y = std::max(rect.y0, frame_.crop.y0); y < std::min(rect.y1, frame_.crop.y1); ++y) {
-        if (tile.is_empty()) {
-            film.put_background(x0, x1, y);
-            continue;
-        }
-        for (int x = x0; x < x1; ++x) {
-            shade(samples, x, y, result);
-            film.put(x, y, result);
-        }
+    find_looks(samples, rect);
+    make_looks();
+    const bool is_paper = frame_.scene->surfaces.shading == SurfaceShading::paper;
+    const SurfaceRow row{{row_.color[0], row_.color[1], row_.color[2], row_.color[3]},
+                         row_.distance,
+                         {row_.normal[0], row_.normal[1], row_.normal[2]},
+                         {row_.ids[0], row_.ids[1], row_.ids[2]}};
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        put_geometry(rect, y);
+        is_paper ? put_paper(samples, rect, y) : put_shaded(samples, rect, y);
+        film.put_row(rect.x0, rect.x1, y, row);
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "methods/abuffer/line_tile.h"
@@ -7,34 +8,44 @@
 
 namespace burin {
 
-/// Fills the pixels of a tile from its samples, without lines. One per thread: what is computed for a
-/// surface is kept while it comes up again.
+/// Fills the pixels of a tile from its samples, without lines. One per thread; buffers are used again.
 class PixelFiller {
   public:
-    PixelFiller(const Frame& frame, const ScreenSurfaces& screen) : frame_(frame), screen_(screen), looks_(kSlots) {}
+    PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels);
 
     /// Puts the pixels of a tile that lie in the frame's crop.
     void fill(const LineTile& tile, Film& film);
 
   private:
-    /// What all pixels of a triangle have in common.
-    struct Look {
-        std::uint32_t number = 0xFFFFFFFFu;
-        bool has_geometry = false;
-        glm::dvec3 corner, normal;  // in view space; towards the eye
-        double nearest, farthest;   // distances
-        glm::vec3 world_normal;
-        std::uint32_t object_id, material_id, polygon_id;
-    };
-    static constexpr std::size_t kSlots = 512;
+    static constexpr int kWidth = TileGrid::kTileSamples / 2;  // the widest tile, in pixels
 
-    const Look& look_of(std::uint32_t number);
-    void shade(const SampleTile& samples, int x, int y, PixelResult& result);
+    /// The sample next to a pixel's centre stands for the pixel in depth, normal and numbers: finds the
+    /// triangles there, and their looks.
+    void find_looks(const SampleTile& samples, PixelRect rect);
+    void make_looks();
+    TriangleLook look_of(std::uint32_t number) const;
+    void fill_ids(std::uint32_t number, TriangleLook& look) const;
+    double distance(const TriangleLook& look, int x, int y) const;
+
+    void put_geometry(PixelRect rect, int y);
+    void put_paper(const SampleTile& samples, PixelRect rect, int y);
+    void put_shaded(const SampleTile& samples, PixelRect rect, int y);
     glm::vec4 color(std::uint32_t number, int x, int y);
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
-    std::vector<Look> looks_;  // by the last bits of the number
+    const TileKernels& kernels_;
+    std::vector<std::uint32_t> numbers_;  // of triangles; the first one is none
+    std::vector<TriangleLook> looks_;     // of them
+    std::vector<std::uint16_t> look_at_;  // per pixel of the tile, which of them
+    std::vector<std::array<std::uint16_t, 4>> paper_;  // by the number of covered samples
+    std::uint32_t shaded_number_ = 0xFFFFFFFFu;        // whose look is:
+    TriangleLook shaded_look_{};
+    struct Row {
+        std::uint16_t color[4][kWidth];
+        float distance[kWidth], normal[3][kWidth];
+        std::uint32_t ids[3][kWidth];
+    } row_;
 };
 
 }  // namespace burin

@@ -1,6 +1,7 @@
 #include "methods/abuffer/screen_surfaces.h"
 
 #include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -17,23 +18,29 @@ void for_chunks(std::size_t count, int threads, const Work& work) {
     });
 }
 
-ScreenVertex project(const SurfaceSet& surfaces, std::uint32_t instance, std::uint32_t vertex) {
-    const glm::dvec3 view = surfaces.view_position(instance, vertex);
-    ScreenVertex result;
-    if (!needs_no_clipping(surfaces.projection, view)) {
-        result.x = ScreenVertex::kOffScreen;
-        return result;
+ScreenTransform transform_of(const SurfaceSet& surfaces, const SurfaceInstance& instance) {
+    ScreenTransform t{};
+    for (int column = 0; column < 4; ++column) {
+        for (int c = 0; c < 3; ++c) t.to_view[column][c] = instance.to_view[column][c];
     }
-    const glm::dvec2 pixel = surfaces.projection.to_pixel(view);
-    result.x = static_cast<std::int32_t>(snap_to_subpixels(pixel.x));
-    result.y = static_cast<std::int32_t>(snap_to_subpixels(pixel.y));
-    result.nearness = static_cast<float>(surfaces.projection.nearness(view) - surfaces.farthest_nearness);
-    return result;
+    for (int column = 0; column < 3; ++column) {
+        for (int c = 0; c < 3; ++c) t.view_to_world[column][c] = surfaces.view_to_world[column][c];
+    }
+    const Projection& p = surfaces.projection;
+    t.orthographic = p.orthographic;
+    t.focal_px = p.focal_px;
+    t.center_x = p.center_px.x;
+    t.center_y = p.center_px.y;
+    t.near_distance = p.near_distance;
+    t.guard_band_px = kGuardBandPx;
+    t.farthest_nearness = surfaces.farthest_nearness;
+    return t;
 }
 
 }  // namespace
 
-ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria, int threads)
+ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria,
+                               const TileKernels& kernels, int threads)
     : surfaces_(surfaces), criteria_(criteria) {
     std::size_t vertex_count = 0;
     std::uint64_t triangle_count = 0;
@@ -47,14 +54,14 @@ ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& c
         }
     }
     first_triangle_.push_back(static_cast<std::uint32_t>(triangle_count));
-    vertices_.resize(vertex_count);
-    facing_.resize(triangle_count);
+    vertices_ = std::make_unique_for_overwrite<ScreenVertex[]>(vertex_count);
+    facing_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
     for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
         const SurfaceInstance& instance = surfaces.instances[i];
+        const ScreenTransform& transform = transforms_.emplace_back(transform_of(surfaces, instance));
         for_chunks(instance.mesh->positions.size(), threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v) {
-                vertices_[first_vertex_[i] + v] = project(surfaces, i, static_cast<std::uint32_t>(v));
-            }
+            const float* const positions = glm::value_ptr(instance.mesh->positions[begin]);
+            kernels.project(transform, positions, end - begin, vertices_.get() + first_vertex_[i] + begin);
         });
         sharp_.push_back(keeps_angles(instance.to_view) ? sharp_edges_of(instance) : nullptr);
     }
@@ -65,6 +72,18 @@ const std::uint8_t* ScreenSurfaces::sharp_edges_of(const SurfaceInstance& instan
     std::vector<std::uint8_t>& table = made_here_[instance.mesh];
     if (table.empty()) table = find_sharp_edges(*instance.mesh, criteria_);
     return table.data();
+}
+
+ScreenMesh ScreenSurfaces::mesh(std::uint32_t instance) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    ScreenMesh result;
+    result.vertices = vertices(instance);
+    result.corners = mesh.triangles.empty() ? nullptr : mesh.triangles.front().data();
+    result.first_number = first_triangle_[instance];
+    result.sharp = sharp_[instance];
+    result.partners = mesh.next_on_edge.data();
+    result.facing = facing_.get() + first_triangle_[instance];
+    return result;
 }
 
 SurfaceId ScreenSurfaces::surface_of(std::uint32_t number) const {

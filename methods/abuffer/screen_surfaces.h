@@ -2,9 +2,10 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
-#include "abuffer/screen_triangle.h"
+#include "abuffer/tile_kernels.h"
 #include "lines/sharp_edges.h"
 #include "lines/surface_set.h"
 #include "lines/surface_walk.h"
@@ -14,7 +15,8 @@ namespace burin {
 /// The vertices of a frame on the screen, projected and snapped once, and numbers for its triangles.
 class ScreenSurfaces {
   public:
-    ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria, int threads);
+    ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria, const TileKernels& kernels,
+                   int threads);
 
     std::uint32_t triangle_count() const { return first_triangle_.back(); }
     /// Triangles of the whole frame are numbered through, instance by instance.
@@ -22,18 +24,21 @@ class ScreenSurfaces {
     SurfaceId surface_of(std::uint32_t number) const;
 
     const ScreenVertex* vertices(std::uint32_t instance) const {
-        return vertices_.data() + first_vertex_[instance];
+        return vertices_.get() + first_vertex_[instance];
     }
     ScreenTriangle triangle(SurfaceId s) const {
         const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
         const ScreenVertex* const v = vertices(s.instance);
-        return {{v[t[0]], v[t[1]], v[t[2]]}, number_of(s) << 1};
+        return {{v[t[0]], v[t[1]], v[t[2]]}};
     }
+    /// An instance as the kernels see it.
+    ScreenMesh mesh(std::uint32_t instance) const;
+    const ScreenTransform& transform(std::uint32_t instance) const { return transforms_[instance]; }
 
-    /// Which way a triangle is wound on the screen.
-    enum Facing : std::uint8_t { edge_on, clockwise, counterclockwise, off_screen };
     Facing facing(std::uint32_t number) const { return static_cast<Facing>(facing_[number]); }
     void set_facing(std::uint32_t number, Facing f) { facing_[number] = f; }
+    /// Those of an instance.
+    std::uint8_t* facings(std::uint32_t instance) { return facing_.get() + first_triangle_[instance]; }
     /// Once the facing of all triangles is known: whether no edge of a triangle can be a line.
     bool is_plain(std::uint32_t number) const;
 
@@ -49,8 +54,9 @@ class ScreenSurfaces {
     const LineCriteria& criteria_;
     std::vector<std::size_t> first_vertex_;
     std::vector<std::uint32_t> first_triangle_;  // one more than instances
-    std::vector<ScreenVertex> vertices_;
-    std::vector<std::uint8_t> facing_;
+    std::vector<ScreenTransform> transforms_;  // per instance
+    std::unique_ptr<ScreenVertex[]> vertices_;
+    std::unique_ptr<std::uint8_t[]> facing_;
     std::vector<const std::uint8_t*> sharp_;  // per instance
     std::map<const Mesh*, std::vector<std::uint8_t>> made_here_;
 };

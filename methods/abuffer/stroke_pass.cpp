@@ -1,7 +1,9 @@
 #include "methods/abuffer/stroke_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/parallel.h"
 #include "lines/stroke_mask.h"
@@ -63,55 +65,80 @@ class SegmentBins {
     std::vector<const LineSegment*> sorted_;
 };
 
+/// The strokes of one tile, class by class.
+class StrokeTile {
+  public:
+    explicit StrokeTile(const TileKernels& kernels) : kernels_(kernels) {
+        for (StrokeCanvas& canvas : canvases_) canvas = StrokeCanvas(kernels);
+    }
+
+    void draw(std::span<const LineSegment* const> segments, PixelRect rect, double radius_px) {
+        rect_ = rect;
+        present_ = LineClassSet();
+        for (const LineSegment* s : segments) {
+            StrokeCanvas& canvas = canvas_of(s->drawn_as);
+            if (!present_.has(s->drawn_as)) canvas.reset(rect.x0, rect.y0, rect.width(), rect.height());
+            present_ |= s->drawn_as;
+            canvas.draw(s->from, s->to, radius_px);
+        }
+    }
+
+    void put(const LineStyle& style, float strength, Film& film) {
+        std::vector<LineClass>& classes = classes_;
+        classes.clear();
+        for (int c = 0; c < kLineClassCount; ++c) {
+            if (present_.has(static_cast<LineClass>(c))) classes.push_back(static_cast<LineClass>(c));
+        }
+        for (int row = 0; row < rect_.height(); ++row) {
+            for (int column = 0; column < rect_.width(); ++column) {
+                bool touched = false;
+                for (const LineClass c : classes) touched = touched || canvas_of(c).is_touched(column, row);
+                if (touched) film.draw_over(rect_.x0 + column, rect_.y0 + row, pixel(column, row, style, strength));
+            }
+        }
+    }
+
+  private:
+    StrokeCanvas& canvas_of(LineClass c) { return canvases_[static_cast<std::size_t>(c)]; }
+
+    /// Where classes overlap, the first one counts.
+    LinePixel pixel(int column, int row, const LineStyle& style, float strength) {
+        LinePixel result;
+        StrokeMask drawn;
+        for (const LineClass c : classes_) {
+            if (!canvas_of(c).is_touched(column, row)) continue;
+            const StrokeMask& mask = canvas_of(c).at(column, row);
+            const int fresh = kernels_.count_bits(mask.rows.data(), drawn.rows.data());
+            for (std::size_t r = 0; r < mask.rows.size(); ++r) drawn.rows[r] |= mask.rows[r];
+            const float coverage = strength * static_cast<float>(fresh) / (StrokeMask::kRows * StrokeMask::kColumns);
+            result.coverage[static_cast<std::size_t>(c)] = coverage;
+            result.color += glm::vec4(style.color_of(c), 1.0f) * coverage;
+        }
+        return result;
+    }
+
+    const TileKernels& kernels_;
+    std::array<StrokeCanvas, kLineClassCount> canvases_;
+    PixelRect rect_;
+    LineClassSet present_;
+    std::vector<LineClass> classes_;
+};
+
 }  // namespace
 
-void draw_strokes(const Frame& frame, const std::vector<std::vector<LineSegment>>& segments, int threads,
-                  Film& film) {
+void draw_strokes(const Frame& frame, const std::vector<std::vector<LineSegment>>& segments,
+                  const TileKernels& kernels, int threads, Film& film) {
     const LineStyle& style = frame.scene->lines.style;
     const double width = std::max(style.width_px, kFinestWidthPx);
     const float strength = static_cast<float>(style.width_px / width);
     const SegmentBins bins(segments, frame.crop, 0.5 * width + 1.0);
-    std::vector<StrokeCanvas> canvases(static_cast<std::size_t>(threads));
-    std::vector<StrokeCanvas> taken(static_cast<std::size_t>(threads));
+    std::vector<StrokeTile> tiles(static_cast<std::size_t>(threads), StrokeTile(kernels));
     parallel_for(bins.tile_count(), threads, [&](std::size_t index, int worker) {
         const auto list = bins.segments(index);
         if (list.empty()) return;
-        const PixelRect rect = bins.tile(index);
-        StrokeCanvas& canvas = canvases[static_cast<std::size_t>(worker)];
-        LineClassSet present;
-        for (const LineSegment* s : list) present |= s->drawn_as;
-        const auto pixels = static_cast<std::size_t>(rect.width() * rect.height());
-        std::vector<StrokeMask> drawn;
-        std::vector<LinePixel> result(pixels);
-        std::vector<std::uint8_t> touched(pixels, 0);
-        drawn.resize(pixels);
-        for (int c = 0; c < kLineClassCount; ++c) {
-            const auto line_class = static_cast<LineClass>(c);
-            if (!present.has(line_class)) continue;
-            canvas.reset(rect.x0, rect.y0, rect.width(), rect.height());
-            for (const LineSegment* s : list) {
-                if (s->drawn_as == line_class) canvas.draw(s->from, s->to, 0.5 * width);
-            }
-            for (std::size_t i = 0; i < pixels; ++i) {
-                const int column = static_cast<int>(i) % rect.width(), row = static_cast<int>(i) / rect.width();
-                if (!canvas.is_touched(column, row)) continue;
-                StrokeMask fresh = canvas.at(column, row);
-                for (std::size_t r = 0; r < fresh.rows.size(); ++r) {
-                    fresh.rows[r] &= ~drawn[i].rows[r];
-                    drawn[i].rows[r] |= fresh.rows[r];
-                }
-                const float coverage =
-                    strength * static_cast<float>(fresh.count()) / (StrokeMask::kRows * StrokeMask::kColumns);
-                result[i].coverage[static_cast<std::size_t>(c)] = coverage;
-                result[i].color += glm::vec4(style.color_of(line_class), 1.0f) * coverage;
-                touched[i] = 1;
-            }
-        }
-        for (std::size_t i = 0; i < pixels; ++i) {
-            if (touched[i] == 0) continue;
-            film.draw_over(rect.x0 + static_cast<int>(i) % rect.width(),
-                           rect.y0 + static_cast<int>(i) / rect.width(), result[i]);
-        }
+        StrokeTile& tile = tiles[static_cast<std::size_t>(worker)];
+        tile.draw(list, bins.tile(index), 0.5 * width);
+        tile.put(style, strength, film);
     });
 }
 

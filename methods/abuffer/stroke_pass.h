@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "abuffer/tile_kernels.h"
 #include "lines/line_segment.h"
 #include "render/film.h"
 #include "render/frame.h"
@@ -9,7 +10,7 @@
 namespace burin {
 
 /// Draws pieces of lines as strokes over a film.
-void draw_strokes(const Frame& frame, const std::vector<std::vector<LineSegment>>& segments, int threads,
-                  Film& film);
+void draw_strokes(const Frame& frame, const std::vector<std::vector<LineSegment>>& segments,
+                  const TileKernels& kernels, int threads, Film& film);
 
 }  // namespace burin

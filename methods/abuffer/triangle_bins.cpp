@@ -1,6 +1,8 @@
 #include "methods/abuffer/triangle_bins.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 #include "base/parallel.h"
 
@@ -41,15 +43,27 @@ Box box_of(const Corners& corners, int count) {
     return box;
 }
 
+/// What one chunk has in one tile, wound one way.
+struct TileRun {
+    std::uint32_t key, begin, count;
+};
+
 /// One chunk's triangles with the tiles they touch.
 struct Records {
-    std::vector<std::uint32_t> small_tiles, large_tiles;
-    std::vector<ScreenTriangle> small;
-    std::vector<std::uint32_t> large;  // numbers into polygons
+    std::vector<TileRun> runs;             // of `small`
+    std::vector<std::uint32_t> small;      // numbers in the mesh, sorted by tile
+    std::vector<std::uint32_t> large_tiles, large;  // numbers into polygons
     std::vector<LargePolygon> polygons;
 };
 
-SpanPlane plane_of_triangle(const ScreenTriangle& t) {
+/// Buffers of one thread.
+struct Scratch {
+    std::vector<std::uint32_t> triangles, keys;            // what the kernel found
+    std::vector<std::uint32_t> more_triangles, more_keys;  // of triangles in several tiles
+    std::vector<std::uint32_t> count, used;                // per key; keys with a count
+};
+
+SpanPlane plane_of_triangle(const ScreenTriangle& t, std::uint32_t id) {
     const ScreenVertex &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
     const double per_area = 1.0 / static_cast<double>(doubled_area(a, b, c));
     const double qb = static_cast<double>(b.nearness) - static_cast<double>(a.nearness);
@@ -62,59 +76,108 @@ SpanPlane plane_of_triangle(const ScreenTriangle& t) {
     plane.per_y = static_cast<float>((qc * (b.x - a.x) - qb * (c.x - a.x)) * per_area);
     plane.low = std::min({a.nearness, b.nearness, c.nearness});
     plane.high = std::max({a.nearness, b.nearness, c.nearness});
-    plane.id = t.id;
+    plane.id = id;
     return plane;
 }
 
 class Binner {
   public:
-    Binner(ScreenSurfaces& surfaces, PixelRect region, int tile_px, int columns, int samples_per_pixel)
-        : surfaces_(surfaces),
-          region_(region),
-          tile_px_(tile_px),
-          columns_(columns),
-          pitch_(kSubpixelsPerPixel / samples_per_pixel) {}
+    Binner(ScreenSurfaces& surfaces, const TileGrid& grid, const TileKernels& kernels)
+        : surfaces_(surfaces), grid_(grid), kernels_(kernels) {}
 
-    void bin(SurfaceId s, Records& records) const {
+    void bin(const Chunk& chunk, Scratch& scratch, Records& records) const {
+        const std::size_t room = kChunkTriangles + 8;
+        scratch.triangles.resize(room);
+        scratch.keys.resize(room);
+        scratch.count.resize(2 * tile_count(), 0);
+        std::size_t found = kernels_.cull(surfaces_.mesh(chunk.instance), chunk.first, chunk.end, grid_,
+                                          surfaces_.facings(chunk.instance), scratch.triangles.data(),
+                                          scratch.keys.data());
+        find_tiles_of_others(chunk.instance, found, scratch, records);
+        sort(found, scratch, records);
+    }
+
+  private:
+    std::size_t tile_count() const {
+        const int rows = (grid_.height + TileGrid::kTileSamples - 1) / TileGrid::kTileSamples;
+        return static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(rows);
+    }
+
+    /// Takes what is not in exactly one tile out of the kernel's lists.
+    void find_tiles_of_others(std::uint32_t instance, std::size_t& found, Scratch& scratch, Records& records) const {
+        scratch.more_triangles.clear();
+        scratch.more_keys.clear();
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < found; ++i) {
+            const std::uint32_t triangle = scratch.triangles[i], key = scratch.keys[i];
+            scratch.triangles[kept] = triangle;
+            scratch.keys[kept] = key;
+            if (key < kNotSmall) {
+                ++kept;
+            } else if (key == kNotSmall) {
+                add_not_small({instance, triangle}, records);
+            } else {
+                const ScreenTriangle t = surfaces_.triangle({instance, triangle});
+                const bool turned = surfaces_.facing(surfaces_.number_of({instance, triangle})) == clockwise;
+                for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched) {
+                    scratch.more_triangles.push_back(triangle);
+                    scratch.more_keys.push_back(2 * touched + (turned ? 1 : 0));
+                });
+            }
+        }
+        found = kept;
+    }
+
+    /// Counting sort by key.
+    static void sort(std::size_t found, Scratch& scratch, Records& records) {
+        auto& count = scratch.count;
+        scratch.used.clear();
+        const auto add = [&](std::uint32_t key) {
+            if (count[key]++ == 0) scratch.used.push_back(key);
+        };
+        for (std::size_t i = 0; i < found; ++i) add(scratch.keys[i]);
+        for (const std::uint32_t key : scratch.more_keys) add(key);
+        std::uint32_t begin = 0;
+        records.runs.reserve(scratch.used.size());
+        for (const std::uint32_t key : scratch.used) {
+            records.runs.push_back({key, begin, count[key]});
+            begin += std::exchange(count[key], begin);
+        }
+        records.small.resize(begin);
+        for (std::size_t i = 0; i < found; ++i) records.small[count[scratch.keys[i]]++] = scratch.triangles[i];
+        for (std::size_t i = 0; i < scratch.more_keys.size(); ++i) {
+            records.small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
+        }
+        for (const std::uint32_t key : scratch.used) count[key] = 0;
+    }
+
+    void add_not_small(SurfaceId s, Records& records) const {
         const std::uint32_t number = surfaces_.number_of(s);
         const ScreenTriangle t = surfaces_.triangle(s);
         const bool is_off = std::any_of(std::begin(t.corners), std::end(t.corners), [](const ScreenVertex& v) {
             return v.x == ScreenVertex::kOffScreen;
         });
         if (is_off) {
-            surfaces_.set_facing(number, ScreenSurfaces::off_screen);
+            surfaces_.set_facing(number, off_screen);
             return bin_clipped(s, number, records);
         }
         const std::int64_t area = doubled_area(t.corners[0], t.corners[1], t.corners[2]);
-        surfaces_.set_facing(number, area == 0  ? ScreenSurfaces::edge_on
-                                     : area > 0 ? ScreenSurfaces::clockwise
-                                                : ScreenSurfaces::counterclockwise);
+        surfaces_.set_facing(number, area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
         if (area == 0) return;
-        const Box box = box_of(t.corners, 3);
-        if (has_no_sample(box)) return;
-        if (box.x1 - box.x0 < kLargestSmallTriangle && box.y1 - box.y0 < kLargestSmallTriangle) {
-            for_tiles(box, [&](std::uint32_t tile) {
-                records.small_tiles.push_back(tile);
-                records.small.push_back(t);
-            });
-            return;
-        }
         LargePolygon large;
         large.surface = s;
         large.polygon.count = 3;
         for (std::size_t k = 0; k < 3; ++k) large.polygon.corners[k] = {t.corners[k].x, t.corners[k].y};
-        large.plane = plane_of_triangle(t);
-        add_large(large, box, records);
+        large.plane = plane_of_triangle(t, number << 1);
+        add_large(large, box_of(t.corners, 3), records);
     }
 
-  private:
     void bin_clipped(SurfaceId s, std::uint32_t number, Records& records) const {
         LargePolygon large;
         large.surface = s;
         large.polygon = surfaces_.surfaces().screen_polygon(s);
         if (large.polygon.count == 0) return;
         const Box box = box_of(large.polygon.corners, large.polygon.count);
-        if (has_no_sample(box)) return;
         const DepthPlane plane = surfaces_.surfaces().plane(s);
         const SubpixelPoint at = large.polygon.corners[0];
         const double zero = surfaces_.surfaces().farthest_nearness;
@@ -141,85 +204,86 @@ class Binner {
         if (touches) records.polygons.push_back(large);
     }
 
-    /// Whether a box lies between the rows or the columns of the sample grid.
-    bool has_no_sample(const Box& box) const {
-        const auto between = [this](std::int32_t low, std::int32_t high) {
-            const int shift = kSubpixelsPerPixel / 2;  // any number of pitches
-            const std::int32_t half = pitch_ / 2;
-            (void)shift;
-            return floor_div(low - half - 1) == floor_div(high - half);
-        };
-        return between(box.x0, box.x1) || between(box.y0, box.y1);
-    }
-    std::int32_t floor_div(std::int32_t a) const {
-        return a >= 0 ? a / pitch_ : -((-a + pitch_ - 1) / pitch_);
-    }
-
     template <typename Visit>
     void for_tiles(const Box& box, const Visit& visit) const {
-        // One sample beyond its right and lower border belongs to a tile as well.
-        const std::int32_t tile = tile_px_ * kSubpixelsPerPixel;
-        const std::int32_t left = box.x0 - region_.x0 * kSubpixelsPerPixel;
-        const std::int32_t right = box.x1 - region_.x0 * kSubpixelsPerPixel;
-        const std::int32_t top = box.y0 - region_.y0 * kSubpixelsPerPixel;
-        const std::int32_t bottom = box.y1 - region_.y0 * kSubpixelsPerPixel;
-        const std::int32_t width = region_.width() * kSubpixelsPerPixel + pitch_;
-        const std::int32_t height = region_.height() * kSubpixelsPerPixel + pitch_;
-        if (right < 0 || bottom < 0 || left > width || top > height) return;
-        const int last_column = std::min(right, width - pitch_ - 1) / tile;
-        const int last_row = std::min(bottom, height - pitch_ - 1) / tile;
-        for (int row = std::max(top - pitch_, 0) / tile; row <= last_row; ++row) {
-            for (int column = std::max(left - pitch_, 0) / tile; column <= last_column; ++column) {
-                visit(static_cast<std::uint32_t>(row * columns_ + column));
+        // The samples in the box, relative to the grid.
+        const std::int32_t half = (1 << grid_.pitch_shift) / 2;
+        const auto first_from = [&](std::int32_t at) { return (at + half - 1) >> grid_.pitch_shift; };
+        const auto last_before = [&](std::int32_t at) { return (at - half) >> grid_.pitch_shift; };
+        const std::int32_t column0 = first_from(box.x0) - grid_.first_column;
+        const std::int32_t column1 = last_before(box.x1) - grid_.first_column;
+        const std::int32_t row0 = first_from(box.y0) - grid_.first_row;
+        const std::int32_t row1 = last_before(box.y1) - grid_.first_row;
+        if (column0 > column1 || row0 > row1 || column1 < 0 || row1 < 0 || column0 > grid_.width ||
+            row0 > grid_.height) {
+            return;
+        }
+        constexpr int kShift = TileGrid::kTileShift;
+        for (int row = std::max(row0 - 1, 0) >> kShift; row <= std::min(row1, grid_.height - 1) >> kShift; ++row) {
+            for (int column = std::max(column0 - 1, 0) >> kShift;
+                 column <= std::min(column1, grid_.width - 1) >> kShift; ++column) {
+                visit(static_cast<std::uint32_t>(row * grid_.columns + column));
             }
         }
     }
 
     ScreenSurfaces& surfaces_;
-    PixelRect region_;
-    int tile_px_, columns_;
-    std::int32_t pitch_;
+    const TileGrid& grid_;
+    const TileKernels& kernels_;
 };
 
-template <typename Value>
-void sort_by_tile(const std::vector<Records>& records, std::vector<std::uint32_t> Records::*tiles,
-                  std::vector<Value> Records::*values, std::size_t tile_count, std::vector<std::size_t>& end,
-                  std::vector<Value>& sorted) {
-    end.assign(tile_count + 1, 0);
-    for (const Records& r : records) {
-        for (const std::uint32_t tile : r.*tiles) ++end[tile + 1];
-    }
+void make_ends_of_counts(std::vector<std::size_t>& end) {
     for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-    sorted.resize(end.back());
-    std::vector<std::size_t> next = end;
-    for (const Records& r : records) {
-        for (std::size_t i = 0; i < (r.*tiles).size(); ++i) sorted[next[(r.*tiles)[i]]++] = (r.*values)[i];
-    }
 }
 
 }  // namespace
 
-TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int tile_px, int samples_per_pixel,
-                           int threads)
+TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel,
+                           const TileKernels& kernels, int threads)
     : region_(region),
-      tile_px_(tile_px),
-      columns_((region.width() + tile_px - 1) / tile_px),
-      rows_((region.height() + tile_px - 1) / tile_px) {
+      tile_px_(TileGrid::kTileSamples / samples_per_pixel),
+      columns_((region.width() + tile_px_ - 1) / tile_px_),
+      rows_((region.height() + tile_px_ - 1) / tile_px_) {
+    const TileGrid grid{region.x0 * samples_per_pixel,
+                        region.y0 * samples_per_pixel,
+                        region.width() * samples_per_pixel,
+                        region.height() * samples_per_pixel,
+                        columns_,
+                        std::countr_zero(static_cast<unsigned>(kSubpixelsPerPixel / samples_per_pixel))};
     const std::vector<Chunk> chunks = split_into_chunks(surfaces.surfaces());
     std::vector<Records> records(chunks.size());
-    const Binner binner(surfaces, region, tile_px, columns_, samples_per_pixel);
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
-        for (std::uint32_t t = chunks[c].first; t < chunks[c].end; ++t) {
-            binner.bin({chunks[c].instance, t}, records[c]);
-        }
+    std::vector<Scratch> scratch(static_cast<std::size_t>(threads));
+    const Binner binner(surfaces, grid, kernels);
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int worker) {
+        binner.bin(chunks[c], scratch[static_cast<std::size_t>(worker)], records[c]);
     });
+
+    // Stable, chunk after chunk: the same for any number of threads.
+    run_end_.assign(tile_count() + 1, 0);
+    large_end_.assign(tile_count() + 1, 0);
     for (Records& r : records) {
-        for (std::uint32_t& i : r.large) i += static_cast<std::uint32_t>(large_.size());
+        for (const TileRun& run : r.runs) ++run_end_[run.key / 2 + 1];
+        for (const std::uint32_t tile : r.large_tiles) ++large_end_[tile + 1];
+    }
+    make_ends_of_counts(run_end_);
+    make_ends_of_counts(large_end_);
+    runs_.resize(run_end_.back());
+    large_sorted_.resize(large_end_.back());
+    std::vector<std::size_t> next_run = run_end_, next_large = large_end_;
+    triangles_.resize(chunks.size());
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        Records& r = records[c];
+        triangles_[c] = std::move(r.small);
+        for (const TileRun& run : r.runs) {
+            runs_[next_run[run.key / 2]++] = {chunks[c].instance, run.count, run.key % 2 == 1,
+                                              triangles_[c].data() + run.begin};
+        }
+        const auto before = static_cast<std::uint32_t>(large_.size());
+        for (std::size_t i = 0; i < r.large.size(); ++i) {
+            large_sorted_[next_large[r.large_tiles[i]]++] = before + r.large[i];
+        }
         large_.insert(large_.end(), r.polygons.begin(), r.polygons.end());
     }
-    // Stable, chunk after chunk: the same for any number of threads.
-    sort_by_tile(records, &Records::small_tiles, &Records::small, tile_count(), small_end_, small_);
-    sort_by_tile(records, &Records::large_tiles, &Records::large, tile_count(), large_end_, large_sorted_);
 }
 
 PixelRect TriangleBins::tile(std::size_t index) const {

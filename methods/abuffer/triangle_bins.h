@@ -16,17 +16,25 @@ struct LargePolygon {
     SurfaceId surface;
 };
 
+/// Some small triangles of one instance, wound one way, by their numbers in its mesh.
+struct TriangleRun {
+    std::uint32_t instance, count;
+    bool is_clockwise;
+    const std::uint32_t* triangles;
+};
+
 /// What touches each tile of a picture.
 class TriangleBins {
   public:
-    /// Sets the facing of all triangles on the way. Tiles of `tile_px` pixels cover `region`; a tile
-    /// also gets what lies within `margin` samples' reach to its right and below.
-    TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int tile_px, int samples_per_pixel, int threads);
+    /// Sets the facing of all triangles on the way. Tiles cover `region`; a tile also gets what lies
+    /// on the samples next to its right and lower border.
+    TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel, const TileKernels& kernels,
+                 int threads);
 
     std::size_t tile_count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
     PixelRect tile(std::size_t index) const;
-    std::span<const ScreenTriangle> small(std::size_t tile) const {
-        return {small_.data() + small_end_[tile], small_end_[tile + 1] - small_end_[tile]};
+    std::span<const TriangleRun> runs_in(std::size_t tile) const {
+        return {runs_.data() + run_end_[tile], run_end_[tile + 1] - run_end_[tile]};
     }
     /// Numbers into large().
     std::span<const std::uint32_t> large_in(std::size_t tile) const {
@@ -37,8 +45,9 @@ class TriangleBins {
   private:
     PixelRect region_;
     int tile_px_, columns_, rows_;
-    std::vector<std::size_t> small_end_, large_end_;
-    std::vector<ScreenTriangle> small_;
+    std::vector<std::vector<std::uint32_t>> triangles_;  // what runs point into
+    std::vector<std::size_t> run_end_, large_end_;
+    std::vector<TriangleRun> runs_;
     std::vector<std::uint32_t> large_sorted_;
     std::vector<LargePolygon> large_;
 };

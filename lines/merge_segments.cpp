@@ -1,0 +1,50 @@
+#include "lines/merge_segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace burin {
+namespace {
+
+constexpr double kStraightPx = 1.0 / 2048;
+
+/// From left to right, or downwards.
+void put_in_order(LineSegment& s) {
+    if (s.from.x < s.to.x || (s.from.x == s.to.x && s.from.y < s.to.y)) return;
+    std::swap(s.from, s.to);
+    s.front_on_left = !s.front_on_left;
+}
+
+bool is_before(const LineSegment& a, const LineSegment& b) {
+    if (a.line_key != b.line_key) return a.line_key < b.line_key;
+    if (a.from.x != b.from.x) return a.from.x < b.from.x;
+    return a.from.y < b.from.y;
+}
+
+bool continues(const LineSegment& a, const LineSegment& b) {
+    if (a.line_key != b.line_key || a.to != b.from || a.drawn_as != b.drawn_as || a.front_on_left != b.front_on_left) {
+        return false;
+    }
+    const glm::dvec2 along = b.to - a.from, bend = a.to - a.from;
+    const double area = along.x * bend.y - along.y * bend.x;
+    return area * area <= kStraightPx * kStraightPx * glm::dot(along, along) && glm::dot(along, bend) > 0;
+}
+
+}  // namespace
+
+void merge_segments(std::vector<LineSegment>& segments) {
+    for (LineSegment& s : segments) put_in_order(s);
+    std::sort(segments.begin(), segments.end(), is_before);
+    std::size_t kept = 0;
+    for (std::size_t i = 1; i < segments.size(); ++i) {
+        if (continues(segments[kept], segments[i])) {
+            segments[kept].to = segments[i].to;
+        } else {
+            segments[++kept] = segments[i];
+        }
+    }
+    if (!segments.empty()) segments.resize(kept + 1);
+}
+
+}  // namespace burin
