@@ -92,6 +92,7 @@ Scene load_input(const Arguments& a) {
     if (a.samples_per_pixel) scene.abuffer.samples_per_pixel = *a.samples_per_pixel;
     if (a.mask_bits) scene.patel.mask_bits = *a.mask_bits;
     if (a.lines) scene.lines.classes = *a.lines;
+    if (a.hidden) scene.lines.style.hidden.style = *a.hidden;
     if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
     if (a.crease_angle_deg) scene.lines.crease_angle_deg = *a.crease_angle_deg;
     return scene;

@@ -65,8 +65,6 @@ TEST_F(Usage, WhatIsNotInThisVersion) {
     const std::string words = "not in this version";
     expect_refused({"compare"}, words);
     expect_refused({"compare", "cube.obj", "-o", "folder", "--size", "10x10"}, words);
-    expect_bad_options({"--hidden", "solid"}, words);
-    expect_bad_options({"--hidden", "dashed"}, words);
     expect_bad_options({"--samples", "4"}, words);
     expect_bad_options({"--style", "blueprint"}, words);
     expect_bad_options({"--frames", "1-10"}, words);
@@ -86,7 +84,8 @@ TEST_F(Usage, UnknownNames) {
     expect_bad_options({"-m", "magic"}, "--method: unknown method 'magic'");
     expect_bad_options({"--lines", "silhouette,edge"}, "--lines: unknown line class 'edge'");
     expect_bad_options({"--layers", "beauty,depth"}, "--layers: unknown layer 'depth'");
-    expect_bad_options({"--hidden", "dotted"}, "--hidden");
+    expect_bad_options({"--hidden", "dotted"}, "--hidden: must be none, solid or dashed");
+    expect_bad_options({"-m", "patel", "--hidden", "solid"}, "--hidden: method patel draws no hidden lines");
     expect_bad_options({"--progress", "fancy"}, "--progress");
     expect_bad_options({"--camera", "front"}, "--camera: there is no camera 'front'");
     expect_refused({"render", "scene.toml", "--camera", "side"}, "the input has front");
