@@ -250,7 +250,8 @@ class EdgeFinder {
         if (classes.empty()) return;
         const Mesh& mesh = surfaces_.mesh_of(s);
         // One direction, whichever triangle asks.
-        const auto [a, b] = std::minmax(start_of(mesh, h), end_of(mesh, h));
+        const std::uint32_t a = std::min(start_of(mesh, h), end_of(mesh, h));
+        const std::uint32_t b = std::max(start_of(mesh, h), end_of(mesh, h));
         const auto ends = on_screen(s.instance, a, b);
         if (!ends) return;
         LayerLine line;
