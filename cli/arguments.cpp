@@ -97,17 +97,17 @@ LineClassSet line_classes(std::string_view text) {
 }
 
 LayerSet layer_set(std::string_view text) {
-    LayerSet layers{false, false, false, false, false, false, false};
+    LayerSet layers{false, false, false, false, false, false, false, false};
     const std::pair<std::string_view, bool*> names[] = {
         {"beauty", &layers.beauty}, {"lines", &layers.lines},       {"Z", &layers.depth},
         {"N", &layers.normal},      {"ids", &layers.ids},           {"coverage", &layers.coverage},
-        {"surface", &layers.surface}};
+        {"surface", &layers.surface}, {"lines_hidden", &layers.lines_hidden}};
     for (const std::string_view name : split(text, ',')) {
         const auto it = std::find_if(std::begin(names), std::end(names),
                                      [&](const auto& n) { return n.first == name; });
         if (it == std::end(names)) {
             fail("--layers", "unknown layer '" + printable(name) +
-                                 "'; known are beauty,lines,Z,N,ids,coverage,surface");
+                                 "'; known are beauty,lines,Z,N,ids,coverage,surface,lines_hidden");
         }
         *it->second = true;
     }
@@ -160,7 +160,7 @@ void add_scene_options(CLI::App& app, Texts& t) {
                    "polygon mark, or all, none (default silhouette,border,crease,intersection,object)");
     app.add_option("-w,--line-width", t.width, "full width of strokes in pixels (default 1)");
     app.add_option("--crease-angle", t.crease, "angle between polygons from which on they meet in a crease, degrees (default 40)");
-    app.add_option("--hidden", t.hidden, "occluded lines: none (default); solid, dashed (not in this version)");
+    app.add_option("--hidden", t.hidden, "how occluded lines are drawn: none (default), solid, dashed");
     app.add_option("--style", t.style, "line style sheet (not in this version)");
     app.add_option("--set", t.sets, "override a value of the scene, KEY=VALUE; may be repeated")
         ->expected(1)->take_all()->allow_extra_args(false);
@@ -176,7 +176,7 @@ void add_method_option(CLI::App& app, Texts& t) {
 
 void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("-o,--output", t.output, "file to write, .exr .png or .tif (default: INPUT's name with .png)");
-    app.add_option("--layers", t.layers, "layers of an EXR: beauty lines Z N ids coverage surface (default: the first five)");
+    app.add_option("--layers", t.layers, "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden (default: the first five; the last with --hidden)");
     app.add_option("-f,--frames", t.frames, "frames to render (not in this version)");
     app.add_option("--crop", t.crop, "render only these pixels, X0,Y0,X1,Y1, half open");
     app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
@@ -294,8 +294,14 @@ void fill_scene_options(const Texts& t, Arguments& a) {
             fail("--crease-angle", "must be from 0 to 180 degrees");
         }
     }
-    if (t.hidden == "solid" || t.hidden == "dashed") fail_version("--hidden " + t.hidden);
-    if (!t.hidden.empty() && t.hidden != "none") fail("--hidden", "must be none, solid or dashed");
+    if (!t.hidden.empty()) {
+        const std::pair<std::string_view, HiddenStyle> styles[] = {
+            {"none", HiddenStyle::none}, {"solid", HiddenStyle::solid}, {"dashed", HiddenStyle::dashed}};
+        for (const auto& [name, style] : styles) {
+            if (t.hidden == name) a.hidden = style;
+        }
+        if (!a.hidden) fail("--hidden", "must be none, solid or dashed");
+    }
     if (!t.style.empty()) fail_version("--style");
     if (!t.memory.empty()) fail_version("--memory");
     for (const std::string& set : t.sets) {

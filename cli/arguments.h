@@ -32,6 +32,7 @@ struct Arguments {
     std::optional<int> supersample;
     std::optional<LineClassSet> lines;
     std::optional<double> line_width_px, crease_angle_deg;
+    std::optional<HiddenStyle> hidden;
     LayerSet layers;
     bool names_layers = false;
     std::optional<std::array<int, 4>> crop;

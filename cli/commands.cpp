@@ -119,6 +119,16 @@ void write_stats(const std::string& path, const std::string& text) {
     file.commit();
 }
 
+/// Only the A-buffer keeps the surfaces behind the first.
+void refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene) {
+    if (method.name == "abuffer") return;
+    if (a.hidden && *a.hidden != HiddenStyle::none) {
+        throw UsageError("--hidden: method " + std::string(method.name) +
+                         " draws no hidden lines; use method abuffer");
+    }
+    scene.lines.style.hidden.style = HiddenStyle::none;
+}
+
 /// What a user should know before the picture surprises.
 void note_limits(const Arguments& a, const Frame& frame, const Method& method,
                  const OutputOptions& output) {
@@ -312,13 +322,15 @@ void run_render(const Arguments& a) {
     Stopwatch total, watch;
     StageTimes times;
     Scene scene = load_input(a);
+    refuse_hidden_lines(a, method, scene);
     if (method.name == "abuffer") prepare_for_abuffer(scene, a.threads);
     const Frame frame = frame_of(scene, a);
     times.load_s = watch.lap();
     note_limits(a, frame, method, output);
 
     LayerSet layers = a.layers;
-    if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false};
+    if (!a.names_layers) layers.lines_hidden = scene.lines.style.hidden.style != HiddenStyle::none;
+    if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     Film film = make_film(frame, layers, output.path);
     RunOptions run{a.threads, &progress};
     times.render = method.render(frame, run, film);

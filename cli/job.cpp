@@ -94,6 +94,7 @@ Scene load_input(const Arguments& a) {
     if (a.gbuffer_operators) scene.gbuffer.operators = *a.gbuffer_operators;
     if (a.supersample) scene.gbuffer.supersample = *a.supersample;
     if (a.lines) scene.lines.classes = *a.lines;
+    if (a.hidden) scene.lines.style.hidden.style = *a.hidden;
     if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
     if (a.crease_angle_deg) scene.lines.crease_angle_deg = *a.crease_angle_deg;
     return scene;

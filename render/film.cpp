@@ -50,6 +50,7 @@ Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassS
     if (layers.beauty) add_rgba("", planes_.beauty);
     if (layers.lines) add_rgba("lines.", planes_.lines);
     if (layers.surface) add_rgba("surface.", planes_.surface);
+    if (layers.lines_hidden) add_rgba("lines_hidden.", planes_.lines_hidden);
     for (std::size_t i = 0; i < kLineClassCount && layers.coverage; ++i) {
         if (!classes.has(static_cast<LineClass>(i))) continue;
         add("coverage." + std::string(kLineClassNames[i]), PixelType::float16, planes_.coverage[i]);
@@ -124,6 +125,34 @@ void Film::draw_over(int x, int y, const LinePixel& lines) {
     for (std::size_t c = 0; c < kLineClassCount; ++c) {
         if (planes_.coverage[c] != nullptr) planes_.coverage[c][i] = to_half(lines.coverage[c]);
     }
+}
+
+void Film::put_surface(int x, int y, const glm::vec4& color) {
+    const std::size_t i = index_of(x, y);
+    for (std::size_t c = 0; c < 4; ++c) {
+        const std::uint16_t value = to_half(color[static_cast<int>(c)]);
+        if (planes_.beauty[c] != nullptr) planes_.beauty[c][i] = value;
+        if (planes_.surface[c] != nullptr) planes_.surface[c][i] = value;
+    }
+}
+
+void Film::draw_hidden(int x, int y, const glm::vec4& hidden, const glm::vec4& seen) {
+    const std::size_t i = index_of(x, y);
+    for (std::size_t c = 0; c < 4; ++c) {
+        if (planes_.lines_hidden[c] != nullptr) planes_.lines_hidden[c][i] = to_half(hidden[static_cast<int>(c)]);
+        std::uint16_t* const beauty = planes_.beauty[c];
+        if (beauty == nullptr) continue;
+        beauty[i] = to_half(float_from_half(beauty[i]) * (1.0f - seen.a) + seen[static_cast<int>(c)]);
+    }
+}
+
+void Film::add_lines(int x, int y, const LinePixel& lines) {
+    const std::size_t i = index_of(x, y);
+    const auto add = [i](std::uint16_t* plane, float value) {
+        if (plane != nullptr) plane[i] = to_half(float_from_half(plane[i]) + value);
+    };
+    for (std::size_t c = 0; c < 4; ++c) add(planes_.lines[c], lines.color[static_cast<int>(c)]);
+    for (std::size_t c = 0; c < kLineClassCount; ++c) add(planes_.coverage[c], lines.coverage[c]);
 }
 
 void Film::put(int x, int y, const PixelResult& pixel) {

@@ -20,6 +20,7 @@ struct LayerSet {
     bool ids = true;        ///< id.object id.material id.polygon
     bool coverage = false;  ///< coverage.silhouette, ... one per class drawn
     bool surface = false;   ///< surface.R G B A
+    bool lines_hidden = false;  ///< lines_hidden.R G B A
 };
 
 /// What a method finds out about one pixel. Colours are linear and premultiplied.
@@ -67,6 +68,13 @@ class Film {
     /// As colours are kept: half precision holds 0..1 well, what is beyond its range becomes its largest
     /// number.
     static std::uint16_t to_half(float value);
+    /// Replaces the surface of a pixel that was put without lines.
+    void put_surface(int x, int y, const glm::vec4& color);
+    /// Before draw_over(): puts the hidden lines' own channels, and draws `seen` over the pixel: the
+    /// part of the hidden lines that no visible line will cover, as share of what will be left.
+    void draw_hidden(int x, int y, const glm::vec4& hidden, const glm::vec4& seen);
+    /// After draw_over(): adds to the line channels, but not to the beauty.
+    void add_lines(int x, int y, const LinePixel& lines);
     const Image& image() const { return image_; }
 
   private:
@@ -77,6 +85,7 @@ class Film {
         std::uint16_t* beauty[4] = {};
         std::uint16_t* lines[4] = {};
         std::uint16_t* surface[4] = {};
+        std::uint16_t* lines_hidden[4] = {};
         std::array<std::uint16_t*, kLineClassCount> coverage{};
         float* depth = nullptr;
         float* normal[3] = {};

@@ -250,6 +250,21 @@ class SceneReader {
             }
             colors->finish();
         }
+        if (auto hidden = t.table("hidden")) read_hidden(*hidden, lines.style.hidden);
+        t.finish();
+    }
+
+    static void read_hidden(TomlReader& t, HiddenLineStyle& hidden) {
+        static constexpr HiddenStyle kStyles[] = {HiddenStyle::none, HiddenStyle::solid, HiddenStyle::dashed};
+        hidden.style = kStyles[t.choice("style", {"none", "solid", "dashed"}).value_or(0)];
+        hidden.width_px = t.number("width", {0, 1024, true, false});
+        hidden.color = t.color("color").value_or(hidden.color);
+        if (const auto dash = t.numbers("dash", 2)) {
+            for (const double length : *dash) {
+                if (!(length > 0 && length <= 65535)) t.fail("dash", "must be two lengths in pixels, greater than 0");
+            }
+            hidden.dash_px = {(*dash)[0], (*dash)[1]};
+        }
         t.finish();
     }
 

@@ -1,13 +1,25 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "lines/line_class.h"
 #include "lines/mask_stroke.h"
 
 namespace burin {
+
+enum class HiddenStyle : std::uint8_t { none, solid, dashed };
+
+/// How lines look that opaque surfaces hide.
+struct HiddenLineStyle {
+    HiddenStyle style = HiddenStyle::none;
+    std::optional<double> width_px;               ///< as visible lines where not set
+    std::optional<std::array<double, 2>> dash_px; ///< lengths of a dash and of a gap
+    glm::vec3 color{0.21586f};                     ///< linear RGB; sRGB #808080
+};
 
 /// How lines look.
 struct LineStyle {
@@ -15,7 +27,14 @@ struct LineStyle {
     StrokeSide side = StrokeSide::both;
     std::array<glm::vec3, kLineClassCount> colors{};  ///< linear RGB, per class; black by default
 
+    HiddenLineStyle hidden;
+
     const glm::vec3& color_of(LineClass c) const { return colors[static_cast<std::size_t>(c)]; }
+    double hidden_width_px() const { return hidden.width_px.value_or(width_px); }
+    std::array<double, 2> hidden_dash_px() const {
+        const double unit = std::max(1.0, hidden_width_px());
+        return hidden.dash_px.value_or(std::array<double, 2>{4 * unit, 3 * unit});
+    }
 };
 
 }  // namespace burin

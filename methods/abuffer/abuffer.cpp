@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "methods/abuffer/layer_pass.h"
 #include "methods/abuffer/line_tile.h"
 #include "methods/abuffer/pixel_fill.h"
 #include "methods/abuffer/stroke_pass.h"
@@ -76,10 +77,18 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     stats.raster_s = sum.raster * scale;
     stats.lines_s = sum.lines * scale;
     stats.shade_s = sum.shade * scale;
-    draw_strokes(frame, segments, kernels, stats.threads, film);
+    stats.fragments = sum.fragments;
+    if (LayerPass::is_needed(frame)) {
+        LayerPass layers(frame, screen, stats.threads);
+        layers.draw_below(segments, film);
+        draw_strokes(frame, segments, kernels, stats.threads, film);
+        layers.draw_above(film);
+        stats.fragments += layers.fragment_count();
+    } else {
+        draw_strokes(frame, segments, kernels, stats.threads, film);
+    }
     stats.lines_s += watch.lap();
     stats.triangles = frame.surfaces.triangle_count();
-    stats.fragments = sum.fragments;
     return stats;
 }
 

@@ -63,8 +63,6 @@ TEST_F(Usage, CommandsAndInputs) {
 
 TEST_F(Usage, WhatIsNotInThisVersion) {
     const std::string words = "not in this version";
-    expect_bad_options({"--hidden", "solid"}, words);
-    expect_bad_options({"--hidden", "dashed"}, words);
     expect_bad_options({"--style", "blueprint"}, words);
     expect_bad_options({"--frames", "1-10"}, words);
     expect_bad_options({"-f", "1,5"}, words);
@@ -82,7 +80,8 @@ TEST_F(Usage, UnknownNames) {
     expect_bad_options({"--supersample", "3"}, "--supersample: must be 1, 2, 4 or 8");
     expect_bad_options({"--supersample", "16"}, "--supersample: must be from 1 to 8");
     expect_bad_options({"--layers", "beauty,depth"}, "--layers: unknown layer 'depth'");
-    expect_bad_options({"--hidden", "dotted"}, "--hidden");
+    expect_bad_options({"--hidden", "dotted"}, "--hidden: must be none, solid or dashed");
+    expect_bad_options({"-m", "patel", "--hidden", "solid"}, "--hidden: method patel draws no hidden lines");
     expect_bad_options({"--progress", "fancy"}, "--progress");
     expect_bad_options({"--camera", "front"}, "--camera: there is no camera 'front'");
     expect_refused({"render", "scene.toml", "--camera", "side"}, "the input has front");

@@ -1,0 +1,55 @@
+#include "methods/abuffer/layer_bins.h"
+
+#include "base/parallel.h"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kChunkTriangles = 1 << 14;
+
+using Record = TileLists<std::uint32_t>::Record;
+
+void bin(const ScreenSurfaces& screen, const TileGrid& grid, SurfaceId s, std::vector<Record>& records) {
+    const std::uint32_t number = screen.number_of(s);
+    const ScreenSurfaces::Facing facing = screen.facing(number);
+    if (facing == ScreenSurfaces::edge_on) return;
+    glm::dvec2 low(1e300), high(-1e300);
+    const auto reach = [&](double x, double y) {
+        low = glm::min(low, glm::dvec2(x, y) / 256.0);
+        high = glm::max(high, glm::dvec2(x, y) / 256.0);
+    };
+    std::uint32_t value = number;
+    if (facing == ScreenSurfaces::off_screen) {
+        const ScreenPolygon polygon = screen.surfaces().screen_polygon(s);
+        for (int i = 0; i < polygon.count; ++i) {
+            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+            reach(p.x, p.y);
+        }
+        value |= LayerBins::kClipped;
+    } else {
+        const ScreenVertex* const v = screen.vertices(s.instance);
+        for (const std::uint32_t corner : screen.surfaces().mesh_of(s).triangles[s.triangle]) {
+            reach(v[corner].x, v[corner].y);
+        }
+    }
+    grid.visit(low, high, [&](std::uint32_t tile) { records.push_back({tile, value}); });
+}
+
+}  // namespace
+
+LayerBins::LayerBins(const ScreenSurfaces& screen, const TileGrid& grid, int threads) {
+    const std::uint32_t count = screen.triangle_count();
+    std::vector<std::vector<Record>> records((count + kChunkTriangles - 1) / kChunkTriangles);
+    parallel_for(records.size(), threads, [&](std::size_t chunk, int) {
+        const auto begin = static_cast<std::uint32_t>(chunk) * kChunkTriangles;
+        const std::uint32_t end = std::min(count, begin + kChunkTriangles);
+        SurfaceId s = screen.surface_of(begin);
+        for (std::uint32_t number = begin; number < end; ++number, ++s.triangle) {
+            if (s.triangle == screen.surfaces().mesh_of(s).triangles.size()) s = screen.surface_of(number);
+            bin(screen, grid, s, records[chunk]);
+        }
+    });
+    lists_ = TileLists<std::uint32_t>(records, grid.count());
+}
+
+}  // namespace burin

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "methods/abuffer/screen_surfaces.h"
+#include "methods/abuffer/tile_lists.h"
+
+namespace burin {
+
+/// The numbers of all triangles that touch each tile, be they seen or not, in ascending order.
+/// Triangles that are seen exactly edge-on hide nothing and are left out.
+class LayerBins {
+  public:
+    /// In front of the number of a triangle that is cut by the near plane or the guard band.
+    static constexpr std::uint32_t kClipped = 1u << 31;
+
+    LayerBins(const ScreenSurfaces& screen, const TileGrid& grid, int threads);
+    std::span<const std::uint32_t> triangles(std::size_t tile) const { return lists_.of(tile); }
+
+  private:
+    TileLists<std::uint32_t> lists_;
+};
+
+}  // namespace burin

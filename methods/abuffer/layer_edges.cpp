@@ -1,0 +1,304 @@
+#include "methods/abuffer/layer_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/parallel.h"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kChunkTriangles = 1 << 14;
+/// A triangle lower than this is a fold that is no contour (docs/conventions.md). 1/64 pixel.
+constexpr double kThinSubpixels = 4;
+/// Wider gaps between patches are no seams. 1 pixel.
+constexpr double kWidestCrackSubpixels = 256;
+
+struct ScreenPoint {
+    glm::dvec2 at{0.0};  // in 1/256 pixel
+    double nearness = 0;
+};
+
+class EdgeFinder {
+  public:
+    EdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region)
+        : surfaces_(frame.surfaces),
+          criteria_(frame.criteria),
+          screen_(screen),
+          low_(glm::dvec2(region.x0, region.y0) * 256.0),
+          high_(glm::dvec2(region.x1, region.y1) * 256.0) {}
+
+    void visit(SurfaceId s, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const std::uint32_t number = screen_.number_of(s), first = number - s.triangle;
+        const auto own = screen_.facing(number);
+        const bool is_solid = own == ScreenSurfaces::clockwise || own == ScreenSurfaces::counterclockwise;
+        const std::uint8_t* const table = screen_.sharp_edges(s.instance);
+        const unsigned sharp = table == nullptr ? 7u : table[s.triangle];
+        for (unsigned k = 0; k < 3; ++k) {
+            const HalfEdge h = 3 * s.triangle + k, g = mesh.next_on_edge[h];
+            if ((sharp >> k & 1) == 0 && is_solid && screen_.facing(first + g / 3) == own) continue;
+            if (g == h) {
+                visit_border(s, h, lines);
+            } else if (mesh.next_on_edge[g] == h) {
+                if (h < g) visit_pair(s, h, g, lines);
+            } else {
+                visit_ring(s, h, lines);
+            }
+        }
+    }
+
+  private:
+    SurfaceId triangle_of(SurfaceId s, HalfEdge h) const { return {s.instance, h / 3}; }
+    std::uint32_t start_of(const Mesh& mesh, HalfEdge h) const { return mesh.triangles[h / 3][h % 3]; }
+    std::uint32_t end_of(const Mesh& mesh, HalfEdge h) const { return mesh.triangles[h / 3][(h + 1) % 3]; }
+    std::uint32_t apex_of(const Mesh& mesh, HalfEdge h) const { return mesh.triangles[h / 3][(h + 2) % 3]; }
+
+    bool is_on_screen(std::uint32_t instance, std::uint32_t vertex) const {
+        return screen_.vertices(instance)[vertex].x != ScreenVertex::kOffScreen;
+    }
+
+    /// On which side of the way from a to b the vertex c is seen: -1, 0, 1.
+    int side(std::uint32_t instance, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        const ScreenVertex* const v = screen_.vertices(instance);
+        if (is_on_screen(instance, a) && is_on_screen(instance, b) && is_on_screen(instance, c)) {
+            const std::int64_t area = doubled_area(v[a], v[b], v[c]);
+            return area > 0 ? 1 : area < 0 ? -1 : 0;
+        }
+        const glm::dvec3 p = surfaces_.view_position(instance, a), q = surfaces_.view_position(instance, b),
+                         r = surfaces_.view_position(instance, c);
+        // In space the eye's plane through a and b decides; the screen's y axis points the other way.
+        const double volume = surfaces_.projection.orthographic
+                                  ? -((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x))
+                                  : glm::dot(glm::cross(p, q), r);
+        return volume > 0 ? 1 : volume < 0 ? -1 : 0;
+    }
+
+    /// The longest edge of a triangle that is lower than a negligible fold.
+    std::optional<HalfEdge> base_of_thin(SurfaceId s) const {
+        const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
+        const ScreenVertex* const v = screen_.vertices(s.instance);
+        double longest = -1;
+        HalfEdge base = 0;
+        for (unsigned k = 0; k < 3; ++k) {
+            const ScreenVertex &a = v[t[k]], &b = v[t[(k + 1) % 3]];
+            if (a.x == ScreenVertex::kOffScreen) return std::nullopt;
+            const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y;
+            const double length = dx * dx + dy * dy;
+            if (length > longest) {
+                longest = length;
+                base = 3 * s.triangle + k;
+            }
+        }
+        const auto area = static_cast<double>(doubled_area(v[t[0]], v[t[1]], v[t[2]]));
+        if (area * area >= kThinSubpixels * kThinSubpixels * longest) return std::nullopt;
+        return base;
+    }
+
+    /// The triangle that counts at an edge: behind thin triangles the next one. Nothing at a thin
+    /// triangle's longest edge: the two others stand for it.
+    std::optional<HalfEdge> solid_behind(std::uint32_t instance, HalfEdge h) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        for (int step = 0; step < 4; ++step) {
+            const auto base = base_of_thin({instance, h / 3});
+            if (!base) return h;
+            if (*base == h) {
+                if (step == 0) return std::nullopt;
+                return h;
+            }
+            const HalfEdge g = mesh.next_on_edge[*base];
+            if (g == *base || mesh.next_on_edge[g] != *base) return h;
+            h = g;
+        }
+        return h;
+    }
+
+    /// The side of the triangle at `h`, with its edge taken in the direction of a to b.
+    int side_at(std::uint32_t instance, HalfEdge h, std::uint32_t a, std::uint32_t b) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        std::uint32_t p = start_of(mesh, h), q = end_of(mesh, h);
+        const glm::dvec3 along = surfaces_.view_position(instance, b) - surfaces_.view_position(instance, a);
+        const glm::dvec3 own = surfaces_.view_position(instance, q) - surfaces_.view_position(instance, p);
+        if (p == b || q == a || (p != a && q != b && glm::dot(along, own) < 0)) std::swap(p, q);
+        return side(instance, p, q, apex_of(mesh, h));
+    }
+
+    void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const auto solid_h = solid_behind(s.instance, h), solid_g = solid_behind(s.instance, g);
+        LineClassSet classes;
+        if (mesh.is_marked(h)) classes |= LineClass::mark;
+        if (solid_h && solid_g) {
+            const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
+            const int side_h = side_at(s.instance, *solid_h, a, b), side_g = side_at(s.instance, *solid_g, a, b);
+            if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
+            const SurfaceId one = triangle_of(s, h), two = triangle_of(s, g);
+            if (!is_sliver(surfaces_, one) && !is_sliver(surfaces_, two)) {
+                classes |= edge_classes(surfaces_, {s, h}, criteria_);
+            } else {
+                classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g),
+                                           middle_px(s, h), criteria_);
+            }
+        }
+        add(s, h, classes, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
+    }
+
+    void visit_ring(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
+        int low = 2, high = -2;
+        for (HalfEdge g = h;;) {
+            if (g < h) return;  // the first one of the ring stands for it
+            const int side_g = side_at(s.instance, g, a, b);
+            low = std::min(low, side_g);
+            high = std::max(high, side_g);
+            g = mesh.next_on_edge[g];
+            if (g == h) break;
+        }
+        LineClassSet classes = edge_classes(surfaces_, {s, h}, criteria_);
+        if (low == high && low != 0) classes |= LineClass::silhouette;
+        const std::uint32_t number = screen_.number_of(s);
+        add(s, h, classes, {number, number}, true, lines);
+    }
+
+    void visit_border(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        LineClassSet classes;
+        if (mesh.is_marked(h)) classes |= LineClass::mark;
+        const std::uint32_t number = screen_.number_of(s);
+        std::array<std::uint32_t, 2> owners{number, number};
+        if (const auto partner = seam_partner(s, h)) {
+            const double own = length_of(mesh, h), other = length_of(mesh, *partner);
+            if (classes.empty() && (own < other || (own == other && *partner < h))) return;  // drawn as the partner
+            const SurfaceId beyond = triangle_of(s, *partner);
+            owners[1] = screen_.number_of(beyond);
+            const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
+            const int side_h = side(s.instance, a, b, apex_of(mesh, h));
+            const int side_g = side(s.instance, a, b, apex_of(mesh, *partner));
+            if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
+            classes |= contact_classes(surfaces_, s, beyond, middle_px(s, h), criteria_);
+        } else {
+            classes |= LineClass::border;
+        }
+        add(s, h, classes, owners, false, lines);
+    }
+
+    double length_of(const Mesh& mesh, HalfEdge h) const {
+        return glm::distance(glm::dvec3(mesh.positions[start_of(mesh, h)]),
+                             glm::dvec3(mesh.positions[end_of(mesh, h)]));
+    }
+
+    /// The border of another patch that runs along, nearer than a pixel.
+    std::optional<HalfEdge> seam_partner(SurfaceId s, HalfEdge h) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
+        const auto partner = mesh.borders.seam_partner(h, 0.5 * (a + b));
+        if (!partner) return std::nullopt;
+        const auto own = on_screen(s.instance, start_of(mesh, h), end_of(mesh, h));
+        const auto other = on_screen(s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
+        if (!own || !other) return partner;
+        const glm::dvec2 middle = 0.5 * ((*own)[0].at + (*own)[1].at);
+        const glm::dvec2 p = (*other)[0].at, along = (*other)[1].at - p;
+        const double square = glm::dot(along, along);
+        const double t = square > 0 ? std::clamp(glm::dot(middle - p, along) / square, 0.0, 1.0) : 0.0;
+        if (glm::distance(middle, p + along * t) > kWidestCrackSubpixels) return std::nullopt;
+        return partner;
+    }
+
+    glm::dvec2 middle_px(SurfaceId s, HalfEdge h) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const auto ends = on_screen(s.instance, start_of(mesh, h), end_of(mesh, h));
+        return ends ? ((*ends)[0].at + (*ends)[1].at) / 512.0 : glm::dvec2(0.0);
+    }
+
+    ScreenPoint point(const ScreenVertex& v) const { return {{v.x, v.y}, static_cast<double>(v.nearness)}; }
+    ScreenPoint project(const glm::dvec3& view) const {
+        return {surfaces_.projection.to_pixel(view) * 256.0,
+                surfaces_.projection.nearness(view) - surfaces_.farthest_nearness};
+    }
+
+    /// The part of an edge in front of the near plane and within the guard band.
+    std::optional<std::array<ScreenPoint, 2>> on_screen(std::uint32_t instance, std::uint32_t a,
+                                                        std::uint32_t b) const {
+        const ScreenVertex* const v = screen_.vertices(instance);
+        const bool has_a = is_on_screen(instance, a), has_b = is_on_screen(instance, b);
+        if (has_a && has_b) return std::array{point(v[a]), point(v[b])};
+        const glm::dvec3 p = surfaces_.view_position(instance, a), q = surfaces_.view_position(instance, b);
+        double t0 = 0, t1 = 1;
+        const auto keep = [&](double at_p, double at_q) {  // where the affine function is positive
+            if (at_p < 0 && at_q < 0) t1 = -1;
+            else if (at_p < 0) t0 = std::max(t0, at_p / (at_p - at_q));
+            else if (at_q < 0) t1 = std::min(t1, at_p / (at_p - at_q));
+        };
+        const Projection& projection = surfaces_.projection;
+        const auto depth = [&](const glm::dvec3& view) { return projection.orthographic ? 1.0 : -view.z; };
+        if (!projection.orthographic) keep(-p.z - projection.near_distance, -q.z - projection.near_distance);
+        const double reach = kGuardBandPx / projection.focal_px;
+        for (int axis = 0; axis < 2; ++axis) {
+            keep(reach * depth(p) - p[axis], reach * depth(q) - q[axis]);
+            keep(reach * depth(p) + p[axis], reach * depth(q) + q[axis]);
+        }
+        if (!(t0 < t1)) return std::nullopt;
+        return std::array{has_a ? point(v[a]) : project(glm::mix(p, q, t0)),
+                          has_b ? point(v[b]) : project(glm::mix(p, q, t1))};
+    }
+
+    void add(SurfaceId s, HalfEdge h, LineClassSet classes, std::array<std::uint32_t, 2> owners, bool has_more,
+             std::vector<LayerLine>& lines) const {
+        classes = classes & criteria_.classes;
+        if (classes.empty()) return;
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        // One direction, whichever triangle asks.
+        const std::uint32_t a = std::min(start_of(mesh, h), end_of(mesh, h));
+        const std::uint32_t b = std::max(start_of(mesh, h), end_of(mesh, h));
+        const auto ends = on_screen(s.instance, a, b);
+        if (!ends) return;
+        LayerLine line;
+        line.from = (*ends)[0].at;
+        line.to = (*ends)[1].at;
+        const glm::dvec2 low = glm::min(line.from, line.to), high = glm::max(line.from, line.to);
+        if (line.from == line.to || high.x < low_.x || high.y < low_.y || low.x > high_.x || low.y > high_.y) return;
+        line.nearness_from = (*ends)[0].nearness;
+        line.nearness_to = (*ends)[1].nearness;
+        line.owners = owners;
+        line.has_more_owners = has_more;
+        line.drawn_as = *classes.first();
+        if (is_on_screen(s.instance, a)) line.nodes[0] = std::uint64_t{s.instance} << 32 | a;
+        if (is_on_screen(s.instance, b)) line.nodes[1] = std::uint64_t{s.instance} << 32 | b;
+        lines.push_back(line);
+    }
+
+    const SurfaceSet& surfaces_;
+    const LineCriteria& criteria_;
+    const ScreenSurfaces& screen_;
+    glm::dvec2 low_, high_;
+};
+
+}  // namespace
+
+std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                                        int threads) {
+    struct Chunk {
+        std::uint32_t instance, first, end;
+    };
+    std::vector<Chunk> chunks;
+    for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
+        const auto count = static_cast<std::uint32_t>(frame.surfaces.instances[i].mesh->triangles.size());
+        for (std::uint32_t t = 0; t < count; t += kChunkTriangles) {
+            chunks.push_back({i, t, std::min(count, t + kChunkTriangles)});
+        }
+    }
+    const EdgeFinder finder(frame, screen, region);
+    std::vector<std::vector<LayerLine>> found(chunks.size());
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+        for (std::uint32_t t = chunks[c].first; t < chunks[c].end; ++t) {
+            finder.visit({chunks[c].instance, t}, found[c]);
+        }
+    });
+    std::vector<LayerLine> lines;
+    for (const auto& list : found) lines.insert(lines.end(), list.begin(), list.end());
+    return lines;
+}
+
+}  // namespace burin

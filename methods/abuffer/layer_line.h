@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "lines/line_class.h"
+
+namespace burin {
+
+/// A straight line on the screen, seen or not: an edge of a mesh, or where two triangles pass through
+/// each other.
+struct LayerLine {
+    /// An end that no other line has in common.
+    static constexpr std::uint64_t kNoNode = ~std::uint64_t{0};
+
+    glm::dvec2 from{0.0}, to{0.0};  ///< in 1/256 pixel
+    /// At either end, less SurfaceSet::farthest_nearness.
+    double nearness_from = 0, nearness_to = 0;
+    /// Numbers of the triangles that the line lies on; they do not hide it.
+    std::array<std::uint32_t, 2> owners{};
+    /// Others have the edge's two vertices in common, too.
+    bool has_more_owners = false;
+    LineClass drawn_as = LineClass::silhouette;
+    /// Lines that meet at an end have equal nodes there. For edges: instance and vertex.
+    std::array<std::uint64_t, 2> nodes{kNoNode, kNoNode};
+
+    double length_px() const { return glm::distance(from, to) / 256; }
+};
+
+/// A part of a line with the same surfaces in front of it all along.
+struct LayerPiece {
+    std::uint32_t line = 0;   ///< number of the line
+    double begin = 0, end = 1;  ///< as shares of the way from `from` to `to`
+    /// Quantitative invisibility (Appel 1967): how many opaque layers are in front. 255: so many or more.
+    std::uint8_t invisibility = 0;
+    /// What transparent layers in front let through, 255 = all.
+    std::uint8_t transmission = 255;
+};
+
+}  // namespace burin

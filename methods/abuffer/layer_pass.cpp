@@ -1,0 +1,168 @@
+#include "methods/abuffer/layer_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <tuple>
+
+#include "base/parallel.h"
+#include "methods/abuffer/layer_edges.h"
+#include "methods/abuffer/line_chains.h"
+#include "methods/abuffer/transparent_fill.h"
+
+namespace burin {
+namespace {
+
+constexpr int kTilePx = 32;
+/// In front of the number of a line that its tile has found.
+constexpr std::uint32_t kOfTile = 1u << 31;
+
+/// The frame's crop and what strokes from beside it reach.
+PixelRect region_of(const Frame& frame) {
+    const LineStyle& style = frame.scene->lines.style;
+    const int margin = static_cast<int>(std::ceil(0.5 * std::max(style.width_px, style.hidden_width_px()))) + 1;
+    const PixelRect c = frame.crop;
+    return {c.x0 - margin, c.y0 - margin, c.x1 + margin, c.y1 + margin};
+}
+
+bool shows_hidden(const Frame& frame) { return frame.scene->lines.style.hidden.style != HiddenStyle::none; }
+
+/// What one tile has found.
+struct TileResult {
+    std::vector<LayerLine> intersections;
+    std::vector<LayerPiece> pieces;
+};
+
+/// Brings the lines that tiles have found behind `lines`, each one once, and renumbers their pieces.
+void join_results(std::vector<TileResult>& results, std::vector<LayerLine>& lines, std::vector<LayerPiece>& pieces) {
+    struct Found {
+        std::size_t tile;
+        std::uint32_t index;
+    };
+    std::vector<Found> found;
+    for (std::size_t tile = 0; tile < results.size(); ++tile) {
+        for (std::uint32_t i = 0; i < results[tile].intersections.size(); ++i) found.push_back({tile, i});
+    }
+    const auto key = [&](const Found& f) {
+        const LayerLine& l = results[f.tile].intersections[f.index];
+        return std::tuple(l.owners[0], l.owners[1], l.from.x, l.from.y, l.to.x, l.to.y);
+    };
+    std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) { return key(a) < key(b); });
+    std::vector<std::vector<std::uint32_t>> number(results.size());
+    for (std::size_t tile = 0; tile < results.size(); ++tile) number[tile].resize(results[tile].intersections.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (i == 0 || key(found[i]) != key(found[i - 1])) {
+            lines.push_back(results[found[i].tile].intersections[found[i].index]);
+        }
+        number[found[i].tile][found[i].index] = static_cast<std::uint32_t>(lines.size() - 1);
+    }
+    for (std::size_t tile = 0; tile < results.size(); ++tile) {
+        for (LayerPiece piece : results[tile].pieces) {
+            if ((piece.line & kOfTile) != 0) piece.line = number[tile][piece.line & ~kOfTile];
+            pieces.push_back(piece);
+        }
+    }
+}
+
+/// The numbers of the lines that touch each tile.
+TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const TileGrid& grid) {
+    std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+        grid.visit(glm::min(lines[i].from, lines[i].to) / 256.0, glm::max(lines[i].from, lines[i].to) / 256.0,
+                   [&](std::uint32_t tile) { records[0].push_back({tile, i}); });
+    }
+    return TileLists<std::uint32_t>(records, grid.count());
+}
+
+}  // namespace
+
+bool LayerPass::is_needed(const Frame& frame) { return shows_hidden(frame) || has_transparent_surfaces(*frame.scene); }
+
+LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads)
+    : frame_(frame),
+      screen_(screen),
+      threads_(threads),
+      grid_(region_of(frame), kTilePx),
+      bins_(screen, grid_, threads),
+      strokes_(frame, threads) {}
+
+void LayerPass::find() {
+    lines_ = find_layer_edges(frame_, screen_, region_of(frame_), threads_);
+    const TileLists<std::uint32_t> lines_in = sort_by_tile(lines_, grid_);
+    const bool intersects =
+        !(frame_.criteria.classes & (LineClass::intersection | LineClassSet(LineClass::object) | LineClass::material)).empty();
+    std::vector<TileResult> results(grid_.count());
+    std::vector<std::unique_ptr<LayerTile>> tiles(static_cast<std::size_t>(threads_));
+    parallel_for(grid_.count(), threads_, [&](std::size_t index, int worker) {
+        if (bins_.triangles(index).empty()) return;
+        auto& tile = tiles[static_cast<std::size_t>(worker)];
+        if (!tile) tile = std::make_unique<LayerTile>(frame_, screen_, bins_, grid_);
+        tile->fill(index);
+        TileResult& result = results[index];
+        for (const std::uint32_t i : lines_in.of(index)) tile->find_pieces(lines_[i], i, result.pieces);
+        if (intersects) tile->find_intersections(result.intersections);
+        for (std::uint32_t i = 0; i < result.intersections.size(); ++i) {
+            tile->find_pieces(result.intersections[i], kOfTile | i, result.pieces);
+        }
+    });
+    for (const auto& tile : tiles) {
+        if (tile) fragment_count_ += tile->fragment_count();
+    }
+    pieces_.clear();
+    join_results(results, lines_, pieces_);
+}
+
+void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
+                           std::vector<LayerSegment>& segments) const {
+    const LayerLine& line = lines_[piece.line];
+    const LineStyle& style = frame_.scene->lines.style;
+    const auto [on, off] = style.hidden_dash_px();
+    // Strokes have round ends; a dash with its ends is as long as asked for.
+    const double inset = 0.5 * std::min(on, style.hidden_width_px());
+    const double length = position[1] - position[0];
+    const double a = position[0] + length * piece.begin, b = position[0] + length * piece.end;
+    const auto [low, high] = std::minmax(a, b);
+    for (double dash = std::floor(low / (on + off)) * (on + off); dash < high; dash += on + off) {
+        const double begin = std::max(low, dash + inset), end = std::min(high, dash + on - inset);
+        if (begin > end) continue;
+        LayerSegment segment;
+        segment.from = glm::mix(line.from, line.to, (begin - position[0]) / length) / 256.0;
+        segment.to = glm::mix(line.from, line.to, (end - position[0]) / length) / 256.0;
+        segment.drawn_as = line.drawn_as;
+        segment.is_hidden = true;
+        segment.transmission = piece.transmission;
+        segments.push_back(segment);
+    }
+}
+
+std::vector<std::vector<LayerSegment>> LayerPass::make_segments() const {
+    const HiddenStyle style = frame_.scene->lines.style.hidden.style;
+    std::vector<std::array<double, 2>> positions;
+    if (style == HiddenStyle::dashed) positions = positions_along_chains(lines_);
+    std::vector<std::vector<LayerSegment>> segments(1);
+    for (const LayerPiece& piece : pieces_) {
+        const bool is_hidden = piece.invisibility > 0;
+        if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
+        if (is_hidden && style == HiddenStyle::dashed) {
+            add_dashes(piece, positions[piece.line], segments[0]);
+            continue;
+        }
+        const LayerLine& line = lines_[piece.line];
+        LayerSegment segment;
+        segment.from = glm::mix(line.from, line.to, piece.begin) / 256.0;
+        segment.to = glm::mix(line.from, line.to, piece.end) / 256.0;
+        segment.drawn_as = line.drawn_as;
+        segment.is_hidden = is_hidden;
+        segment.transmission = piece.transmission;
+        segments[0].push_back(segment);
+    }
+    return segments;
+}
+
+void LayerPass::draw_below(const std::vector<std::vector<LineSegment>>& visible, Film& film) {
+    if (has_transparent_surfaces(*frame_.scene)) fill_transparent(frame_, screen_, bins_, grid_, threads_, film);
+    find();
+    strokes_.draw_below(visible, make_segments(), film);
+}
+
+}  // namespace burin

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "methods/abuffer/layer_bins.h"
+#include "methods/abuffer/layer_line.h"
+#include "render/frame.h"
+
+namespace burin {
+
+/// A triangle on the screen as something that hides lines.
+struct LayerTriangle {
+    std::array<double, 3> x, y;  ///< corners in 1/256 pixel, clockwise as seen
+    std::array<bool, 3> owns_edge;  ///< whether points on the edge after a corner belong to it
+    glm::dvec2 box_low, box_high;
+    double nearness, per_x, per_y;  ///< at corner 0, and change per 1/256 pixel
+    double low, high;               ///< range of nearness
+    double slack;                   ///< what snapping may do to nearness
+    double transmission;            ///< 0 = opaque
+    std::uint32_t number, instance;
+    std::array<std::uint32_t, 3> vertices;
+
+    double nearness_at(glm::dvec2 p) const { return nearness + per_x * (p.x - x[0]) + per_y * (p.y - y[0]); }
+};
+
+/// All layers of surfaces in one tile, found by place: the tile is cut into square cells, and each has
+/// a list of the triangles that touch it. Buffers are used again from tile to tile.
+class LayerTile {
+  public:
+    LayerTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const TileGrid& grid);
+
+    void fill(std::size_t tile);
+
+    /// Adds the lines in which triangles of this tile pass through each other.
+    void find_intersections(std::vector<LayerLine>& lines);
+
+    /// Adds the parts of a line within the tile that something is in front of.
+    void find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces);
+
+    std::span<const LayerTriangle> triangles() const { return triangles_; }
+    /// How many pairs of cell and triangle were kept so far.
+    std::uint64_t fragment_count() const { return fragment_count_; }
+
+  private:
+    struct Interval {
+        double begin, end;
+        double transmission;
+    };
+    struct Event {
+        double at;
+        int opaque;
+    };
+    void add_triangle(std::uint32_t value, SurfaceId s);
+    void add_polygon(LayerTriangle triangle, std::span<const glm::dvec2> corners);
+    void sort_into_cells();
+    int column_at(double x) const;
+    int row_at(double y) const;
+    std::span<const std::uint32_t> cell(int column, int row) const {
+        const auto i = static_cast<std::size_t>(row * columns_ + column);
+        return {cell_triangles_.data() + cell_end_[i], cell_end_[i + 1] - cell_end_[i]};
+    }
+    bool is_owner(const LayerLine& line, const LayerTriangle& triangle) const;
+    void hide(const LayerLine& line, const LayerTriangle& triangle, double begin, double end);
+    void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
+               std::vector<LayerPiece>& pieces);
+    void intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const;
+    double level_slack(double nearness) const;
+
+    const Frame& frame_;
+    const ScreenSurfaces& screen_;
+    const LayerBins& bins_;
+    const TileGrid& grid_;
+    bool has_transparent_;
+    PixelRect rect_;
+    int cell_px_ = 1, columns_ = 0, rows_ = 0;
+    std::vector<LayerTriangle> triangles_;
+    std::vector<std::uint32_t> cell_end_, cell_triangles_;
+    std::vector<Interval> intervals_;
+    std::vector<Event> events_;
+    double line_slack_ = 0;
+    std::uint64_t fragment_count_ = 0;
+};
+
+/// Whether some surface of the scene lets light through.
+bool has_transparent_surfaces(const Scene& scene);
+
+}  // namespace burin

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "image/image.h"
+
+namespace burin {
+
+/// A rectangle of pixels cut into square tiles, row by row.
+class TileGrid {
+  public:
+    TileGrid(PixelRect region, int tile_px)
+        : region_(region),
+          tile_px_(tile_px),
+          columns_((region.width() + tile_px - 1) / tile_px),
+          rows_((region.height() + tile_px - 1) / tile_px) {}
+
+    std::size_t count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
+    PixelRect tile(std::size_t index) const {
+        const int x0 = region_.x0 + static_cast<int>(index) % columns_ * tile_px_;
+        const int y0 = region_.y0 + static_cast<int>(index) / columns_ * tile_px_;
+        return {x0, y0, std::min(x0 + tile_px_, region_.x1), std::min(y0 + tile_px_, region_.y1)};
+    }
+    /// Calls visit(tile, rectangle) for the tiles that touch the box from `low` to `high`, in pixels.
+    template <typename Visit>
+    void visit(glm::dvec2 low, glm::dvec2 high, const Visit& visit) const {
+        if (!(high.x >= region_.x0 && high.y >= region_.y0 && low.x <= region_.x1 && low.y <= region_.y1)) return;
+        const int x0 = index_along(low.x - region_.x0, columns_), x1 = index_along(high.x - region_.x0, columns_);
+        const int y0 = index_along(low.y - region_.y0, rows_), y1 = index_along(high.y - region_.y0, rows_);
+        for (int y = y0; y <= y1; ++y) {
+            for (int x = x0; x <= x1; ++x) visit(static_cast<std::uint32_t>(y * columns_ + x));
+        }
+    }
+
+  private:
+    int index_along(double offset_px, int count) const {
+        return static_cast<int>(std::clamp(std::floor(offset_px / tile_px_), 0.0, static_cast<double>(count - 1)));
+    }
+
+    PixelRect region_;
+    int tile_px_, columns_, rows_;
+};
+
+/// A list of values per tile, all in one block of memory.
+template <typename Value>
+class TileLists {
+  public:
+    struct Record {
+        std::uint32_t tile;
+        Value value;
+    };
+
+    TileLists() = default;
+    /// Keeps the order of the records, list after list.
+    TileLists(const std::vector<std::vector<Record>>& records, std::size_t tile_count) {
+        end_.assign(tile_count + 1, 0);
+        for (const auto& list : records) {
+            for (const Record& r : list) ++end_[r.tile + 1];
+        }
+        for (std::size_t i = 1; i < end_.size(); ++i) end_[i] += end_[i - 1];
+        values_.resize(end_.back());
+        std::vector<std::size_t> next = end_;
+        for (const auto& list : records) {
+            for (const Record& r : list) values_[next[r.tile]++] = r.value;
+        }
+    }
+    std::span<const Value> of(std::size_t tile) const {
+        return {values_.data() + end_[tile], end_[tile + 1] - end_[tile]};
+    }
+
+  private:
+    std::vector<std::size_t> end_;
+    std::vector<Value> values_;
+};
+
+}  // namespace burin

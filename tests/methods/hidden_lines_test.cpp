@@ -1,0 +1,449 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesh/shapes.h"
+#include "methods/abuffer/abuffer.h"
+#include "methods/abuffer/layer_pass.h"
+#include "methods/abuffer/triangle_bins.h"
+#include "tests/support/drawing.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+constexpr int kSize = 240;
+
+PolygonSoup moved(PolygonSoup soup, glm::dvec3 by) {
+    return transformed(std::move(soup), [by](glm::dvec3 p) { return p + by; });
+}
+
+/// The lines of a frame with what is in front of them.
+struct Layers {
+    Frame frame;
+    ScreenSurfaces screen;
+    TriangleBins bins;  // finds out which way triangles face
+    LayerPass pass;
+
+    Layers(const Scene& scene, const Camera& camera, int threads = 2)
+        : frame(make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize})),
+          screen(frame.surfaces, frame.criteria, threads),
+          bins(screen, frame.crop, 32, 4, threads),
+          pass(frame, screen, threads) {
+        pass.find();
+    }
+    /// Pixels of lines with so many opaque layers in front, of one class or of all.
+    double hidden_px(int invisibility, std::optional<LineClass> of = std::nullopt) const {
+        double sum = 0;
+        for (const LayerPiece& p : pass.pieces()) {
+            const LayerLine& line = pass.lines()[p.line];
+            if (p.invisibility != invisibility || (of && line.drawn_as != *of)) continue;
+            sum += (p.end - p.begin) * line.length_px();
+        }
+        return sum;
+    }
+    double all_hidden_px() const {
+        double sum = 0;
+        for (int i = 1; i < 256; ++i) sum += hidden_px(i);
+        return sum;
+    }
+    /// How many opaque layers are in front of a line at a place on it.
+    int invisibility(std::uint32_t line, double at) const {
+        for (const LayerPiece& p : pass.pieces()) {
+            if (p.line == line && p.begin <= at && at < p.end) return p.invisibility;
+        }
+        return 0;
+    }
+};
+
+Image draw(const Scene& scene, const Camera& camera, int threads = 2, PixelRect crop = {0, 0, kSize, kSize}) {
+    const Frame frame = make_frame(scene, camera, kSize, kSize, crop);
+    LayerSet all{true, true, true, true, true, true, true, true};
+    Film film({0, 0, kSize, kSize}, crop, all, frame.criteria.classes);
+    RunOptions options;
+    options.threads = threads;
+    render_abuffer(frame, options, film);
+    return film.image();
+}
+
+double value(const Image& image, const std::string& channel, int x, int y) {
+    const Channel* const c = image.find(channel);
+    if (c == nullptr) ADD_FAILURE() << "no channel " << channel;
+    return c == nullptr ? std::nan("") : image.value(*c, x, y);
+}
+double sum(const Image& image, const std::string& channel) {
+    double total = 0;
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) total += value(image, channel, x, y);
+    }
+    return total;
+}
+
+Camera ortho_camera(glm::dvec3 eye, double height) {
+    CameraSettings settings;
+    settings.eye = eye;
+    settings.target = glm::dvec3(0.0);
+    settings.orthographic = true;
+    settings.height = height;
+    return resolve_camera(settings, [](const auto&) {}, 1);
+}
+
+glm::dvec2 pixel_of(const Frame& frame, const Camera& camera, glm::dvec3 world) {
+    return frame.surfaces.projection.to_pixel(glm::dvec3(camera.to_view() * glm::dvec4(world, 1)));
+}
+
+TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
+    for (const bool orthographic : {false, true}) {
+        for (std::uint64_t trial = 0; trial < 40; ++trial) {
+            Random random(trial);
+            glm::dvec3 direction = glm::abs(random.direction()) + 0.15;
+            direction = glm::normalize(direction) * (random.bits() % 2 ? 1.0 : -1.0);
+            const Camera camera = orthographic ? ortho_camera(6.0 * direction, 2.5) : perspective_camera(6.0 * direction, {0, 0, 0}, 25);
+            const Scene scene = scene_of({make_box({1, 1, 1})});
+            const Layers layers(scene, camera);
+            ASSERT_EQ(layers.pass.lines().size(), 12u);
+            // The corner farthest from the eye has the three hidden edges.
+            const glm::dvec3 corner = -0.5 * glm::sign(direction);
+            double expected = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                glm::dvec3 other = corner;
+                other[axis] = -other[axis];
+                expected += glm::distance(pixel_of(layers.frame, camera, corner), pixel_of(layers.frame, camera, other));
+            }
+            EXPECT_NEAR(layers.hidden_px(1), expected, 0.75) << trial;
+            EXPECT_NEAR(layers.all_hidden_px(), layers.hidden_px(1), 1e-9) << trial;
+            std::map<std::uint32_t, double> share;
+            for (const LayerPiece& p : layers.pass.pieces()) share[p.line] += p.end - p.begin;
+            EXPECT_EQ(share.size(), 3u) << trial;
+        }
+    }
+}
+
+TEST(HiddenLines, ACubeInACube) {
+    const Scene scene = scene_of({make_box({2, 2, 2}), make_box({1, 1, 1})});
+    for (const Camera& camera : {ortho_camera({4, 3, 5}, 5), perspective_camera({5, 4, 7}, {0, 0, 0})}) {
+        const Layers layers(scene, camera);
+        ASSERT_EQ(layers.pass.lines().size(), 24u);
+        // Behind the outer faces: nine edges of the inner cube; behind its own, too: the other three.
+        // Of the outer cube's three, parts are behind its faces and parts behind the inner cube's two walls.
+        std::map<std::uint32_t, std::map<int, double>> of_line;
+        for (const LayerPiece& p : layers.pass.pieces()) {
+            of_line[p.line][p.invisibility] += p.end - p.begin;
+        }
+        int once = 0, twice = 0, outer = 0;
+        for (const auto& [line, shares] : of_line) {
+            const bool is_outer = layers.pass.lines()[line].owners[0] < 12;
+            if (is_outer) {
+                ++outer;
+                double total = 0;
+                for (const auto& [qi, share] : shares) {
+                    EXPECT_TRUE(qi == 1 || qi == 3) << qi;
+                    total += share;
+                }
+                EXPECT_NEAR(total, 1, 0.01);
+                continue;
+            }
+            ASSERT_EQ(shares.size(), 1u);
+            EXPECT_NEAR(shares.begin()->second, 1, 0.01);
+            once += shares.begin()->first == 1;
+            twice += shares.begin()->first == 2;
+        }
+        EXPECT_EQ(outer, 3);
+        EXPECT_EQ(once, 9);
+        EXPECT_EQ(twice, 3);
+    }
+}
+
+/// Counts by rays, in view space and by brute force.
+class RayCounter {
+  public:
+    explicit RayCounter(const Frame& frame) : frame_(frame) {
+        const SurfaceSet& surfaces = frame.surfaces;
+        for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
+            const Mesh& mesh = *surfaces.instances[i].mesh;
+            for (const auto& t : mesh.triangles) {
+                triangles_.push_back({i, t, surfaces.view_position(i, t[0]), surfaces.view_position(i, t[1]),
+                                      surfaces.view_position(i, t[2])});
+            }
+        }
+    }
+    /// How many triangles, but those with both vertices, the ray through `pixel` meets before `distance`;
+    /// -1 if one is met close to there.
+    int count(glm::dvec2 pixel, double distance, std::uint32_t instance, std::uint32_t a, std::uint32_t b) const {
+        const double close = 0.5 * frame_.surfaces.projection.pixel_size(distance);
+        glm::dvec3 origin, ray;
+        frame_.surfaces.projection.view_ray(pixel, origin, ray);
+        int found = 0;
+        for (const Triangle& t : triangles_) {
+            const auto has = [&](std::uint32_t v) { return t.corners[0] == v || t.corners[1] == v || t.corners[2] == v; };
+            if (t.instance == instance && has(a) && has(b)) continue;
+            const glm::dvec3 e1 = t.b - t.a, e2 = t.c - t.a, n = glm::cross(ray, e2);
+            const double det = glm::dot(e1, n);
+            if (std::abs(det) < 1e-14) continue;
+            const double u = glm::dot(origin - t.a, n) / det;
+            const glm::dvec3 q = glm::cross(origin - t.a, e1);
+            const double v = glm::dot(ray, q) / det;
+            if (u < 0 || v < 0 || u + v > 1) continue;
+            const double met = glm::dot(e2, q) / det;
+            if (std::abs(met - distance) < close) return -1;
+            found += met > 0 && met < distance;
+        }
+        return found;
+    }
+
+  private:
+    struct Triangle {
+        std::uint32_t instance;
+        std::array<std::uint32_t, 3> corners;
+        glm::dvec3 a, b, c;
+    };
+    const Frame& frame_;
+    std::vector<Triangle> triangles_;
+};
+
+Scene random_scene(Random& random) {
+    std::vector<PolygonSoup> objects;
+    const int count = random.integer(3, 6);
+    for (int i = 0; i < count; ++i) {
+        PolygonSoup soup;
+        switch (random.integer(0, 3)) {
+            case 0: soup = make_box({random.real(0.3, 1.2), random.real(0.3, 1.2), random.real(0.3, 1.2)}); break;
+            case 1: soup = make_sphere(random.real(0.2, 0.7), 12, 7); break;
+            case 2: soup = make_torus(0.5, 0.2, 14, 9); break;
+            default: soup = make_plane(1.5, 1.2, 3, 2);
+        }
+        const glm::dvec3 axis = random.direction(), by = random.in_box(0.8);
+        const double angle = random.real(0, 6);
+        objects.push_back(transformed(std::move(soup), [&](glm::dvec3 p) {
+            return by + p * std::cos(angle) + glm::cross(axis, p) * std::sin(angle) + axis * (glm::dot(axis, p) * (1 - std::cos(angle)));
+        }));
+    }
+    return scene_of(std::move(objects));
+}
+
+TEST(HiddenLines, InvisibilityIsWhatRaysCount) {
+    int certain = 0, hidden = 0, unclear = 0;
+    for (std::uint64_t trial = 0; trial < 24; ++trial) {
+        Random random(trial);
+        const Scene scene = random_scene(random);
+        const glm::dvec3 eye = 6.0 * random.direction();
+        // Every fourth camera stands between the objects: some are behind it.
+        const Camera camera = trial % 4 == 0   ? perspective_camera(0.15 * eye, {0.1, 0, 0}, 70)
+                              : trial % 2 == 0 ? perspective_camera(eye, {0, 0, 0})
+                                               : ortho_camera(eye, 3.5);
+        const Layers layers(scene, camera);
+        const RayCounter rays(layers.frame);
+        const SurfaceSet& surfaces = layers.frame.surfaces;
+        for (std::uint32_t l = 0; l < layers.pass.lines().size(); ++l) {
+            const LayerLine& line = layers.pass.lines()[l];
+            if (line.nodes[0] == LayerLine::kNoNode || line.nodes[1] == LayerLine::kNoNode || line.nodes[0] >> 63) continue;
+            const auto instance = static_cast<std::uint32_t>(line.nodes[0] >> 32);
+            const auto a = static_cast<std::uint32_t>(line.nodes[0]), b = static_cast<std::uint32_t>(line.nodes[1]);
+            const glm::dvec3 p = surfaces.view_position(instance, a), q = surfaces.view_position(instance, b);
+            for (int i = 0; i < 3; ++i) {
+                const glm::dvec3 at = glm::mix(p, q, random.real(0.02, 0.98));
+                const glm::dvec2 pixel = surfaces.projection.to_pixel(at);
+                if (pixel.x < 1 || pixel.y < 1 || pixel.x > kSize - 1 || pixel.y > kSize - 1) continue;
+                const int expected = rays.count(pixel, -at.z, instance, a, b);
+                bool is_clear = expected >= 0;
+                for (int k = 0; k < 8; ++k) {
+                    const glm::dvec2 beside = 0.2 * glm::dvec2(std::cos(k * 0.785 + 0.1), std::sin(k * 0.785 + 0.1));
+                    is_clear = is_clear && rays.count(pixel + beside, -at.z, instance, a, b) == expected;
+                }
+                unclear += !is_clear;
+                if (!is_clear) continue;
+                const glm::dvec2 along = line.to - line.from;
+                const double t = glm::dot(pixel * 256.0 - line.from, along) / glm::dot(along, along);
+                ++certain;
+                hidden += expected > 0;
+                ASSERT_EQ(layers.invisibility(l, t), expected)
+                    << "trial " << trial << " at " << pixel.x << "," << pixel.y;
+            }
+        }
+    }
+    EXPECT_GT(certain, 3000);
+    EXPECT_GT(hidden, 1000);
+    EXPECT_LT(unclear, certain / 5);
+}
+
+/// A wall in front of two sheets that pass through each other, in world units that are pixels.
+Scene crossing_behind_wall() {
+    const auto sheet = [](double z_left, double z_right) {
+        return soup_of({{40, 40, z_left}, {200, 40, z_right}, {200, 200, z_right}, {40, 200, z_left}}, {{0, 1, 2, 3}});
+    };
+    return scene_of({soup_of({{20, 20, 100}, {220, 20, 100}, {220, 140, 100}, {20, 140, 100}}, {{0, 1, 2, 3}}),
+                     sheet(-50, 50), sheet(50, -50)});
+}
+
+TEST(HiddenLines, SheetsThatCrossBehindAWall) {
+    const Scene scene = crossing_behind_wall();
+    const Layers layers(scene, pixel_camera(kSize, kSize));
+    // The wall hides y = 40 to 140 of the crossing, which runs along x = 120.
+    EXPECT_NEAR(layers.hidden_px(1, LineClass::intersection), 100, 0.3);
+    EXPECT_NEAR(layers.hidden_px(2, LineClass::intersection), 0, 1e-9);
+    for (const LayerPiece& p : layers.pass.pieces()) {
+        const LayerLine& line = layers.pass.lines()[p.line];
+        if (line.drawn_as != LineClass::intersection) continue;
+        EXPECT_NEAR(line.from.x / 256, 120, 0.01);
+        EXPECT_NEAR(line.to.x / 256, 120, 0.01);
+    }
+    // One half of each sheet's lower border is behind the wall alone, the other half behind the other sheet, too.
+    EXPECT_NEAR(layers.hidden_px(2, LineClass::border), 0, 0.5) << "the sheets' borders fall together";
+}
+
+TEST(HiddenLines, GoToTheirOwnChannels) {
+    Scene scene = crossing_behind_wall();
+    scene.lines.style.hidden.color = {0.5f, 0.25f, 0.0f};
+    scene.lines.style.hidden.style = HiddenStyle::solid;
+    const Image image = draw(scene, pixel_camera(kSize, kSize));
+    // World y runs up: the crossing is hidden in rows 100 to 200 of the picture.
+    for (const int y : {110, 150, 190}) {
+        EXPECT_NEAR(value(image, "lines_hidden.A", 119, y) + value(image, "lines_hidden.A", 120, y), 1, 0.02);
+        EXPECT_NEAR(value(image, "lines_hidden.G", 120, y), 0.25 * value(image, "lines_hidden.A", 120, y), 1e-3);
+        EXPECT_EQ(value(image, "lines.A", 120, y), 0);
+        const double a = value(image, "lines_hidden.A", 120, y);
+        EXPECT_NEAR(value(image, "G", 120, y), 1 - a + 0.25 * a, 2e-3) << "white paper below";
+    }
+    EXPECT_GT(value(image, "lines.A", 120, 70), 0.4) << "above the wall the crossing is visible";
+    EXPECT_EQ(value(image, "lines_hidden.A", 120, 70), 0);
+}
+
+TEST(HiddenLines, ChangeNothingThatIsVisible) {
+    Random random(7);
+    Scene scene = random_scene(random);
+    const Camera camera = perspective_camera({4, 3, 5}, {0, 0, 0});
+    const Image without = draw(scene, camera);
+    for (const HiddenStyle style : {HiddenStyle::solid, HiddenStyle::dashed}) {
+        scene.lines.style.hidden.style = style;
+        const Image with = draw(scene, camera);
+        EXPECT_GT(sum(with, "lines_hidden.A"), 200);
+        EXPECT_EQ(sum(without, "lines_hidden.A"), 0);
+        for (const Channel& c : without.channels()) {
+            if (c.name.size() == 1 && c.name != "Z") continue;  // R G B A
+            if (c.name.starts_with("lines_hidden")) continue;
+            EXPECT_EQ(c.bytes, with.find(c.name)->bytes) << c.name;
+        }
+        // Beauty is as before wherever visible ink is full.
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                if (value(without, "lines.A", x, y) < 1) continue;
+                ASSERT_EQ(value(without, "R", x, y), value(with, "R", x, y)) << x << "," << y;
+            }
+        }
+    }
+}
+
+TEST(HiddenLines, EqualForAnyNumberOfThreadsAndAnyCrop) {
+    Random random(3);
+    Scene scene = random_scene(random);
+    scene.materials[1].opacity = 0.5f;
+    scene.lines.style.hidden.style = HiddenStyle::dashed;
+    const Camera camera = perspective_camera({4, 3, 5}, {0, 0, 0});
+    const Image one = draw(scene, camera, 1);
+    for (int threads = 2; threads <= 8; ++threads) EXPECT_TRUE(same_bits(one, draw(scene, camera, threads)));
+}
+
+TEST(HiddenLines, DashesRunOnAroundCornersOfAPolyline) {
+    // A wall hides a sheet whose border consists of many short edges.
+    Scene scene = scene_of({soup_of({{5, 5, 100}, {235, 5, 100}, {235, 235, 100}, {5, 235, 100}}, {{0, 1, 2, 3}}),
+                            moved(transformed(make_plane(180, 100, 23, 1), [](glm::dvec3 p) { return glm::dvec3(p.x, p.z, 0); }), {120, 120.5, 0})});
+    scene.lines.style.hidden.style = HiddenStyle::dashed;
+    scene.lines.style.hidden.dash_px = {{10, 6}};
+    const Image image = draw(scene, pixel_camera(kSize, kSize));
+    const int row = 69;  // y = 240 - 170.5
+    std::vector<double> starts, ends;  // of dashes, where the coverage passes one half
+    double before = value(image, "lines_hidden.A", 39, row);
+    for (int x = 40; x < 200; ++x) {
+        const double here = value(image, "lines_hidden.A", x, row);
+        if (before < 0.5 && here >= 0.5) starts.push_back(x);
+        if (before >= 0.5 && here < 0.5) ends.push_back(x);
+        before = here;
+    }
+    ASSERT_GE(starts.size(), 8u);
+    for (std::size_t i = 1; i < starts.size(); ++i) EXPECT_NEAR(starts[i] - starts[i - 1], 16, 1);
+    const std::size_t skip = ends[0] < starts[0] ? 1 : 0;
+    for (std::size_t i = 0; i + skip < ends.size() && i < starts.size(); ++i) EXPECT_NEAR(ends[i + skip] - starts[i], 10, 1.01);
+}
+
+TEST(HiddenLines, OpenMeshesShowTheirInsides) {
+    // A box without its front: from the front, no line of it is hidden.
+    const Scene scene = scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                                          {{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}})});
+    const Layers layers(scene, perspective_camera({0.5, 0.5, 5}, {0.5, 0.5, 0}, 25));
+    EXPECT_EQ(layers.pass.lines().size(), 12u);
+    EXPECT_NEAR(layers.all_hidden_px(), 0, 0.01);
+}
+
+TEST(Transparency, LinesBehindGlassAreWeakened) {
+    // A pane in front of the lower half of a box's face.
+    Scene scene = scene_of({soup_of({{20, 20, 100}, {220, 20, 100}, {220, 120, 100}, {20, 120, 100}}, {{0, 1, 2, 3}}),
+                            moved(make_box({100, 100, 20}), {120, 120, 0})});
+    const Image opaque = draw(scene, pixel_camera(kSize, kSize));
+    scene.materials[0].opacity = 0.25f;
+    const Image glass = draw(scene, pixel_camera(kSize, kSize));
+    // The box's left side at x = 70: seen above the pane, weakened behind it.
+    const auto across = [](const Image& image, int y) {
+        double ink = 0;
+        for (int x = 66; x < 74; ++x) ink += value(image, "lines.A", x, y);
+        return ink;
+    };
+    EXPECT_NEAR(across(opaque, 90), 1, 0.02);
+    EXPECT_NEAR(across(opaque, 150), 0, 0.001);
+    EXPECT_NEAR(across(glass, 90), 1, 0.02);
+    EXPECT_NEAR(across(glass, 150), 0.75, 0.02);
+    double by_class = 0;
+    for (int x = 66; x < 74; ++x) by_class += value(glass, "coverage.silhouette", x, 150) + value(glass, "coverage.crease", x, 150);
+    EXPECT_NEAR(by_class, across(glass, 150), 0.01);
+    EXPECT_NEAR(across(glass, 219), 0, 0.001) << "nothing is behind the pane there";
+}
+
+TEST(Transparency, SurfacesAreCompositedInOrder) {
+    const auto square = [](double low, double high, double z) {
+        return soup_of({{low, low, z}, {high, low, z}, {high, high, z}, {low, high, z}}, {{0, 1, 2, 3}});
+    };
+    Scene scene = scene_of({square(20, 220, 0), square(60, 180, 50), square(100, 140, 100)});
+    scene.lines.classes = LineClassSet();
+    scene.surfaces.shading = SurfaceShading::lambert;
+    scene.materials[0].color = {1, 0, 0};
+    scene.materials[1].color = {0, 1, 0};
+    scene.materials[2].color = {0, 0, 1};
+    scene.materials[1].opacity = 0.5f;
+    scene.materials[2].opacity = 0.25f;
+    const Image image = draw(scene, pixel_camera(kSize, kSize));
+    const auto expect = [&](int at, glm::dvec4 color) {
+        const char* const names[] = {"R", "G", "B", "A"};
+        for (int c = 0; c < 4; ++c) {
+            EXPECT_NEAR(value(image, names[c], at, at), color[c], 2e-3) << at << names[c];
+            EXPECT_NEAR(value(image, std::string("surface.") + names[c], at, at), color[c], 2e-3);
+        }
+    };
+    expect(30, {1, 0, 0, 1});
+    expect(80, {0.5, 0.5, 0, 1});
+    expect(120, {0.375, 0.375, 0.25, 1});
+    scene.materials[0].opacity = 0.5f;
+    const Image all_glass = draw(scene, pixel_camera(kSize, kSize));
+    EXPECT_NEAR(value(all_glass, "A", 80, 80), 0.75, 2e-3);
+    EXPECT_NEAR(value(all_glass, "R", 80, 80), 0.25, 2e-3);
+    EXPECT_EQ(value(all_glass, "id.object", 120, 120), 3) << "numbers are those of the nearest surface";
+}
+
+TEST(Transparency, GlassDoesNotCountAsALayer) {
+    const auto wall = [](double z) {
+        return soup_of({{20, 20, z}, {220, 20, z}, {220, 220, z}, {20, 220, z}}, {{0, 1, 2, 3}});
+    };
+    Scene scene = scene_of({moved(make_box({100, 100, 20}), {120, 120, 0}), wall(50), wall(60), wall(70)});
+    scene.materials[2].opacity = 0.5f;
+    const Layers layers(scene, pixel_camera(kSize, kSize));
+    EXPECT_GT(layers.hidden_px(2), 300);
+    EXPECT_EQ(layers.hidden_px(3) + layers.hidden_px(4), layers.hidden_px(3)) << "only the box's rear face is behind its front";
+    for (const LayerPiece& p : layers.pass.pieces()) {
+        if (layers.pass.lines()[p.line].owners[0] < 12) EXPECT_EQ(p.transmission, 128);
+    }
+}
+
+}  // namespace
+}  // namespace burin
