@@ -9,7 +9,7 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 
 using Record = TileLists<std::uint32_t>::Record;
 
-void bin(const ScreenSurfaces& screen, const TileGrid& grid, SurfaceId s, std::vector<Record>& records) {
+void bin(const ScreenSurfaces& screen, const PixelTiles& grid, SurfaceId s, std::vector<Record>& records) {
     const std::uint32_t number = screen.number_of(s);
     const ScreenSurfaces::Facing facing = screen.facing(number);
     if (facing == ScreenSurfaces::edge_on) return;
@@ -37,7 +37,7 @@ void bin(const ScreenSurfaces& screen, const TileGrid& grid, SurfaceId s, std::v
 
 }  // namespace
 
-LayerBins::LayerBins(const ScreenSurfaces& screen, const TileGrid& grid, int threads) {
+LayerBins::LayerBins(const ScreenSurfaces& screen, const PixelTiles& grid, int threads) {
     const std::uint32_t count = screen.triangle_count();
     std::vector<std::vector<Record>> records((count + kChunkTriangles - 1) / kChunkTriangles);
     parallel_for(records.size(), threads, [&](std::size_t chunk, int) {

@@ -12,7 +12,7 @@ class LayerBins {
     /// In front of the number of a triangle that is cut by the near plane or the guard band.
     static constexpr std::uint32_t kClipped = 1u << 31;
 
-    LayerBins(const ScreenSurfaces& screen, const TileGrid& grid, int threads);
+    LayerBins(const ScreenSurfaces& screen, const PixelTiles& grid, int threads);
     std::span<const std::uint32_t> triangles(std::size_t tile) const { return lists_.of(tile); }
 
   private:

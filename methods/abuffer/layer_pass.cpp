@@ -65,7 +65,7 @@ void join_results(std::vector<TileResult>& results, std::vector<LayerLine>& line
 }
 
 /// The numbers of the lines that touch each tile.
-TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const TileGrid& grid) {
+TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const PixelTiles& grid) {
     std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
         grid.visit(glm::min(lines[i].from, lines[i].to) / 256.0, glm::max(lines[i].from, lines[i].to) / 256.0,

@@ -38,7 +38,7 @@ class LayerPass {
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     int threads_;
-    TileGrid grid_;
+    PixelTiles grid_;
     LayerBins bins_;
     LayerStrokes strokes_;
     std::vector<LayerLine> lines_;

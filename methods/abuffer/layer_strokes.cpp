@@ -22,7 +22,7 @@ struct Pen {
 };
 
 template <typename Segment>
-TileLists<const Segment*> sort_by_tile(const std::vector<std::vector<Segment>>& segments, const TileGrid& grid,
+TileLists<const Segment*> sort_by_tile(const std::vector<std::vector<Segment>>& segments, const PixelTiles& grid,
                                        double reach_px) {
     std::vector<std::vector<typename TileLists<const Segment*>::Record>> records(segments.size());
     for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -123,7 +123,7 @@ void LayerStrokes::draw_below(const std::vector<std::vector<LineSegment>>& visib
                               const std::vector<std::vector<LayerSegment>>& layers, Film& film) {
     const LineStyle& style = frame_.scene->lines.style;
     const Pen pen(style.width_px), hidden_pen(style.hidden_width_px());
-    const TileGrid grid(frame_.crop, kTilePx);
+    const PixelTiles grid(frame_.crop, kTilePx);
     const auto visible_in = sort_by_tile(visible, grid, pen.radius_px + 1);
     const auto layers_in = sort_by_tile(layers, grid, std::max(pen.radius_px, hidden_pen.radius_px) + 1);
     seen_through_.assign(grid.count(), {});

@@ -60,7 +60,7 @@ bool has_transparent_surfaces(const Scene& scene) {
     });
 }
 
-LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const TileGrid& grid)
+LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const PixelTiles& grid)
     : frame_(frame),
       screen_(screen),
       bins_(bins),

@@ -28,7 +28,7 @@ struct LayerTriangle {
 /// a list of the triangles that touch it. Buffers are used again from tile to tile.
 class LayerTile {
   public:
-    LayerTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const TileGrid& grid);
+    LayerTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const PixelTiles& grid);
 
     void fill(std::size_t tile);
 
@@ -70,7 +70,7 @@ class LayerTile {
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     const LayerBins& bins_;
-    const TileGrid& grid_;
+    const PixelTiles& grid_;
     bool has_transparent_;
     PixelRect rect_;
     int cell_px_ = 1, columns_ = 0, rows_ = 0;

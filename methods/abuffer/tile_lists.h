@@ -12,9 +12,9 @@
 namespace burin {
 
 /// A rectangle of pixels cut into square tiles, row by row.
-class TileGrid {
+class PixelTiles {
   public:
-    TileGrid(PixelRect region, int tile_px)
+    PixelTiles(PixelRect region, int tile_px)
         : region_(region),
           tile_px_(tile_px),
           columns_((region.width() + tile_px - 1) / tile_px),

@@ -32,7 +32,7 @@ struct Layer {
 
 class TransparentTile {
   public:
-    TransparentTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const TileGrid& grid)
+    TransparentTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const PixelTiles& grid)
         : frame_(frame), screen_(screen), bins_(bins), grid_(grid), kernels_(best_kernels()) {}
 
     void fill(std::size_t tile, Film& film) {
@@ -170,7 +170,7 @@ class TransparentTile {
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     const LayerBins& bins_;
-    const TileGrid& grid_;
+    const PixelTiles& grid_;
     const TileKernels& kernels_;
     PixelRect rect_;
     SampleTile samples_;
@@ -182,7 +182,7 @@ class TransparentTile {
 }  // namespace
 
 void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins,
-                      const TileGrid& grid, int threads, Film& film) {
+                      const PixelTiles& grid, int threads, Film& film) {
     std::vector<std::unique_ptr<TransparentTile>> tiles(static_cast<std::size_t>(threads));
     parallel_for(grid.count(), threads, [&](std::size_t index, int worker) {
         auto& tile = tiles[static_cast<std::size_t>(worker)];

@@ -10,6 +10,6 @@ namespace burin {
 /// surfaces up to the nearest opaque one, composited from front to back (Porter and Duff 1984). The
 /// pixels must have been put before.
 void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins,
-                      const TileGrid& grid, int threads, Film& film);
+                      const PixelTiles& grid, int threads, Film& film);
 
 }  // namespace burin
