@@ -11,15 +11,15 @@ using Record = TileLists<std::uint32_t>::Record;
 
 void bin(const ScreenSurfaces& screen, const PixelTiles& grid, SurfaceId s, std::vector<Record>& records) {
     const std::uint32_t number = screen.number_of(s);
-    const ScreenSurfaces::Facing facing = screen.facing(number);
-    if (facing == ScreenSurfaces::edge_on) return;
+    const Facing facing = screen.facing(number);
+    if (facing == edge_on) return;
     glm::dvec2 low(1e300), high(-1e300);
     const auto reach = [&](double x, double y) {
         low = glm::min(low, glm::dvec2(x, y) / 256.0);
         high = glm::max(high, glm::dvec2(x, y) / 256.0);
     };
     std::uint32_t value = number;
-    if (facing == ScreenSurfaces::off_screen) {
+    if (facing == off_screen) {
         const ScreenPolygon polygon = screen.surfaces().screen_polygon(s);
         for (int i = 0; i < polygon.count; ++i) {
             const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];

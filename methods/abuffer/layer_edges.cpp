@@ -33,7 +33,7 @@ class EdgeFinder {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const std::uint32_t number = screen_.number_of(s), first = number - s.triangle;
         const auto own = screen_.facing(number);
-        const bool is_solid = own == ScreenSurfaces::clockwise || own == ScreenSurfaces::counterclockwise;
+        const bool is_solid = own == clockwise || own == counterclockwise;
         const std::uint8_t* const table = screen_.sharp_edges(s.instance);
         const unsigned sharp = table == nullptr ? 7u : table[s.triangle];
         for (unsigned k = 0; k < 3; ++k) {
