@@ -1,6 +1,7 @@
 #include "methods/abuffer/layer_strokes.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/parallel.h"
 #include "lines/stroke_mask.h"
@@ -35,7 +36,9 @@ TileLists<const Segment*> sort_by_tile(const std::vector<std::vector<Segment>>& 
 }
 
 float share(const StrokeMask& mask) {
-    return static_cast<float>(mask.count()) / (StrokeMask::kRows * StrokeMask::kColumns);
+    int count = 0;
+    for (const std::uint32_t row : mask.rows) count += std::popcount(row);
+    return static_cast<float>(count) / (StrokeMask::kRows * StrokeMask::kColumns);
 }
 void remove(StrokeMask& mask, const StrokeMask& taken) {
     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
