@@ -13,6 +13,8 @@ struct SampleView {
     float* nearness;
     std::uint32_t* ids;
     std::int32_t first_column, first_row, columns, rows, stride, samples_per_pixel;
+    /// Surfaces whose nearness differs by at most `level + level_per_nearness * nearness` are level.
+    float level, level_per_nearness;
 };
 
 /// Nearness of a polygon of any size: `nearness` at the position (x, y) in 1/256 pixel, changes per
@@ -89,10 +91,9 @@ struct TileKernels {
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
                       const SpanPlane& plane);
-    /// Finds the pairs of neighbours with different ids, except where both are plain and the
-    /// difference in nearness is at most `level + level_per_nearness * nearness`. Returns their number;
-    /// `pairs` must have room for 2 * columns * rows.
-    std::size_t (*find_pairs)(const SampleView& tile, float level, float level_per_nearness, SamplePair* pairs);
+    /// Finds the pairs of neighbours with different ids, except where both are plain and level.
+    /// Returns their number; `pairs` must have room for 2 * columns * rows.
+    std::size_t (*find_pairs)(const SampleView& tile, SamplePair* pairs);
     /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
     /// three counts more than asked for may be written.
     void (*count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,

@@ -19,8 +19,19 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       tracer_(frame.surfaces) {}
 
 SampleView LineTile::view() {
-    return {samples_.nearness.data(), samples_.ids.data(), samples_.first_column, samples_.first_row,
-            samples_.columns, samples_.rows, samples_.stride, per_pixel_};
+    // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
+    const Projection& p = frame_.surfaces.projection;
+    const double per_nearness = 2 / p.focal_px;
+    return {samples_.nearness.data(),
+            samples_.ids.data(),
+            samples_.first_column,
+            samples_.first_row,
+            samples_.columns,
+            samples_.rows,
+            samples_.stride,
+            per_pixel_,
+            static_cast<float>(per_nearness * (p.orthographic ? 1.0 : frame_.surfaces.farthest_nearness)),
+            p.orthographic ? 0.0f : static_cast<float>(per_nearness)};
 }
 
 SurfaceId LineTile::surface_at(std::size_t sample) const {
@@ -148,12 +159,7 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
 void LineTile::find_lines(std::vector<LineSegment>& segments) {
     if (is_empty_) return;
     pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows));
-    // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
-    const Projection& p = frame_.surfaces.projection;
-    const float per_nearness = p.orthographic ? 0.0f : static_cast<float>(2 / p.focal_px);
-    const float level = static_cast<float>(
-        2 / p.focal_px * (p.orthographic ? 1.0 : frame_.surfaces.farthest_nearness));
-    const std::size_t count = kernels_.find_pairs(view(), level, per_nearness, pairs_.data());
+    const std::size_t count = kernels_.find_pairs(view(), pairs_.data());
 
     const std::size_t size = samples_.ids.size();
     if (right_.size() < size) {
