@@ -8,6 +8,12 @@
 
 namespace burin {
 
+/// A triangle that lost a sample to another one at about the same depth.
+struct Contest {
+    std::uint32_t sample;  ///< index in the tile
+    std::uint32_t loser;   ///< id
+};
+
 /// A SampleTile as the kernels see it.
 struct SampleView {
     float* nearness;
@@ -15,6 +21,10 @@ struct SampleView {
     std::int32_t first_column, first_row, columns, rows, stride, samples_per_pixel;
     /// Surfaces whose nearness differs by at most `level + level_per_nearness * nearness` are level.
     float level, level_per_nearness;
+    /// Where what is level competes for a sample. `contest_count` goes on counting beyond the capacity.
+    Contest* contests;
+    std::uint32_t* contest_count;
+    std::uint32_t contest_capacity;
 };
 
 /// Nearness of a polygon of any size: `nearness` at the position (x, y) in 1/256 pixel, changes per

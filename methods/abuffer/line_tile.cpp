@@ -31,7 +31,10 @@ SampleView LineTile::view() {
             samples_.stride,
             per_pixel_,
             static_cast<float>(per_nearness * (p.orthographic ? 1.0 : frame_.surfaces.farthest_nearness)),
-            p.orthographic ? 0.0f : static_cast<float>(per_nearness)};
+            p.orthographic ? 0.0f : static_cast<float>(per_nearness),
+            contests_.data(),
+            &contest_count_,
+            static_cast<std::uint32_t>(contests_.size())};
 }
 
 SurfaceId LineTile::surface_at(std::size_t sample) const {
@@ -43,6 +46,18 @@ void LineTile::draw(std::size_t tile) {
     rect_ = bins_.tile(tile);
     is_empty_ = bins_.runs_in(tile).empty() && bins_.large_in(tile).empty();
     if (is_empty_) return;
+    if (contests_.empty()) contests_.resize(1 << 14);
+    draw_all(tile);
+    if (contest_count_ > contests_.size()) {  // once more, with room for all
+        contests_.resize(contest_count_);
+        draw_all(tile);
+    }
+    contests_used_ = contest_count_;
+    settle_contests();
+}
+
+void LineTile::draw_all(std::size_t tile) {
+    contest_count_ = 0;
     samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
                    rect_.height() * per_pixel_ + 1, per_pixel_);
     for (const std::uint32_t i : bins_.large_in(tile)) {
@@ -68,6 +83,42 @@ void LineTile::draw(std::size_t tile) {
         since_look += drawn;
         drawn_ += drawn;
     }
+}
+
+/// Coincident surfaces do not fight: the first one wins, as in resolve_visibility().
+void LineTile::settle_contests() {
+    if (contests_used_ == 0) return;
+    std::sort(contests_.begin(), contests_.begin() + contests_used_, [](const Contest& a, const Contest& b) {
+        return a.sample != b.sample ? a.sample < b.sample : a.loser < b.loser;
+    });
+    known_.clear();
+    for (std::uint32_t i = 0; i < contests_used_;) {
+        const std::uint32_t sample = contests_[i].sample;
+        const std::uint32_t winner = samples_.ids[sample] >> 1;
+        bool settled = false;
+        for (; i < contests_used_ && contests_[i].sample == sample; ++i) {
+            const std::uint32_t loser = contests_[i].loser >> 1;
+            if (settled || loser >= winner || !coincide(loser, winner, sample)) continue;
+            samples_.ids[sample] = loser << 1;
+            settled = true;
+        }
+    }
+}
+
+bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner, std::uint32_t sample) {
+    const auto [it, is_new] = known_.try_emplace(std::uint64_t{loser} << 32 | winner, false);
+    if (!is_new) return it->second;
+    const SurfaceId a = screen_.surface_of(loser), b = screen_.surface_of(winner);
+    if (a.instance == b.instance) {
+        // Neighbours that fold over are level along their edge, and no more.
+        const auto& s = frame_.surfaces.mesh_of(a).triangles[a.triangle];
+        const auto& t = frame_.surfaces.mesh_of(a).triangles[b.triangle];
+        for (const std::uint32_t v : s) {
+            if (std::find(t.begin(), t.end(), v) != t.end()) return false;
+        }
+    }
+    const auto row = static_cast<int>(sample) / samples_.stride, column = static_cast<int>(sample) % samples_.stride;
+    return it->second = frame_.surfaces.coincide(a, b, point(column, row).pixel);
 }
 
 /// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <unordered_map>
 #include <vector>
 
 #include "abuffer/sample_tile.h"
@@ -32,6 +33,9 @@ class LineTile {
 
   private:
     SampleView view();
+    void draw_all(std::size_t tile);
+    void settle_contests();
+    bool coincide(std::uint32_t loser, std::uint32_t winner, std::uint32_t sample);
     void order_runs(std::size_t tile);
     void draw_large(const LargePolygon& large, bool plain);
     bool decide(const SamplePair& pair, LineCrossing& crossing) const;
@@ -60,6 +64,9 @@ class LineTile {
     // Per sample, 1 + the number of the crossing to its right and below it; 0: none.
     std::vector<std::uint32_t> right_, down_;
     std::uint64_t drawn_ = 0;
+    std::vector<Contest> contests_;
+    std::uint32_t contest_count_ = 0, contests_used_ = 0;
+    std::unordered_map<std::uint64_t, bool> known_;  // two triangles: whether they coincide
 };
 
 }  // namespace burin
