@@ -96,6 +96,18 @@ class EdgeFinder {
         return base;
     }
 
+    HalfEdge longer_of_others(std::uint32_t instance, HalfEdge h) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        const ScreenVertex* const v = screen_.vertices(instance);
+        const HalfEdge one = h - h % 3 + (h + 1) % 3, two = h - h % 3 + (h + 2) % 3;
+        const auto square = [&](HalfEdge e) {
+            const ScreenVertex &a = v[start_of(mesh, e)], &b = v[end_of(mesh, e)];
+            const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y;
+            return dx * dx + dy * dy;
+        };
+        return square(two) > square(one) ? two : one;
+    }
+
     /// The triangle that counts at an edge: behind thin triangles the next one. Nothing at a thin
     /// triangle's longest edge: the two others stand for it.
     std::optional<HalfEdge> solid_behind(std::uint32_t instance, HalfEdge h) const {
@@ -103,12 +115,10 @@ class EdgeFinder {
         for (int step = 0; step < 4; ++step) {
             const auto base = base_of_thin({instance, h / 3});
             if (!base) return h;
-            if (*base == h) {
-                if (step == 0) return std::nullopt;
-                return h;
-            }
-            const HalfEdge g = mesh.next_on_edge[*base];
-            if (g == *base || mesh.next_on_edge[g] != *base) return h;
+            if (*base == h && step == 0) return std::nullopt;
+            const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base;
+            const HalfEdge g = mesh.next_on_edge[exit];
+            if (g == exit || mesh.next_on_edge[g] != exit) return h;
             h = g;
         }
         return h;
@@ -133,13 +143,12 @@ class EdgeFinder {
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             const int side_h = side_at(s.instance, *solid_h, a, b), side_g = side_at(s.instance, *solid_g, a, b);
             if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
-            const SurfaceId one = triangle_of(s, h), two = triangle_of(s, g);
-            if (!is_sliver(surfaces_, one) && !is_sliver(surfaces_, two)) {
-                classes |= edge_classes(surfaces_, {s, h}, criteria_);
-            } else {
-                classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g),
-                                           middle_px(s, h), criteria_);
-            }
+        }
+        if (!is_sliver(surfaces_, triangle_of(s, h)) && !is_sliver(surfaces_, triangle_of(s, g))) {
+            classes |= edge_classes(surfaces_, {s, h}, criteria_);
+        } else if (solid_h && solid_g) {
+            classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g),
+                                       middle_px(s, h), criteria_);
         }
         add(s, h, classes, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
     }

@@ -147,10 +147,10 @@ TEST(HiddenLines, ACubeInACube) {
                 EXPECT_NEAR(total, 1, 0.01);
                 continue;
             }
-            ASSERT_EQ(shares.size(), 1u);
-            EXPECT_NEAR(shares.begin()->second, 1, 0.01);
-            once += shares.begin()->first == 1;
-            twice += shares.begin()->first == 2;
+            const auto most = std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+            EXPECT_NEAR(most->second, 1, 0.01);
+            once += most->first == 1;
+            twice += most->first == 2;
         }
         EXPECT_EQ(outer, 3);
         EXPECT_EQ(once, 9);
@@ -272,18 +272,19 @@ TEST(HiddenLines, InvisibilityIsWhatRaysCount) {
 
 /// A wall in front of two sheets that pass through each other, in world units that are pixels.
 Scene crossing_behind_wall() {
-    const auto sheet = [](double z_left, double z_right) {
-        return soup_of({{40, 40, z_left}, {200, 40, z_right}, {200, 200, z_right}, {40, 200, z_left}}, {{0, 1, 2, 3}});
+    const auto sheet = [](double inset, double slope) {
+        const double l = 40 + inset, r = 200 - inset, z = slope * (80 - inset);
+        return soup_of({{l, l, -z}, {r, l, z}, {r, r, z}, {l, r, -z}}, {{0, 1, 2, 3}});
     };
     return scene_of({soup_of({{20, 20, 100}, {220, 20, 100}, {220, 140, 100}, {20, 140, 100}}, {{0, 1, 2, 3}}),
-                     sheet(-50, 50), sheet(50, -50)});
+                     sheet(0, 0.625), sheet(20, -0.625)});
 }
 
 TEST(HiddenLines, SheetsThatCrossBehindAWall) {
     const Scene scene = crossing_behind_wall();
     const Layers layers(scene, pixel_camera(kSize, kSize));
-    // The wall hides y = 40 to 140 of the crossing, which runs along x = 120.
-    EXPECT_NEAR(layers.hidden_px(1, LineClass::intersection), 100, 0.3);
+    // The wall hides y = 60 to 140 of the crossing, which runs along x = 120.
+    EXPECT_NEAR(layers.hidden_px(1, LineClass::intersection), 80, 0.3);
     EXPECT_NEAR(layers.hidden_px(2, LineClass::intersection), 0, 1e-9);
     for (const LayerPiece& p : layers.pass.pieces()) {
         const LayerLine& line = layers.pass.lines()[p.line];
@@ -291,8 +292,11 @@ TEST(HiddenLines, SheetsThatCrossBehindAWall) {
         EXPECT_NEAR(line.from.x / 256, 120, 0.01);
         EXPECT_NEAR(line.to.x / 256, 120, 0.01);
     }
-    // One half of each sheet's lower border is behind the wall alone, the other half behind the other sheet, too.
-    EXPECT_NEAR(layers.hidden_px(2, LineClass::border), 0, 0.5) << "the sheets' borders fall together";
+    // The inner sheet's lower and right border are behind the outer sheet and the wall.
+    EXPECT_NEAR(layers.hidden_px(2, LineClass::border), 60 + 80, 0.5);
+    // The wall hides the outer sheet's lower border and parts of its sides, and of the inner sheet's the rest
+    // of the lower and the left border; where the wall has ended, the outer sheet hides the inner one's.
+    EXPECT_NEAR(layers.hidden_px(1, LineClass::border), (160 + 100 + 100) + (60 + 80) + (40 + 60), 0.5);
 }
 
 TEST(HiddenLines, GoToTheirOwnChannels) {
@@ -300,8 +304,8 @@ TEST(HiddenLines, GoToTheirOwnChannels) {
     scene.lines.style.hidden.color = {0.5f, 0.25f, 0.0f};
     scene.lines.style.hidden.style = HiddenStyle::solid;
     const Image image = draw(scene, pixel_camera(kSize, kSize));
-    // World y runs up: the crossing is hidden in rows 100 to 200 of the picture.
-    for (const int y : {110, 150, 190}) {
+    // World y runs up: the crossing is hidden in rows 100 to 180 of the picture.
+    for (const int y : {110, 150, 175}) {
         EXPECT_NEAR(value(image, "lines_hidden.A", 119, y) + value(image, "lines_hidden.A", 120, y), 1, 0.02);
         EXPECT_NEAR(value(image, "lines_hidden.G", 120, y), 0.25 * value(image, "lines_hidden.A", 120, y), 1e-3);
         EXPECT_EQ(value(image, "lines.A", 120, y), 0);
@@ -398,7 +402,7 @@ TEST(Transparency, LinesBehindGlassAreWeakened) {
     double by_class = 0;
     for (int x = 66; x < 74; ++x) by_class += value(glass, "coverage.silhouette", x, 150) + value(glass, "coverage.crease", x, 150);
     EXPECT_NEAR(by_class, across(glass, 150), 0.01);
-    EXPECT_NEAR(across(glass, 219), 0, 0.001) << "nothing is behind the pane there";
+    EXPECT_NEAR(across(glass, 200), 0, 0.001) << "nothing is behind the pane there";
 }
 
 TEST(Transparency, SurfacesAreCompositedInOrder) {
@@ -441,7 +445,9 @@ TEST(Transparency, GlassDoesNotCountAsALayer) {
     EXPECT_GT(layers.hidden_px(2), 300);
     EXPECT_EQ(layers.hidden_px(3) + layers.hidden_px(4), layers.hidden_px(3)) << "only the box's rear face is behind its front";
     for (const LayerPiece& p : layers.pass.pieces()) {
-        if (layers.pass.lines()[p.line].owners[0] < 12) EXPECT_EQ(p.transmission, 128);
+        if (layers.pass.lines()[p.line].owners[0] < 12) {
+            EXPECT_EQ(p.transmission, 128);
+        }
     }
 }
 
