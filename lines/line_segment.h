@@ -18,12 +18,17 @@ struct LineCrossing {
     glm::dvec2 towards_front{0.0};  ///< from the crossing to the sample of the front surface
 };
 
+/// Of the blocks of the picture within which pieces are merged: so that a crop of a picture merges the
+/// same pieces.
+constexpr int kMergeBlockPx = 8;
+
 /// A straight piece of a line on the screen, in pixels.
 struct LineSegment {
     glm::dvec2 from{0.0}, to{0.0};
     LineClass drawn_as = LineClass::silhouette;
     bool front_on_left = false;  ///< of the way from `from` to `to`, as seen on the screen
     std::uint64_t line_key = 0;
+    std::uint32_t block = 0;  ///< only pieces of one block of the picture are merged
 };
 
 }  // namespace burin

@@ -18,14 +18,15 @@ void put_in_order(LineSegment& s) {
 
 bool is_before(const LineSegment& a, const LineSegment& b) {
     if (a.line_key != b.line_key) return a.line_key < b.line_key;
+    if (a.block != b.block) return a.block < b.block;
     if (a.from.x != b.from.x) return a.from.x < b.from.x;
-    return a.from.y < b.from.y;
+    if (a.from.y != b.from.y) return a.from.y < b.from.y;
+    return a.to.x != b.to.x ? a.to.x < b.to.x : a.to.y < b.to.y;
 }
 
 bool continues(const LineSegment& a, const LineSegment& b) {
-    if (a.line_key != b.line_key || a.to != b.from || a.drawn_as != b.drawn_as || a.front_on_left != b.front_on_left) {
-        return false;
-    }
+    const bool is_same_line = a.line_key == b.line_key && a.drawn_as == b.drawn_as && a.block == b.block;
+    if (!is_same_line || a.to != b.from || a.front_on_left != b.front_on_left) return false;
     const glm::dvec2 along = b.to - a.from, bend = a.to - a.from;
     const double area = along.x * bend.y - along.y * bend.x;
     return area * area <= kStraightPx * kStraightPx * glm::dot(along, along) && glm::dot(along, bend) > 0;

@@ -19,7 +19,13 @@ struct WorkerTimes {
     std::uint64_t fragments = 0;
 };
 
-PixelRect grown(PixelRect r, int by) { return {r.x0 - by, r.y0 - by, r.x1 + by, r.y1 + by}; }
+/// Whole blocks of merged pieces around a crop from which strokes reach into it.
+PixelRect region_around(PixelRect crop, double reach_px) {
+    const int margin = static_cast<int>(std::ceil(reach_px)) + 1;
+    const auto down = [](int v) { return (v & ~(kMergeBlockPx - 1)); };
+    return {down(crop.x0 - margin), down(crop.y0 - margin), down(crop.x1 + margin + kMergeBlockPx - 1),
+            down(crop.y1 + margin + kMergeBlockPx - 1)};
+}
 
 }  // namespace
 
@@ -40,8 +46,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     const TileKernels& kernels = best_kernels();
     Stopwatch watch;
     ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads);
-    const int margin_px = static_cast<int>(std::ceil(0.5 * frame.scene->lines.style.width_px)) + 1;
-    const PixelRect region = grown(frame.crop, margin_px);
+    const PixelRect region = region_around(frame.crop, 0.5 * frame.scene->lines.style.width_px);
     const TriangleBins bins(screen, region, per_pixel, kernels, stats.threads);
     stats.prepare_s = watch.lap();
 
@@ -56,11 +61,15 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
         if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame, screen, bins, per_pixel, kernels);
         if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame, screen, kernels);
         Stopwatch lap;
-        tiles[w]->draw(index);
-        times[w].raster += lap.lap();
-        tiles[w]->find_lines(segments[index]);
-        times[w].lines += lap.lap();
-        fillers[w]->fill(*tiles[w], film);
+        if (bins.is_empty(index)) {
+            fillers[w]->clear(bins.empty_tiles_from(index), film);
+        } else {
+            tiles[w]->draw(index);
+            times[w].raster += lap.lap();
+            tiles[w]->find_lines(segments[index]);
+            times[w].lines += lap.lap();
+            fillers[w]->fill(*tiles[w], film);
+        }
         times[w].shade += lap.lap();
         if (options.progress != nullptr) options.progress->advance();
     });

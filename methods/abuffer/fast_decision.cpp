@@ -23,7 +23,6 @@ FastDecision::Walk FastDecision::walk(const NeighbourSamples& pair, bool backwar
     const Mesh& mesh = surfaces_.mesh_of(start);
     const ScreenVertex* const vertices = screen_.vertices(start.instance);
     const std::uint8_t* const sharp = screen_.sharp_edges(start.instance);
-    if (sharp == nullptr) return result;
     const std::int32_t across = pair.down ? pair.x : pair.y;
     const double origin = (pair.down ? pair.y : pair.x) + (backwards ? pair.pitch : 0);
     const double per_unit = (backwards ? -1.0 : 1.0) / pair.pitch;
@@ -32,8 +31,9 @@ FastDecision::Walk FastDecision::walk(const NeighbourSamples& pair, bool backwar
     // The half-edge where the line leaves a triangle that it entered by `entry`, and where.
     std::uint32_t t = start.triangle;
     HalfEdge entry = kNoHalfEdge;
+    // Where the walk is and where it got farthest: it may turn back by a trifle.
+    double current = -1e300, farthest = -1e300;
     HalfEdge farthest_edge = kNoHalfEdge;
-    double farthest = -1e300;
     for (int step = 0; step < kMaxSteps; ++step) {
         const auto& c = mesh.triangles[t];
         std::int32_t u[3], v[3];
@@ -70,38 +70,88 @@ FastDecision::Walk FastDecision::walk(const NeighbourSamples& pair, bool backwar
             if (area * area < kSurelySolid * kSurelySolid * longest && is_sliver(surfaces_, {start.instance, t})) {
                 return result;
             }
-            if (reached < farthest - negligible) {
+            const auto unfolds_apart = [&] {
+                if (!(current < farthest && reached >= farthest)) return false;
+                const double along = origin + farthest / per_unit;
+                const glm::dvec2 at = pair.down ? glm::dvec2(across, along) : glm::dvec2(along, across);
+                return !is_level({start.instance, farthest_edge / 3}, {start.instance, t}, at);
+            };
+            if (reached < farthest - negligible || unfolds_apart()) {
                 result.end = Walk::fold;
                 result.triangle = farthest_edge / 3;
                 result.half_edge = farthest_edge;
                 result.fraction = farthest;
                 return result;
             }
-            if (reached < farthest) return result;
-            if ((sharp[entry / 3] >> entry % 3 & 1) != 0) {
+            if (sharp == nullptr || (sharp[entry / 3] >> entry % 3 & 1) != 0) {
                 const HalfEdge own = mesh.next_on_edge[entry];
                 const LineClassSet classes =
                     edge_classes(surfaces_, {{start.instance, own / 3}, own}, criteria_) & criteria_.classes;
                 if (!classes.empty() && result.crossed.empty()) {
                     result.crossed_edge = own;
-                    result.crossed_fraction = farthest;
+                    result.crossed_fraction = current;
                 }
                 result.crossed |= classes;
             }
         }
-        farthest = reached;
-        farthest_edge = exit;
+        current = reached;
+        if (reached >= farthest) {
+            farthest = reached;
+            farthest_edge = exit;
+        }
         if (reached >= goal) {
             result.end = Walk::arrived;
             result.triangle = t;
             return result;
         }
         const HalfEdge partner = mesh.next_on_edge[exit];
-        if (partner == exit || mesh.next_on_edge[partner] != exit) return result;
+        if (partner == exit) {
+            const std::size_t k = exit % 3, n = k == 2 ? 0 : k + 1;
+            const double along = static_cast<double>(across - v[k]) / (v[n] - v[k]);
+            const double qk = surfaces_.farthest_nearness + static_cast<double>(vertices[c[k]].nearness);
+            const double qn = surfaces_.farthest_nearness + static_cast<double>(vertices[c[n]].nearness);
+            // Where that is on the edge in space.
+            const double part = surfaces_.projection.orthographic ? along
+                                                                  : along * qn / ((1 - along) * qk + along * qn);
+            if (has_seam(start.instance, exit, part)) return result;
+            result.end = Walk::border;
+            result.triangle = t;
+            result.half_edge = exit;
+            result.fraction = reached;
+            return result;
+        }
+        if (mesh.next_on_edge[partner] != exit) return result;
         t = partner / 3;
         entry = partner;
     }
     return result;
+}
+
+bool FastDecision::has_seam(std::uint32_t instance, HalfEdge border, double along) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const auto& t = mesh.triangles[border / 3];
+    const glm::dvec3 a(mesh.positions[t[border % 3]]), b(mesh.positions[t[(border + 1) % 3]]);
+    return mesh.borders.seam_partner(border, glm::mix(a, b, along)).has_value();
+}
+
+bool FastDecision::is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const {
+    const glm::dvec2 at = subpixel / double{kSubpixelsPerPixel};
+    const DepthPlane plane = surfaces_.plane(b);
+    const double distance = distance_of(surfaces_.projection, surfaces_.plane(a).nearness(at));
+    const double other = distance_of(surfaces_.projection, plane.nearness(at));
+    return std::abs(distance - other) <= depth_tolerance(surfaces_, distance, plane);
+}
+
+/// edge_classes(), unless the table says that there are none.
+LineClassSet FastDecision::classes_of(std::uint32_t instance, HalfEdge h) const {
+    const std::uint8_t* const sharp = screen_.sharp_edges(instance);
+    if (sharp != nullptr && (sharp[h / 3] >> h % 3 & 1) == 0) return {};
+    return edge_classes(surfaces_, {{instance, h / 3}, h}, criteria_);
+}
+
+LineClassSet FastDecision::classes_at_end(const Walk& walk, std::uint32_t instance) const {
+    const LineClass own = walk.end == Walk::fold ? LineClass::silhouette : LineClass::border;
+    return own | classes_of(instance, walk.half_edge);
 }
 
 double FastDecision::nearness_at(SurfaceId s, double x, double y) const {
@@ -148,17 +198,14 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
         }
         if (other == kNoSurface) {
             take_edge(w, w.half_edge, s.instance, i, w.fraction);
-            decision.reason = LineReason::turns_away;
-            decision.classes = LineClass::silhouette;
-            if (screen_.sharp_edges(s.instance)[w.half_edge / 3] >> w.half_edge % 3 & 1) {
-                decision.classes |= edge_classes(surfaces_, decision.edge, criteria_);
-            }
+            decision.reason = w.end == Walk::fold ? LineReason::turns_away : LineReason::ends_at_border;
+            decision.classes = classes_at_end(w, s.instance);
             return true;
         }
     }
-    // Exactly one folds over, clearly in front of the other.
-    if ((walks[0].end == Walk::fold) == (walks[1].end == Walk::fold)) return false;
-    const int i = walks[0].end == Walk::fold ? 0 : 1;
+    // Exactly one ends, clearly in front of the other.
+    if ((walks[0].end == Walk::arrived) == (walks[1].end == Walk::arrived)) return false;
+    const int i = walks[0].end == Walk::arrived ? 1 : 0;
     const Walk& w = walks[i];
     const Walk to_end = walk(pair, i == 0, 1 - w.fraction);
     if (to_end.end != Walk::arrived) return false;
@@ -172,11 +219,8 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
     const double gap = distance_of(p, other_nearness) - distance;
     // The tolerance depends on the other's slope; where that matters, it is not an ordinary case.
     if (!(gap > depth_tolerance(surfaces_, distance, surfaces_.plane(behind_triangle)))) return false;
-    decision.reason = LineReason::turns_away;
-    decision.classes = LineClass::silhouette;
-    if (screen_.sharp_edges(own.instance)[w.half_edge / 3] >> w.half_edge % 3 & 1) {
-        decision.classes |= edge_classes(surfaces_, decision.edge, criteria_);
-    }
+    decision.reason = w.end == Walk::fold ? LineReason::turns_away : LineReason::ends_at_border;
+    decision.classes = classes_at_end(w, own.instance);
     return true;
 }
 

@@ -14,7 +14,7 @@ struct NeighbourSamples {
 };
 
 /// decide_line() for the ordinary case, ten times as fast: surfaces on the screen, edges of two
-/// triangles, no slivers, no contact. Walks are along a row or a column of samples, over vertices
+/// triangles or of one, no slivers, no contact. Walks are along a row or a column of samples, over vertices
 /// that are snapped already, so that sides are integer comparisons.
 class FastDecision {
   public:
@@ -29,15 +29,19 @@ class FastDecision {
 
   private:
     struct Walk {
-        enum End { arrived, fold, unsure } end = unsure;
+        enum End { arrived, fold, border, unsure } end = unsure;
         std::uint32_t triangle = 0;      // of the instance
-        HalfEdge half_edge = kNoHalfEdge;  // of the fold
+        HalfEdge half_edge = kNoHalfEdge;  // of the fold or border
         double fraction = 1;
         LineClassSet crossed;
         HalfEdge crossed_edge = kNoHalfEdge;
         double crossed_fraction = 0.5;
     };
     Walk walk(const NeighbourSamples& pair, bool backwards, double goal) const;
+    LineClassSet classes_of(std::uint32_t instance, HalfEdge h) const;
+    LineClassSet classes_at_end(const Walk& walk, std::uint32_t instance) const;
+    bool is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const;
+    bool has_seam(std::uint32_t instance, HalfEdge border, double along) const;
     double nearness_at(SurfaceId s, double x, double y) const;
 
     const ScreenSurfaces& screen_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "abuffer/scan_convert.h"
 #include "lines/merge_segments.h"
@@ -44,8 +45,6 @@ SurfaceId LineTile::surface_at(std::size_t sample) const {
 
 void LineTile::draw(std::size_t tile) {
     rect_ = bins_.tile(tile);
-    is_empty_ = bins_.runs_in(tile).empty() && bins_.large_in(tile).empty();
-    if (is_empty_) return;
     if (contests_.empty()) contests_.resize(1 << 14);
     draw_all(tile);
     if (contest_count_ > contests_.size()) {  // once more, with room for all
@@ -208,7 +207,6 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
 }
 
 void LineTile::find_lines(std::vector<LineSegment>& segments) {
-    if (is_empty_) return;
     pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows));
     const std::size_t count = kernels_.find_pairs(view(), pairs_.data());
 
@@ -253,7 +251,14 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         const std::uint32_t own = (from.down ? down_ : right_)[static_cast<std::size_t>(from.row) * stride + from.column];
         if (found[0] != &crossings_[own - 1]) return;  // another crossing traces this cell
         const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
+        std::size_t fresh = segments.size();
         tracer_.trace({found.data(), count}, low, low + 1.0 / s, segments);
+        const auto block_of = [this](int sample) {
+            const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
+            return static_cast<std::uint32_t>(sample >> shift) & 0xFFFFu;
+        };
+        const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
+        for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };
     for (const SamplePair& place : crossing_places_) {
         if (place.down) {

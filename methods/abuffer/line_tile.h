@@ -26,8 +26,6 @@ class LineTile {
 
     const SampleTile& samples() const { return samples_; }
     PixelRect rect() const { return rect_; }
-    /// Whether nothing touches the tile.
-    bool is_empty() const { return is_empty_; }
     SurfaceId surface_at(std::size_t sample) const;
     std::uint64_t sample_tests() const { return drawn_; }
 
@@ -50,7 +48,6 @@ class LineTile {
     FastDecision fast_;
     CellTracer tracer_;
     PixelRect rect_;
-    bool is_empty_ = true;
     SampleTile samples_;
     struct PlacedRun {
         const TriangleRun* run;

@@ -184,15 +184,20 @@ void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y) {
     }
 }
 
-void PixelFiller::fill(const LineTile& tile, Film& film) {
-    PixelRect rect = tile.rect();
-    rect = {std::max(rect.x0, frame_.crop.x0), std::max(rect.y0, frame_.crop.y0), std::min(rect.x1, frame_.crop.x1),
-            std::min(rect.y1, frame_.crop.y1)};
+PixelRect PixelFiller::in_crop(PixelRect r) const {
+    const PixelRect& crop = frame_.crop;
+    return {std::max(r.x0, crop.x0), std::max(r.y0, crop.y0), std::min(r.x1, crop.x1), std::min(r.y1, crop.y1)};
+}
+
+void PixelFiller::clear(PixelRect rect, Film& film) const {
+    rect = in_crop(rect);
     if (rect.x0 >= rect.x1) return;
-    if (tile.is_empty()) {
-        for (int y = rect.y0; y < rect.y1; ++y) film.put_background(rect.x0, rect.x1, y);
-        return;
-    }
+    for (int y = rect.y0; y < rect.y1; ++y) film.put_background(rect.x0, rect.x1, y);
+}
+
+void PixelFiller::fill(const LineTile& tile, Film& film) {
+    const PixelRect rect = in_crop(tile.rect());
+    if (rect.x0 >= rect.x1) return;
     const SampleTile& samples = tile.samples();
     find_looks(samples, rect);
     make_looks();

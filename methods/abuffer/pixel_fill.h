@@ -15,8 +15,12 @@ class PixelFiller {
 
     /// Puts the pixels of a tile that lie in the frame's crop.
     void fill(const LineTile& tile, Film& film);
+    /// Puts the background there.
+    void clear(PixelRect rect, Film& film) const;
 
   private:
+    PixelRect in_crop(PixelRect rect) const;
+
     static constexpr int kWidth = TileGrid::kTileSamples / 2;  // the widest tile, in pixels
 
     /// The sample next to a pixel's centre stands for the pixel in depth, normal and numbers: finds the

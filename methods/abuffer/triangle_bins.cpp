@@ -294,4 +294,14 @@ PixelRect TriangleBins::tile(std::size_t index) const {
     return {x0, y0, std::min(x0 + tile_px_, region_.x1), std::min(y0 + tile_px_, region_.y1)};
 }
 
+PixelRect TriangleBins::empty_tiles_from(std::size_t index) const {
+    const auto columns = static_cast<std::size_t>(columns_);
+    if (index % columns != 0 && is_empty(index - 1)) return {};
+    std::size_t last = index;
+    while ((last + 1) % columns != 0 && is_empty(last + 1)) ++last;
+    PixelRect rect = tile(index);
+    rect.x1 = tile(last).x1;
+    return rect;
+}
+
 }  // namespace burin

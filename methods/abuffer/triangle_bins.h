@@ -33,6 +33,10 @@ class TriangleBins {
 
     std::size_t tile_count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
     PixelRect tile(std::size_t index) const;
+    bool is_empty(std::size_t tile) const { return runs_in(tile).empty() && large_in(tile).empty(); }
+    /// The empty tiles side by side from this one on, as one rectangle; nothing if the tile to its left
+    /// is one of them.
+    PixelRect empty_tiles_from(std::size_t tile) const;
     std::span<const TriangleRun> runs_in(std::size_t tile) const {
         return {runs_.data() + run_end_[tile], run_end_[tile + 1] - run_end_[tile]};
     }

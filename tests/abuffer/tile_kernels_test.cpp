@@ -1,0 +1,277 @@
+#include "abuffer/tile_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "abuffer/sample_tile.h"
+#include "abuffer/scan_convert.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+/// Triangles around a tile, of all sizes and orders of corners.
+struct Triangles {
+    explicit Triangles(std::uint64_t seed, int samples_per_pixel, int first_column, int first_row) {
+        Random random(seed);
+        const int pitch = kSubpixelsPerPixel / samples_per_pixel;
+        for (int i = 0; i < 301; ++i) {
+            const int x = first_column * pitch + random.integer(-3 * pitch, 130 * pitch);
+            const int y = first_row * pitch + random.integer(-3 * pitch, 130 * pitch);
+            const int size = std::min(1 << random.integer(3, 12), kLargestSmallTriangle / 2 - 256);
+            for (int k = 0; k < 3; ++k) {
+                corners.push_back(static_cast<std::uint32_t>(vertices.size()));
+                // Every fourth triangle has corners exactly on samples.
+                const int mask = i % 4 == 0 ? ~(pitch - 1) : ~0;
+                const int shift = i % 4 == 0 ? pitch / 2 : 0;
+                vertices.push_back({((x + random.integer(-size, size)) & mask) + shift,
+                                    ((y + random.integer(-size, size)) & mask) + shift,
+                                    static_cast<float>(random.integer(0, 40)) * 0.125f});
+            }
+        }
+        facing.resize(count());
+        mesh.vertices = vertices.data();
+        mesh.corners = corners.data();
+        mesh.first_number = 1000;
+        mesh.facing = facing.data();
+    }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(corners.size() / 3); }
+    const ScreenVertex& corner(std::uint32_t t, std::uint32_t k) const { return vertices[corners[3 * t + k]]; }
+    std::int64_t area(std::uint32_t t) const { return doubled_area(corner(t, 0), corner(t, 1), corner(t, 2)); }
+
+    std::vector<ScreenVertex> vertices;
+    std::vector<std::uint32_t> corners;
+    std::vector<std::uint8_t> facing;
+    ScreenMesh mesh;
+};
+
+SampleView view_of(SampleTile& tile) {
+    return {tile.nearness.data(), tile.ids.data(), tile.first_column, tile.first_row,
+            tile.columns,         tile.rows,       tile.stride,       tile.samples_per_pixel};
+}
+
+/// One triangle after the other, one sample after the other: ScanConverter says which ones.
+void draw_slowly(const Triangles& triangles, std::uint32_t t, SampleTile& tile) {
+    ScreenPolygon polygon;
+    polygon.count = 3;
+    const ScreenVertex v[3] = {triangles.corner(t, 0), triangles.corner(t, 1), triangles.corner(t, 2)};
+    for (std::size_t k = 0; k < 3; ++k) polygon.corners[k] = {v[k].x, v[k].y};
+    const double area = static_cast<double>(triangles.area(t));
+    const double qa = static_cast<double>(v[0].nearness), qb = static_cast<double>(v[1].nearness) - qa;
+    const double qc = static_cast<double>(v[2].nearness) - qa;
+    const auto per_x = static_cast<float>((qb * (v[2].y - v[0].y) - qc * (v[1].y - v[0].y)) * (1.0 / area));
+    const auto per_y = static_cast<float>((qc * (v[1].x - v[0].x) - qb * (v[2].x - v[0].x)) * (1.0 / area));
+    const auto [low, high] = std::minmax({v[0].nearness, v[1].nearness, v[2].nearness});
+    const ScanConverter scan(polygon, tile.samples_per_pixel);
+    const int pitch = kSubpixelsPerPixel / tile.samples_per_pixel;
+    for (int row = tile.first_row; row < tile.first_row + tile.rows; ++row) {
+        if (row < scan.first_row() || row >= scan.end_row()) continue;
+        const SampleSpan span = scan.span(row);
+        for (int column = tile.first_column; column < tile.first_column + tile.columns; ++column) {
+            if (column < span.begin || column >= span.end) continue;
+            const int x = column * pitch + pitch / 2 - v[0].x, y = row * pitch + pitch / 2 - v[0].y;
+            const float across = static_cast<float>(x) * per_x + v[0].nearness;
+            const float nearness = std::clamp(across + static_cast<float>(y) * per_y, low, high);
+            const std::uint32_t id = (triangles.mesh.first_number + t) << 1;
+            const std::size_t i = tile.index(column, row);
+            if (nearness < tile.nearness[i] || (nearness == tile.nearness[i] && id > tile.ids[i])) continue;
+            tile.nearness[i] = nearness;
+            tile.ids[i] = id;
+        }
+    }
+}
+
+std::vector<const TileKernels*> all_kernels() {
+    std::vector<const TileKernels*> result{&baseline_kernels()};
+    if (avx2_kernels() != nullptr) result.push_back(avx2_kernels());
+    return result;
+}
+
+TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const int per_pixel = 2 << seed % 3;
+        Triangles triangles(seed, per_pixel, 37, -20);
+        std::vector<std::uint32_t> numbers;
+        for (std::uint32_t t = 0; t < triangles.count(); ++t) {
+            if (triangles.area(t) != 0) numbers.push_back(t);
+        }
+        SampleTile expected;
+        expected.reset(37, -20, 129, 97, per_pixel);
+        for (const std::uint32_t t : numbers) draw_slowly(triangles, t, expected);
+        for (const TileKernels* kernels : all_kernels()) {
+            for (const bool with_look : {false, true}) {
+                SampleTile tile;
+                tile.reset(37, -20, 129, 97, per_pixel);
+                std::vector<float> farthest(tile.nearness.size() / kBlockSamples);
+                std::size_t drawn = 0;
+                for (std::size_t first = 0; first < numbers.size(); first += 50) {
+                    kernels->find_farthest(view_of(tile), farthest.data());
+                    drawn += kernels->draw_small(view_of(tile), with_look ? farthest.data() : nullptr, triangles.mesh,
+                                                 &numbers[first], std::min<std::size_t>(50, numbers.size() - first));
+                }
+                EXPECT_EQ(with_look, drawn < numbers.size());
+                for (int row = -20; row < 77; ++row) {
+                    for (int column = 37; column < 166; ++column) {
+                        const std::size_t i = tile.index(column, row);
+                        ASSERT_EQ(tile.ids[i], expected.ids[i]) << kernels->name << " seed " << seed;
+                        ASSERT_EQ(tile.nearness[i], expected.nearness[i]) << kernels->name << " seed " << seed;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(TileKernels, CullingLosesNoSample) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const int per_pixel = 2 << seed % 3;
+        Triangles triangles(100 + seed, per_pixel, 0, 0);
+        triangles.vertices[5].x = ScreenVertex::kOffScreen;  // of triangle 1
+        triangles.vertices[7].x += 4 * kLargestSmallTriangle;  // of triangle 2
+        const TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel))};
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<std::uint32_t> numbers(triangles.count() + 8), keys(triangles.count() + 8);
+            const std::size_t found = kernels->cull(triangles.mesh, 0, triangles.count(), grid, triangles.facing.data(),
+                                                    numbers.data(), keys.data());
+            numbers.resize(found);
+            EXPECT_LT(found, triangles.count());
+            const auto key_of = [&](std::uint32_t t) {
+                const auto at = std::find(numbers.begin(), numbers.end(), t);
+                return at == numbers.end() ? 0xFFFFu : keys[static_cast<std::size_t>(at - numbers.begin())];
+            };
+            EXPECT_EQ(key_of(1), kNotSmall);
+            EXPECT_EQ(key_of(2), kNotSmall);
+            for (std::uint32_t t = 3; t < triangles.count(); ++t) {
+                const std::int64_t area = triangles.area(t);
+                EXPECT_EQ(triangles.facing[t], area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
+                SampleTile tile;
+                tile.reset(0, 0, 101, 91, per_pixel);
+                if (area != 0) draw_slowly(triangles, t, tile);
+                const bool covers = std::any_of(tile.ids.begin(), tile.ids.end(),
+                                                [](std::uint32_t id) { return id != SampleTile::kBackground; });
+                if (covers) EXPECT_EQ(key_of(t), area > 0 ? 1u : 0u) << kernels->name << " seed " << seed;
+            }
+        }
+    }
+}
+
+/// StrokeMask's samples in a row of pixels that are closer than the radius, with the distance to
+/// the segment itself.
+TEST(TileKernels, StrokesCoverWhatIsNear) {
+    Random random(7);
+    for (int trial = 0; trial < 400; ++trial) {
+        PenStroke s{};
+        s.ax = random.real(-1, 9);
+        s.ay = random.real(-1, 5);
+        const double turn = random.integer(0, 3) == 0 ? 0.7853981634 * random.integer(0, 7) : random.real(0, 6.28);
+        s.length = random.integer(0, 4) == 0 ? 0 : random.real(0, 4);
+        s.ux = s.length > 0 ? std::cos(turn) : 1;
+        s.uy = s.length > 0 ? std::sin(turn) : 0;
+        s.bx = s.ax + s.ux * s.length;
+        s.by = s.ay + s.uy * s.length;
+        s.radius = random.real(0.1, 2);
+        constexpr int kRows = 4 * 16, kColumns = 8 * 32;
+        std::vector<std::int32_t> begin[2], end[2];
+        for (std::size_t i = 0; i < all_kernels().size(); ++i) {
+            begin[i].resize(kRows + 3);
+            end[i].resize(kRows + 3);
+            all_kernels()[i]->stroke_spans(s, 0, kRows, kColumns, begin[i].data(), end[i].data());
+            EXPECT_EQ(begin[i], begin[0]);
+            EXPECT_EQ(end[i], end[0]);
+        }
+        for (int row = 0; row < kRows; ++row) {
+            for (int column = 0; column < kColumns; ++column) {
+                const double x = (column + 0.5) / 32 - s.ax, y = (row + 0.5) / 16 - s.ay;
+                const double along = std::clamp(x * s.ux + y * s.uy, 0.0, s.length);
+                const double distance = std::hypot(x - along * s.ux, y - along * s.uy);
+                if (std::abs(distance - s.radius) < 1e-9) continue;
+                const auto r = static_cast<std::size_t>(row);
+                ASSERT_EQ(column >= begin[0][r] && column < end[0][r], distance < s.radius)
+                    << "trial " << trial << " row " << row << " column " << column;
+            }
+        }
+    }
+}
+
+TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
+    if (avx2_kernels() == nullptr) GTEST_SKIP() << "no AVX2 here";
+    Random random(3);
+    ScreenTransform t{};
+    for (auto& column : t.to_view) {
+        for (double& v : column) v = random.real(-1, 1);
+    }
+    for (auto& column : t.view_to_world) {
+        for (double& v : column) v = random.real(-1, 1);
+    }
+    t.focal_px = 700;
+    t.center_x = 320;
+    t.center_y = 240;
+    t.near_distance = 0.1;
+    t.guard_band_px = 65536;
+    std::vector<float> positions;
+    for (int i = 0; i < 3 * 999; ++i) positions.push_back(static_cast<float>(random.real(-2, 2)));
+    for (const bool orthographic : {false, true}) {
+        t.orthographic = orthographic;
+        std::vector<ScreenVertex> vertices[2];
+        std::vector<TriangleLook> looks[2];
+        std::vector<std::uint32_t> corners(999), numbers(333);
+        std::iota(corners.begin(), corners.end(), 0u);
+        std::iota(numbers.begin(), numbers.end(), 0u);
+        std::vector<std::uint8_t> facing(333, clockwise);
+        ScreenMesh mesh;
+        mesh.corners = corners.data();
+        mesh.facing = facing.data();
+        for (std::size_t i = 0; i < 2; ++i) {
+            vertices[i].resize(999);
+            looks[i].resize(333);
+            all_kernels()[i]->project(t, positions.data(), 999, vertices[i].data());
+            all_kernels()[i]->look(t, positions.data(), mesh, numbers.data(), 333, looks[i].data());
+        }
+        int seen = 0;
+        for (std::size_t i = 0; i < 999; ++i) {
+            ASSERT_EQ(vertices[0][i].x, vertices[1][i].x);
+            ASSERT_EQ(vertices[0][i].y, vertices[1][i].y);
+            ASSERT_EQ(vertices[0][i].nearness, vertices[1][i].nearness);
+            seen += vertices[0][i].x != ScreenVertex::kOffScreen;
+        }
+        EXPECT_GT(seen, 100);
+        EXPECT_EQ(std::memcmp(looks[0].data(), looks[1].data(), 333 * sizeof(TriangleLook)), 0);
+    }
+    std::uint32_t rows[16], hidden[16];
+    int expected = 0;
+    for (std::size_t i = 0; i < 16; ++i) {
+        rows[i] = random.bits();
+        hidden[i] = random.bits();
+        expected += std::popcount(rows[i] & ~hidden[i]);
+    }
+    for (const TileKernels* kernels : all_kernels()) EXPECT_EQ(kernels->count_bits(rows, hidden), expected);
+}
+
+TEST(TileKernels, CoveredSamplesAreCounted) {
+    Random random(5);
+    for (const int s : {2, 4, 8}) {
+        SampleTile tile;
+        tile.reset(0, 0, 65, 65, s);
+        for (std::uint32_t& id : tile.ids) id = random.integer(0, 1) == 0 ? SampleTile::kBackground : random.bits() >> 1;
+        for (const TileKernels* kernels : all_kernels()) {
+            std::uint8_t counts[64 + 3];
+            kernels->count_covered(tile.ids.data(), tile.stride, s, 64 / s, counts);
+            for (int x = 0; x < 64 / s; ++x) {
+                int expected = 0;
+                for (int i = 0; i < s * s; ++i) {
+                    expected += tile.ids[tile.index(x * s + i % s, i / s)] != SampleTile::kBackground;
+                }
+                EXPECT_EQ(counts[x], expected) << kernels->name;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace burin

@@ -1,0 +1,183 @@
+// What must not change a picture of the method `abuffer`, and that its fast ways say what the slow and
+// obvious ones say.
+
+#include "methods/abuffer/abuffer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lines/merge_segments.h"
+#include "mesh/shapes.h"
+#include "methods/abuffer/line_tile.h"
+#include "tests/support/drawing.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+/// Shapes that hide, cut and touch each other, and loose polygons.
+Scene heap(std::uint64_t seed, bool in_reverse = false) {
+    Random random(seed);
+    std::vector<PolygonSoup> objects(1);
+    for (int i = 0; i < 20; ++i) {
+        const glm::dvec3 center = random.in_box(1);
+        for (int k = 0; k < 3; ++k) objects[0].positions.push_back(center + random.direction() * random.real(0.1, 0.8));
+    }
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        const std::uint32_t first = 3 * (in_reverse ? 19 - i : i);
+        objects[0].add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2});
+    }
+    objects.push_back(make_torus(0.7, 0.25, 48, 24));
+    objects.push_back(transformed(make_box({0.8, 0.5, 1.1}), [](glm::dvec3 p) { return p + glm::dvec3(0.2, 0.3, -0.1); }));
+    Scene scene = scene_of(std::move(objects));
+    scene.lines.classes = LineClassSet::all();
+    return scene;
+}
+
+const glm::dvec3 kEye(2.3, 1.7, 4.1);
+constexpr int kWidth = 150, kHeight = 110;
+
+Image draw(const Scene& scene, PixelRect crop = {0, 0, kWidth, kHeight}, int threads = 1) {
+    const Camera camera = perspective_camera(kEye, {0, 0, 0});
+    const Frame frame = make_frame(scene, camera, kWidth, kHeight, crop);
+    Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true}, frame.criteria.classes);
+    RunOptions options;
+    options.threads = threads;
+    render_abuffer(frame, options, film);
+    return film.image();
+}
+
+TEST(Abuffer, ThreadsChangeNothing) {
+    const Scene scene = heap(1);
+    const Image one = draw(scene);
+    for (int threads = 2; threads <= 8; ++threads) {
+        EXPECT_TRUE(same_bits(one, draw(scene, {0, 0, kWidth, kHeight}, threads))) << threads;
+    }
+}
+
+TEST(Abuffer, ACropIsThatPartOfTheWhole) {
+    for (const int samples : {2, 4, 8}) {
+        Scene scene = heap(2);
+        scene.abuffer.samples_per_pixel = samples;
+        const Image whole = draw(scene);
+        for (const PixelRect crop : {PixelRect{37, 21, 101, 80}, PixelRect{50, 40, 51, 41}}) {
+            const Image part = draw(scene, crop);
+            for (const Channel& c : part.channels()) {
+                const Channel* const same = whole.find(c.name);
+                ASSERT_NE(same, nullptr);
+                for (int y = crop.y0; y < crop.y1; ++y) {
+                    for (int x = crop.x0; x < crop.x1; ++x) {
+                        ASSERT_EQ(part.value(c, x - crop.x0, y - crop.y0), whole.value(*same, x, y))
+                            << c.name << " " << x << "," << y << " samples " << samples;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Abuffer, TheOrderOfTrianglesChangesOnlyTheirNumbers) {
+    const Image one = draw(heap(3)), other = draw(heap(3, true));
+    for (const Channel& c : one.channels()) {
+        if (c.name == "id.polygon") continue;
+        EXPECT_EQ(c.bytes, other.find(c.name)->bytes) << c.name;
+    }
+}
+
+/// All decisions of a picture, both ways.
+struct Comparison {
+    int asked = 0, answered = 0, other_class = 0, other_place = 0;
+};
+
+Comparison compare_decisions(const Scene& scene, int samples) {
+    const Frame frame =
+        make_frame(scene, perspective_camera(kEye, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+    ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
+    const TriangleBins bins(screen, frame.crop, samples, best_kernels(), 1);
+    LineTile tile(frame, screen, bins, samples, best_kernels());
+    const FastDecision fast(screen, frame.criteria);
+    const std::int32_t pitch = kSubpixelsPerPixel / samples;
+    Comparison result;
+    const auto compare = [&](int column, int row, bool down) {
+        const SampleTile& s = tile.samples();
+        const std::size_t a = s.index(column, row), b = s.index(column + (down ? 0 : 1), row + (down ? 1 : 0));
+        if (s.ids[a] == s.ids[b]) return;
+        ++result.asked;
+        const auto number = [&](std::size_t i) {
+            return s.ids[i] == SampleTile::kBackground ? FastDecision::kNoSurface : s.ids[i] >> 1;
+        };
+        const NeighbourSamples pair{column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down, number(a), number(b)};
+        LineDecision decision;
+        double nearness = 0;
+        if (!fast.decide(pair, decision, nearness)) return;
+        ++result.answered;
+        const glm::dvec2 trifle(0x1p-14, 0x1p-20);  // LineTile's
+        const glm::dvec2 from = (glm::dvec2(column, row) + 0.5) / double(samples) + trifle;
+        const glm::dvec2 to = from + (down ? glm::dvec2(0, 1) : glm::dvec2(1, 0)) / double(samples);
+        const LineDecision slow =
+            decide_line(frame.surfaces, {from, tile.surface_at(a)}, {to, tile.surface_at(b)}, frame.criteria);
+        const LineClassSet classes = decision.classes & frame.criteria.classes;
+        if (classes != (slow.classes & frame.criteria.classes)) {
+            ++result.other_class;
+        } else if (!classes.empty() && std::abs(decision.fraction - slow.fraction) > 0.01) {
+            ++result.other_place;
+        }
+    };
+    for (std::size_t t = 0; t < bins.tile_count(); ++t) {
+        if (bins.is_empty(t)) continue;
+        tile.draw(t);
+        const SampleTile& s = tile.samples();
+        for (int row = s.first_row; row + 1 < s.first_row + s.rows; ++row) {
+            for (int column = s.first_column; column + 1 < s.first_column + s.columns; ++column) {
+                compare(column, row, false);
+                compare(column, row, true);
+            }
+        }
+    }
+    return result;
+}
+
+TEST(Abuffer, FastDecisionsAreThoseOfTheSlowWay) {
+    Comparison sum;
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        Scene scene = heap(seed);
+        if (seed % 2 == 0) scene.lines.classes = kDefaultLineClasses;
+        const Comparison c = compare_decisions(scene, 2 << seed % 2);
+        sum.asked += c.asked;
+        sum.answered += c.answered;
+        sum.other_class += c.other_class;
+        sum.other_place += c.other_place;
+    }
+    RecordProperty("asked", sum.asked);
+    RecordProperty("answered", sum.answered);
+    // Most are ordinary. Those that differ lie within rounding errors of a vertex or a tolerance.
+    EXPECT_GT(sum.answered, 0.7 * sum.asked);
+    EXPECT_LE(sum.other_class + sum.other_place, 0.002 * sum.answered)
+        << sum.other_class << " of other classes, " << sum.other_place << " elsewhere, of " << sum.answered;
+}
+
+TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
+    const auto piece = [](glm::dvec2 from, glm::dvec2 to, std::uint64_t key, std::uint32_t block = 0) {
+        LineSegment s;
+        s.from = from;
+        s.to = to;
+        s.line_key = key;
+        s.block = block;
+        // All with the front above.
+        s.front_on_left = from.x < to.x;
+        return s;
+    };
+    std::vector<LineSegment> segments{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
+                                      piece({3, 1.5}, {4, 2}, 2), piece({4, 2}, {5, 2}, 2), piece({5, 2}, {6, 2}, 2, 1)};
+    merge_segments(segments);
+    ASSERT_EQ(segments.size(), 4u);
+    EXPECT_EQ(segments[0].from, glm::dvec2(0, 0));
+    EXPECT_EQ(segments[0].to, glm::dvec2(3, 1.5));
+}
+
+}  // namespace
+}  // namespace burin
