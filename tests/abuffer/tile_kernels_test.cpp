@@ -53,7 +53,8 @@ struct Triangles {
 
 SampleView view_of(SampleTile& tile) {
     return {tile.nearness.data(), tile.ids.data(), tile.first_column, tile.first_row,
-            tile.columns,         tile.rows,       tile.stride,       tile.samples_per_pixel};
+            tile.columns,         tile.rows,       tile.stride,       tile.samples_per_pixel,
+            -1.0f,                0.0f,            nullptr,           nullptr, 0};  // nothing is level
 }
 
 /// One triangle after the other, one sample after the other: ScanConverter says which ones.
@@ -155,7 +156,9 @@ TEST(TileKernels, CullingLosesNoSample) {
                 if (area != 0) draw_slowly(triangles, t, tile);
                 const bool covers = std::any_of(tile.ids.begin(), tile.ids.end(),
                                                 [](std::uint32_t id) { return id != SampleTile::kBackground; });
-                if (covers) EXPECT_EQ(key_of(t), area > 0 ? 1u : 0u) << kernels->name << " seed " << seed;
+                if (covers) {
+                    EXPECT_EQ(key_of(t), area > 0 ? 1u : 0u) << kernels->name << " seed " << seed;
+                }
             }
         }
     }

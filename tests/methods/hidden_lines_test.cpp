@@ -31,8 +31,8 @@ struct Layers {
 
     Layers(const Scene& scene, const Camera& camera, int threads = 2)
         : frame(make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize})),
-          screen(frame.surfaces, frame.criteria, threads),
-          bins(screen, frame.crop, 32, 4, threads),
+          screen(frame.surfaces, frame.criteria, best_kernels(), threads),
+          bins(screen, frame.crop, 4, best_kernels(), threads),
           pass(frame, screen, threads) {
         pass.find();
     }
