@@ -21,7 +21,7 @@ struct SampleView {
     std::int32_t first_column, first_row, columns, rows, stride, samples_per_pixel;
     /// Surfaces whose nearness differs by at most `level + level_per_nearness * nearness` are level.
     float level, level_per_nearness;
-    /// Where what is level competes for a sample. `contest_count` goes on counting beyond the capacity.
+    /// Where what is level competes for a sample; nullptr: not noted. `contest_count` goes on counting beyond the capacity.
     Contest* contests;
     std::uint32_t* contest_count;
     std::uint32_t contest_capacity;

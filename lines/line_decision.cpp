@@ -223,8 +223,10 @@ std::string_view describe(LineReason reason) {
 LineDecision decide_line(const SurfaceSet& surfaces, const VisiblePoint& a, const VisiblePoint& b,
                          const LineCriteria& criteria) {
     if (a.surface == b.surface) return LineDecision{};
-    if (a.surface < b.surface) return Decider(surfaces, a, b, criteria).decide();
-    // One order of the two, so that swapping them cannot change the answer.
+    const bool in_order = a.pixel.x != b.pixel.x ? a.pixel.x < b.pixel.x : a.pixel.y < b.pixel.y;
+    if (in_order) return Decider(surfaces, a, b, criteria).decide();
+    // One order of the two, so that swapping them cannot change the answer. It is the screen's, so that
+    // neither can the order of triangles.
     LineDecision decision = Decider(surfaces, b, a, criteria).decide();
     decision.front = 1 - decision.front;
     decision.fraction = 1 - decision.fraction;

@@ -58,7 +58,7 @@ class TransparentTile {
     float opacity(std::uint32_t value) const { return frame_.material_of(surface(value)).opacity; }
     SampleView view() {
         return {samples_.nearness.data(), samples_.ids.data(), samples_.first_column, samples_.first_row,
-                samples_.columns, samples_.rows, samples_.stride, samples_.samples_per_pixel, -1, 0, nullptr, nullptr, 0};
+                samples_.columns, samples_.rows, samples_.stride, samples_.samples_per_pixel, 0, 0, nullptr, nullptr, 0};
     }
 
     Layer layer(std::uint32_t value) const {

@@ -54,7 +54,7 @@ struct Triangles {
 SampleView view_of(SampleTile& tile) {
     return {tile.nearness.data(), tile.ids.data(), tile.first_column, tile.first_row,
             tile.columns,         tile.rows,       tile.stride,       tile.samples_per_pixel,
-            -1.0f,                0.0f,            nullptr,           nullptr, 0};  // nothing is level
+            0.0f,                 0.0f,            nullptr,           nullptr, 0};
 }
 
 /// One triangle after the other, one sample after the other: ScanConverter says which ones.

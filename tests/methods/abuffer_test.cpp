@@ -105,7 +105,7 @@ Comparison compare_decisions(const Scene& scene, int samples) {
     const auto compare = [&](int column, int row, bool down) {
         const SampleTile& s = tile.samples();
         const std::size_t a = s.index(column, row), b = s.index(column + (down ? 0 : 1), row + (down ? 1 : 0));
-        if (s.ids[a] == s.ids[b]) return;
+        if (s.ids[a] >> 1 == s.ids[b] >> 1) return;
         ++result.asked;
         const auto number = [&](std::size_t i) {
             return s.ids[i] == SampleTile::kBackground ? FastDecision::kNoSurface : s.ids[i] >> 1;
