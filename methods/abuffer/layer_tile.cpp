@@ -291,7 +291,8 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     line_slack_ = level_slack(std::max(line.nearness_from, line.nearness_to)) +
                   std::abs(line.nearness_to - line.nearness_from) / length;
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
-    const int first_row = row_at(static_cast<float>(std::min(a.y, b.y))), last_row = row_at(static_cast<float>(std::max(a.y, b.y)));
+    const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
+    const int last_row = row_at(static_cast<float>(std::max(a.y, b.y)));
     const int first_column = column_at(static_cast<float>(std::min(a.x, b.x)));
     const int last_column = column_at(static_cast<float>(std::max(a.x, b.x)));
     const double size = cell_px_ * 256.0;
@@ -371,8 +372,9 @@ void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines)
     const float pitch = static_cast<float>(cell_px_ * 256);
     const float left = column == 0 ? -kFar : static_cast<float>(rect_.x0 * 256) + pitch * static_cast<float>(column);
     const float top = row == 0 ? -kFar : static_cast<float>(rect_.y0 * 256) + pitch * static_cast<float>(row);
-    const float end_x = column + 1 == columns_ ? kFar : static_cast<float>(rect_.x0 * 256) + pitch * static_cast<float>(column + 1);
-    const float end_y = row + 1 == rows_ ? kFar : static_cast<float>(rect_.y0 * 256) + pitch * static_cast<float>(row + 1);
+    const float x_origin = static_cast<float>(rect_.x0 * 256), y_origin = static_cast<float>(rect_.y0 * 256);
+    const float end_x = column + 1 == columns_ ? kFar : x_origin + pitch * static_cast<float>(column + 1);
+    const float end_y = row + 1 == rows_ ? kFar : y_origin + pitch * static_cast<float>(row + 1);
     const float* const x0 = of_cell_.x0.data();
     const float* const y0 = of_cell_.y0.data();
     const float* const x1 = of_cell_.x1.data();
