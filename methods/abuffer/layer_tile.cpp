@@ -7,8 +7,8 @@
 namespace burin {
 namespace {
 
-/// Cells are made so small that about so many triangles touch one.
-constexpr double kTrianglesPerCell = 6;
+/// Cells are made so small that about so many triangles begin in one.
+constexpr double kTrianglesPerCell = 12;
 /// Shorter parts of lines belong to the part before. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
 /// A surface is in front of a line if it is nearer by this part of a pixel's width.
@@ -28,6 +28,25 @@ bool clip(double at_0, double at_1, double& begin, double& end) {
         end = std::min(end, t);
     }
     return begin < end;
+}
+
+/// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for
+/// triangles without area.
+bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
+    glm::dvec2 p[3] = {corners[0], corners[1], corners[2]};
+    const double area = cross(p[1] - p[0], p[2] - p[0]);
+    if (area < 0) {
+        std::swap(p[1], p[2]);
+        std::swap(triangle.vertices[1], triangle.vertices[2]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec2 along = p[(k + 1) % 3] - p[k];
+        triangle.x[k] = p[k].x;
+        triangle.y[k] = p[k].y;
+        triangle.owns_edge[k] = along.y < 0 || (along.y == 0 && along.x > 0);
+    }
+    triangle.slack = std::abs(triangle.per_x) + std::abs(triangle.per_y);
+    return area != 0;
 }
 
 /// Names the place where an edge of one triangle passes through another one.
@@ -67,12 +86,33 @@ LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const Lay
       grid_(grid),
       has_transparent_(has_transparent_surfaces(*frame.scene)) {}
 
+void LayerTile::Bounds::resize(std::size_t count) {
+    if (count <= x0.size()) return;
+    for (auto* v : {&x0, &y0, &x1, &y1, &low, &high}) v->resize(count);
+    for (auto& v : vertex) v.resize(count);
+}
+
+void LayerTile::Bounds::copy(std::size_t to, const Bounds& other, std::size_t from) {
+    x0[to] = other.x0[from];
+    y0[to] = other.y0[from];
+    x1[to] = other.x1[from];
+    y1[to] = other.y1[from];
+    low[to] = other.low[from];
+    high[to] = other.high[from];
+    for (std::size_t k = 0; k < 3; ++k) vertex[k][to] = other.vertex[k][from];
+}
+
 void LayerTile::fill(std::size_t tile) {
     rect_ = grid_.tile(tile);
+    count_ = 0;
     triangles_.clear();
+    numbers_.clear();
+    set_up_.clear();
     SurfaceId s;
     std::uint32_t first = 0, end = 0;
-    for (const std::uint32_t value : bins_.triangles(tile)) {
+    const auto values = bins_.triangles(tile);
+    bounds_.resize(values.size());
+    for (const std::uint32_t value : values) {
         const std::uint32_t number = value & ~LayerBins::kClipped;
         if (number >= end) {
             s = screen_.surface_of(number);
@@ -80,33 +120,76 @@ void LayerTile::fill(std::size_t tile) {
             end = first + static_cast<std::uint32_t>(frame_.surfaces.mesh_of(s).triangles.size());
         }
         s.triangle = number - first;
-        add_triangle(value, s);
+        if (value != number) {
+            add_clipped(s, number);
+            continue;
+        }
+        const auto& v = frame_.surfaces.mesh_of(s).triangles[s.triangle];
+        const ScreenVertex* const vertices = screen_.vertices(s.instance);
+        const ScreenVertex &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]];
+        const auto lowest = [](auto p, auto q, auto r) { return std::min(std::min(p, q), r); };
+        const auto highest = [](auto p, auto q, auto r) { return std::max(std::max(p, q), r); };
+        add_bounds(number, s.instance, v, glm::vec2(lowest(a.x, b.x, c.x), lowest(a.y, b.y, c.y)),
+                   glm::vec2(highest(a.x, b.x, c.x), highest(a.y, b.y, c.y)),
+                   lowest(a.nearness, b.nearness, c.nearness), highest(a.nearness, b.nearness, c.nearness), kNotSetUp);
     }
     sort_into_cells();
 }
 
-void LayerTile::add_triangle(std::uint32_t value, SurfaceId s) {
+void LayerTile::add_bounds(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
+                           glm::vec2 low, glm::vec2 high, float lowest, float highest, std::uint32_t set_up) {
+    bounds_.resize(count_ + 1);
+    bounds_.x0[count_] = low.x;
+    bounds_.y0[count_] = low.y;
+    bounds_.x1[count_] = high.x;
+    bounds_.y1[count_] = high.y;
+    bounds_.low[count_] = lowest;
+    bounds_.high[count_] = highest;
+    const auto first = static_cast<std::uint32_t>(screen_.vertices(instance) - screen_.vertices(0));
+    for (std::size_t k = 0; k < 3; ++k) bounds_.vertex[k][count_] = first + vertices[k];
+    numbers_.push_back(number);
+    set_up_.push_back(set_up);
+    ++count_;
+}
+
+double LayerTile::transmission_of(SurfaceId s) const {
+    return has_transparent_ ? 1 - static_cast<double>(frame_.material_of(s).opacity) : 0;
+}
+
+void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
     LayerTriangle triangle;
-    triangle.number = value & ~LayerBins::kClipped;
+    triangle.number = number;
     triangle.instance = s.instance;
     triangle.vertices = frame_.surfaces.mesh_of(s).triangles[s.triangle];
-    triangle.transmission = has_transparent_ ? 1 - static_cast<double>(frame_.material_of(s).opacity) : 0;
-    if ((value & LayerBins::kClipped) != 0) {
-        const ScreenPolygon polygon = frame_.surfaces.screen_polygon(s);
-        const DepthPlane plane = frame_.surfaces.plane(s);
-        std::array<glm::dvec2, ScreenPolygon::kMaxCorners> corners;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(polygon.count); ++i) {
-            corners[i] = glm::dvec2(polygon.corners[i].x, polygon.corners[i].y);
-        }
-        triangle.per_x = plane.per_x / kSubpixelsPerPixel;
-        triangle.per_y = plane.per_y / kSubpixelsPerPixel;
-        const double zero = frame_.surfaces.farthest_nearness;
-        triangle.nearness = plane.extended_to(corners[0] / 256.0) - zero;
-        triangle.low = plane.lowest - zero;
-        triangle.high = plane.highest - zero;
-        add_polygon(triangle, {corners.data(), static_cast<std::size_t>(polygon.count)});
-        return;
+    triangle.transmission = transmission_of(s);
+    const ScreenPolygon polygon = frame_.surfaces.screen_polygon(s);
+    const DepthPlane plane = frame_.surfaces.plane(s);
+    const double zero = frame_.surfaces.farthest_nearness;
+    const auto corner = [&](int i) {
+        const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+        return glm::dvec2(p.x, p.y);
+    };
+    triangle.per_x = plane.per_x / kSubpixelsPerPixel;
+    triangle.per_y = plane.per_y / kSubpixelsPerPixel;
+    triangle.nearness = plane.extended_to(corner(0) / 256.0) - zero;
+    for (int i = 2; i < polygon.count; ++i) {
+        const glm::dvec2 p[3] = {corner(0), corner(i - 1), corner(i)};
+        if (!set_corners(triangle, p)) continue;
+        triangles_.push_back(triangle);
+        add_bounds(number, s.instance, triangle.vertices, glm::vec2(glm::min(p[0], glm::min(p[1], p[2]))),
+                   glm::vec2(glm::max(p[0], glm::max(p[1], p[2]))), static_cast<float>(plane.lowest - zero),
+                   static_cast<float>(plane.highest - zero), static_cast<std::uint32_t>(triangles_.size() - 1));
     }
+}
+
+const LayerTriangle& LayerTile::triangle(std::uint32_t i) {
+    if (set_up_[i] != kNotSetUp) return triangles_[set_up_[i]];
+    const SurfaceId s = screen_.surface_of(numbers_[i]);
+    LayerTriangle triangle;
+    triangle.number = numbers_[i];
+    triangle.instance = s.instance;
+    triangle.vertices = frame_.surfaces.mesh_of(s).triangles[s.triangle];
+    triangle.transmission = transmission_of(s);
     const ScreenVertex* const v = screen_.vertices(s.instance);
     const ScreenVertex &a = v[triangle.vertices[0]], &b = v[triangle.vertices[1]], &c = v[triangle.vertices[2]];
     const double per_area = 1.0 / static_cast<double>(doubled_area(a, b, c));
@@ -115,65 +198,45 @@ void LayerTile::add_triangle(std::uint32_t value, SurfaceId s) {
     triangle.nearness = qa;
     triangle.per_x = (qb * (c.y - a.y) - qc * (b.y - a.y)) * per_area;
     triangle.per_y = (qc * (b.x - a.x) - qb * (c.x - a.x)) * per_area;
-    triangle.low = qa + std::min({0.0, qb, qc});
-    triangle.high = qa + std::max({0.0, qb, qc});
     const glm::dvec2 corners[3] = {{a.x, a.y}, {b.x, b.y}, {c.x, c.y}};
-    add_polygon(triangle, corners);
+    set_corners(triangle, corners);
+    set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
+    triangles_.push_back(triangle);
+    return triangles_.back();
 }
 
-void LayerTile::add_polygon(LayerTriangle triangle, std::span<const glm::dvec2> corners) {
-    const std::array<std::uint32_t, 3> vertices = triangle.vertices;
-    triangle.slack = std::abs(triangle.per_x) + std::abs(triangle.per_y);
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-        std::array<glm::dvec2, 3> p{corners[0], corners[i - 1], corners[i]};
-        const double area = cross(p[1] - p[0], p[2] - p[0]);
-        if (area == 0) continue;
-        const bool is_turned = area < 0;
-        if (is_turned) std::swap(p[1], p[2]);
-        triangle.vertices = vertices;
-        if (is_turned) std::swap(triangle.vertices[1], triangle.vertices[2]);
-        triangle.box_low = glm::min(p[0], glm::min(p[1], p[2]));
-        triangle.box_high = glm::max(p[0], glm::max(p[1], p[2]));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::dvec2 along = p[(k + 1) % 3] - p[k];
-            triangle.x[k] = p[k].x;
-            triangle.y[k] = p[k].y;
-            triangle.owns_edge[k] = along.y < 0 || (along.y == 0 && along.x > 0);
-        }
-        triangles_.push_back(triangle);
-    }
+int LayerTile::column_at(float x) const {
+    const float pitch = static_cast<float>(cell_px_ * 256);
+    return std::clamp(static_cast<int>((x - static_cast<float>(rect_.x0 * 256)) / pitch), 0, columns_ - 1);
 }
-
-int LayerTile::column_at(double x) const {
-    return static_cast<int>(std::clamp(std::floor((x / 256 - rect_.x0) / cell_px_), 0.0, columns_ - 1.0));
-}
-int LayerTile::row_at(double y) const {
-    return static_cast<int>(std::clamp(std::floor((y / 256 - rect_.y0) / cell_px_), 0.0, rows_ - 1.0));
+int LayerTile::row_at(float y) const {
+    const float pitch = static_cast<float>(cell_px_ * 256);
+    return std::clamp(static_cast<int>((y - static_cast<float>(rect_.y0 * 256)) / pitch), 0, rows_ - 1);
 }
 
 void LayerTile::sort_into_cells() {
     const double area = static_cast<double>(rect_.width()) * rect_.height();
-    const double wanted = std::sqrt(area * kTrianglesPerCell / std::max(1.0, static_cast<double>(triangles_.size())));
+    const double wanted = std::sqrt(area * kTrianglesPerCell / std::max(1.0, static_cast<double>(count_)));
     cell_px_ = 1;
     while (cell_px_ < 32 && 2 * cell_px_ <= wanted) cell_px_ *= 2;
     columns_ = (rect_.width() + cell_px_ - 1) / cell_px_;
     rows_ = (rect_.height() + cell_px_ - 1) / cell_px_;
     cell_end_.assign(static_cast<std::size_t>(columns_ * rows_) + 2, 0);
-    const auto for_cells = [&](const LayerTriangle& t, const auto& visit) {
-        const int first_column = column_at(t.box_low.x), last_column = column_at(t.box_high.x);
-        const int last_row = row_at(t.box_high.y);
-        for (int row = row_at(t.box_low.y); row <= last_row; ++row) {
+    const auto for_cells = [&](std::size_t i, const auto& visit) {
+        const int first_column = column_at(bounds_.x0[i]), last_column = column_at(bounds_.x1[i]);
+        const int last_row = row_at(bounds_.y1[i]);
+        for (int row = row_at(bounds_.y0[i]); row <= last_row; ++row) {
             for (int column = first_column; column <= last_column; ++column) {
                 visit(static_cast<std::size_t>(row * columns_ + column));
             }
         }
     };
     // Counts are kept one place further, so that filling moves each list's end to its place.
-    for (const LayerTriangle& t : triangles_) for_cells(t, [&](std::size_t c) { ++cell_end_[c + 2]; });
+    for (std::size_t i = 0; i < count_; ++i) for_cells(i, [&](std::size_t c) { ++cell_end_[c + 2]; });
     for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
     cell_triangles_.resize(cell_end_.back());
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-        for_cells(triangles_[i], [&](std::size_t c) { cell_triangles_[cell_end_[c + 1]++] = i; });
+    for (std::uint32_t i = 0; i < count_; ++i) {
+        for_cells(i, [&](std::size_t c) { cell_triangles_[cell_end_[c + 1]++] = i; });
     }
     fragment_count_ += cell_triangles_.size();
 }
@@ -199,9 +262,10 @@ bool LayerTile::is_owner(const LayerLine& line, const LayerTriangle& triangle) c
 }
 
 /// Notes where in [begin, end] a triangle is in front of a line.
-void LayerTile::hide(const LayerLine& line, const LayerTriangle& t, double begin, double end) {
-    const double nearest = std::min(line.nearness_from, line.nearness_to);
-    if (t.high <= nearest || is_owner(line, t)) return;
+void LayerTile::hide(const LayerLine& line, std::uint32_t i, double begin, double end) {
+    if (static_cast<double>(bounds_.high[i]) <= std::min(line.nearness_from, line.nearness_to)) return;
+    const LayerTriangle& t = triangle(i);
+    if (is_owner(line, t)) return;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;
         const double dx = t.x[next] - t.x[k], dy = t.y[next] - t.y[k];
@@ -227,16 +291,17 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     line_slack_ = level_slack(std::max(line.nearness_from, line.nearness_to)) +
                   std::abs(line.nearness_to - line.nearness_from) / length;
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
-    const int first_row = row_at(std::min(a.y, b.y)), last_row = row_at(std::max(a.y, b.y));
-    const int first_column = column_at(std::min(a.x, b.x));
-    const int last_column = column_at(std::max(a.x, b.x));
+    const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
+    const int last_row = row_at(static_cast<float>(std::max(a.y, b.y)));
+    const int first_column = column_at(static_cast<float>(std::min(a.x, b.x)));
+    const int last_column = column_at(static_cast<float>(std::max(a.x, b.x)));
     const double size = cell_px_ * 256.0;
     for (int row = first_row; row <= last_row; ++row) {
         for (int column = first_column; column <= last_column; ++column) {
             double from = begin, to = end;
             const glm::dvec2 low = corner + glm::dvec2(column, row) * size;
             if (!clip_to(line, low, low + size, from, to)) continue;
-            for (const std::uint32_t i : cell(column, row)) hide(line, triangles_[i], from, to);
+            for (const std::uint32_t i : cell(column, row)) hide(line, i, from, to);
         }
     }
     if (!intervals_.empty()) sweep(line, line_number, begin, end, pieces);
@@ -291,32 +356,60 @@ void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin,
 
 void LayerTile::find_intersections(std::vector<LayerLine>& lines) {
     for (int row = 0; row < rows_; ++row) {
-        for (int column = 0; column < columns_; ++column) {
-            const auto list = cell(column, row);
-            for (std::size_t i = 0; i < list.size(); ++i) {
-                const LayerTriangle& a = triangles_[list[i]];
-                for (std::size_t j = i + 1; j < list.size(); ++j) {
-                    const LayerTriangle& b = triangles_[list[j]];
-                    if (a.low >= b.high || b.low >= a.high) continue;
-                    // Of all cells that both touch, the first one is responsible.
-                    if (column_at(std::max(a.box_low.x, b.box_low.x)) != column ||
-                        row_at(std::max(a.box_low.y, b.box_low.y)) != row) {
-                        continue;
-                    }
-                    intersect(a, b, lines);
-                }
-            }
+        for (int column = 0; column < columns_; ++column) find_in_cell(column, row, lines);
+    }
+}
+
+void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines) {
+    const auto list = cell(column, row);
+    const std::size_t count = list.size();
+    of_cell_.resize(count);
+    if (may_meet_.size() < count) may_meet_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) of_cell_.copy(i, bounds_, list[i]);
+    // Of all cells that both triangles touch, the one with the corner where their boxes begin to overlap
+    // is responsible.
+    constexpr float kFar = 1e30f;
+    const float pitch = static_cast<float>(cell_px_ * 256);
+    const float left = column == 0 ? -kFar : static_cast<float>(rect_.x0 * 256) + pitch * static_cast<float>(column);
+    const float top = row == 0 ? -kFar : static_cast<float>(rect_.y0 * 256) + pitch * static_cast<float>(row);
+    const float x_origin = static_cast<float>(rect_.x0 * 256), y_origin = static_cast<float>(rect_.y0 * 256);
+    const float end_x = column + 1 == columns_ ? kFar : x_origin + pitch * static_cast<float>(column + 1);
+    const float end_y = row + 1 == rows_ ? kFar : y_origin + pitch * static_cast<float>(row + 1);
+    const float* const x0 = of_cell_.x0.data();
+    const float* const y0 = of_cell_.y0.data();
+    const float* const x1 = of_cell_.x1.data();
+    const float* const y1 = of_cell_.y1.data();
+    const float* const low = of_cell_.low.data();
+    const float* const high = of_cell_.high.data();
+    const std::uint32_t* const v0 = of_cell_.vertex[0].data();
+    const std::uint32_t* const v1 = of_cell_.vertex[1].data();
+    const std::uint32_t* const v2 = of_cell_.vertex[2].data();
+    std::int32_t* const may_meet = may_meet_.data();
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        const float ax0 = x0[i], ay0 = y0[i], ax1 = x1[i], ay1 = y1[i], alow = low[i], ahigh = high[i];
+        const std::uint32_t a0 = v0[i], a1 = v1[i], a2 = v2[i];
+        std::int32_t any = 0;
+        for (std::size_t j = i + 1; j < count; ++j) {
+            const float x = ax0 > x0[j] ? ax0 : x0[j], y = ay0 > y0[j] ? ay0 : y0[j];
+            const std::int32_t apart =
+                (x > ax1) | (x > x1[j]) | (y > ay1) | (y > y1[j]) | (alow >= high[j]) | (low[j] >= ahigh) |
+                (x < left) | (x >= end_x) | (y < top) | (y >= end_y) | (a0 == v0[j]) | (a0 == v1[j]) |
+                (a0 == v2[j]) | (a1 == v0[j]) | (a1 == v1[j]) | (a1 == v2[j]) | (a2 == v0[j]) | (a2 == v1[j]) |
+                (a2 == v2[j]);
+            may_meet[j] = 1 - apart;
+            any |= 1 - apart;
+        }
+        if (any == 0) continue;
+        for (std::size_t j = i + 1; j < count; ++j) {
+            if (may_meet[j] == 0) continue;
+            triangle(list[i]);  // both before either is looked at: setting up moves them
+            triangle(list[j]);
+            intersect(triangle(list[i]), triangle(list[j]), lines);
         }
     }
 }
 
 void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {
-    if (a.number == b.number) return;
-    if (a.instance == b.instance) {
-        for (const std::uint32_t v : a.vertices) {
-            if (v == b.vertices[0] || v == b.vertices[1] || v == b.vertices[2]) return;
-        }
-    }
     // How much nearer a is than b, where corners of either are.
     double low = 0, high = 0;
     const auto reaches_through = [&](const LayerTriangle& plane, const LayerTriangle& corners) {
@@ -327,7 +420,7 @@ void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::v
             low = std::min(low, gap);
             high = std::max(high, gap);
         }
-        const double slack = plane.slack + corners.slack + level_slack(std::min(plane.high, corners.high));
+        const double slack = plane.slack + corners.slack + level_slack(std::max(plane.nearness, corners.nearness));
         return low < -slack && high > slack;
     };
     if (!reaches_through(a, b) || !reaches_through(b, a)) return;

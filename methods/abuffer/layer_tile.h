@@ -13,9 +13,7 @@ namespace burin {
 struct LayerTriangle {
     std::array<double, 3> x, y;  ///< corners in 1/256 pixel, clockwise as seen
     std::array<bool, 3> owns_edge;  ///< whether points on the edge after a corner belong to it
-    glm::dvec2 box_low, box_high;
     double nearness, per_x, per_y;  ///< at corner 0, and change per 1/256 pixel
-    double low, high;               ///< range of nearness
     double slack;                   ///< what snapping may do to nearness
     double transmission;            ///< 0 = opaque
     std::uint32_t number, instance;
@@ -38,7 +36,6 @@ class LayerTile {
     /// Adds the parts of a line within the tile that something is in front of.
     void find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces);
 
-    std::span<const LayerTriangle> triangles() const { return triangles_; }
     /// How many pairs of cell and triangle were kept so far.
     std::uint64_t fragment_count() const { return fragment_count_; }
 
@@ -51,17 +48,31 @@ class LayerTile {
         double at;
         int opaque;
     };
-    void add_triangle(std::uint32_t value, SurfaceId s);
-    void add_polygon(LayerTriangle triangle, std::span<const glm::dvec2> corners);
+    /// What finding triangles takes: bounds on the screen in 1/256 pixel and in nearness, and vertices,
+    /// which are numbered through over all instances. An array each, for loops that need no gathering.
+    struct Bounds {
+        std::vector<float> x0, y0, x1, y1, low, high;
+        std::array<std::vector<std::uint32_t>, 3> vertex;
+        void resize(std::size_t count);
+        void copy(std::size_t to, const Bounds& other, std::size_t from);
+    };
+    static constexpr std::uint32_t kNotSetUp = 0xFFFFFFFFu;
+
+    void add_clipped(SurfaceId s, std::uint32_t number);
+    void add_bounds(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
+                    glm::vec2 low, glm::vec2 high, float lowest, float highest, std::uint32_t set_up);
+    const LayerTriangle& triangle(std::uint32_t i);
+    double transmission_of(SurfaceId s) const;
     void sort_into_cells();
-    int column_at(double x) const;
-    int row_at(double y) const;
+    int column_at(float x) const;
+    int row_at(float y) const;
     std::span<const std::uint32_t> cell(int column, int row) const {
         const auto i = static_cast<std::size_t>(row * columns_ + column);
         return {cell_triangles_.data() + cell_end_[i], cell_end_[i + 1] - cell_end_[i]};
     }
     bool is_owner(const LayerLine& line, const LayerTriangle& triangle) const;
-    void hide(const LayerLine& line, const LayerTriangle& triangle, double begin, double end);
+    void hide(const LayerLine& line, std::uint32_t i, double begin, double end);
+    void find_in_cell(int column, int row, std::vector<LayerLine>& lines);
     void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                std::vector<LayerPiece>& pieces);
     void intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const;
@@ -74,6 +85,11 @@ class LayerTile {
     bool has_transparent_;
     PixelRect rect_;
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
+    // Per triangle of the tile; what it takes to clip with one is set up when first needed.
+    std::size_t count_ = 0;
+    Bounds bounds_, of_cell_;
+    std::vector<std::uint32_t> numbers_, set_up_;
+    std::vector<std::int32_t> may_meet_;
     std::vector<LayerTriangle> triangles_;
     std::vector<std::uint32_t> cell_end_, cell_triangles_;
     std::vector<Interval> intervals_;

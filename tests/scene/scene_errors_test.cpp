@@ -120,6 +120,8 @@ TEST(SceneErrors, ValuesOutOfRange) {
         {"[[camera]]\nfit=0", "4:5", "greater than 0 and at most 1"},
         {"[[camera]]\nfit=1.01", "4:5", "at most 1"},
         {"[[material]]\nname='m'\nopacity=1.1", "5:9", "at most 1"},
+        {"[lines.hidden]\nstyle='dotted'", "4:7", "dashed"},
+        {"[lines.hidden]\ndash=[4,0]", "4:6", "greater than 0"},
     });
     for (const auto& [text, place] : {std::pair{"shape='plane'\nsize=[1,0]", "3:6"},
                                       {"shape='plane'\ncolumns=0", "3:9"},

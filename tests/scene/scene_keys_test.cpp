@@ -197,6 +197,25 @@ shape = 'box'
     EXPECT_EQ(scene.materials[3].color, Material{}.color);
 }
 
+TEST(SceneKeys, HiddenLines) {
+    const std::string box = "[[object]]\nshape = 'box'\n";
+    const HiddenLineStyle none = loaded(box).lines.style.hidden;
+    EXPECT_EQ(none.style, HiddenStyle::none);
+    const LineStyle style = loaded(box + R"([lines]
+width = 2
+[lines.hidden]
+style = 'dashed'
+color = '#804020'
+)").lines.style;
+    EXPECT_EQ(style.hidden.style, HiddenStyle::dashed);
+    EXPECT_EQ(style.hidden_width_px(), 2) << "as visible lines";
+    EXPECT_EQ(style.hidden_dash_px(), (std::array<double, 2>{8, 6}));
+    expect_near(glm::dvec3(style.hidden.color), linear(0x80, 0x40, 0x20));
+    const LineStyle own = loaded(box + "[lines.hidden]\nwidth = 0.5\ndash = [5, 1.5]\n").lines.style;
+    EXPECT_EQ(own.hidden_width_px(), 0.5);
+    EXPECT_EQ(own.hidden_dash_px(), (std::array<double, 2>{5, 1.5}));
+}
+
 TEST(SceneKeys, Cameras) {
     const SceneDescription scene = described(std::string(kBox) + R"(
 [[camera]]
