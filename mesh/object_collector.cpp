@@ -1,11 +1,19 @@
 #include "mesh/object_collector.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "base/interrupt.h"
 
 namespace burin {
+namespace {
+
+/// Triangulating and comparing longer ones takes minutes.
+constexpr std::size_t kMaxPolygonCorners = 100000;
+
+}  // namespace
 
 PolygonsByObject group_by_object(const PolygonSoup& soup) {
     PolygonsByObject groups;
@@ -60,6 +68,10 @@ PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t
     for (std::size_t i = begin; i < end; ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
         const std::size_t polygon = groups.order.empty() ? i : groups.order[i];
+        if (soup_.polygon(polygon).size() > kMaxPolygonCorners) {
+            throw InputError("a polygon has " + std::to_string(soup_.polygon(polygon).size()) +
+                             " corners, more than 100000; split it");
+        }
         collapse(soup_.polygon(polygon), repairs);
         if (corners_.size() < 3 || has_no_area()) {
             ++repairs.degenerate_polygons;
