@@ -124,6 +124,32 @@ TEST(Compare, LinesUnderAnotherClassesNameAreNoErrors) {
               (nlohmann::json{"border", "silhouette", "intersection", "object", "crease"}));
 }
 
+// Only the chart tells how wide a method draws; it has no lines as wide as these.
+TEST(Compare, WithoutAChartThereIsNoRowAtEqualWidth) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    const ProgramResult r = run_compare(folder, {"cube.obj", "-o", "d", "--size", "64x48", "-w", "40",
+                                                 "--methods", "patel"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_TRUE(measured(folder)["rmse"].is_number());
+    for (const char* key : {"rmse", "ssim", "width_px", "time_s"})
+        EXPECT_TRUE(measured(folder)["equal_width"][key].is_null()) << key;
+}
+
+TEST(Compare, RemovesWhatAnEarlierComparisonLeft) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    fs::create_directory(folder.file("d"));
+    for (const char* name : {"d/metrics.json", "d/simple.png", "d/simple_diff.png", "d/mine.png"})
+        folder.write(name, "old");
+    const ProgramResult r = run_compare(
+        folder, {"cube.obj", "-o", "d", "--size", "32x24", "-w", "40", "--methods", "patel"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_FALSE(fs::exists(folder.file("d/simple.png")));
+    EXPECT_FALSE(fs::exists(folder.file("d/simple_diff.png")));
+    EXPECT_TRUE(fs::exists(folder.file("d/mine.png")));
+}
+
 TEST(Compare, AnEmptyTruthGivesNoMetrics) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
