@@ -153,8 +153,10 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
     const double gbuffer_px = gbuffer_line_width_px(*frame.scene);
     if (method.name == "gbuffer" && std::abs(gbuffer_px - wanted) > 0.01 * wanted) {
         std::fprintf(stderr,
-                     "burin: note: method gbuffer draws lines %.3g px wide with --supersample %d, not %.3g px\n",
-                     gbuffer_px, frame.scene->gbuffer.supersample, wanted);
+                     "burin: note: method gbuffer draws lines about %.3g px wide, by direction %.2g to %.2g px, "
+                     "with --supersample %d, not %.3g px\n",
+                     gbuffer_px, gbuffer_px / std::sqrt(2.0), gbuffer_px * std::sqrt(2.0),
+                     frame.scene->gbuffer.supersample, wanted);
     }
 }
 

@@ -27,6 +27,20 @@ void make_folder(const std::string& folder) {
     }
 }
 
+/// What an earlier comparison left in the folder would pass for results of this one.
+void remove_earlier_results(const std::string& folder) {
+    const std::filesystem::path path(folder);
+    if (!std::filesystem::exists(path / "metrics.json")) return;
+    std::error_code ignored;
+    for (const Method& method : methods()) {
+        const std::string name(method.name);
+        std::filesystem::remove(path / (name + ".png"), ignored);
+        std::filesystem::remove(path / (name + "_diff.png"), ignored);
+    }
+    for (const char* name : {"truth.png", "report.html", "metrics.csv", "metrics.json"})
+        std::filesystem::remove(path / name, ignored);
+}
+
 /// All methods but the truth itself, unless they are named.
 std::vector<const Method*> chosen_methods(const std::vector<std::string>& names) {
     std::vector<const Method*> chosen;
@@ -38,6 +52,30 @@ std::vector<const Method*> chosen_methods(const std::vector<std::string>& names)
     return chosen;
 }
 
+/// All methods draw the same lines: those in front, to both sides. What only some of them can do
+/// is left out, and the user told.
+void draw_what_all_can(Scene& scene, bool quiet) {
+    std::string left_out;
+    const auto leave_out = [&](const char* what) {
+        left_out += (left_out.empty() ? "" : ", ") + std::string(what);
+    };
+    LineStyle& style = scene.lines.style;
+    if (style.side != StrokeSide::both) leave_out("lines.side (strokes lie on both sides)");
+    if (style.hidden.style != HiddenStyle::none) leave_out("lines.hidden");
+    bool is_opaque = true;
+    for (Material& material : scene.materials) {
+        is_opaque = is_opaque && material.opacity >= 1;
+        material.opacity = 1;
+    }
+    if (!is_opaque) leave_out("opacity");
+    style.side = StrokeSide::both;
+    style.hidden.style = HiddenStyle::none;
+    if (!left_out.empty() && !quiet) {
+        std::fprintf(stderr, "burin: note: not every method has %s; the comparison goes without\n",
+                     left_out.c_str());
+    }
+}
+
 }  // namespace
 
 void run_compare(const Arguments& a) {
@@ -46,12 +84,14 @@ void run_compare(const Arguments& a) {
                                      : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     const Stopwatch total;
     Scene scene = load_input(a);
+    draw_what_all_can(scene, a.quiet);
     View view;
     {
         const Frame frame = frame_of(scene, a);
         view = {frame.camera, frame.width, frame.height, frame.crop};
     }
     make_folder(a.output);
+    remove_earlier_results(a.output);
     ComparisonOptions options{a.output, chosen_methods(a.methods), a.frames, a.threads, &progress};
     Comparison so_far;
     try {

@@ -18,12 +18,25 @@ std::vector<double> all_widths(const std::vector<Segment>& lines, const Plane& c
     return widths;
 }
 
-/// Share of the values below (or, negated, not above) a bound.
+/// Share of the values below a bound.
 double share_below(const std::vector<double>& values, double bound) {
     if (values.empty()) return 0;
     const auto below =
         std::count_if(values.begin(), values.end(), [&](double v) { return v < bound; });
     return static_cast<double>(below) / static_cast<double>(values.size());
+}
+
+/// Stipples are gaps: the stairs of an aliased line are none.
+constexpr double kStippleWindow_px = 1.5;
+
+double stippled_share(const TestChart& chart, const Plane& coverage, double bound_px) {
+    std::vector<double> widths;
+    for (const Segment& line : chart.slopes) {
+        const std::vector<double> means =
+            smoothed_along(widths_along(coverage, line, chart.reach_px), kStippleWindow_px);
+        widths.insert(widths.end(), means.begin(), means.end());
+    }
+    return share_below(widths, bound_px);
 }
 
 double rms_error(const std::vector<ProfilePoint>& points) {
@@ -79,6 +92,24 @@ void measure_star(const TestChart& chart, const Plane& coverage, double truth_wi
     row.curves = std::move(curves);
 }
 
+/// Hidden lines may leak on one side only: their ink counts, up to that of a visible line.
+void measure_leaks(const TestChart& chart, const Plane& coverage, double expected_px,
+                   ComparisonRow& row) {
+    std::vector<double> all, at_gap;
+    for (std::size_t i = 0; i < chart.hidden.size(); ++i) {
+        const TestChart::HiddenLine& line = chart.hidden[i];
+        for (const double width : widths_along(coverage, line.segment, chart.reach_px)) {
+            at_gap.push_back(std::min(width / expected_px, 1.0));
+        }
+        if (i + 1 < chart.hidden.size() && chart.hidden[i + 1].gap_px == line.gap_px) continue;
+        row.curves->gaps_px.push_back(line.gap_px);
+        row.curves->leak_share.push_back(mean_of(at_gap));
+        all.insert(all.end(), at_gap.begin(), at_gap.end());
+        at_gap.clear();
+    }
+    row.values[Metric::leak_share] = mean_of(all);
+}
+
 }  // namespace
 
 LineClassSet chart_classes(LineClassSet draws) {
@@ -100,24 +131,8 @@ void measure_chart(const TestChart& chart, const Plane& coverage, LineClassSet d
     if (!(width > 0)) return;  // shares of nothing
     const double expected = median_of(all_widths(chart.star, coverage, chart.reach_px));
     row.values[Metric::stippled_share] =
-        share_below(all_widths(chart.slopes, coverage, chart.reach_px), 0.5 * expected);
-    std::vector<double> hidden;
-    for (std::size_t i = 0; i < chart.hidden.size(); ++i) {
-        const TestChart::HiddenLine& line = chart.hidden[i];
-        const std::vector<double> widths = widths_along(coverage, line.segment, chart.reach_px);
-        hidden.insert(hidden.end(), widths.begin(), widths.end());
-        // Lines at the same gap follow each other.
-        const double leak = 1 - share_below(widths, 0.5 * expected);
-        std::vector<double>& gaps = row.curves->gaps_px;
-        std::vector<double>& leaks = row.curves->leak_share;
-        if (!gaps.empty() && gaps.back() == line.gap_px) {
-            leaks.back() = 0.5 * (leaks.back() + leak);
-        } else {
-            gaps.push_back(line.gap_px);
-            leaks.push_back(leak);
-        }
-    }
-    row.values[Metric::leak_share] = 1 - share_below(hidden, 0.5 * expected);
+        stippled_share(chart, coverage, 0.5 * expected);
+    measure_leaks(chart, coverage, expected, row);
     if (classes.has(LineClass::silhouette)) {
         row.values[Metric::silhouette_ratio] =
             mean_of(all_widths(chart.silhouettes, coverage, chart.reach_px)) / width;

@@ -33,7 +33,8 @@ struct ComparisonRow {
 struct MethodResult {
     const Method* method = nullptr;
     LineClassSet drawn;               ///< classes that were asked for and that the method can draw
-    LineClassSet not_drawn;           ///< classes that were asked for and that it cannot draw
+    LineClassSet not_drawn;           ///< classes that were asked for and that it cannot find
+    LineClassSet truth;               ///< classes of its truth: drawn, and found by other names
     ComparisonRow published;          ///< asked for the width, as the method's source would draw it
     ComparisonRow equal_width;        ///< at equal integrated width
     std::string picture, difference;  ///< file names; empty if the method draws none of the classes

@@ -58,8 +58,9 @@ std::optional<LineMass> line_mass(const Plane& result, const Plane& truth) {
 }
 
 std::size_t coverage_levels(const Plane& result) {
-    std::set<float> levels(result.values.begin(), result.values.end());
-    levels.erase(0.0f);
+    std::set<long> levels;
+    for (const float alpha : result.values) levels.insert(std::lround(255 * alpha));
+    levels.erase(0);
     return levels.size();
 }
 

@@ -95,6 +95,8 @@ void write_method(JsonWriter& json, const MethodResult& result) {
     write_classes(json, result.drawn);
     json.key("not_drawn");
     write_classes(json, result.not_drawn);
+    json.key("truth_classes");
+    write_classes(json, result.truth);
     write_name_or_null(json, "picture", result.picture);
     write_name_or_null(json, "difference", result.difference);
     write_row(json, result.published);

@@ -8,7 +8,6 @@ namespace burin {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kStepAlong_px = 0.25;
 constexpr double kStepAcross_px = 0.125;
 
 /// Area of a unit square on the side u <= t of a line with unit normal n through a point t away
@@ -72,9 +71,9 @@ std::vector<double> widths_along(const Plane& coverage, const Segment& segment, 
     const int steps = static_cast<int>(std::floor(2 * reach_px / kStepAcross_px));
     // A little slack, so that lines of equal length have equally many places.
     const int places =
-        static_cast<int>(std::floor((length - 2 * kEndMargin_px) / kStepAlong_px + 1e-6)) + 1;
+        static_cast<int>(std::floor((length - 2 * kEndMargin_px) / kWidthStep_px + 1e-6)) + 1;
     for (int place = 0; place < places; ++place) {
-        const double s = kEndMargin_px + place * kStepAlong_px;
+        const double s = kEndMargin_px + place * kWidthStep_px;
         double sum = 0;
         for (int i = 0; i <= steps; ++i) {
             const double u = -reach_px + i * kStepAcross_px;
@@ -84,6 +83,14 @@ std::vector<double> widths_along(const Plane& coverage, const Segment& segment, 
         widths.push_back(sum * kStepAcross_px);
     }
     return widths;
+}
+
+std::vector<double> smoothed_along(std::span<const double> widths, double window_px) {
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::round(window_px / kWidthStep_px)));
+    std::vector<double> means;
+    for (std::size_t i = 0; i + count <= widths.size(); ++i)
+        means.push_back(mean_of(widths.subspan(i, count)));
+    return means;
 }
 
 double mean_of(std::span<const double> values) {

@@ -28,9 +28,15 @@ constexpr double kEndMargin_px = 3;
 /// `u` beside the stroke's centre line with the unit normal `across`.
 double band_coverage(double u, glm::dvec2 across, double width_px);
 
-/// The integral of coverage across the stroke (its *width*), every quarter pixel along it.
+constexpr double kWidthStep_px = 0.25;  ///< along a stroke, from one width to the next
+
+/// The integral of coverage across the stroke (its *width*), every kWidthStep_px along it.
 /// `reach_px` is how far to either side it goes.
 std::vector<double> widths_along(const Plane& coverage, const Segment& segment, double reach_px);
+
+/// Running means over `window_px` of such widths. An aliased line's stairs are at most sqrt(2) pixels
+/// long: over 1.5 pixels they are even, and gaps are not.
+std::vector<double> smoothed_along(std::span<const double> widths, double window_px);
 
 double mean_of(std::span<const double> values);
 double deviation_of(std::span<const double> values);  ///< standard deviation of all the values

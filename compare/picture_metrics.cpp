@@ -1,5 +1,7 @@
 #include "compare/picture_metrics.h"
 
+#include <algorithm>
+
 #include "compare/metrics_error.h"
 #include "compare/metrics_flip.h"
 #include "compare/metrics_structure.h"
@@ -8,6 +10,8 @@
 namespace burin {
 
 void measure_picture(const Plane& result, const Plane& truth, int threads, MetricValues& values) {
+    const auto is_line = [](float v) { return v > 0; };
+    if (std::none_of(truth.values.begin(), truth.values.end(), is_line)) return;
     if (const auto error = coverage_error(result, truth)) {
         values[Metric::rmse] = error->rmse;
         values[Metric::psnr_db] = error->psnr_db;

@@ -6,6 +6,7 @@
 namespace burin {
 
 /// The metrics of the group "scene": a result's line coverage against the truth's.
+/// Without any true line there is nothing to compare with, and no value.
 void measure_picture(const Plane& result, const Plane& truth, int threads, MetricValues& values);
 
 }  // namespace burin

@@ -81,6 +81,7 @@ class ComparisonRunner {
     /// The chart is drawn as the scene is, but for what the scene says about itself.
     void copy_method_settings() {
         Scene& chart = chart_->scene;
+        chart.abuffer = scene_.abuffer;
         chart.patel = scene_.patel;
         chart.reference = scene_.reference;
         chart.gbuffer = scene_.gbuffer;
@@ -153,7 +154,9 @@ class ComparisonRunner {
         MethodResult result;
         result.method = &method;
         result.drawn = c_.classes & method.draws;
-        result.not_drawn = LineClassSet::from_bits(c_.classes.bits & ~method.draws.bits);
+        result.truth = result.drawn;
+        if (method.also_finds != nullptr) result.truth |= method.also_finds(result.drawn);
+        result.not_drawn = LineClassSet::from_bits(c_.classes.bits & ~result.truth.bits);
         result.published.asked_width_px = result.published.truth_width_px = width_px_;
         if (const MethodNote* const note = find_method_note(method.name)) {
             result.published.values[Metric::passes] = note->passes;
@@ -195,8 +198,9 @@ class ComparisonRunner {
 
     /// How the row "at equal width" is drawn.
     struct EqualWidth {
-        double asked_px;
-        bool same_drawing;  ///< as the row "as published"
+        double asked_px = 0;
+        bool same_drawing = false;  ///< as the row "as published"
+        bool is_known = false;      ///< else there is no such row: the chart would tell the widths
     };
 
     /// Both rows' chart metrics.
@@ -204,9 +208,11 @@ class ComparisonRunner {
         ComparisonRow& published = result.published;
         ComparisonRow& equal = result.equal_width;
         equal = published;
+        for (const Metric m : {Metric::time_s, Metric::cpu_time_s, Metric::memory})
+            equal.values[m].reset();  // measured once only
         const LineClassSet classes = chart_classes(method.draws);
         if (!chart_ || !(classes.has(LineClass::crease) || classes.has(LineClass::polygon)))
-            return {width_px_, false};
+            return {};
         const Plane as_published = draw_chart(method, width_px_, WireWidth::published);
         measure_chart(*chart_, as_published, method.draws, width_px_, published);
 
@@ -224,13 +230,13 @@ class ComparisonRunner {
                                         [&](const auto& d) { return d.first == match.asked_px; });
         measure_chart(*chart_, drawn->second, method.draws, equal.truth_width_px, equal);
         return {match.asked_px,
-                match.asked_px == width_px_ && drawn->second.values == as_published.values};
+                match.asked_px == width_px_ && drawn->second.values == as_published.values, true};
     }
 
     void measure_on_scene(const Method& method, const EqualWidth& equal_width,
                           const LineRendering& drawing, MethodResult& result) {
         const std::string name(method.name);
-        const Plane& truth = truths_.coverage(result.drawn, width_px_, view_, 0);
+        const Plane& truth = truths_.coverage(result.truth, width_px_, view_, 0);
         measure_picture(drawing.coverage, truth, c_.threads, result.published.values);
         result.picture = name + ".png";
         result.difference = name + "_diff.png";
@@ -238,13 +244,14 @@ class ComparisonRunner {
         write_picture(result.difference, difference_picture(drawing.coverage, truth));
 
         next_part(name + ", equal width", kSceneWeight);
+        if (!equal_width.is_known) return;
         ComparisonRow& equal = result.equal_width;
         const Plane coverage =
             equal_width.same_drawing
                 ? drawing.coverage
                 : draw(method, result.drawn, equal_width.asked_px, WireWidth::matched, view_)
                       .coverage;
-        const Plane& equal_truth = truths_.coverage(result.drawn, equal.truth_width_px, view_, 0);
+        const Plane& equal_truth = truths_.coverage(result.truth, equal.truth_width_px, view_, 0);
         measure_picture(coverage, equal_truth, c_.threads, equal.values);
     }
 
@@ -283,6 +290,7 @@ class ComparisonRunner {
                   static_cast<std::uint64_t>(c_.frames) * kFrameWeight);
         for (ComparisonRow* const row : {&result.published, &result.equal_width}) {
             const bool is_equal = row == &result.equal_width;
+            if (is_equal && !equal_width.is_known) continue;
             if (is_equal && equal_width.same_drawing &&
                 row->truth_width_px == result.published.truth_width_px) {
                 for (const Metric m : {Metric::flicker_sd, Metric::energy_sd, Metric::pop}) {
@@ -298,7 +306,7 @@ class ComparisonRunner {
                                       frame_view(j))
                                      .coverage);
             }
-            const std::vector<Plane> truth = true_frames(result.drawn, row->truth_width_px);
+            const std::vector<Plane> truth = true_frames(result.truth, row->truth_width_px);
             row->frame_coverage = relative_coverage(frames, truth);
             if (const auto f = flicker(frames, truth)) {
                 row->values[Metric::flicker_sd] = f->flicker_sd;

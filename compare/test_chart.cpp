@@ -12,6 +12,9 @@ constexpr int kStarLines = 180;
 constexpr int kSlopeLines = 36;
 constexpr double kGaps_px[] = {.001, .003, .01, .03, .1, .3, 1, 3};
 constexpr double kHiddenSlopes_deg[] = {45, 75};
+/// Covers as steep as a round object is near its limb.
+constexpr double kCoverSlopes_deg[] = {60, 75};
+constexpr double kFarSlope_deg = 20;
 constexpr int kPyramids = 8;
 constexpr double kEyeZ = 1000;
 
@@ -42,7 +45,8 @@ class ChartBuilder {
         : half_length_(16 + 0.5 * width_px), half_width_(9 + 0.5 * width_px) {
         cell_ = std::ceil(2 * std::hypot(half_length_, half_width_)) + 4;
         const int cells = kStarLines + kSlopeLines +
-                          static_cast<int>(std::size(kGaps_px) * std::size(kHiddenSlopes_deg)) +
+                          static_cast<int>(std::size(kGaps_px) * (std::size(kHiddenSlopes_deg) +
+                                                                  std::size(kCoverSlopes_deg))) +
                           kPyramids;
         const int rows = (cells + kColumns - 1) / kColumns;
         chart_.width = kColumns * static_cast<int>(cell_);
@@ -61,6 +65,12 @@ class ChartBuilder {
             for (const double slope : kHiddenSlopes_deg) {
                 const Segment segment = add_tent(glm::radians(turn++ * 23.0 + 5), slope, slope);
                 add_cover(gap);
+                chart_.hidden.push_back({segment, gap});
+            }
+            for (const double slope : kCoverSlopes_deg) {
+                const double angle_rad = glm::radians(turn++ * 23.0 + 5);
+                const Segment segment = add_tent(angle_rad, slope, kFarSlope_deg);
+                add_slanted_cover(angle_rad, slope, gap);
                 chart_.hidden.push_back({segment, gap});
             }
         }
@@ -121,6 +131,18 @@ class ChartBuilder {
                                          add_vertex(covers_, center_ + glm::dvec2(h, -h), z),
                                          add_vertex(covers_, center_ + glm::dvec2(h, h), z),
                                          add_vertex(covers_, center_ + glm::dvec2(-h, h), z)};
+        covers_.add_polygon(corners);
+    }
+
+    /// A rectangle over the last cell's tent, parallel to its left face.
+    void add_slanted_cover(double angle_rad, double slope_deg, double z) {
+        const glm::dvec2 d(std::cos(angle_rad), std::sin(angle_rad)), n(-d.y, d.x);
+        const glm::dvec2 along = d * (half_length_ + 1), out = n * (half_width_ + 1);
+        const double fall = (half_width_ + 1) * std::tan(glm::radians(slope_deg));
+        const std::uint32_t corners[] = {add_vertex(covers_, center_ - along - out, z + fall),
+                                         add_vertex(covers_, center_ + along - out, z + fall),
+                                         add_vertex(covers_, center_ + along + out, z - fall),
+                                         add_vertex(covers_, center_ - along + out, z - fall)};
         covers_.add_polygon(corners);
     }
 

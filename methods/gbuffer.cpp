@@ -210,6 +210,16 @@ RenderStats render_gbuffer(const Frame& frame, const RunOptions& options, Film& 
     return stats;
 }
 
+LineClassSet gbuffer_also_finds(LineClassSet asked) {
+    LineClassSet found;
+    if (asked.has(LineClass::silhouette)) found |= LineClass::border;
+    if (asked.has(LineClass::crease) || asked.has(LineClass::object) ||
+        asked.has(LineClass::polygon)) {
+        found |= LineClass::intersection;
+    }
+    return found;
+}
+
 double gbuffer_line_width_px(const Scene& scene) {
     const GBufferSettings& settings = scene.gbuffer;
     int samples = 2;

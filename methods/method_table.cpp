@@ -25,7 +25,7 @@ constexpr std::array kMethods = {
     Method{"gbuffer", "Saito and Takahashi, Comprehensible Rendering of 3-D Shapes, SIGGRAPH 1990",
            LineClass::silhouette | LineClass::crease | LineClass::object | LineClass::material |
                LineClass::polygon,
-           render_gbuffer},
+           render_gbuffer, gbuffer_also_finds},
     Method{"simple", kHerrell, kEdgeClasses, render_with<simple_method>},
     Method{"offset", kHerrell, kEdgeClasses, render_with<offset_method>},
     Method{"slope-offset", "OpenGL 1.1, glPolygonOffset, 1997", kEdgeClasses,

@@ -21,6 +21,9 @@ struct Method {
     std::string_view source;  ///< author, title, year
     LineClassSet draws;       ///< the classes that it can draw at all
     RenderStats (*render)(const Frame&, const RunOptions&, Film&);
+    /// Classes whose boundaries it also finds when asked for some of those that it draws, and calls
+    /// by their names: images know no classes. nullptr: none.
+    LineClassSet (*also_finds)(LineClassSet asked) = nullptr;
 };
 
 }  // namespace burin

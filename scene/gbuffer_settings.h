@@ -74,7 +74,7 @@ struct GBufferSettings {
     double jump_limit = 4;           ///< k_g: first-order differential that is a depth jump
     double profile_limit = 2;        ///< k_p: variation of it that makes a line black
     double profile_power = 1;        ///< e
-    bool gate = true;                ///< only the two columns beside a jump, not four
+    bool gate = true;                ///< profiles: only the two columns beside a jump, none at creases
     double crease_limit = 0.5;       ///< k_e: second-order differential that makes a line black
     double relative_jump = 0.02;     ///< Roberts: jump relative to the distance
     double relative_jump_slope = 1;  ///< Roberts: how much more grazing faces may jump

@@ -120,6 +120,7 @@ std::optional<std::string> TomlReader::text(std::string_view key) {
 std::optional<std::vector<std::string>> TomlReader::texts(std::string_view key) {
     const toml::node* const node = find(key);
     if (node == nullptr) return std::nullopt;
+    if (const auto one = node->value_exact<std::string>()) return std::vector{*one};
     const toml::array* const array = node->as_array();
     if (array == nullptr) fail(key, "must be a list of texts, such as [\"a\", \"b\"]");
     std::vector<std::string> result;

@@ -35,6 +35,7 @@ class TomlReader {
     std::optional<int> integer(std::string_view key, int low, int high);
     std::optional<bool> boolean(std::string_view key);
     std::optional<std::string> text(std::string_view key);
+    /// A list, or a single text.
     std::optional<std::vector<std::string>> texts(std::string_view key);
     std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count);
     std::optional<glm::dvec3> vector(std::string_view key);

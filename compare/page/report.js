@@ -20,6 +20,7 @@ function svg(tag, attributes = {}, text) {
   return node;
 }
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
+const counted = (n, thing) => `${grouped(n)} ${thing}${n === 1 ? '' : 's'}`;
 const grouped = n => String(Math.round(n)).replace(/\B(?=(\d{3})+$)/g, '\u202f');
 
 // ---- head ----
@@ -27,23 +28,23 @@ const baseName = data.scene.input.split('/').pop();
 document.title = `Burin: methods compared on ${baseName}`;
 byId('title').textContent = `Methods compared on ${baseName}`;
 byId('facts').textContent =
-  `${data.scene.width} × ${data.scene.height} pixels, ${grouped(data.scene.triangles)} triangles, ` +
+  `${data.scene.width} × ${data.scene.height} pixels, ${counted(data.scene.triangles, 'triangle')}, ` +
   `lines: ${data.scene.lines.join(', ')}; width ${data.scene.line_width_px} px. ` +
   `Truth: method ${data.truth.method}, ${data.truth.time_s.toFixed(1)} s. ` +
-  `${methods.length} method${methods.length === 1 ? '' : 's'} on ${data.scene.threads} threads.`;
+  `${counted(methods.length, 'method')} on ${counted(data.scene.threads, 'thread')}.`;
 byId('foot').textContent = 'All numbers are in metrics.json and metrics.csv beside this page.';
 
 // ---- pictures: a viewer with a wipe, and the same crop of all ----
+// All start here, in the page's own script, and so hold up its load event: who prints or photographs
+// the page when it is loaded gets them all.
 const images = new Map();
-function imageOf(name) {
-  if (!images.has(name)) {
-    const image = new Image();
-    image.onload = () => scheduleDraw();
-    image.src = pictures[name];
-    images.set(name, image);
-  }
-  return images.get(name);
+for (const [name, url] of Object.entries(pictures)) {
+  const image = new Image();
+  image.onload = () => draw();
+  image.src = url;
+  images.set(name, image);
 }
+const imageOf = name => images.get(name);
 const choices = [['truth', data.truth.picture]];
 for (const m of drawnMethods) choices.push([m.name, m.picture]);
 for (const m of drawnMethods) choices.push([`${m.name}, difference`, m.difference]);
@@ -82,9 +83,10 @@ function setWipe(part) {
   state.wipe = clamp(part, 0, 1);
   scheduleDraw();
 }
+const contextOf = target => target.getContext('2d', {willReadFrequently: true});
 function drawInto(target, image, scale, x, y, clip) {
   const ratio = window.devicePixelRatio || 1;
-  const context = target.getContext('2d');
+  const context = contextOf(target);
   const w = target.clientWidth, h = target.clientHeight;
   context.save();
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -106,7 +108,7 @@ function resized(target) {
 const crops = [];
 function markCrop([x, y], scale) {
   if (!crops.length) return;
-  const ratio = window.devicePixelRatio || 1, context = canvas.getContext('2d');
+  const ratio = window.devicePixelRatio || 1, context = contextOf(canvas);
   const side = crops[0].canvas.clientWidth / scale * state.scale;
   const at = [(x - state.x) * state.scale + canvas.clientWidth / 2, (y - state.y) * state.scale + canvas.clientHeight / 2];
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -116,14 +118,15 @@ function markCrop([x, y], scale) {
 function draw() {
   const truth = imageOf(data.truth.picture);
   if (!truth.complete || !truth.naturalWidth) return;
-  if (!(state.scale > 0)) { fit(); return; }
+  if (!(state.scale > 0)) fit();
+  if (!(state.scale > 0)) return;  // not laid out yet
   resized(canvas);
   const edge = state.wipe * canvas.clientWidth;
   for (const [file, from, to] of [[left.value, 0, edge], [right.value, edge, canvas.clientWidth]]) {
     const image = imageOf(file);
     if (image.complete && image.naturalWidth) drawInto(canvas, image, state.scale, state.x, state.y, [from, to]);
   }
-  const line = canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
+  const line = contextOf(canvas), ratio = window.devicePixelRatio || 1;
   line.fillStyle = '#1b65a7';
   line.fillRect((edge - 1) * ratio, 0, 2 * ratio, canvas.height);
   wipe.style.left = `${edge}px`;
@@ -217,8 +220,9 @@ for (const [label, file] of choices) {
   crops.push({canvas: tile, figure, file});
 }
 new ResizeObserver(scheduleDraw).observe(viewer);
+window.addEventListener('load', draw);
 window.addEventListener('beforeprint', draw);
-imageOf(data.truth.picture);
+window.addEventListener('afterprint', scheduleDraw);
 
 // ---- tables ----
 const groups = [
@@ -238,8 +242,17 @@ function merit(metric, value) {
     default: return null;
   }
 }
-function shown(metric, value, row) {
-  if (value === null) return row && row.rmse === 0 && metric.key.startsWith('psnr') ? 'exact' : '—';
+// No error at all has no decibels, and is the best there is.
+function valueOf(metric, row) {
+  const value = row[metric.key];
+  return value === null && row.rmse === 0 && metric.key.startsWith('psnr') ? Infinity : value;
+}
+// Against the truth of its own width a method has no bias to be proud of.
+const competes = (metric, row) => valueOf(metric, row) !== null &&
+  (metric.key !== 'width_bias' || row.truth_width_px === data.scene.line_width_px);
+function shown(metric, value) {
+  if (value === null) return '—';
+  if (value === Infinity) return 'exact';
   if (metric.digits === 0) return grouped(value);
   return value.toFixed(metric.digits).replace('-', '\u2212');
 }
@@ -255,17 +268,17 @@ function table(kind, [group, title, note]) {
   for (const m of columns) head.append(element('th', {title: m.what, scope: 'col'}, m.title));
   const body = element('tbody');
   const best = columns.map(m => {
-    const merits = rows.filter(r => r[m.key] !== null).map(r => merit(m, r[m.key]));
+    const merits = rows.filter(r => competes(m, r)).map(r => merit(m, valueOf(m, r)));
     return merits.length && merits[0] !== null ? Math.max(...merits) : null;
   });
   methods.forEach((method, i) => {
     const missing = group === 'scene' && method.not_drawn.length ? element('small', {}, `without ${method.not_drawn.join(', ')}`) : '';
     const line = element('tr', {}, element('th', {scope: 'row'}, method.name, missing));
     columns.forEach((m, k) => {
-      const value = rows[i][m.key];
-      const isBest = value !== null && best[k] !== null && rows.length > 1 &&
+      const value = valueOf(m, rows[i]);
+      const isBest = competes(m, rows[i]) && best[k] !== null && rows.length > 1 &&
         shown(m, Math.abs(merit(m, value))) === shown(m, Math.abs(best[k]));
-      line.append(element('td', {class: value === null ? 'none' : isBest ? 'best' : ''}, shown(m, value, rows[i])));
+      line.append(element('td', {class: value === null ? 'none' : isBest ? 'best' : ''}, shown(m, value)));
     });
     body.append(line);
   });
@@ -281,12 +294,13 @@ function sortBy(body, head, k, metric) {
   head.children[k].setAttribute('aria-sort', ascending ? 'ascending' : 'descending');
   const number = line => {
     const text = line.children[k].textContent.replace('\u2212', '-').replace(/\u202f/g, '');
-    return text === '—' ? null : Number(text);
+    return text === '—' ? null : text === 'exact' ? Infinity : Number(text);
   };
   const lines = [...body.children].sort((a, b) => {
     if (!metric) return a.children[0].textContent.localeCompare(b.children[0].textContent);
     const x = number(a), y = number(b);
-    return x === null ? (y === null ? 0 : Infinity) : y === null ? -Infinity : x - y;
+    if (x === null || y === null) return (x === null) - (y === null);
+    return x === y ? 0 : x < y ? -1 : 1;
   });
   const nulls = metric ? lines.filter(l => number(l) === null) : [];
   const valued = lines.filter(l => !nulls.includes(l));
@@ -306,7 +320,9 @@ for (const group of groups) {
 const hints = {
   published: `Every method was asked for lines of ${data.scene.line_width_px} px and draws them as its source says. ` +
     'A dot marks the best value of a column. Click a heading to sort.',
-  equal_width: 'Each method was asked for the width at which its lines on the chart have the integrated width of the truth. ' +
+  equal_width: data.chart.line_width_px === null
+    ? 'Not measured: lines this wide are not on the chart, which would tell how wide each method draws them.'
+    : 'Each method was asked for the width at which its lines on the chart have the integrated width of the truth. ' +
     'A method that cannot draw that width is compared with a truth of its own width.',
 };
 const switches = [...document.querySelectorAll('.switch button')];
@@ -320,16 +336,32 @@ for (const b of switches) b.onclick = () => chooseRow(b.dataset.row);
 
 // ---- curves: a row per method, a column per plot ----
 const range = (count, first, step) => Array.from({length: count}, (_, i) => first + i * step);
+// A stroke of width w seen through a square pixel, over all directions: box(w), convolved with the
+// pixel's shadow, which at angle a is box(|cos a|) convolved with box(|sin a|).
+const angles = range(45, 0.5, 1).map(d => d * Math.PI / 180);
+const averaged = f => angles.reduce((sum, a) => sum + f(Math.cos(a), Math.sin(a)), 0) / angles.length;
+function trueProfile(u, w) {
+  const square = x => x > 0 ? x * x : 0;
+  const below = (t, a, b) => (square(t + (a + b) / 2) - square(t + (a - b) / 2) -
+    square(t - (a - b) / 2) + square(t - (a + b) / 2)) / (2 * a * b);
+  return averaged((a, b) => below(u + w / 2, a, b) - below(u - w / 2, a, b));
+}
+const sinc = x => x === 0 ? 1 : Math.sin(Math.PI * x) / (Math.PI * x);
+const trueModulation = (f, w) => Math.abs(sinc(f * w) * averaged((a, b) => sinc(f * a) * sinc(f * b)));
 const plots = [
   {title: 'Width by angle', note: 'px, over 0–180°', zero: true,
-   points: r => r.curves && r.curves.width_px_by_degree.map((v, i) => [i, v]), ideal: r => r.truth_width_px, unit: '°'},
+   points: r => r.curves && r.curves.width_px_by_degree.map((v, i) => [i, v]), ideal: r => [[0, r.truth_width_px], [179, r.truth_width_px]], unit: '°'},
   {title: 'Error by angle', note: 'RMSE of coverage', zero: true,
    points: r => r.curves && r.curves.rmse_by_degree.map((v, i) => [i, v]), unit: '°'},
   {title: 'Profile', note: 'coverage across the line, px', zero: true,
    points: r => r.curves && range(r.curves.profile_coverage.length, r.curves.profile_first_u_px, r.curves.profile_step_px)
-     .map((u, i) => [u, r.curves.profile_coverage[i]]), ideal: () => 1, unit: ' px'},
+     .map((u, i) => [u, r.curves.profile_coverage[i]]), unit: ' px',
+   ideal: r => range(8 * Math.ceil(-r.curves.profile_first_u_px) + 1, Math.floor(r.curves.profile_first_u_px), 0.25)
+     .filter(u => Math.abs(u) <= -r.curves.profile_first_u_px).map(u => [u, trueProfile(u, r.truth_width_px)])},
   {title: 'Modulation', note: 'by cycles per pixel', zero: true,
-   points: r => r.curves && r.curves.modulation.map((v, i) => [i * r.curves.modulation_step_cycles_per_px, v]), unit: ' c/px'},
+   points: r => r.curves && r.curves.modulation.map((v, i) => [i * r.curves.modulation_step_cycles_per_px, v]), unit: ' c/px',
+   ideal: r => r.curves.modulation.map((v, i) => i * r.curves.modulation_step_cycles_per_px)
+     .map(f => [f, trueModulation(f, r.truth_width_px)])},
   {title: 'Leak by gap', note: 'share of a hidden line, log px', zero: true, top: 1, dots: true, log: true,
    points: r => r.curves && r.curves.gap_px.map((g, i) => [Math.log10(g), r.curves.leak_share_by_gap[i]]), unit: ' px'},
   {title: 'Over frames', note: 'total ink over the truth’s mean',
@@ -351,7 +383,7 @@ function drawFingerprints(kind) {
   const body = element('tbody');
   const scales = columns.map(p => {
     const all = rows.flatMap(r => p.points(r) || []).concat(p.ideals ? p.ideals() : []);
-    const ys = all.map(q => q[1]).concat(p.ideal ? rows.filter(r => p.points(r)).map(r => p.ideal(r)) : []);
+    const ys = all.concat(p.ideal ? rows.filter(r => p.points(r)).flatMap(r => p.ideal(r)) : []).map(q => q[1]);
     const xs = all.map(q => q[0]);
     let low = p.zero ? 0 : Math.min(...ys), high = p.top || Math.max(...ys);
     if (!(high > low)) { low -= p.zero ? 0 : 0.01; high += 0.01; }
@@ -372,7 +404,7 @@ function plot(p, s, rows, i, k) {
     'aria-label': `${p.title}, ${methods[i].name}`});
   node.append(svg('rect', {class: 'frame', x: L, y: 0, width: W - L, height: H - B}));
   rows.forEach((r, n) => { if (n !== i && p.points(r)) node.append(svg('path', {class: 'others', d: path(p.points(r))})); });
-  if (p.ideal) node.append(svg('path', {class: 'ideal', d: path([[s.x0, p.ideal(rows[i])], [s.x1, p.ideal(rows[i])]])}));
+  if (p.ideal) node.append(svg('path', {class: 'ideal', d: path(p.ideal(rows[i]))}));
   if (p.ideals) node.append(svg('path', {class: 'ideal', d: path(p.ideals())}));
   const points = p.points(rows[i]);
   node.append(svg('path', {class: 'curve', d: path(points)}));
@@ -409,6 +441,8 @@ for (const m of methods) {
   if (m.limits) note.append(element('p', {class: 'limits'}, m.limits));
   note.append(element('p', {class: 'source'}, m.not_drawn.length
     ? `Of the lines asked for it cannot draw: ${m.not_drawn.join(', ')}.` : 'Draws all lines asked for.'));
+  const renamed = m.truth_classes.filter(c => !m.drawn.includes(c));
+  if (renamed.length) note.append(element('p', {class: 'source'}, `Finds under other names, and is measured with: ${renamed.join(', ')}.`));
   byId('notes').append(note);
 }
 for (const m of data.metrics) {

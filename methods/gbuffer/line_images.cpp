@@ -58,7 +58,7 @@ class LineDetector {
         const double normal_limit = std::sqrt(0.5 * (1 - cos_crease_));
         if (has(GBufferOperator::first)) add_jumps(relative_to(g, settings_.jump_limit), 2);
         if (has(GBufferOperator::second)) add_bends(relative_to(l, settings_.crease_limit), 2);
-        if (has(GBufferOperator::profile)) add_jumps(profile_image(g, profile), profile_width);
+        if (has(GBufferOperator::profile)) add_jumps(depth_profile(g, profile), profile_width);
         if (has(GBufferOperator::internal)) {
             add_bends(internal_edge_image(g, l, settings_.jump_limit, settings_.crease_limit), 2);
         }
@@ -84,7 +84,7 @@ class LineDetector {
         if (has(GBufferOperator::decaudin)) {
             ProfileParameters squared = profile;
             squared.power = 2;
-            add_jumps(profile_image(g, squared), profile_width);
+            add_jumps(depth_profile(g, squared), profile_width);
             squared.limit = normal_limit;
             add_bends(normal_profile_image(g_.normal, squared), profile_width);
         }
@@ -98,6 +98,11 @@ class LineDetector {
 
   private:
     bool has(GBufferOperator o) const { return settings_.operators.has(o); }
+
+    Raster<float> depth_profile(const Raster<double>& g, const ProfileParameters& parameters) {
+        const Raster<float> profile = profile_image(g, parameters);
+        return parameters.gate ? without_creases(profile, g_.depth, parameters) : profile;
+    }
 
     void add_roberts() {
         const bool orthographic = context_.frame.surfaces.projection.orthographic;

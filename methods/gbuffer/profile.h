@@ -29,6 +29,36 @@ inline Raster<float> profile_image(const Raster<double>& g, const ProfileParamet
     });
 }
 
+/// How far depth jumps beyond the slopes on either side, at the largest of the four steps to
+/// neighbours: the step's distance from the interval between the steps before and after it, in the
+/// same row or column. 0 on bends, creases and smooth surfaces, where steps lie between their
+/// neighbours' (up to rounding); h beside a jump of height h between two planes.
+inline Raster<double> jump_beyond_slopes(const Raster<double>& depth) {
+    const auto beyond = [](double before, double p, double q, double after) {
+        const auto [low, high] = std::minmax({p - before, after - q});
+        return std::max({low - (q - p), (q - p) - high, 0.0});
+    };
+    return raster_of(grown(depth.rect(), -2), [&](int x, int y) {
+        const auto row = [&](int i) { return depth.at(x + i, y); };
+        const auto column = [&](int i) { return depth.at(x, y + i); };
+        return std::max({beyond(row(-2), row(-1), row(0), row(1)),
+                         beyond(row(-1), row(0), row(1), row(2)),
+                         beyond(column(-2), column(-1), column(0), column(1)),
+                         beyond(column(-1), column(0), column(1), column(2))});
+    });
+}
+
+/// The profile of jumps alone: creases, where g differs only because the slope does, are left to
+/// the internal edges. A jump h between planes of equal slope has the g of h / 2, and stays as it is.
+inline Raster<float> without_creases(const Raster<float>& profile, const Raster<double>& depth,
+                                     const ProfileParameters& parameters) {
+    const Raster<double> jump = jump_beyond_slopes(depth);
+    return raster_of(common(profile.rect(), jump.rect()), [&](int x, int y) {
+        const double most = std::pow(0.5 * jump.at(x, y) / parameters.limit, parameters.power);
+        return static_cast<float>(std::min(static_cast<double>(profile.at(x, y)), most));
+    });
+}
+
 /// Internal edge image (creases) of Saito & Takahashi 1990, from both differentials: 0 where
 /// g > jump_limit (k_g), which belongs to the profile, else min(|l| / crease_limit, 1).
 inline Raster<float> internal_edge_image(const Raster<double>& g, const Raster<double>& l,

@@ -70,6 +70,98 @@ TEST(Compare, WritesPicturesMetricsAndAReport) {
     EXPECT_NEAR(patel["equal_width"]["truth_width_px"].get<double>(), 0.9, 1e-9);
 }
 
+nlohmann::json measured(const TemporaryFolder& folder) {
+    return nlohmann::json::parse(read_file(folder.file("d/metrics.json")))["methods"][0];
+}
+
+// Where samples decide, few of them decide a little differently: also on the chart.
+TEST(Compare, TheChartIsDrawnWithTheMethodsSettings) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    double ratios[2];
+    for (int i = 0; i < 2; ++i) {
+        const ProgramResult r =
+            run_compare(folder, {"cube.obj", "-o", "d", "--size", "32x24", "--methods", "abuffer",
+                                 "--set", i == 0 ? "abuffer.samples=2" : "abuffer.samples=8"});
+        ASSERT_EQ(r.status, 0) << r.err;
+        ratios[i] = measured(folder)["silhouette_ratio"];
+    }
+    EXPECT_NE(ratios[0], ratios[1]);
+}
+
+TEST(Compare, DrawsBothSidesOfVisibleLinesWhateverTheSceneAsksFor) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    double rmse[2];
+    for (int i = 0; i < 2; ++i) {
+        std::vector<std::string> arguments = {"cube.obj", "-o", "d", "--size", "32x24",
+                                              "--methods", "abuffer"};
+        if (i == 1) {
+            arguments.insert(arguments.end(), {"--set", "lines.side=inside", "--set",
+                                               "lines.hidden.style=solid"});
+        }
+        const ProgramResult r = run_compare(folder, arguments);
+        ASSERT_EQ(r.status, 0) << r.err;
+        EXPECT_EQ(r.err.find("lines.side") != std::string::npos, i == 1) << r.err;
+        EXPECT_EQ(r.err.find("lines.hidden") != std::string::npos, i == 1) << r.err;
+        rmse[i] = measured(folder)["rmse"];
+    }
+    EXPECT_EQ(rmse[0], rmse[1]);
+}
+
+// An open sheet that cuts through a wall: its border and the cut are ink that is right.
+TEST(Compare, LinesUnderAnotherClassesNameAreNoErrors) {
+    const TemporaryFolder folder;
+    folder.write("sheets.obj",
+                 "o wall\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nf 1 2 3 4\n"
+                 "o sheet\nv -1 -1 -1\nv 1 -1 1\nv 1 1 1\nv -1 1 -1\nf 5 6 7 8\n");
+    const ProgramResult r = run_compare(
+        folder, {"sheets.obj", "-o", "d", "--size", "96x96", "--methods", "gbuffer", "--lines",
+                 "silhouette,crease,object"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_LT(measured(folder)["false_share"], 0.01);
+    EXPECT_EQ(measured(folder)["truth_classes"],
+              (nlohmann::json{"border", "silhouette", "intersection", "object", "crease"}));
+}
+
+// Only the chart tells how wide a method draws; it has no lines as wide as these.
+TEST(Compare, WithoutAChartThereIsNoRowAtEqualWidth) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    const ProgramResult r = run_compare(folder, {"cube.obj", "-o", "d", "--size", "64x48", "-w", "40",
+                                                 "--methods", "patel"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_TRUE(measured(folder)["rmse"].is_number());
+    for (const char* key : {"rmse", "ssim", "width_px", "time_s"})
+        EXPECT_TRUE(measured(folder)["equal_width"][key].is_null()) << key;
+}
+
+TEST(Compare, RemovesWhatAnEarlierComparisonLeft) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    fs::create_directory(folder.file("d"));
+    for (const char* name : {"d/metrics.json", "d/simple.png", "d/simple_diff.png", "d/mine.png"})
+        folder.write(name, "old");
+    const ProgramResult r = run_compare(
+        folder, {"cube.obj", "-o", "d", "--size", "32x24", "-w", "40", "--methods", "patel"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_FALSE(fs::exists(folder.file("d/simple.png")));
+    EXPECT_FALSE(fs::exists(folder.file("d/simple_diff.png")));
+    EXPECT_TRUE(fs::exists(folder.file("d/mine.png")));
+}
+
+TEST(Compare, AnEmptyTruthGivesNoMetrics) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    const ProgramResult r =
+        run_compare(folder, {"cube.obj", "-o", "d", "--size", "32x24", "--methods", "patel",
+                             "--lines", "intersection"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    for (const char* key : {"rmse", "ssim", "flip_mean", "missed_share", "false_share"}) {
+        EXPECT_TRUE(measured(folder)[key].is_null()) << key;
+    }
+}
+
 TEST(Compare, RefusesWhatCannotBe) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);

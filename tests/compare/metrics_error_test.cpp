@@ -60,7 +60,7 @@ TEST(LineMass, ALineTwoPixelsAsideIsBoth) {
 
 TEST(CoverageLevels, CountsDifferentCoveragesBesideNothing) {
     Plane p(4, 1);
-    p.values = {0, 0.5f, 0.5f, 1};
+    p.values = {0.001f, 0.5f, 0.5001f, 1};
     EXPECT_EQ(coverage_levels(p), 2u);
 }
 

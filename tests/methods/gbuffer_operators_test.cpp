@@ -89,6 +89,27 @@ TEST(Profile, IsTheVariationOverTheLimitToItsPower) {
     EXPECT_EQ(profile_image(g, {0.1, 1, true}).at(0, 0), 1.0f);
 }
 
+TEST(JumpBeyondSlopes, IsTheHeightOfStepsAndNothingOnCreases) {
+    for_each(jump_beyond_slopes(step(20)),
+             [](int x, int, double j) { EXPECT_EQ(j, x == -1 || x == 0 ? 20 : 0); });
+    const auto crease = raster_of(kRect, [](int x, int y) { return 3 * std::abs(x + 0.3 * y + 0.4); });
+    for_each(jump_beyond_slopes(crease), [](int, int, double j) { EXPECT_NEAR(j, 0, 1e-12); });
+    const auto bend = raster_of(kRect, [](int x, int y) { return 0.1 * x * x + 0.2 * y * y; });
+    for_each(jump_beyond_slopes(bend), [](int, int, double j) { EXPECT_NEAR(j, 0, 1e-12); });
+}
+
+TEST(Profile, LeavesCreasesToTheInternalEdges) {
+    const ProfileParameters parameters;
+    const auto ridge = raster_of(kRect, [](int x, int) { return std::abs(x + 0.4); });
+    const Raster<float> with_crease = profile_image(first_order(ridge), parameters);
+    EXPECT_GT(with_crease.at(-2, 0), 0.1f);
+    for_each(without_creases(with_crease, ridge, parameters),
+             [](int, int, float p) { EXPECT_NEAR(p, 0, 1e-6); });
+    const Raster<double> jump = step(1);
+    const Raster<float> of_jump = profile_image(first_order(jump), parameters);
+    EXPECT_EQ(without_creases(of_jump, jump, parameters).at(0, 0), of_jump.at(0, 0));
+}
+
 TEST(InternalEdges, AreWhatTheProfileIsNot) {
     const auto image = [](const Raster<double>& depth) {
         return internal_edge_image(first_order(depth), second_order(depth), 4, 0.5);

@@ -81,7 +81,7 @@ TEST(Overrides, MistakesAreWrongUsage) {
         {"lines.width", "nan", "finite"},
         {"lines.width", "", "must be a number"},
         {"lines.width", "1\nx=2", "must be a number"},
-        {"lines.draw", "crease", "must be a list of texts"},
+        {"lines.draw", "1", "must be a list of texts"},
         {"lines.width.x", "1", "'x' stands below a value that is no table"},
         {"patel.mask.x", "1", "must be a whole number"},
         {"object.2.name", "x", "there is no element '2', the list has 2"},

@@ -62,7 +62,7 @@ TEST(SceneErrors, WrongTypes) {
         {"[picture]\nsize='1x1'", "4:6", "must be a list of 2 numbers"},
         {"[picture]\nbackground=3", "4:12", "must be a list of 3 numbers"},
         {"[picture]\nbackground='white'", "4:12", "must be a colour"},
-        {"[lines]\ndraw='all'", "4:6", "must be a list of texts"},
+        {"[lines]\ndraw=1", "4:6", "must be a list of texts"},
         {"[lines]\ndraw=[1]", "4:6", "must be a list of texts"},
         {"[lines]\nwidth=true", "4:7", "must be a number"},
         {"[lines]\ncolors='#fff'", "4:8", "must be a table"},

@@ -259,6 +259,7 @@ TEST(SceneKeys, Lines) {
     };
     EXPECT_EQ(lines("draw=['crease','mark']").classes, LineClass::crease | LineClass::mark);
     EXPECT_EQ(lines("draw=['all']").classes, LineClassSet::all());
+    EXPECT_EQ(lines("draw='all'").classes, LineClassSet::all());
     EXPECT_TRUE(lines("draw=['none']").classes.empty());
     EXPECT_TRUE(lines("draw=[]").classes.empty());
     for (int c = 0; c < kLineClassCount; ++c) {
