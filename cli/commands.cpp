@@ -143,6 +143,10 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
         std::fprintf(stderr, "burin: note: method %s cannot draw %s\n", std::string(method.name).c_str(),
                      to_string(missing).c_str());
     }
+    if (lines.style.side != StrokeSide::both && method.name != "patel" && method.name != "reference") {
+        std::fprintf(stderr, "burin: note: method %s draws strokes on both sides; lines.side is for patel and reference\n",
+                     std::string(method.name).c_str());
+    }
     const double wanted = lines.style.width_px;
     const double drawn = patel_line_width_px(frame.scene->patel.mask_bits, wanted);
     if (method.name == "patel" && std::abs(drawn - wanted) > 0.01 * wanted) {
@@ -367,6 +371,9 @@ void run_info(const Arguments& a) {
 }
 
 void run_explain(const Arguments& a) {
+    if (!a.method.empty() && a.method != "abuffer" && a.method != "patel") {
+        throw UsageError("--method: only the masks of abuffer and patel can be explained, not those of " + a.method);
+    }
     const Scene scene = load_input(a);
     const Frame frame = frame_of(scene, a);
     const auto [x, y] = *a.pixel;

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <string>
 
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
@@ -80,7 +82,9 @@ class AsciiParser {
         while (lines_.next(line)) {
             if ((lines_.line_number() & 0xFFFF) == 0) throw_if_interrupted();
             LineScanner scan(line);
-            const std::string_view keyword = scan.word();
+            std::string keyword(scan.word());  // some programs write them in upper case
+            std::transform(keyword.begin(), keyword.end(), keyword.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
             if (keyword == "vertex") {
                 add_vertex(scan);
             } else if (keyword == "endloop") {
@@ -158,7 +162,8 @@ PolygonSoup read_stl(const std::string& path) {
                           : 0;
     // Binary files may start with "solid" as well; their size gives them away.
     const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-    const bool starts_as_text = bytes.substr(first, 5) == "solid";
+    const std::string_view word = bytes.substr(first, 5);
+    const bool starts_as_text = word == "solid" || word == "SOLID";
     const bool has_zero_bytes = std::memchr(bytes.data(), 0, std::min<std::size_t>(bytes.size(), 512)) != nullptr;
     const bool is_text = starts_as_text && binary_size != bytes.size() && !has_zero_bytes;
 
