@@ -190,8 +190,8 @@ TEST_F(Usage, Overrides) {
           "lines..width=1", "object.7.scale=2", "a.b.c=1"}) {
         expect_bad_options({"--set", value}, "--set");
     }
-    expect_bad_options({"--set", "lines.width=2", "--set", "lines.draw=all"},
-                       "--set lines.draw=all");
+    expect_bad_options({"--set", "lines.width=2", "--set", "lines.draw=7"},
+                       "--set lines.draw=7");
     expect_bad_options({"--set"}, "--set");
     expect_bad_options({"--set", "lines.color=a\nb"}, "a?b");  // still one line
 }
