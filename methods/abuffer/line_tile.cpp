@@ -199,8 +199,8 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
         const HalfEdge h = decision.edge.half_edge;
         crossing.line_key = std::uint64_t{decision.edge.surface.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
     } else {
-        const auto [low, high] = std::minmax(screen_.number_of(front.surface),
-                                             screen_.number_of(decision.front == 0 ? b.surface : a.surface));
+        const auto [low, high] = std::minmax({screen_.number_of(front.surface),
+                                             screen_.number_of(decision.front == 0 ? b.surface : a.surface)});
         crossing.line_key = std::uint64_t{1} << 63 | std::uint64_t{low} << 32 | high;
     }
     return true;
