@@ -192,15 +192,14 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
     if (crossing.classes.empty()) return false;
     crossing.pixel = glm::mix(a.pixel, b.pixel, std::clamp(decision.fraction, 0.0, 1.0));
     crossing.edge = decision.edge;
-    const VisiblePoint& front = decision.front == 0 ? a : b;
     crossing.towards_front = decision.front == 0 ? a.pixel - b.pixel : b.pixel - a.pixel;
     if (decision.edge.half_edge != kNoHalfEdge) {
         const Mesh& mesh = frame_.surfaces.mesh_of(decision.edge.surface);
         const HalfEdge h = decision.edge.half_edge;
         crossing.line_key = std::uint64_t{decision.edge.surface.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
     } else {
-        const auto [low, high] = std::minmax({screen_.number_of(front.surface),
-                                             screen_.number_of(decision.front == 0 ? b.surface : a.surface)});
+        // The background is beside a surface where no edge of it is found: views too narrow for numbers.
+        const auto [low, high] = std::minmax({neighbours.first, neighbours.second});
         crossing.line_key = std::uint64_t{1} << 63 | std::uint64_t{low} << 32 | high;
     }
     return true;

@@ -1,8 +1,10 @@
 #include "tests/cli/program.h"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -79,6 +81,10 @@ Program::Program(const std::string& folder, const std::vector<std::string>& argu
         limit(RLIMIT_CORE, 0);
         if (!kSanitized) limit(RLIMIT_AS, kMemoryLimit);  // sanitizers reserve terabytes
         if (options.file_size_limit) limit(RLIMIT_FSIZE, *options.file_size_limit);
+        if (options.obeys_permissions && ::geteuid() == 0) {
+            ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
+            ::prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
+        }
         for (const int signal_number : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ})
             ::signal(signal_number, SIG_DFL);
         ::execv(argv[0], argv.data());

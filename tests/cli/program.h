@@ -21,6 +21,7 @@ struct ProgramOptions {
     std::vector<int> closed_streams;             ///< standard streams that are closed: 0, 1, 2
     std::string stdout_file;                     ///< instead of a pipe
     bool stderr_is_terminal = false;
+    bool obeys_permissions = false;  ///< even where root runs the tests
 };
 
 struct ProgramResult {
