@@ -126,8 +126,10 @@ int main(int argc, char** argv) {
         std::function<void()> run;
         std::vector<double> times;
     };
-    Film film(all, all, LayerSet{}, frame.criteria.classes);
-    const auto frame_with = [&](int samples) {
+    // Lines and fill; and what an EXR gets unless asked otherwise.
+    const LayerSet lines_and_fill{.depth = false, .normal = false, .ids = false};
+    Film picture(all, all, lines_and_fill, frame.criteria.classes), layers(all, all, LayerSet{}, frame.criteria.classes);
+    const auto frame_with = [&](int samples, Film& film) {
         return [&, samples] {
             scene.abuffer.samples_per_pixel = samples;
             RunOptions options;
@@ -137,8 +139,10 @@ int main(int argc, char** argv) {
     };
     std::size_t hits = 0;
     std::vector<Case> cases = {{"E", [&] { hits = embree.trace(); }, {}},
-                               {"samples_2", frame_with(2), {}},
-                               {"samples_4", frame_with(4), {}}};
+                               {"samples_2", frame_with(2, picture), {}},
+                               {"samples_4", frame_with(4, picture), {}},
+                               {"samples_2_all_layers", frame_with(2, layers), {}},
+                               {"samples_4_all_layers", frame_with(4, layers), {}}};
     for (int i = 0; i <= runs; ++i) {
         for (Case& c : cases) {
             const double start = cpu_seconds();

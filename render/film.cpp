@@ -76,6 +76,10 @@ std::size_t Film::index_of(int x, int y) const {
            static_cast<std::size_t>(x - crop.x0);
 }
 
+bool Film::has_geometry() const {
+    return planes_.depth != nullptr || planes_.normal[0] != nullptr || planes_.ids[0] != nullptr;
+}
+
 void Film::put_background(int x0, int x1, int y) {
     const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
     const auto clear = [&](auto* plane, auto value) {

@@ -59,7 +59,9 @@ class Film {
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
 
     void put(int x, int y, const PixelResult& pixel);
-    /// The same for pixels [x0, x1) of a row, without lines.
+    /// Whether any layer of depth, normals or ids is kept.
+    bool has_geometry() const;
+    /// The same as put() for pixels [x0, x1) of a row, without lines. Without geometry, only colours are read.
     void put_row(int x0, int x1, int y, const SurfaceRow& row);
     /// Puts the background into pixels [x0, x1) of a row.
     void put_background(int x0, int x1, int y);

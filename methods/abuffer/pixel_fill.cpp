@@ -199,15 +199,18 @@ void PixelFiller::fill(const LineTile& tile, Film& film) {
     const PixelRect rect = in_crop(tile.rect());
     if (rect.x0 >= rect.x1) return;
     const SampleTile& samples = tile.samples();
-    find_looks(samples, rect);
-    make_looks();
+    const bool has_geometry = film.has_geometry();
+    if (has_geometry) {
+        find_looks(samples, rect);
+        make_looks();
+    }
     const bool is_paper = frame_.scene->surfaces.shading == SurfaceShading::paper;
     const SurfaceRow row{{row_.color[0], row_.color[1], row_.color[2], row_.color[3]},
                          row_.distance,
                          {row_.normal[0], row_.normal[1], row_.normal[2]},
                          {row_.ids[0], row_.ids[1], row_.ids[2]}};
     for (int y = rect.y0; y < rect.y1; ++y) {
-        put_geometry(rect, y);
+        if (has_geometry) put_geometry(rect, y);
         is_paper ? put_paper(samples, rect, y) : put_shaded(samples, rect, y);
         film.put_row(rect.x0, rect.x1, y, row);
     }
