@@ -17,6 +17,50 @@ double crossing(std::int32_t u0, std::int32_t v0, std::int32_t u1, std::int32_t 
 
 }  // namespace
 
+bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
+    if (pair.first == kNoSurface || pair.second == kNoSurface) return false;
+    const SurfaceId start = screen_.surface_of(pair.first);
+    const std::uint8_t* const sharp = screen_.sharp_edges(start.instance);
+    const std::uint32_t first_number = pair.first - start.triangle;
+    const std::uint32_t goal = pair.second - first_number;  // wraps where it lies in another instance
+    const Mesh& mesh = surfaces_.mesh_of(start);
+    const Facing facing = screen_.facing(pair.first);
+    if (sharp == nullptr || goal >= mesh.triangles.size() || screen_.facing(pair.second) != facing) return false;
+    if (facing != clockwise && facing != counterclockwise) return false;
+    const ScreenVertex* const vertices = screen_.vertices(start.instance);
+    const std::int32_t across = pair.down ? pair.x : pair.y;
+    // Where corners run clockwise, a walk to the right leaves across the edge that goes down; a walk
+    // down, across the one that goes left.
+    const bool from_side = (facing == clockwise) == pair.down;
+    std::uint32_t t = start.triangle;
+    constexpr int kMaxTriangles = 6;
+    for (int step = 0; step < kMaxTriangles; ++step) {
+        const auto& c = mesh.triangles[t];
+        const ScreenVertex* const p[3] = {&vertices[c[0]], &vertices[c[1]], &vertices[c[2]]};
+        if (step > 0) {
+            const double ux = p[1]->x - p[0]->x, uy = p[1]->y - p[0]->y;
+            const double vx = p[2]->x - p[0]->x, vy = p[2]->y - p[0]->y;
+            const double longest = std::max({ux * ux + uy * uy, vx * vx + vy * vy,
+                                             (ux - vx) * (ux - vx) + (uy - vy) * (uy - vy)});
+            const double area = ux * vy - uy * vx;
+            if (area * area < kSurelySolid * kSurelySolid * longest) return false;
+            if (t == goal) return true;
+        }
+        bool side[3];
+        for (std::size_t k = 0; k < 3; ++k) side[k] = (pair.down ? p[k]->x : p[k]->y) > across;
+        const std::uint32_t k = side[0] == from_side && side[1] != from_side   ? 0
+                                : side[1] == from_side && side[2] != from_side ? 1
+                                                                               : 2;
+        const std::uint32_t n = k == 2 ? 0 : k + 1;
+        if (side[k] != from_side || side[n] == from_side || (sharp[t] >> k & 1) != 0) return false;
+        const HalfEdge exit = 3 * t + k, partner = mesh.next_on_edge[exit];
+        if (partner == exit || mesh.next_on_edge[partner] != exit) return false;
+        t = partner / 3;
+        if (screen_.facing(first_number + t) != facing) return false;
+    }
+    return false;
+}
+
 FastDecision::Walk FastDecision::walk(const NeighbourSamples& pair, bool backwards, double goal) const {
     Walk result;
     const SurfaceId start = screen_.surface_of(backwards ? pair.second : pair.first);
@@ -180,6 +224,10 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
         nearness = nearness_at({instance, w.triangle}, at.x, at.y);
     };
     decision = LineDecision{};
+    if (is_smooth(pair)) {
+        decision.reason = LineReason::smooth;
+        return true;
+    }
     const std::uint32_t numbers[2] = {pair.first, pair.second};
     Walk walks[2];
     for (const int i : {0, 1}) {

@@ -37,6 +37,8 @@ class FastDecision {
         HalfEdge crossed_edge = kNoHalfEdge;
         double crossed_fraction = 0.5;
     };
+    /// Whether only triangles that face as the first one, and edges that are no lines, lie between.
+    bool is_smooth(const NeighbourSamples& pair) const;
     Walk walk(const NeighbourSamples& pair, bool backwards, double goal) const;
     LineClassSet classes_of(std::uint32_t instance, HalfEdge h) const;
     LineClassSet classes_at_end(const Walk& walk, std::uint32_t instance) const;
