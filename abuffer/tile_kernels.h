@@ -76,6 +76,14 @@ struct TileGrid {
     std::int32_t pitch_shift;              ///< log2 of the distance of samples, in 1/256 pixel
 };
 
+/// A small triangle in a tile, with what tells whether it can be seen there.
+struct TileTriangle {
+    std::uint32_t triangle;  ///< number in its mesh
+    float highest;           ///< nearness of its nearest corner
+    /// Blocks of kBlockSamples x kBlockSamples samples of the tile that it may touch.
+    std::uint8_t first_column, last_column, first_row, last_row;
+};
+
 /// The inner loops of the production A-buffer. There is one set per instruction set; all give equal
 /// results to the bit, because they are the same source compiled twice and floating point is not
 /// contracted.
@@ -85,16 +93,15 @@ struct TileKernels {
     void (*project)(const ScreenTransform& transform, const float* positions, std::size_t count,
                     ScreenVertex* vertices);
     /// Sets the facing of triangles [begin, end) of a mesh (`facing`: that of the mesh's first one) and
-    /// lists those that may touch samples of the grid: the triangles' numbers in the mesh, and the key
-    /// of their tile, kSeveralTiles or kNotSmall. Returns their number. The lists need room for end - begin + 8.
+    /// lists those that may touch samples of the grid, and the keys of their tiles, kSeveralTiles (then the
+    /// blocks mean nothing) or kNotSmall. Returns their number. The lists need room for end - begin + 8.
     std::size_t (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
-                        std::uint8_t* facing, std::uint32_t* triangles, std::uint32_t* tiles);
-    /// Draws triangles of a mesh, given by their numbers in it, into a tile: nearest wins, then the
-    /// smaller id. They must be smaller than kLargestSmallTriangle in both directions.
+                        std::uint8_t* facing, TileTriangle* triangles, std::uint32_t* keys);
+    /// Draws triangles of a mesh into a tile: nearest wins, then the smaller id. They must be smaller than kLargestSmallTriangle in both directions.
     /// `farthest` (from find_farthest()) lets it leave out what is hidden; nullptr: nothing is known.
     /// Returns how many were drawn.
     std::size_t (*draw_small)(const SampleView& tile, const float* farthest, const ScreenMesh& mesh,
-                              const std::uint32_t* triangles, std::size_t count);
+                              const TileTriangle* triangles, std::size_t count);
     /// The least nearness in every block of kBlockSamples x kBlockSamples samples, row by row;
     /// stride / kBlockSamples blocks to a row.
     void (*find_farthest)(const SampleView& tile, float* farthest);

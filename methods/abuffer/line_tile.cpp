@@ -126,7 +126,7 @@ void LineTile::order_runs(std::size_t tile) {
     runs_.clear();
     double sum[2] = {0, 0}, count[2] = {0, 0};
     for (const TriangleRun& run : bins_.runs_in(tile)) {
-        const ScreenTriangle t = screen_.triangle({run.instance, run.triangles[run.count / 2]});
+        const ScreenTriangle t = screen_.triangle({run.instance, run.triangles[run.count / 2].triangle});
         runs_.push_back({&run, t.corners[0].nearness});
         sum[run.is_clockwise] += static_cast<double>(t.corners[0].nearness) * run.count;
         count[run.is_clockwise] += run.count;

@@ -30,6 +30,10 @@ struct Box {  // in 1/256 pixel
     std::int32_t x0, y0, x1, y1;
 };
 
+struct SampleBox {  // inclusive, relative to the grid
+    std::int32_t column0, row0, column1, row1;
+};
+
 template <typename Corners>
 Box box_of(const Corners& corners, int count) {
     Box box{corners[0].x, corners[0].y, corners[0].x, corners[0].y};
@@ -51,15 +55,15 @@ struct TileRun {
 /// One chunk's triangles with the tiles they touch.
 struct Records {
     std::vector<TileRun> runs;             // of `small`
-    std::vector<std::uint32_t> small;      // numbers in the mesh, sorted by tile
+    std::vector<TileTriangle> small;       // sorted by tile
     std::vector<std::uint32_t> large_tiles, large;  // numbers into polygons
     std::vector<LargePolygon> polygons;
 };
 
 /// Buffers of one thread.
 struct Scratch {
-    std::vector<std::uint32_t> triangles, keys;            // what the kernel found
-    std::vector<std::uint32_t> more_triangles, more_keys;  // of triangles in several tiles
+    std::vector<TileTriangle> triangles, more_triangles;  // what the kernel found; those in several tiles
+    std::vector<std::uint32_t> keys, more_keys;           // of their tiles
     std::vector<std::uint32_t> count, used;                // per key; keys with a count
 };
 
@@ -109,8 +113,9 @@ class Binner {
         scratch.more_keys.clear();
         std::size_t kept = 0;
         for (std::size_t i = 0; i < found; ++i) {
-            const std::uint32_t triangle = scratch.triangles[i], key = scratch.keys[i];
-            scratch.triangles[kept] = triangle;
+            const TileTriangle found_one = scratch.triangles[i];
+            const std::uint32_t triangle = found_one.triangle, key = scratch.keys[i];
+            scratch.triangles[kept] = found_one;
             scratch.keys[kept] = key;
             if (key < kNotSmall) {
                 ++kept;
@@ -119,8 +124,8 @@ class Binner {
             } else {
                 const ScreenTriangle t = surfaces_.triangle({instance, triangle});
                 const bool turned = surfaces_.facing(surfaces_.number_of({instance, triangle})) == clockwise;
-                for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched) {
-                    scratch.more_triangles.push_back(triangle);
+                for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched, const SampleBox& samples) {
+                    scratch.more_triangles.push_back(in_tile(found_one, touched, samples));
                     scratch.more_keys.push_back(2 * touched + (turned ? 1 : 0));
                 });
             }
@@ -196,7 +201,7 @@ class Binner {
     void add_large(const LargePolygon& large, const Box& box, Records& records) const {
         const auto index = static_cast<std::uint32_t>(records.polygons.size());
         bool touches = false;
-        for_tiles(box, [&](std::uint32_t tile) {
+        for_tiles(box, [&](std::uint32_t tile, const SampleBox&) {
             records.large_tiles.push_back(tile);
             records.large.push_back(index);
             touches = true;
@@ -204,6 +209,23 @@ class Binner {
         if (touches) records.polygons.push_back(large);
     }
 
+    TileTriangle in_tile(TileTriangle t, std::uint32_t tile, const SampleBox& samples) const {
+        const auto tiles = static_cast<std::uint32_t>(grid_.columns);
+        const auto first_column = static_cast<std::int32_t>(tile % tiles) * TileGrid::kTileSamples;
+        const auto first_row = static_cast<std::int32_t>(tile / tiles) * TileGrid::kTileSamples;
+        // A tile has one more column and row of samples.
+        const auto block = [](std::int32_t at, std::int32_t first, std::int32_t last) {
+            const std::int32_t within = std::clamp(std::min(at, last) - first, 0, TileGrid::kTileSamples);
+            return static_cast<std::uint8_t>(within >> kBlockShift);
+        };
+        t.first_column = block(samples.column0, first_column, grid_.width);
+        t.last_column = block(samples.column1, first_column, grid_.width);
+        t.first_row = block(samples.row0, first_row, grid_.height);
+        t.last_row = block(samples.row1, first_row, grid_.height);
+        return t;
+    }
+
+    /// Calls visit(tile, samples in the box).
     template <typename Visit>
     void for_tiles(const Box& box, const Visit& visit) const {
         // The samples in the box, relative to the grid.
@@ -222,7 +244,7 @@ class Binner {
         for (int row = std::max(row0 - 1, 0) >> kShift; row <= std::min(row1, grid_.height - 1) >> kShift; ++row) {
             for (int column = std::max(column0 - 1, 0) >> kShift;
                  column <= std::min(column1, grid_.width - 1) >> kShift; ++column) {
-                visit(static_cast<std::uint32_t>(row * grid_.columns + column));
+                visit(static_cast<std::uint32_t>(row * grid_.columns + column), SampleBox{column0, row0, column1, row1});
             }
         }
     }

@@ -16,11 +16,11 @@ struct LargePolygon {
     SurfaceId surface;
 };
 
-/// Some small triangles of one instance, wound one way, by their numbers in its mesh.
+/// Some small triangles of one instance in one tile, wound one way.
 struct TriangleRun {
     std::uint32_t instance, count;
     bool is_clockwise;
-    const std::uint32_t* triangles;
+    const TileTriangle* triangles;
 };
 
 /// What touches each tile of a picture.
@@ -49,7 +49,7 @@ class TriangleBins {
   private:
     PixelRect region_;
     int tile_px_, columns_, rows_;
-    std::vector<std::vector<std::uint32_t>> triangles_;  // what runs point into
+    std::vector<std::vector<TileTriangle>> triangles_;  // what runs point into
     std::vector<std::size_t> run_end_, large_end_;
     std::vector<TriangleRun> runs_;
     std::vector<std::uint32_t> large_sorted_;

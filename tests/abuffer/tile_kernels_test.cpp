@@ -89,6 +89,26 @@ void draw_slowly(const Triangles& triangles, std::uint32_t t, SampleTile& tile) 
     }
 }
 
+/// A triangle with the blocks of the samples in its box.
+TileTriangle in_tile(const Triangles& triangles, std::uint32_t t, const SampleTile& tile) {
+    const int pitch = kSubpixelsPerPixel / tile.samples_per_pixel;
+    const ScreenVertex v[3] = {triangles.corner(t, 0), triangles.corner(t, 1), triangles.corner(t, 2)};
+    const auto block = [](double sample, int first, int last) {
+        return static_cast<std::uint8_t>(std::clamp(static_cast<int>(sample) - first, 0, last) / kBlockSamples);
+    };
+    // Sample n lies at n + 1/2 pitches.
+    const auto from = [pitch](int at) { return std::ceil(static_cast<double>(at) / pitch - 0.5); };
+    const auto to = [pitch](int at) { return std::floor(static_cast<double>(at) / pitch - 0.5); };
+    const auto [x0, x1] = std::minmax({v[0].x, v[1].x, v[2].x});
+    const auto [y0, y1] = std::minmax({v[0].y, v[1].y, v[2].y});
+    return {t,
+            std::max({v[0].nearness, v[1].nearness, v[2].nearness}),
+            block(from(x0), tile.first_column, tile.columns - 1),
+            block(to(x1), tile.first_column, tile.columns - 1),
+            block(from(y0), tile.first_row, tile.rows - 1),
+            block(to(y1), tile.first_row, tile.rows - 1)};
+}
+
 std::vector<const TileKernels*> all_kernels() {
     std::vector<const TileKernels*> result{&baseline_kernels()};
     if (avx2_kernels() != nullptr) result.push_back(avx2_kernels());
@@ -99,25 +119,26 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         const int per_pixel = 2 << seed % 3;
         Triangles triangles(seed, per_pixel, 37, -20);
-        std::vector<std::uint32_t> numbers;
-        for (std::uint32_t t = 0; t < triangles.count(); ++t) {
-            if (triangles.area(t) != 0) numbers.push_back(t);
-        }
         SampleTile expected;
         expected.reset(37, -20, 129, 97, per_pixel);
-        for (const std::uint32_t t : numbers) draw_slowly(triangles, t, expected);
+        std::vector<TileTriangle> drawable;
+        for (std::uint32_t t = 0; t < triangles.count(); ++t) {
+            if (triangles.area(t) == 0) continue;
+            draw_slowly(triangles, t, expected);
+            drawable.push_back(in_tile(triangles, t, expected));
+        }
         for (const TileKernels* kernels : all_kernels()) {
             for (const bool with_look : {false, true}) {
                 SampleTile tile;
                 tile.reset(37, -20, 129, 97, per_pixel);
                 std::vector<float> farthest(tile.nearness.size() / kBlockSamples);
                 std::size_t drawn = 0;
-                for (std::size_t first = 0; first < numbers.size(); first += 50) {
+                for (std::size_t first = 0; first < drawable.size(); first += 50) {
                     kernels->find_farthest(view_of(tile), farthest.data());
                     drawn += kernels->draw_small(view_of(tile), with_look ? farthest.data() : nullptr, triangles.mesh,
-                                                 &numbers[first], std::min<std::size_t>(50, numbers.size() - first));
+                                                 &drawable[first], std::min<std::size_t>(50, drawable.size() - first));
                 }
-                EXPECT_EQ(with_look, drawn < numbers.size());
+                EXPECT_EQ(with_look, drawn < drawable.size());
                 for (int row = -20; row < 77; ++row) {
                     for (int column = 37; column < 166; ++column) {
                         const std::size_t i = tile.index(column, row);
@@ -138,15 +159,18 @@ TEST(TileKernels, CullingLosesNoSample) {
         triangles.vertices[7].x += 4 * kLargestSmallTriangle;  // of triangle 2
         const TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel))};
         for (const TileKernels* kernels : all_kernels()) {
-            std::vector<std::uint32_t> numbers(triangles.count() + 8), keys(triangles.count() + 8);
+            std::vector<TileTriangle> kept(triangles.count() + 8);
+            std::vector<std::uint32_t> keys(triangles.count() + 8);
             const std::size_t found = kernels->cull(triangles.mesh, 0, triangles.count(), grid, triangles.facing.data(),
-                                                    numbers.data(), keys.data());
-            numbers.resize(found);
+                                                    kept.data(), keys.data());
+            kept.resize(found);
             EXPECT_LT(found, triangles.count());
-            const auto key_of = [&](std::uint32_t t) {
-                const auto at = std::find(numbers.begin(), numbers.end(), t);
-                return at == numbers.end() ? 0xFFFFu : keys[static_cast<std::size_t>(at - numbers.begin())];
+            const auto place_of = [&](std::uint32_t t) {
+                return static_cast<std::size_t>(
+                    std::find_if(kept.begin(), kept.end(), [t](const TileTriangle& k) { return k.triangle == t; }) -
+                    kept.begin());
             };
+            const auto key_of = [&](std::uint32_t t) { return place_of(t) == found ? 0xFFFFu : keys[place_of(t)]; };
             EXPECT_EQ(key_of(1), kNotSmall);
             EXPECT_EQ(key_of(2), kNotSmall);
             for (std::uint32_t t = 3; t < triangles.count(); ++t) {
@@ -157,8 +181,16 @@ TEST(TileKernels, CullingLosesNoSample) {
                 if (area != 0) draw_slowly(triangles, t, tile);
                 const bool covers = std::any_of(tile.ids.begin(), tile.ids.end(),
                                                 [](std::uint32_t id) { return id != SampleTile::kBackground; });
-                if (covers) {
-                    EXPECT_EQ(key_of(t), area > 0 ? 1u : 0u) << kernels->name << " seed " << seed;
+                if (!covers) continue;
+                ASSERT_EQ(key_of(t), area > 0 ? 1u : 0u) << kernels->name << " seed " << seed;
+                const TileTriangle& own = kept[place_of(t)];
+                EXPECT_EQ(own.highest, in_tile(triangles, t, tile).highest);
+                for (int row = 0; row < tile.rows; ++row) {
+                    for (int column = 0; column < tile.columns; ++column) {
+                        if (tile.ids[tile.index(column, row)] == SampleTile::kBackground) continue;
+                        EXPECT_TRUE(column / kBlockSamples >= own.first_column && column / kBlockSamples <= own.last_column &&
+                                    row / kBlockSamples >= own.first_row && row / kBlockSamples <= own.last_row);
+                    }
                 }
             }
         }
