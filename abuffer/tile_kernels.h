@@ -65,15 +65,15 @@ struct TriangleLook {
     std::uint32_t object_id, material_id, polygon_id;
 };
 
-/// The tiles of a picture, all kTileSamples x kTileSamples but the last ones. A tile also gets the
-/// samples next to its right and lower border.
+/// The tiles of a picture, all of one size but the last ones. A tile also gets the samples next to its
+/// right and lower border.
 struct TileGrid {
-    static constexpr std::int32_t kTileShift = 7;
-    static constexpr std::int32_t kTileSamples = 1 << kTileShift;
+    static constexpr std::int32_t kTileSamples = 128;  ///< along either side: the most, and the best
     std::int32_t first_column, first_row;  ///< of the upper left sample on the image's grid
     std::int32_t width, height;            ///< in samples
     std::int32_t columns;                  ///< of tiles
     std::int32_t pitch_shift;              ///< log2 of the distance of samples, in 1/256 pixel
+    std::int32_t tile_shift;               ///< log2 of a tile's width in samples
 };
 
 /// A small triangle in a tile, with what tells whether it can be seen there.

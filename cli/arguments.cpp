@@ -56,6 +56,24 @@ int integer(const std::string& option, std::string_view text, int low, int high)
     return value;
 }
 
+/// Bytes, or with a K, M, G or T behind 1024 times as many for each letter.
+std::uint64_t byte_count(const std::string& option, std::string_view text) {
+    constexpr std::string_view kUnits = "KMGT";
+    std::string_view digits = text;
+    double bytes = 1;
+    const std::size_t unit = text.empty() ? std::string_view::npos : kUnits.find(static_cast<char>(text.back() & ~0x20));
+    if (unit != std::string_view::npos && std::isalpha(static_cast<unsigned char>(text.back())) != 0) {
+        digits.remove_suffix(1);
+        bytes = std::ldexp(1.0, 10 * (static_cast<int>(unit) + 1));
+    }
+    double value = 0;
+    const bool is_plain = digits.find_first_not_of("0123456789.") == std::string_view::npos;
+    if (!is_plain || !to_number(digits, value)) fail(option, "must be a size like 200M or 2G, got '" + printable(text) + "'");
+    bytes *= value;
+    if (!(bytes >= 1 && bytes < 0x1p62)) fail(option, "must be from 1 byte to 4000000T");
+    return static_cast<std::uint64_t>(bytes);
+}
+
 glm::dvec3 vector(const std::string& option, std::string_view text) {
     const auto parts = split(text, ',');
     glm::dvec3 v;
@@ -165,7 +183,6 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--set", t.sets, "override a value of the scene, KEY=VALUE; may be repeated")
         ->expected(1)->take_all()->allow_extra_args(false);
     app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
-    app.add_option("--memory", t.memory, "cap for the renderer's memory (not in this version)");
     app.add_flag("-v", t.verbose, "say more");
     app.add_flag("-q", t.quiet, "say nothing but errors");
 }
@@ -179,6 +196,8 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--layers", t.layers, "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden (default: the first five; the last with --hidden)");
     app.add_option("-f,--frames", t.frames, "frames to render (not in this version)");
     app.add_option("--crop", t.crop, "render only these pixels, X0,Y0,X1,Y1, half open");
+    app.add_option("--memory", t.memory, "method abuffer: cap for the renderer's own memory beyond the model and the finished image, "
+                   "e.g. 200M, 2G; the picture is made in smaller pieces and is the same");
     app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
     app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
     app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
@@ -303,7 +322,6 @@ void fill_scene_options(const Texts& t, Arguments& a) {
         if (!a.hidden) fail("--hidden", "must be none, solid or dashed");
     }
     if (!t.style.empty()) fail_version("--style");
-    if (!t.memory.empty()) fail_version("--memory");
     for (const std::string& set : t.sets) {
         const std::size_t equals = set.find('=');
         if (equals == std::string::npos || equals == 0) {
@@ -330,6 +348,7 @@ void fill_render_options(const Texts& t, Arguments& a) {
     if (!t.background.empty() && t.background != "transparent" && !color_from_hex(t.background)) {
         fail("--background", "must be a colour like #c0d0ff, or transparent");
     }
+    if (!t.memory.empty()) a.memory_bytes = byte_count("--memory", t.memory);
     a.stats = t.stats;
     if (!t.repeat.empty()) a.repeat = integer("--repeat", t.repeat, 1, 1000000);
     if (!t.progress.empty() && t.progress != "alf") fail("--progress", "must be alf");

@@ -322,6 +322,10 @@ void run_render(const Arguments& a) {
     if (!a.stats.empty() && a.stats != "-") { const AtomicFile writable(a.stats); }
     const Method& method = a.method.empty() ? methods().front() : *find_method(a.method);
 
+    if (a.memory_bytes > 0 && method.name != "abuffer") {
+        throw UsageError("--memory: method " + std::string(method.name) + " cannot render in pieces; abuffer can");
+    }
+
     const bool shows_bar = !a.quiet && isatty(STDERR_FILENO) != 0;
     Progress progress(a.alf_progress ? ProgressStyle::alf
                                      : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
@@ -338,8 +342,12 @@ void run_render(const Arguments& a) {
     if (!a.names_layers) layers.lines_hidden = scene.lines.style.hidden.style != HiddenStyle::none;
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     Film film = make_film(frame, layers, output.path);
-    RunOptions run{a.threads, &progress};
-    times.render = method.render(frame, run, film);
+    RunOptions run{a.threads, &progress, a.memory_bytes};
+    try {
+        times.render = method.render(frame, run, film);
+    } catch (const InputError& error) {
+        throw InputError(a.input + ": " + error.what());
+    }
     if (a.repeat > 0) {
         run.progress = nullptr;
         std::vector<RenderStats> runs;

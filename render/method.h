@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "base/progress.h"
@@ -13,6 +14,10 @@ namespace burin {
 struct RunOptions {
     int threads = 0;  ///< 0 = all cores
     Progress* progress = nullptr;
+    /// Method abuffer: cap for what it takes beyond the scene and the film; 0 = none.
+    std::uint64_t memory_bytes = 0;
+    /// Method abuffer: samples along a tile's side, a power of two from 8 pixels to 128 samples; 0 = the best.
+    int tile_samples = 0;
 };
 
 /// A way to draw the lines of a frame.

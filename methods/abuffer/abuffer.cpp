@@ -1,23 +1,17 @@
 #include "methods/abuffer/abuffer.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "methods/abuffer/layer_pass.h"
-#include "methods/abuffer/line_tile.h"
-#include "methods/abuffer/pixel_fill.h"
+#include "methods/abuffer/picture_pieces.h"
 #include "methods/abuffer/stroke_pass.h"
+#include "methods/abuffer/surface_pass.h"
 
 namespace burin {
 namespace {
-
-struct WorkerTimes {
-    double raster = 0, lines = 0, shade = 0;
-    std::uint64_t fragments = 0;
-};
 
 /// Whole blocks of merged pieces around a crop from which strokes reach into it.
 PixelRect region_around(PixelRect crop, double reach_px) {
@@ -25,6 +19,34 @@ PixelRect region_around(PixelRect crop, double reach_px) {
     const auto down = [](int v) { return (v & ~(kMergeBlockPx - 1)); };
     return {down(crop.x0 - margin), down(crop.y0 - margin), down(crop.x1 + margin + kMergeBlockPx - 1),
             down(crop.y1 + margin + kMergeBlockPx - 1)};
+}
+
+/// Rows of pixels that are drawn at once end where tiles of strokes do.
+constexpr int kStrokeRowsPx = 32;
+
+/// How far from a line strokes may reach, and a bit.
+double reach_of(const LineStyle& style) { return 0.5 * std::max(style.width_px, style.hidden_width_px()) + 2; }
+
+/// The rows of the crop whose lines are all known once those above a row of pixels are, less those done.
+PixelRect next_part(const Frame& frame, int done_y, int known_y, bool is_last) {
+    PixelRect part = frame.crop;
+    part.y0 = done_y;
+    if (!is_last) {
+        const int y = known_y - static_cast<int>(std::ceil(reach_of(frame.scene->lines.style)));
+        const int rows = std::max(y - frame.crop.y0, 0) / kStrokeRowsPx * kStrokeRowsPx;
+        part.y1 = std::clamp(frame.crop.y0 + rows, done_y, frame.crop.y1);
+    }
+    return part;
+}
+
+/// Forgets what cannot be seen from a row of pixels on.
+template <typename Segment>
+void drop_above(double y, std::vector<std::vector<Segment>>& lists) {
+    for (auto& list : lists) {
+        std::erase_if(list, [&](const Segment& s) { return std::max(s.from.y, s.to.y) < y; });
+        if (list.capacity() > 2 * list.size()) list.shrink_to_fit();
+    }
+    std::erase_if(lists, [](const auto& list) { return list.empty(); });
 }
 
 }  // namespace
@@ -42,62 +64,74 @@ void prepare_for_abuffer(Scene& scene, int threads) {
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film) {
     RenderStats stats;
     stats.threads = resolve_thread_count(options.threads);
-    const int per_pixel = frame.scene->abuffer.samples_per_pixel;
-    const TileKernels& kernels = best_kernels();
-    Stopwatch watch;
-    ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads);
-    const PixelRect region = region_around(frame.crop, 0.5 * frame.scene->lines.style.width_px);
-    const TriangleBins bins(screen, region, per_pixel, kernels, stats.threads);
-    stats.prepare_s = watch.lap();
-
-    if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());
-    const auto workers = static_cast<std::size_t>(stats.threads);
-    std::vector<std::unique_ptr<LineTile>> tiles(workers);
-    std::vector<std::unique_ptr<PixelFiller>> fillers(workers);
-    std::vector<WorkerTimes> times(workers);
-    std::vector<std::vector<LineSegment>> segments(bins.tile_count());
-    parallel_for(bins.tile_count(), stats.threads, [&](std::size_t index, int worker) {
-        const auto w = static_cast<std::size_t>(worker);
-        if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame, screen, bins, per_pixel, kernels);
-        if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame, screen, kernels);
-        Stopwatch lap;
-        if (bins.is_empty(index)) {
-            fillers[w]->clear(bins.empty_tiles_from(index), film);
-        } else {
-            tiles[w]->draw(index);
-            times[w].raster += lap.lap();
-            tiles[w]->find_lines(segments[index]);
-            times[w].lines += lap.lap();
-            fillers[w]->fill(*tiles[w], film);
-        }
-        times[w].shade += lap.lap();
-        if (options.progress != nullptr) options.progress->advance();
-    });
-    const double wall = watch.lap();
-    WorkerTimes sum;
-    for (std::size_t w = 0; w < workers; ++w) {
-        sum.raster += times[w].raster;
-        sum.lines += times[w].lines;
-        sum.shade += times[w].shade;
-        if (tiles[w]) sum.fragments += tiles[w]->sample_tests();
-    }
-    const double total = sum.raster + sum.lines + sum.shade;
-    const double scale = total > 0 ? wall / total : 0;
-    stats.raster_s = sum.raster * scale;
-    stats.lines_s = sum.lines * scale;
-    stats.shade_s = sum.shade * scale;
-    stats.fragments = sum.fragments;
-    if (LayerPass::is_needed(frame)) {
-        LayerPass layers(frame, screen, stats.threads);
-        layers.draw_below(segments, film);
-        draw_strokes(frame, segments, kernels, stats.threads, film);
-        layers.draw_above(film);
-        stats.fragments += layers.fragment_count();
-    } else {
-        draw_strokes(frame, segments, kernels, stats.threads, film);
-    }
-    stats.lines_s += watch.lap();
     stats.triangles = frame.surfaces.triangle_count();
+    const int per_pixel = frame.scene->abuffer.samples_per_pixel;
+    const int tile_samples = options.tile_samples > 0 ? options.tile_samples : TileGrid::kTileSamples;
+    const TileKernels& kernels = best_kernels();
+    const bool has_cap = options.memory_bytes > 0;
+    Stopwatch watch;
+    ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads, !has_cap);
+    const PixelRect region = region_around(frame.crop, 0.5 * frame.scene->lines.style.width_px);
+    const PixelTiles tiles(region, tile_samples / per_pixel);
+    PiecePlan plan{{{tiles.rows(), {}}}, {{LayerPass::tiles_of(frame).rows(), {}}}, {{}}};
+    if (has_cap) plan = plan_pieces(frame, screen, tiles, options.memory_bytes, stats.threads);
+    const auto show = [&](const std::vector<std::uint32_t>& instances) {
+        if (has_cap) screen.show(instances, stats.threads);
+    };
+    stats.prepare_s = watch.lap();
+    if (options.progress != nullptr) options.progress->begin("rendering", tiles.count());
+
+    const bool has_layers = LayerPass::is_needed(frame);
+    const double reach_px = reach_of(frame.scene->lines.style);
+    std::vector<std::vector<LineSegment>> segments;
+    int done_y = frame.crop.y0;
+    SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress);
+    for (const PicturePiece& piece : plan.visible) {
+        show(piece.instances);
+        const PixelRect rows = tiles.only(piece.rows).rect();
+        surfaces.draw(rows, tile_samples, segments, film, stats);
+        if (has_layers) continue;  // hidden lines are drawn below visible ones
+        watch.lap();
+        const PixelRect part = next_part(frame, done_y, rows.y1, &piece == &plan.visible.back());
+        if (part.height() == 0) continue;
+        draw_strokes(frame, part, segments, kernels, stats.threads, film);
+        done_y = part.y1;
+        if (has_cap) drop_above(done_y - reach_px, segments);
+        stats.lines_s += watch.lap();
+    }
+    if (!has_layers) return stats;
+
+    watch.lap();
+    LayerPass layers(frame, screen, stats.threads);
+    const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
+    const bool needs_all = LayerPass::needs_all_lines(frame);
+    for (const std::vector<std::uint32_t>& group : plan.groups) {
+        if (!needs_all) break;
+        show(group);
+        layers.find_edges(layer_tiles.rows());
+    }
+    std::vector<std::vector<LayerSegment>> layer_segments;
+    for (const PicturePiece& piece : plan.layers) {
+        const bool is_last = &piece == &plan.layers.back();
+        show(piece.instances);
+        layers.sort(piece.rows);
+        layers.composite(film);
+        if (!needs_all) layers.find_edges(piece.rows);
+        layers.find_pieces();
+        if (needs_all && !is_last) continue;
+        layer_segments.push_back(layers.take_segments());
+        const PixelRect part = next_part(frame, done_y, layer_tiles.only(piece.rows).rect().y1, is_last);
+        if (part.height() == 0) continue;
+        layers.draw_below(part, segments, layer_segments, film);
+        draw_strokes(frame, part, segments, kernels, stats.threads, film);
+        layers.draw_above(film);
+        done_y = part.y1;
+        if (!has_cap) continue;
+        drop_above(done_y - reach_px, segments);
+        drop_above(done_y - reach_px, layer_segments);
+    }
+    stats.fragments += layers.fragment_count();
+    stats.lines_s += watch.lap();
     return stats;
 }
 

@@ -38,15 +38,11 @@ void bin(const ScreenSurfaces& screen, const PixelTiles& grid, SurfaceId s, std:
 }  // namespace
 
 LayerBins::LayerBins(const ScreenSurfaces& screen, const PixelTiles& grid, int threads) {
-    const std::uint32_t count = screen.triangle_count();
-    std::vector<std::vector<Record>> records((count + kChunkTriangles - 1) / kChunkTriangles);
-    parallel_for(records.size(), threads, [&](std::size_t chunk, int) {
-        const auto begin = static_cast<std::uint32_t>(chunk) * kChunkTriangles;
-        const std::uint32_t end = std::min(count, begin + kChunkTriangles);
-        SurfaceId s = screen.surface_of(begin);
-        for (std::uint32_t number = begin; number < end; ++number, ++s.triangle) {
-            if (s.triangle == screen.surfaces().mesh_of(s).triangles.size()) s = screen.surface_of(number);
-            bin(screen, grid, s, records[chunk]);
+    const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
+    std::vector<std::vector<Record>> records(chunks.size());
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+        for (std::uint32_t t = chunks[c].begin; t < chunks[c].end; ++t) {
+            bin(screen, grid, {chunks[c].instance, t}, records[c]);
         }
     });
     lists_ = TileLists<std::uint32_t>(records, grid.count());

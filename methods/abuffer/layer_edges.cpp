@@ -288,20 +288,11 @@ class EdgeFinder {
 
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                         int threads) {
-    struct Chunk {
-        std::uint32_t instance, first, end;
-    };
-    std::vector<Chunk> chunks;
-    for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
-        const auto count = static_cast<std::uint32_t>(frame.surfaces.instances[i].mesh->triangles.size());
-        for (std::uint32_t t = 0; t < count; t += kChunkTriangles) {
-            chunks.push_back({i, t, std::min(count, t + kChunkTriangles)});
-        }
-    }
+    const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     const EdgeFinder finder(frame, screen, region);
     std::vector<std::vector<LayerLine>> found(chunks.size());
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
-        for (std::uint32_t t = chunks[c].first; t < chunks[c].end; ++t) {
+        for (std::uint32_t t = chunks[c].begin; t < chunks[c].end; ++t) {
             finder.visit({chunks[c].instance, t}, found[c]);
         }
     });

@@ -9,8 +9,8 @@
 
 namespace burin {
 
-/// All edges of all meshes that are lines in this view, be they seen or not, as far as they touch
-/// `region`: contours, borders that are no seams, and edges with another class asked for. The facing
+/// All edges of the instances shown that are lines in this view, be they seen or not, as far as they
+/// touch `region`: contours, borders that are no seams, and edges with another class asked for. The facing
 /// of all triangles must be known.
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                         int threads);

@@ -27,14 +27,8 @@ PixelRect region_of(const Frame& frame) {
 
 bool shows_hidden(const Frame& frame) { return frame.scene->lines.style.hidden.style != HiddenStyle::none; }
 
-/// What one tile has found.
-struct TileResult {
-    std::vector<LayerLine> intersections;
-    std::vector<LayerPiece> pieces;
-};
-
 /// Brings the lines that tiles have found behind `lines`, each one once, and renumbers their pieces.
-void join_results(std::vector<TileResult>& results, std::vector<LayerLine>& lines, std::vector<LayerPiece>& pieces) {
+void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, std::vector<LayerPiece>& pieces) {
     struct Found {
         std::size_t tile;
         std::uint32_t index;
@@ -78,27 +72,52 @@ TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const
 
 bool LayerPass::is_needed(const Frame& frame) { return shows_hidden(frame) || has_transparent_surfaces(*frame.scene); }
 
+PixelTiles LayerPass::tiles_of(const Frame& frame) { return PixelTiles(region_of(frame), kTilePx); }
+
+bool LayerPass::needs_all_lines(const Frame& frame) {
+    return frame.scene->lines.style.hidden.style == HiddenStyle::dashed;
+}
+
 LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads)
     : frame_(frame),
       screen_(screen),
       threads_(threads),
-      grid_(region_of(frame), kTilePx),
-      bins_(screen, grid_, threads),
+      all_tiles_(tiles_of(frame)),
+      tiles_(all_tiles_),
       strokes_(frame, threads) {}
 
-void LayerPass::find() {
-    lines_ = find_layer_edges(frame_, screen_, region_of(frame_), threads_);
-    const TileLists<std::uint32_t> lines_in = sort_by_tile(lines_, grid_);
+void LayerPass::find_edges(TileRows rows) {
+    std::vector<LayerLine> found = find_layer_edges(frame_, screen_, all_tiles_.only(rows).rect(), threads_);
+    if (lines_.empty()) {
+        lines_ = std::move(found);
+    } else {
+        lines_.insert(lines_.end(), found.begin(), found.end());
+    }
+}
+
+void LayerPass::sort(TileRows rows) {
+    tiles_ = all_tiles_.only(rows);
+    bins_ = LayerBins();  // before there are new ones
+    bins_ = LayerBins(screen_, tiles_, threads_);
+}
+
+void LayerPass::composite(Film& film) const {
+    if (has_transparent_surfaces(*frame_.scene)) fill_transparent(frame_, screen_, bins_, tiles_, threads_, film);
+}
+
+void LayerPass::find_pieces() {
+    const TileLists<std::uint32_t> lines_in = sort_by_tile(lines_, tiles_);
     const bool intersects =
         !(frame_.criteria.classes & (LineClass::intersection | LineClassSet(LineClass::object) | LineClass::material)).empty();
-    std::vector<TileResult> results(grid_.count());
+    const std::size_t before = results_.size();
+    results_.resize(before + tiles_.count());
     std::vector<std::unique_ptr<LayerTile>> tiles(static_cast<std::size_t>(threads_));
-    parallel_for(grid_.count(), threads_, [&](std::size_t index, int worker) {
+    parallel_for(tiles_.count(), threads_, [&](std::size_t index, int worker) {
         if (bins_.triangles(index).empty()) return;
         auto& tile = tiles[static_cast<std::size_t>(worker)];
-        if (!tile) tile = std::make_unique<LayerTile>(frame_, screen_, bins_, grid_);
+        if (!tile) tile = std::make_unique<LayerTile>(frame_, screen_, bins_, tiles_);
         tile->fill(index);
-        TileResult& result = results[index];
+        LayerTileResult& result = results_[before + index];
         for (const std::uint32_t i : lines_in.of(index)) tile->find_pieces(lines_[i], i, result.pieces);
         if (intersects) tile->find_intersections(result.intersections);
         for (std::uint32_t i = 0; i < result.intersections.size(); ++i) {
@@ -108,8 +127,28 @@ void LayerPass::find() {
     for (const auto& tile : tiles) {
         if (tile) fragment_count_ += tile->fragment_count();
     }
+}
+
+void LayerPass::find() {
+    lines_.clear();
+    find_edges(all_tiles_.rows());
+    sort(all_tiles_.rows());
+    find_pieces();
+    join_results();
+}
+
+void LayerPass::join_results() {
     pieces_.clear();
-    join_results(results, lines_, pieces_);
+    join(results_, lines_, pieces_);
+    results_.clear();
+}
+
+std::vector<LayerSegment> LayerPass::take_segments() {
+    join_results();
+    std::vector<LayerSegment> segments = make_segments();
+    lines_.clear();
+    pieces_.clear();
+    return segments;
 }
 
 void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
@@ -135,16 +174,16 @@ void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>&
     }
 }
 
-std::vector<std::vector<LayerSegment>> LayerPass::make_segments() const {
+std::vector<LayerSegment> LayerPass::make_segments() const {
     const HiddenStyle style = frame_.scene->lines.style.hidden.style;
     std::vector<std::array<double, 2>> positions;
-    if (style == HiddenStyle::dashed) positions = positions_along_chains(lines_);
-    std::vector<std::vector<LayerSegment>> segments(1);
+    if (needs_all_lines(frame_)) positions = positions_along_chains(lines_);
+    std::vector<LayerSegment> segments;
     for (const LayerPiece& piece : pieces_) {
         const bool is_hidden = piece.invisibility > 0;
         if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
         if (is_hidden && style == HiddenStyle::dashed) {
-            add_dashes(piece, positions[piece.line], segments[0]);
+            add_dashes(piece, positions[piece.line], segments);
             continue;
         }
         const LayerLine& line = lines_[piece.line];
@@ -154,15 +193,9 @@ std::vector<std::vector<LayerSegment>> LayerPass::make_segments() const {
         segment.drawn_as = line.drawn_as;
         segment.is_hidden = is_hidden;
         segment.transmission = piece.transmission;
-        segments[0].push_back(segment);
+        segments.push_back(segment);
     }
     return segments;
-}
-
-void LayerPass::draw_below(const std::vector<std::vector<LineSegment>>& visible, Film& film) {
-    if (has_transparent_surfaces(*frame_.scene)) fill_transparent(frame_, screen_, bins_, grid_, threads_, film);
-    find();
-    strokes_.draw_below(visible, make_segments(), film);
 }
 
 }  // namespace burin

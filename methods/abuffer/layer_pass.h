@@ -8,40 +8,69 @@
 
 namespace burin {
 
+/// What one tile has found.
+struct LayerTileResult {
+    std::vector<LayerLine> intersections;
+    std::vector<LayerPiece> pieces;
+};
+
 /// What is behind the first surface: keeps all layers of all tiles in turn, composites transparent
 /// surfaces, and finds and draws hidden lines and lines seen through transparent surfaces.
+///
+/// A picture is made in one or more pieces, each some rows of tiles: find_edges(), sort(), composite()
+/// and find_pieces() for one, with what touches it shown; then its lines are drawn.
 class LayerPass {
   public:
     /// Whether a frame shows anything of it.
     static bool is_needed(const Frame& frame);
+    /// The frame's crop and what strokes from beside it reach, as tiles.
+    static PixelTiles tiles_of(const Frame& frame);
+    /// Whether all lines are needed before the first one can be drawn: dashes run on from line to line.
+    static bool needs_all_lines(const Frame& frame);
 
-    /// The facing of all triangles must be known to `screen`.
     LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads);
 
-    /// The lines, per tile; finds them at the first call of find().
+    /// All lines of a picture in one piece. The facing of all triangles must be known to `screen`.
     void find();
+    /// After find().
     const std::vector<LayerLine>& lines() const { return lines_; }
     const std::vector<LayerPiece>& pieces() const { return pieces_; }
 
-    /// After all pixels were put and before the visible lines are drawn.
-    void draw_below(const std::vector<std::vector<LineSegment>>& visible, Film& film);
+    /// Adds the edges that are lines, of the instances shown, as far as they touch these rows.
+    void find_edges(TileRows rows);
+    /// Sorts the instances shown to the tiles of these rows.
+    void sort(TileRows rows);
+    /// Replaces the surfaces of pixels behind transparent ones, in the rows sorted.
+    void composite(Film& film) const;
+    /// Finds what is in front of lines in the rows sorted, and intersections.
+    void find_pieces();
+    /// Of all that was found since the last call; it is forgotten.
+    std::vector<LayerSegment> take_segments();
+
+    /// After all pixels of this part were put and before the visible lines are drawn.
+    void draw_below(PixelRect part, const std::vector<std::vector<LineSegment>>& visible,
+                    const std::vector<std::vector<LayerSegment>>& segments, Film& film) {
+        strokes_.draw_below(part, visible, segments, film);
+    }
     /// After the visible lines.
     void draw_above(Film& film) const { strokes_.draw_above(film); }
 
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
-    std::vector<std::vector<LayerSegment>> make_segments() const;
+    std::vector<LayerSegment> make_segments() const;
+    void join_results();
     void add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
                     std::vector<LayerSegment>& segments) const;
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     int threads_;
-    PixelTiles grid_;
+    PixelTiles all_tiles_, tiles_;
     LayerBins bins_;
     LayerStrokes strokes_;
     std::vector<LayerLine> lines_;
+    std::vector<LayerTileResult> results_;  // tile by tile, not joined yet
     std::vector<LayerPiece> pieces_;
     std::uint64_t fragment_count_ = 0;
 };

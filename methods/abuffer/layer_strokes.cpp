@@ -122,11 +122,11 @@ void draw_hidden(std::span<const LayerSegment* const> layers, int transmission, 
 
 }  // namespace
 
-void LayerStrokes::draw_below(const std::vector<std::vector<LineSegment>>& visible,
+void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<LineSegment>>& visible,
                               const std::vector<std::vector<LayerSegment>>& layers, Film& film) {
     const LineStyle& style = frame_.scene->lines.style;
     const Pen pen(style.width_px), hidden_pen(style.hidden_width_px());
-    const PixelTiles grid(frame_.crop, kTilePx);
+    const PixelTiles grid(part, kTilePx);
     const auto visible_in = sort_by_tile(visible, grid, pen.radius_px + 1);
     const auto layers_in = sort_by_tile(layers, grid, std::max(pen.radius_px, hidden_pen.radius_px) + 1);
     seen_through_.assign(grid.count(), {});

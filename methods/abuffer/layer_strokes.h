@@ -22,8 +22,9 @@ class LayerStrokes {
   public:
     LayerStrokes(const Frame& frame, int threads) : frame_(frame), threads_(threads) {}
 
-    /// Before the visible lines are drawn, which are given, too: what they will cover stays free.
-    void draw_below(const std::vector<std::vector<LineSegment>>& visible,
+    /// Before the visible lines of this part are drawn, which are given, too: what they will cover stays
+    /// free.
+    void draw_below(PixelRect part, const std::vector<std::vector<LineSegment>>& visible,
                     const std::vector<std::vector<LayerSegment>>& layers, Film& film);
     /// After them.
     void draw_above(Film& film) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -40,31 +41,63 @@ ScreenTransform transform_of(const SurfaceSet& surfaces, const SurfaceInstance& 
 }  // namespace
 
 ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria,
-                               const TileKernels& kernels, int threads)
-    : surfaces_(surfaces), criteria_(criteria) {
-    std::size_t vertex_count = 0;
+                               const TileKernels& kernels, int threads, bool shows_all)
+    : surfaces_(surfaces),
+      criteria_(criteria),
+      kernels_(kernels),
+      is_shown_(surfaces.instances.size(), 0),
+      first_vertex_(surfaces.instances.size(), 0) {
     std::uint64_t triangle_count = 0;
     for (const SurfaceInstance& instance : surfaces.instances) {
-        first_vertex_.push_back(vertex_count);
         first_triangle_.push_back(static_cast<std::uint32_t>(triangle_count));
-        vertex_count += instance.mesh->positions.size();
         triangle_count += instance.mesh->triangles.size();
         if (triangle_count >= (std::uint64_t{1} << 31) - 1) {
             throw InputError("the scene has more than 2 billion triangles; split it");
         }
     }
     first_triangle_.push_back(static_cast<std::uint32_t>(triangle_count));
-    vertices_ = std::make_unique_for_overwrite<ScreenVertex[]>(vertex_count);
     facing_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
-    for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
-        const SurfaceInstance& instance = surfaces.instances[i];
-        const ScreenTransform& transform = transforms_.emplace_back(transform_of(surfaces, instance));
-        for_chunks(instance.mesh->positions.size(), threads, [&](std::size_t begin, std::size_t end) {
-            const float* const positions = glm::value_ptr(instance.mesh->positions[begin]);
-            kernels.project(transform, positions, end - begin, vertices_.get() + first_vertex_[i] + begin);
-        });
+    for (const SurfaceInstance& instance : surfaces.instances) {
+        transforms_.push_back(transform_of(surfaces, instance));
         sharp_.push_back(keeps_angles(instance.to_view) ? sharp_edges_of(instance) : nullptr);
     }
+    if (!shows_all) return;
+    std::vector<std::uint32_t> all(surfaces.instances.size());
+    std::iota(all.begin(), all.end(), 0u);
+    show(all, threads);
+}
+
+void ScreenSurfaces::show(std::span<const std::uint32_t> instances, int threads) {
+    std::fill(is_shown_.begin(), is_shown_.end(), std::uint8_t{0});
+    std::fill(first_vertex_.begin(), first_vertex_.end(), std::size_t{0});
+    std::size_t count = 0;
+    for (const std::uint32_t i : instances) {
+        is_shown_[i] = 1;
+        first_vertex_[i] = count;
+        count += surfaces_.instances[i].mesh->positions.size();
+    }
+    if (count > room_ || vertices_ == nullptr) {
+        vertices_.reset();  // before there are new ones
+        vertices_ = std::make_unique_for_overwrite<ScreenVertex[]>(count);
+        room_ = count;
+    }
+    for (const std::uint32_t i : instances) {
+        const std::vector<glm::vec3>& positions = surfaces_.instances[i].mesh->positions;
+        for_chunks(positions.size(), threads, [&](std::size_t begin, std::size_t end) {
+            kernels_.project(transforms_[i], glm::value_ptr(positions[begin]), end - begin,
+                             vertices_.get() + first_vertex_[i] + begin);
+        });
+    }
+}
+
+std::vector<TriangleChunk> ScreenSurfaces::chunks_of_triangles(std::uint32_t largest) const {
+    std::vector<TriangleChunk> chunks;
+    for (std::uint32_t i = 0; i < surfaces_.instances.size(); ++i) {
+        if (!is_shown(i)) continue;
+        const auto count = static_cast<std::uint32_t>(surfaces_.instances[i].mesh->triangles.size());
+        for (std::uint32_t t = 0; t < count; t += largest) chunks.push_back({i, t, std::min(count, t + largest)});
+    }
+    return chunks;
 }
 
 const std::uint8_t* ScreenSurfaces::sharp_edges_of(const SurfaceInstance& instance) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "abuffer/tile_kernels.h"
@@ -12,11 +13,25 @@
 
 namespace burin {
 
+/// Triangles [begin, end) of the mesh of an instance.
+struct TriangleChunk {
+    std::uint32_t instance, begin, end;
+};
+
 /// The vertices of a frame on the screen, projected and snapped once, and numbers for its triangles.
+/// To save memory, vertices can be there for some instances at a time: for those that are shown.
 class ScreenSurfaces {
   public:
+    /// Shows all instances, or none yet.
     ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria, const TileKernels& kernels,
-                   int threads);
+                   int threads, bool shows_all = true);
+
+    /// Shows these instances, in ascending order, and no others.
+    void show(std::span<const std::uint32_t> instances, int threads);
+    bool is_shown(std::uint32_t instance) const { return is_shown_[instance] != 0; }
+
+    /// All triangles of the instances that are shown, in ascending order, cut into pieces.
+    std::vector<TriangleChunk> chunks_of_triangles(std::uint32_t largest) const;
 
     std::uint32_t triangle_count() const { return first_triangle_.back(); }
     /// Triangles of the whole frame are numbered through, instance by instance.
@@ -52,7 +67,10 @@ class ScreenSurfaces {
 
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
-    std::vector<std::size_t> first_vertex_;
+    const TileKernels& kernels_;
+    std::vector<std::uint8_t> is_shown_;
+    std::vector<std::size_t> first_vertex_;  // in vertices_, of instances that are shown
+    std::size_t room_ = 0;                   // in vertices_
     std::vector<std::uint32_t> first_triangle_;  // one more than instances
     std::vector<ScreenTransform> transforms_;  // per instance
     std::unique_ptr<ScreenVertex[]> vertices_;

@@ -126,12 +126,12 @@ class StrokeTile {
 
 }  // namespace
 
-void draw_strokes(const Frame& frame, const std::vector<std::vector<LineSegment>>& segments,
+void draw_strokes(const Frame& frame, PixelRect part, const std::vector<std::vector<LineSegment>>& segments,
                   const TileKernels& kernels, int threads, Film& film) {
     const LineStyle& style = frame.scene->lines.style;
     const double width = std::max(style.width_px, kFinestWidthPx);
     const float strength = static_cast<float>(style.width_px / width);
-    const SegmentBins bins(segments, frame.crop, 0.5 * width + 1.0);
+    const SegmentBins bins(segments, part, 0.5 * width + 1.0);
     std::vector<StrokeTile> tiles(static_cast<std::size_t>(threads), StrokeTile(kernels));
     parallel_for(bins.tile_count(), threads, [&](std::size_t index, int worker) {
         const auto list = bins.segments(index);

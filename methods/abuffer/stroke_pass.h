@@ -9,8 +9,8 @@
 
 namespace burin {
 
-/// Draws pieces of lines as strokes over a film.
-void draw_strokes(const Frame& frame, const std::vector<std::vector<LineSegment>>& segments,
+/// Draws pieces of lines as strokes over a part of a film.
+void draw_strokes(const Frame& frame, PixelRect part, const std::vector<std::vector<LineSegment>>& segments,
                   const TileKernels& kernels, int threads, Film& film);
 
 }  // namespace burin

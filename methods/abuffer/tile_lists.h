@@ -11,6 +11,11 @@
 
 namespace burin {
 
+/// Some rows of tiles: [begin, end).
+struct TileRows {
+    int begin = 0, end = 0;
+};
+
 /// A rectangle of pixels cut into square tiles, row by row.
 class PixelTiles {
   public:
@@ -18,22 +23,41 @@ class PixelTiles {
         : region_(region),
           tile_px_(tile_px),
           columns_((region.width() + tile_px - 1) / tile_px),
-          rows_((region.height() + tile_px - 1) / tile_px) {}
+          rows_{0, (region.height() + tile_px - 1) / tile_px},
+          chosen_(rows_) {}
 
-    std::size_t count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
+    /// Only these rows of the same tiles, which are numbered from 0 again.
+    PixelTiles only(TileRows rows) const {
+        PixelTiles part = *this;
+        part.chosen_ = rows;
+        return part;
+    }
+
+    TileRows rows() const { return chosen_; }
+    int tile_px() const { return tile_px_; }
+    int columns() const { return columns_; }
+    std::size_t count() const {
+        return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(chosen_.end - chosen_.begin);
+    }
     PixelRect tile(std::size_t index) const {
         const int x0 = region_.x0 + static_cast<int>(index) % columns_ * tile_px_;
-        const int y0 = region_.y0 + static_cast<int>(index) / columns_ * tile_px_;
+        const int y0 = region_.y0 + (chosen_.begin + static_cast<int>(index) / columns_) * tile_px_;
         return {x0, y0, std::min(x0 + tile_px_, region_.x1), std::min(y0 + tile_px_, region_.y1)};
+    }
+    /// The pixels of all tiles.
+    PixelRect rect() const {
+        return {region_.x0, region_.y0 + chosen_.begin * tile_px_, region_.x1,
+                std::min(region_.y0 + chosen_.end * tile_px_, region_.y1)};
     }
     /// Calls visit(tile, rectangle) for the tiles that touch the box from `low` to `high`, in pixels.
     template <typename Visit>
     void visit(glm::dvec2 low, glm::dvec2 high, const Visit& visit) const {
         if (!(high.x >= region_.x0 && high.y >= region_.y0 && low.x <= region_.x1 && low.y <= region_.y1)) return;
         const int x0 = index_along(low.x - region_.x0, columns_), x1 = index_along(high.x - region_.x0, columns_);
-        const int y0 = index_along(low.y - region_.y0, rows_), y1 = index_along(high.y - region_.y0, rows_);
+        const int y0 = std::max(index_along(low.y - region_.y0, rows_.end), chosen_.begin);
+        const int y1 = std::min(index_along(high.y - region_.y0, rows_.end), chosen_.end - 1);
         for (int y = y0; y <= y1; ++y) {
-            for (int x = x0; x <= x1; ++x) visit(static_cast<std::uint32_t>(y * columns_ + x));
+            for (int x = x0; x <= x1; ++x) visit(static_cast<std::uint32_t>((y - chosen_.begin) * columns_ + x));
         }
     }
 
@@ -43,7 +67,8 @@ class PixelTiles {
     }
 
     PixelRect region_;
-    int tile_px_, columns_, rows_;
+    int tile_px_, columns_;
+    TileRows rows_, chosen_;
 };
 
 /// A list of values per tile, all in one block of memory.

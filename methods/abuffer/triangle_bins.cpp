@@ -11,21 +11,6 @@ namespace {
 
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
 
-struct Chunk {
-    std::uint32_t instance, first, end;
-};
-
-std::vector<Chunk> split_into_chunks(const SurfaceSet& surfaces) {
-    std::vector<Chunk> chunks;
-    for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
-        const auto count = static_cast<std::uint32_t>(surfaces.instances[i].mesh->triangles.size());
-        for (std::uint32_t t = 0; t < count; t += kChunkTriangles) {
-            chunks.push_back({i, t, std::min(count, t + kChunkTriangles)});
-        }
-    }
-    return chunks;
-}
-
 struct Box {  // in 1/256 pixel
     std::int32_t x0, y0, x1, y1;
 };
@@ -89,12 +74,12 @@ class Binner {
     Binner(ScreenSurfaces& surfaces, const TileGrid& grid, const TileKernels& kernels)
         : surfaces_(surfaces), grid_(grid), kernels_(kernels) {}
 
-    void bin(const Chunk& chunk, Scratch& scratch, Records& records) const {
+    void bin(const TriangleChunk& chunk, Scratch& scratch, Records& records) const {
         const std::size_t room = kChunkTriangles + 8;
         scratch.triangles.resize(room);
         scratch.keys.resize(room);
         scratch.count.resize(2 * tile_count(), 0);
-        std::size_t found = kernels_.cull(surfaces_.mesh(chunk.instance), chunk.first, chunk.end, grid_,
+        std::size_t found = kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_,
                                           surfaces_.facings(chunk.instance), scratch.triangles.data(),
                                           scratch.keys.data());
         find_tiles_of_others(chunk.instance, found, scratch, records);
@@ -103,7 +88,7 @@ class Binner {
 
   private:
     std::size_t tile_count() const {
-        const int rows = (grid_.height + TileGrid::kTileSamples - 1) / TileGrid::kTileSamples;
+        const int rows = ((grid_.height - 1) >> grid_.tile_shift) + 1;
         return static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(rows);
     }
 
@@ -211,11 +196,12 @@ class Binner {
 
     TileTriangle in_tile(TileTriangle t, std::uint32_t tile, const SampleBox& samples) const {
         const auto tiles = static_cast<std::uint32_t>(grid_.columns);
-        const auto first_column = static_cast<std::int32_t>(tile % tiles) * TileGrid::kTileSamples;
-        const auto first_row = static_cast<std::int32_t>(tile / tiles) * TileGrid::kTileSamples;
+        const std::int32_t size = 1 << grid_.tile_shift;
+        const auto first_column = static_cast<std::int32_t>(tile % tiles) * size;
+        const auto first_row = static_cast<std::int32_t>(tile / tiles) * size;
         // A tile has one more column and row of samples.
-        const auto block = [](std::int32_t at, std::int32_t first, std::int32_t last) {
-            const std::int32_t within = std::clamp(std::min(at, last) - first, 0, TileGrid::kTileSamples);
+        const auto block = [size](std::int32_t at, std::int32_t first, std::int32_t last) {
+            const std::int32_t within = std::clamp(std::min(at, last) - first, 0, size);
             return static_cast<std::uint8_t>(within >> kBlockShift);
         };
         t.first_column = block(samples.column0, first_column, grid_.width);
@@ -240,10 +226,9 @@ class Binner {
             row0 > grid_.height) {
             return;
         }
-        constexpr int kShift = TileGrid::kTileShift;
-        for (int row = std::max(row0 - 1, 0) >> kShift; row <= std::min(row1, grid_.height - 1) >> kShift; ++row) {
-            for (int column = std::max(column0 - 1, 0) >> kShift;
-                 column <= std::min(column1, grid_.width - 1) >> kShift; ++column) {
+        for (int row = std::max(row0 - 1, 0) >> grid_.tile_shift; row <= std::min(row1, grid_.height - 1) >> grid_.tile_shift; ++row) {
+            for (int column = std::max(column0 - 1, 0) >> grid_.tile_shift;
+                 column <= std::min(column1, grid_.width - 1) >> grid_.tile_shift; ++column) {
                 visit(static_cast<std::uint32_t>(row * grid_.columns + column), SampleBox{column0, row0, column1, row1});
             }
         }
@@ -261,9 +246,9 @@ void make_ends_of_counts(std::vector<std::size_t>& end) {
 }  // namespace
 
 TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel,
-                           const TileKernels& kernels, int threads)
+                           const TileKernels& kernels, int threads, int tile_samples)
     : region_(region),
-      tile_px_(TileGrid::kTileSamples / samples_per_pixel),
+      tile_px_(tile_samples / samples_per_pixel),
       columns_((region.width() + tile_px_ - 1) / tile_px_),
       rows_((region.height() + tile_px_ - 1) / tile_px_) {
     const TileGrid grid{region.x0 * samples_per_pixel,
@@ -271,8 +256,9 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
                         region.width() * samples_per_pixel,
                         region.height() * samples_per_pixel,
                         columns_,
-                        std::countr_zero(static_cast<unsigned>(kSubpixelsPerPixel / samples_per_pixel))};
-    const std::vector<Chunk> chunks = split_into_chunks(surfaces.surfaces());
+                        std::countr_zero(static_cast<unsigned>(kSubpixelsPerPixel / samples_per_pixel)),
+                        std::countr_zero(static_cast<unsigned>(tile_samples))};
+    const std::vector<TriangleChunk> chunks = surfaces.chunks_of_triangles(kChunkTriangles);
     std::vector<Records> records(chunks.size());
     std::vector<Scratch> scratch(static_cast<std::size_t>(threads));
     const Binner binner(surfaces, grid, kernels);

@@ -23,13 +23,13 @@ struct TriangleRun {
     const TileTriangle* triangles;
 };
 
-/// What touches each tile of a picture.
+/// What of the instances that are shown touches each tile of a picture.
 class TriangleBins {
   public:
     /// Sets the facing of all triangles on the way. Tiles cover `region`; a tile also gets what lies
-    /// on the samples next to its right and lower border.
+    /// on the samples next to its right and lower border. `tile_samples`: a tile's width, a power of two.
     TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel, const TileKernels& kernels,
-                 int threads);
+                 int threads, int tile_samples = TileGrid::kTileSamples);
 
     std::size_t tile_count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
     PixelRect tile(std::size_t index) const;

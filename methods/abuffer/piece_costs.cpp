@@ -1,0 +1,117 @@
+#include "methods/abuffer/piece_costs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "methods/abuffer/triangle_bins.h"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kChunkTriangles = 1 << 14;
+// Bytes. Lists that grow may have twice the room that they need.
+constexpr std::uint64_t kPerSmall = 4;        // a number in a tile's list
+constexpr std::uint64_t kPerRun = 40;         // a chunk's list in a tile, as found and as sorted
+constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
+constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
+constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
+
+struct Box {  // in pixels
+    glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+    void reach(double x, double y) {
+        low = glm::min(low, glm::dvec2(x, y) / 256.0);
+        high = glm::max(high, glm::dvec2(x, y) / 256.0);
+    }
+};
+
+/// What one thread has counted.
+struct Tally {
+    RowCosts rows;
+    std::vector<std::uint32_t> last_chunk[2];  // per tile, wound either way: 1 + the last chunk with a run there
+};
+
+/// The box of a triangle, nothing to the right of nothing if it is not seen; whether it counts as large.
+bool find_box(const ScreenSurfaces& screen, SurfaceId s, Box& box) {
+    const ScreenTriangle t = screen.triangle(s);
+    const bool is_off = std::any_of(std::begin(t.corners), std::end(t.corners),
+                                    [](const ScreenVertex& v) { return v.x == ScreenVertex::kOffScreen; });
+    if (is_off) {
+        const ScreenPolygon polygon = screen.surfaces().screen_polygon(s);
+        for (int i = 0; i < polygon.count; ++i) {
+            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+            box.reach(p.x, p.y);
+        }
+        return true;
+    }
+    for (const ScreenVertex& v : t.corners) box.reach(v.x, v.y);
+    const glm::dvec2 size = (box.high - box.low) * 256.0;
+    return std::max(size.x, size.y) >= kLargestSmallTriangle;
+}
+
+}  // namespace
+
+PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, int threads)
+    : visible_(visible), layers_(layers), sample_px_(1.0 / samples_per_pixel), threads_(threads) {
+    rows_.visible.assign(static_cast<std::size_t>(visible.rows().end), 0);
+    if (layers != nullptr) rows_.layers.assign(static_cast<std::size_t>(layers->rows().end), 0);
+}
+
+void PieceCosts::add(const ScreenSurfaces& screen) {
+    const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
+    std::vector<Tally> tallies(static_cast<std::size_t>(threads_));
+    const auto row_of = [](const PixelTiles& tiles, std::uint32_t tile) {
+        return tile / static_cast<std::uint32_t>(tiles.columns());
+    };
+    parallel_for(chunks.size(), threads_, [&](std::size_t c, int worker) {
+        Tally& tally = tallies[static_cast<std::size_t>(worker)];
+        if (tally.rows.visible.empty()) {
+            tally.rows.visible.assign(rows_.visible.size(), 0);
+            tally.rows.layers.assign(rows_.layers.size(), 0);
+            for (auto& last : tally.last_chunk) last.assign(visible_.count(), 0);
+        }
+        for (std::uint32_t triangle = chunks[c].begin; triangle < chunks[c].end; ++triangle) {
+            const SurfaceId s{chunks[c].instance, triangle};
+            Box box;
+            const bool is_large = find_box(screen, s, box);
+            if (!(box.low.x <= box.high.x)) continue;
+            if (layers_ != nullptr) {
+                layers_->visit(box.low, box.high, [&](std::uint32_t tile) { tally.rows.layers[row_of(*layers_, tile)] += kPerLayer; });
+            }
+            // The samples in the box; a tile also gets those next to its right and lower border.
+            const glm::dvec2 first = glm::ceil(box.low / sample_px_ - 0.5), last = glm::floor(box.high / sample_px_ - 0.5);
+            if (!is_large && (first.x > last.x || first.y > last.y)) continue;
+            const ScreenTriangle t = screen.triangle(s);
+            const int side = !is_large && doubled_area(t.corners[0], t.corners[1], t.corners[2]) > 0 ? 1 : 0;
+            std::uint32_t last_row = ~0u;
+            visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_, [&](std::uint32_t tile) {
+                const std::uint32_t row = row_of(visible_, tile);
+                std::uint64_t& cost = tally.rows.visible[row];
+                cost += is_large ? kPerLarge : kPerSmall;
+                if (is_large && row != last_row) cost += kPerPolygon;
+                last_row = row;
+                std::uint32_t& last_chunk = tally.last_chunk[side][tile];
+                if (!is_large && last_chunk != c + 1) cost += kPerRun;
+                if (!is_large) last_chunk = static_cast<std::uint32_t>(c + 1);
+            });
+        }
+    });
+    for (const Tally& tally : tallies) {
+        for (std::size_t i = 0; i < tally.rows.visible.size(); ++i) rows_.visible[i] += tally.rows.visible[i];
+        for (std::size_t i = 0; i < tally.rows.layers.size(); ++i) rows_.layers[i] += tally.rows.layers[i];
+    }
+}
+
+InstanceExtent PieceCosts::extent_of(const ScreenSurfaces& screen, std::uint32_t instance) {
+    const std::size_t count = screen.surfaces().instances[instance].mesh->positions.size();
+    const ScreenVertex* const v = screen.vertices(instance);
+    Box box;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (v[i].x == ScreenVertex::kOffScreen) return {glm::dvec2(-kGuardBandPx), glm::dvec2(kGuardBandPx)};
+        box.reach(v[i].x, v[i].y);
+    }
+    return {box.low, box.high};
+}
+
+}  // namespace burin

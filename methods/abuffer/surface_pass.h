@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "abuffer/tile_kernels.h"
+#include "base/progress.h"
+#include "lines/line_segment.h"
+#include "methods/abuffer/screen_surfaces.h"
+#include "render/film.h"
+#include "render/frame.h"
+#include "render/stats.h"
+
+namespace burin {
+
+/// What is visible: fills pixels and finds visible lines, tile by tile, in one or more pieces of a
+/// picture.
+class SurfacePass {
+  public:
+    SurfacePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads,
+                Progress* progress)
+        : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress) {}
+
+    /// Draws the tiles of `region`, adds their lines and the time it took.
+    void draw(PixelRect region, int tile_samples, std::vector<std::vector<LineSegment>>& segments, Film& film,
+              RenderStats& stats);
+
+  private:
+    const Frame& frame_;
+    ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
+    int threads_;
+    Progress* progress_;
+};
+
+}  // namespace burin
