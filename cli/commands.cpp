@@ -137,6 +137,13 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
         std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n",
                    stderr);
     }
+    const auto note_if_unused = [&](bool is_given, const char* option, std::string_view user) {
+        if (!is_given || method.name == user) return;
+        std::fprintf(stderr, "burin: note: %s is for method %s and changes nothing here\n", option,
+                     std::string(user).c_str());
+    };
+    note_if_unused(a.mask_bits.has_value(), "--mask", "patel");
+    note_if_unused(a.samples_per_pixel.has_value(), "--samples", "abuffer");
     const LineSettings& lines = frame.scene->lines;
     const auto missing = LineClassSet::from_bits(lines.classes.bits & ~unsigned{method.draws.bits});
     if (!missing.empty()) {

@@ -407,6 +407,8 @@ TEST_F(Render, WhatIsSaidOnTheWay) {
     EXPECT_EQ(verbose.status, 0);
     EXPECT_EQ(verbose.out, "");
     EXPECT_EQ(verbose.err.find("a.exr: 40x30, 12 triangles"), 0u) << verbose.err;
+    EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--mask", "16"}).err,
+              "burin: note: --mask is for method patel and changes nothing here\n");
     // Patel's widths go in steps, which a user should know.
     EXPECT_NE(run_burin(folder_.path(),
                         {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "a.exr", "-w", "1.37"})

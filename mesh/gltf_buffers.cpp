@@ -1,0 +1,242 @@
+#include "mesh/gltf_buffers.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstring>
+
+#include "mesh/model_path.h"
+
+namespace burin {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
+
+constexpr std::uint64_t kMaxImplicitZeros = 1u << 20;
+
+template <typename T>
+T load(const char* p) {
+    T value;
+    std::memcpy(&value, p, sizeof(T));
+    return value;
+}
+
+std::string decode_base64(const JsonPlace& place, std::string_view text) {
+    std::string bytes;
+    bytes.reserve(text.size() / 4 * 3);
+    std::uint32_t bits = 0;
+    int bit_count = 0;
+    for (const char c : text) {
+        int value = 0;
+        if (c >= 'A' && c <= 'Z') value = c - 'A';
+        else if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
+        else if (is_digit(c)) value = c - '0' + 52;
+        else if (c == '+' || c == '-') value = 62;
+        else if (c == '/' || c == '_') value = 63;
+        else if (c == '=') break;
+        else place.fail("the data URI is not base64");
+        bits = bits << 6 | static_cast<std::uint32_t>(value);
+        bit_count += 6;
+        if (bit_count >= 8) {
+            bit_count -= 8;
+            bytes += static_cast<char>(bits >> bit_count & 0xFF);
+        }
+    }
+    return bytes;
+}
+
+/// "a%20b" as "a b".
+std::string decode_percent(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned value = 0;
+        if (text[i] == '%' && i + 2 < text.size() &&
+            std::from_chars(text.data() + i + 1, text.data() + i + 3, value, 16).ptr ==
+                text.data() + i + 3) {
+            result += static_cast<char>(value);
+            i += 2;
+        } else {
+            result += text[i];
+        }
+    }
+    return result;
+}
+
+std::size_t component_size(std::uint64_t type) {
+    switch (type) {
+        case 5120: case 5121: return 1;
+        case 5122: case 5123: return 2;
+        case 5125: case 5126: return 4;
+        default: return 0;
+    }
+}
+
+double load_component(const char* p, std::uint64_t type, bool normalized) {
+    switch (type) {
+        case 5120: {
+            const double v = load<std::int8_t>(p);
+            return normalized ? std::max(v / 127.0, -1.0) : v;
+        }
+        case 5121: return load<std::uint8_t>(p) / (normalized ? 255.0 : 1.0);
+        case 5122: {
+            const double v = load<std::int16_t>(p);
+            return normalized ? std::max(v / 32767.0, -1.0) : v;
+        }
+        case 5123: return load<std::uint16_t>(p) / (normalized ? 65535.0 : 1.0);
+        case 5125: return load<std::uint32_t>(p);
+        default: return static_cast<double>(load<float>(p));
+    }
+}
+
+}  // namespace
+
+double GltfAccessor::number(std::uint64_t element, int component) const {
+    if (data == nullptr) return 0;
+    const char* const p = data + element * stride +
+                          static_cast<std::size_t>(component) * component_size(component_type);
+    return load_component(p, component_type, normalized);
+}
+
+GltfBuffers::GltfBuffers(const std::string& path, const JsonPlace& root, std::string_view binary)
+    : path_(path), root_(root) {
+    for (std::size_t i = 0; i < root_.size_of("buffers"); ++i) {
+        const JsonPlace buffer = root_.at("buffers").element(i);
+        const std::uint64_t length = buffer.at("byteLength").integer();
+        std::string_view bytes = binary;
+        if (buffer.has("uri")) {
+            bytes = load_uri(buffer.at("uri"));
+        } else if (i != 0 || bytes.empty()) {
+            buffer.fail("the buffer has neither a URI nor a binary chunk");
+        }
+        if (length > bytes.size()) {
+            buffer.fail("byteLength is " + std::to_string(length) + ", but there are only " +
+                        std::to_string(bytes.size()) + " bytes");
+        }
+        buffers_.push_back(bytes.substr(0, length));
+    }
+}
+
+std::string_view GltfBuffers::load_uri(const JsonPlace& place) {
+    const std::string uri = place.text();
+    if (uri.starts_with("data:")) {
+        const std::size_t comma = uri.find(',');
+        if (comma == std::string::npos || uri.substr(0, comma).find(";base64") == std::string::npos) {
+            place.fail("the data URI is not base64");
+        }
+        decoded_.push_back(
+            std::make_unique<std::string>(decode_base64(place, std::string_view(uri).substr(comma + 1))));
+        return *decoded_.back();
+    }
+    const std::string target = path_inside_model_folder(path_, decode_percent(uri));
+    if (target.empty()) {
+        place.fail("'" + printable(uri, 80) + "' leads out of the model's folder");
+    }
+    try {
+        external_.push_back(std::make_unique<MappedFile>(target));
+    } catch (const InputError& error) {
+        // Without the buffer's path, which the URI stands for.
+        const std::string reason = error.what();
+        place.fail("'" + printable(uri, 80) + "'" + reason.substr(target.size()));
+    }
+    return external_.back()->bytes();
+}
+
+/// The bytes [offset, offset + size) of a view, checked.
+const char* GltfBuffers::view_bytes(const JsonPlace& place, std::uint64_t offset, std::uint64_t size,
+                       std::uint64_t* stride) const {
+    const std::uint32_t number =
+        place.at("bufferView").index_below(root_.size_of("bufferViews"), "buffer view");
+    const JsonPlace view = root_.at("bufferViews").element(number);
+    const std::uint32_t buffer = view.at("buffer").index_below(buffers_.size(), "buffer");
+    const std::uint64_t view_offset = view.integer_or("byteOffset", 0);
+    const std::uint64_t view_length = view.at("byteLength").integer();
+    const std::uint64_t available = buffers_[buffer].size();
+    if (view_offset > available || view_length > available - view_offset) {
+        view.fail("the view reaches beyond its buffer of " + std::to_string(available) + " bytes");
+    }
+    if (offset > view_length || size > view_length - offset) {
+        place.fail("reaches beyond its buffer view of " + std::to_string(view_length) + " bytes");
+    }
+    if (stride != nullptr) *stride = view.integer_or("byteStride", 0);
+    return buffers_[buffer].data() + view_offset + offset;
+}
+
+GltfAccessor GltfBuffers::accessor(const JsonPlace& reference, int components) {
+    const std::uint32_t number = reference.index_below(root_.size_of("accessors"), "accessor");
+    const JsonPlace place = root_.at("accessors").element(number);
+    GltfAccessor view;
+    view.count = place.at("count").integer();
+    view.components = components;
+    view.component_type = place.at("componentType").integer();
+    view.normalized = place.has("normalized") && place.at("normalized").json() == true;
+    const std::size_t size = component_size(view.component_type);
+    if (size == 0) place.fail("unknown componentType");
+    if (place.at("type").text() != (components == 1 ? "SCALAR" : "VEC3")) {
+        place.fail(std::string("the type must be ") + (components == 1 ? "SCALAR" : "VEC3"));
+    }
+    if (view.count > 0xFFFFFFFFu) place.fail("more than 4 billion elements");
+    const std::uint64_t element_size = static_cast<std::uint64_t>(components) * size;
+    view.stride = element_size;
+    if (place.has("bufferView") && view.count > 0) {
+        std::uint64_t stride = 0;
+        const std::uint64_t offset = place.integer_or("byteOffset", 0);
+        view_bytes(place, offset, 0, &stride);
+        if (stride != 0) {
+            if (stride < element_size || stride > 0xFFFF) place.fail("the byteStride is too small or large");
+            view.stride = stride;
+        }
+        view.data = view_bytes(place, offset, (view.count - 1) * view.stride + element_size, nullptr);
+    }
+    if (place.has("sparse")) return with_sparse_values(place, view);
+    if (view.data == nullptr) count_implicit_zeros(place, view.count);
+    return view;
+}
+
+/// Elements without data must not let a small file fill the memory.
+void GltfBuffers::count_implicit_zeros(const JsonPlace& place, std::uint64_t count) {
+    if (count > kMaxImplicitZeros - implicit_zeros_) {
+        place.fail("has no data for its " + std::to_string(count) + " elements");
+    }
+    implicit_zeros_ += count;
+}
+
+/// A copy of the accessor as floats, with the values of its "sparse" part put in.
+GltfAccessor GltfBuffers::with_sparse_values(const JsonPlace& place, const GltfAccessor& base) {
+    const JsonPlace sparse = place.at("sparse");
+    const std::uint64_t count = sparse.at("count").integer();
+    if (count > base.count) sparse.fail("more sparse values than elements");
+    if (base.data == nullptr) count_implicit_zeros(place, base.count);
+    const JsonPlace indices = sparse.at("indices");
+    const std::uint64_t index_type = indices.at("componentType").integer();
+    const std::size_t index_size = component_size(index_type);
+    if (index_size == 0 || index_type == 5126) indices.fail("unknown componentType");
+    const char* const index_data =
+        view_bytes(indices, indices.integer_or("byteOffset", 0), count * index_size, nullptr);
+    const std::size_t size = component_size(base.component_type);
+    const std::uint64_t element_size = static_cast<std::uint64_t>(base.components) * size;
+    const JsonPlace values = sparse.at("values");
+    const char* const value_data =
+        view_bytes(values, values.integer_or("byteOffset", 0), count * element_size, nullptr);
+
+    auto copy = std::make_unique<std::string>(base.count * element_size, '\0');
+    if (base.data != nullptr) {
+        for (std::uint64_t i = 0; i < base.count; ++i) {
+            std::memcpy(copy->data() + i * element_size, base.data + i * base.stride, element_size);
+        }
+    }
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const double index = load_component(index_data + i * index_size, index_type, false);
+        if (index < 0 || index >= static_cast<double>(base.count)) {
+            indices.fail("a sparse index lies beyond the accessor");
+        }
+        std::memcpy(copy->data() + static_cast<std::uint64_t>(index) * element_size,
+                    value_data + i * element_size, element_size);
+    }
+    GltfAccessor view = base;
+    view.data = copy->data();
+    view.stride = element_size;
+    decoded_.push_back(std::move(copy));
+    return view;
+}
+
+}  // namespace burin

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace burin {
+
+/// What a glTF file holds: the two chunks of a GLB (glTF 2.0, 4.4), or the text of a .gltf. They lie in
+/// the file's own bytes.
+struct GltfContainer {
+    std::string_view json;
+    std::string_view binary;
+};
+
+/// `path` is for messages. Throws InputError when it is cut off or no glTF 2.0.
+GltfContainer split_gltf_container(const std::string& path, std::string_view bytes);
+
+/// Throws InputError with the line where the text breaks off, and when it is nested more than 256 deep.
+nlohmann::json parse_gltf_json(const std::string& path, std::string_view text);
+
+}  // namespace burin
