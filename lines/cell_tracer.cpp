@@ -21,12 +21,17 @@ std::optional<glm::dvec2> meeting_point(glm::dvec2 a, glm::dvec2 along_a, glm::d
     return a + along_a * (cross(b - a, along_b) / area);
 }
 
-void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, std::vector<LineSegment>& segments) {
+void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, std::vector<LineSegment>& segments,
+         const LineCrossing* other_end = nullptr) {
     if (from == to) return;
     LineSegment segment;
     segment.from = from;
     segment.to = to;
-    segment.drawn_as = *style.classes.first();
+    segment.is_drawn = !style.classes.empty();
+    segment.drawn_as = style.classes.first().value_or(LineClass::silhouette);
+    segment.occludes = style.occludes;
+    segment.nearness_from = static_cast<float>(style.nearness);
+    segment.nearness_to = other_end == nullptr ? segment.nearness_from : static_cast<float>(other_end->nearness);
     // y runs down: what is to the left of the way has a negative cross product.
     segment.front_on_left = cross(to - from, style.towards_front) < 0;
     segment.line_key = style.line_key;
@@ -76,7 +81,7 @@ void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec
             add(b, middle, b.pixel, segments);
             return;
         }
-        add(a, a.pixel, b.pixel, segments);
+        add(a, a.pixel, b.pixel, segments, &b);
     };
     /// From a crossing to the line between two others.
     const auto end_at = [&](const LineCrossing& c, glm::dvec2 from, glm::dvec2 to) {

@@ -46,7 +46,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     const TileKernels& kernels = best_kernels();
     Stopwatch watch;
     ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads);
-    const PixelRect region = region_around(frame.crop, 0.5 * frame.scene->lines.style.width_px);
+    const PixelRect region = region_around(frame.crop, frame.scene->lines.style.reach_px());
     const TriangleBins bins(screen, region, per_pixel, kernels, stats.threads);
     stats.prepare_s = watch.lap();
 

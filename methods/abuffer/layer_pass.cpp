@@ -19,8 +19,7 @@ constexpr std::uint32_t kOfTile = 1u << 31;
 
 /// The frame's crop and what strokes from beside it reach.
 PixelRect region_of(const Frame& frame) {
-    const LineStyle& style = frame.scene->lines.style;
-    const int margin = static_cast<int>(std::ceil(0.5 * std::max(style.width_px, style.hidden_width_px()))) + 1;
+    const int margin = static_cast<int>(std::ceil(frame.scene->lines.style.reach_px())) + 1;
     const PixelRect c = frame.crop;
     return {c.x0 - margin, c.y0 - margin, c.x1 + margin, c.y1 + margin};
 }
