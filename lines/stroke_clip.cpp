@@ -11,6 +11,9 @@ constexpr double kFartherPx = 2;
 /// Lines that end at a boundary may end a little beyond it.
 constexpr double kOvershootPx = 0.25;
 
+/// The direction of shorter pieces, and so their sides, is left to chance. Their neighbours cover them.
+constexpr double kShortestPx = 1.0 / 1024;
+
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// Cuts [begin, end] to where a value that runs from `at_0` at 0 to `at_1` at 1 is not negative.
@@ -184,6 +187,7 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     end_column_ = static_cast<int>(std::ceil(to_samples(high.x, StrokeMask::kColumns, width_)));
     if (first_row_ >= end_row_ || first_column_ >= end_column_ || piece.from == piece.to) return;
 
+    if (side != StrokeSide::both && glm::distance(piece.from, piece.to) < kShortestPx) return;
     const Frame frame(piece);
     shadows_.clear();
     for (const ClipPiece* boundary : boundaries) {
@@ -195,8 +199,9 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
         onto.draw(piece.from, piece.to, radius_px);
         return;
     }
-    std::stable_sort(shadows_.begin(), shadows_.end(),
-                     [](const Shadow& a, const Shadow& b) { return a.distance_px < b.distance_px; });
+    std::sort(shadows_.begin(), shadows_.end(), [](const Shadow& a, const Shadow& b) {
+        return a.distance_px != b.distance_px ? a.distance_px < b.distance_px : a.enters > b.enters;
+    });
     const int first_y = first_row_ / StrokeMask::kRows, end_y = (end_row_ + StrokeMask::kRows - 1) / StrokeMask::kRows;
     const int first_x = first_column_ / StrokeMask::kColumns;
     const int end_x = (end_column_ + StrokeMask::kColumns - 1) / StrokeMask::kColumns;

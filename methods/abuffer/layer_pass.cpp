@@ -17,11 +17,18 @@ constexpr int kTilePx = 32;
 /// In front of the number of a line that its tile has found.
 constexpr std::uint32_t kOfTile = 1u << 31;
 
-/// The frame's crop and what strokes from beside it reach.
-PixelRect region_of(const Frame& frame) {
+/// A part of the picture and what strokes from beside it reach.
+PixelRect with_margin(const Frame& frame, PixelRect c) {
     const int margin = static_cast<int>(std::ceil(frame.scene->lines.style.reach_px())) + 1;
-    const PixelRect c = frame.crop;
     return {c.x0 - margin, c.y0 - margin, c.x1 + margin, c.y1 + margin};
+}
+
+PixelRect region_of(const Frame& frame) { return with_margin(frame, frame.crop); }
+
+/// Where lines are looked for. Dashes are laid out along chains, which a crop must not cut.
+PixelRect region_of_lines(const Frame& frame) {
+    const bool is_dashed = frame.scene->lines.style.hidden.style == HiddenStyle::dashed;
+    return is_dashed ? with_margin(frame, {0, 0, frame.width, frame.height}) : region_of(frame);
 }
 
 bool shows_hidden(const Frame& frame) { return frame.scene->lines.style.hidden.style != HiddenStyle::none; }
@@ -86,7 +93,7 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threa
       strokes_(frame, threads) {}
 
 void LayerPass::find() {
-    lines_ = find_layer_edges(frame_, screen_, region_of(frame_), threads_);
+    lines_ = find_layer_edges(frame_, screen_, region_of_lines(frame_), threads_);
     const TileLists<std::uint32_t> lines_in = sort_by_tile(lines_, grid_);
     const bool intersects =
         !(frame_.criteria.classes & (LineClass::intersection | LineClassSet(LineClass::object) | LineClass::material)).empty();
