@@ -150,8 +150,14 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
         std::fprintf(stderr, "burin: note: method %s cannot draw %s\n", std::string(method.name).c_str(),
                      to_string(missing).c_str());
     }
-    if (lines.style.side != StrokeSide::both && method.name != "patel" && method.name != "reference") {
-        std::fprintf(stderr, "burin: note: method %s draws strokes on both sides; lines.side is for patel and reference\n",
+    if (lines.style.side != StrokeSide::both && method.name != "abuffer" && method.name != "patel" &&
+        method.name != "reference") {
+        std::fprintf(stderr,
+                     "burin: note: method %s draws strokes on both sides; lines.side is for abuffer, patel and reference\n",
+                     std::string(method.name).c_str());
+    }
+    if (lines.style.filter != PixelFilter::box && method.name != "abuffer") {
+        std::fprintf(stderr, "burin: note: method %s has no lines.filter; it is for abuffer\n",
                      std::string(method.name).c_str());
     }
     const double wanted = lines.style.width_px;

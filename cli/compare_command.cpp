@@ -61,6 +61,7 @@ void draw_what_all_can(Scene& scene, bool quiet) {
     };
     LineStyle& style = scene.lines.style;
     if (style.side != StrokeSide::both) leave_out("lines.side (strokes lie on both sides)");
+    if (style.filter != PixelFilter::box) leave_out("lines.filter");
     if (style.hidden.style != HiddenStyle::none) leave_out("lines.hidden");
     bool is_opaque = true;
     for (Material& material : scene.materials) {
@@ -69,6 +70,7 @@ void draw_what_all_can(Scene& scene, bool quiet) {
     }
     if (!is_opaque) leave_out("opacity");
     style.side = StrokeSide::both;
+    style.filter = PixelFilter::box;
     style.hidden.style = HiddenStyle::none;
     if (!left_out.empty() && !quiet) {
         std::fprintf(stderr, "burin: note: not every method has %s; the comparison goes without\n",

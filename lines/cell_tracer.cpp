@@ -21,14 +21,27 @@ std::optional<glm::dvec2> meeting_point(glm::dvec2 a, glm::dvec2 along_a, glm::d
     return a + along_a * (cross(b - a, along_b) / area);
 }
 
-void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, std::vector<LineSegment>& segments) {
+/// Into the cell, from the side on which a crossing lies. Pieces may be too short to tell front from back.
+glm::dvec2 inwards(const LineCrossing& c, glm::dvec2 center) {
+    const glm::dvec2 way = center - c.pixel;
+    return c.towards_front.x != 0 ? glm::dvec2(0, way.y) : glm::dvec2(way.x, 0);
+}
+
+/// A piece that starts or ends at the crossing whose line it is.
+void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 center,
+         std::vector<LineSegment>& segments, const LineCrossing* other_end = nullptr) {
     if (from == to) return;
     LineSegment segment;
     segment.from = from;
     segment.to = to;
-    segment.drawn_as = *style.classes.first();
+    segment.is_drawn = !style.classes.empty();
+    segment.drawn_as = style.classes.first().value_or(LineClass::silhouette);
+    segment.occludes = style.occludes;
+    segment.nearness_from = static_cast<float>(style.nearness);
+    segment.nearness_to = other_end == nullptr ? segment.nearness_from : static_cast<float>(other_end->nearness);
     // y runs down: what is to the left of the way has a negative cross product.
-    segment.front_on_left = cross(to - from, style.towards_front) < 0;
+    const double side = cross(inwards(style, center), style.towards_front);
+    segment.front_on_left = (to == style.pixel ? -side : side) < 0;
     segment.line_key = style.line_key;
     segments.push_back(segment);
 }
@@ -53,6 +66,7 @@ CellTracer::EdgeLine CellTracer::line_of(const LineCrossing& c) const {
 
 void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
                        std::vector<LineSegment>& segments) const {
+    const glm::dvec2 center = 0.5 * (low + high);
     const auto join = [&](const LineCrossing& a, const LineCrossing& b) {
         if (a.line_key != b.line_key) {
             const EdgeLine la = line_of(a), lb = line_of(b);
@@ -65,18 +79,18 @@ void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec
                     corner = meeting_point(a.pixel, la.ends[1] - la.ends[0], b.pixel, lb.ends[1] - lb.ends[0]);
                 }
                 if (corner && is_inside(*corner, low, high)) {
-                    add(a, a.pixel, *corner, segments);
-                    add(b, *corner, b.pixel, segments);
+                    add(a, a.pixel, *corner, center, segments);
+                    add(b, *corner, b.pixel, center, segments);
                     return;
                 }
             }
             // No corner: half of the way looks like one, half like the other.
             const glm::dvec2 middle = 0.5 * (a.pixel + b.pixel);
-            add(a, a.pixel, middle, segments);
-            add(b, middle, b.pixel, segments);
+            add(a, a.pixel, middle, center, segments);
+            add(b, middle, b.pixel, center, segments);
             return;
         }
-        add(a, a.pixel, b.pixel, segments);
+        add(a, a.pixel, b.pixel, center, segments, &b);
     };
     /// From a crossing to the line between two others.
     const auto end_at = [&](const LineCrossing& c, glm::dvec2 from, glm::dvec2 to) {
@@ -89,7 +103,7 @@ void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec
             const auto met = meeting_point(c.pixel, line.ends[1] - line.ends[0], from, along);
             if (met && is_inside(*met, low, high)) end = *met;
         }
-        add(c, c.pixel, end, segments);
+        add(c, c.pixel, end, center, segments);
     };
 
     switch (crossings.size()) {
@@ -99,12 +113,11 @@ void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec
             const EdgeLine line = line_of(c);
             if (!line.exists) return;
             for (const glm::dvec2& p : line.ends) {
-                if (is_inside(p, low, high)) return add(c, c.pixel, p, segments);
+                if (is_inside(p, low, high)) return add(c, c.pixel, p, center, segments);
             }
             const glm::dvec2 along = line.ends[1] - line.ends[0];
-            const glm::dvec2 center = 0.5 * (low + high);
             add(c, c.pixel, c.pixel + along * (glm::dot(center - c.pixel, along) / glm::dot(along, along)),
-                segments);
+                center, segments);
             return;
         }
         case 2: return join(*crossings[0], *crossings[1]);

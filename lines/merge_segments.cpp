@@ -13,6 +13,7 @@ constexpr double kStraightPx = 1.0 / 2048;
 void put_in_order(LineSegment& s) {
     if (s.from.x < s.to.x || (s.from.x == s.to.x && s.from.y < s.to.y)) return;
     std::swap(s.from, s.to);
+    std::swap(s.nearness_from, s.nearness_to);
     s.front_on_left = !s.front_on_left;
 }
 
@@ -25,7 +26,8 @@ bool is_before(const LineSegment& a, const LineSegment& b) {
 }
 
 bool continues(const LineSegment& a, const LineSegment& b) {
-    const bool is_same_line = a.line_key == b.line_key && a.drawn_as == b.drawn_as && a.block == b.block;
+    const bool is_same_line = a.line_key == b.line_key && a.drawn_as == b.drawn_as && a.is_drawn == b.is_drawn &&
+                              a.block == b.block;
     if (!is_same_line || a.to != b.from || a.front_on_left != b.front_on_left) return false;
     const glm::dvec2 along = b.to - a.from, bend = a.to - a.from;
     const double area = along.x * bend.y - along.y * bend.x;
@@ -41,6 +43,8 @@ void merge_segments(std::vector<LineSegment>& segments) {
     for (std::size_t i = 1; i < segments.size(); ++i) {
         if (continues(segments[kept], segments[i])) {
             segments[kept].to = segments[i].to;
+            segments[kept].nearness_to = segments[i].nearness_to;
+            segments[kept].occludes = segments[kept].occludes || segments[i].occludes;
         } else {
             segments[++kept] = segments[i];
         }

@@ -28,6 +28,13 @@ class StrokeCanvas {
     /// Adds all that is closer than `radius_px` to a segment: a round pen's stroke.
     void draw(glm::dvec2 from, glm::dvec2 to, double radius_px);
 
+    /// Adds samples of one pixel.
+    void add(int column, int row, const StrokeMask& mask) {
+        const auto i = static_cast<std::size_t>(row * width_ + column);
+        for (std::size_t r = 0; r < mask.rows.size(); ++r) masks_[i].rows[r] |= mask.rows[r];
+        touched_[i] = 1;
+    }
+
     int width() const { return width_; }
     int height() const { return height_; }
     const StrokeMask& at(int column, int row) const {

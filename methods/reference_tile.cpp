@@ -180,9 +180,10 @@ void ReferenceTile::draw_strokes(const SegmentGrid& grid, glm::ivec2 pixel) {
                                [](const Stroke& a, const Stroke& b) { return a.segment == b.segment; }),
                    strokes_.end());
     // Where a surface hides a part of a stroke, its boundary is nearer than the stroke's line. If that
-    // boundary is drawn and its class comes first, it covers the place by itself.
+    // boundary is drawn on both sides and its class comes first, it covers the place by itself.
+    const bool covers_itself = frame_.scene->lines.style.side == StrokeSide::both;
     for (std::uint8_t c = 0; c < kLineClassCount; ++c) {
-        if (nearest[c] <= reach) draw_class(strokes_, c, nearest[c], lowest_occluder > c, pixel);
+        if (nearest[c] <= reach) draw_class(strokes_, c, nearest[c], lowest_occluder > c || !covers_itself, pixel);
     }
 }
 

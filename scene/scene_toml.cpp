@@ -240,6 +240,8 @@ class SceneReader {
         lines.crease_angle_deg = t.number("crease_angle", {0, 180}).value_or(40);
         static constexpr StrokeSide kSides[] = {StrokeSide::both, StrokeSide::inside, StrokeSide::outside};
         lines.style.side = kSides[t.choice("side", {"both", "inside", "outside"}).value_or(0)];
+        static constexpr PixelFilter kFilters[] = {PixelFilter::box, PixelFilter::gaussian, PixelFilter::mitchell};
+        lines.style.filter = kFilters[t.choice("filter", {"box", "gaussian", "mitchell"}).value_or(0)];
         if (const auto color = t.color("color")) lines.style.colors.fill(*color);
         if (auto colors = t.table("colors")) {
             for (int i = 0; i < kLineClassCount; ++i) {

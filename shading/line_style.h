@@ -8,6 +8,7 @@
 
 #include "lines/line_class.h"
 #include "lines/mask_stroke.h"
+#include "lines/pixel_filter.h"
 
 namespace burin {
 
@@ -25,11 +26,16 @@ struct HiddenLineStyle {
 struct LineStyle {
     double width_px = 1;  ///< full width of a stroke
     StrokeSide side = StrokeSide::both;
+    PixelFilter filter = PixelFilter::box;
     std::array<glm::vec3, kLineClassCount> colors{};  ///< linear RGB, per class; black by default
 
     HiddenLineStyle hidden;
 
     const glm::vec3& color_of(LineClass c) const { return colors[static_cast<std::size_t>(c)]; }
+    /// How far from a line its stroke changes pixels, hidden or not.
+    double reach_px() const {
+        return 0.5 * std::max(width_px, hidden_width_px()) + burin::reach_px(filter);
+    }
     double hidden_width_px() const { return hidden.width_px.value_or(width_px); }
     std::array<double, 2> hidden_dash_px() const {
         const double unit = std::max(1.0, hidden_width_px());

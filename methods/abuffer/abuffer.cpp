@@ -25,7 +25,7 @@ PixelRect region_around(PixelRect crop, double reach_px) {
 constexpr int kStrokeRowsPx = 32;
 
 /// How far from a line strokes may reach, and a bit.
-double reach_of(const LineStyle& style) { return 0.5 * std::max(style.width_px, style.hidden_width_px()) + 2; }
+double reach_of(const LineStyle& style) { return style.reach_px() + 2; }
 
 /// The rows of the crop whose lines are all known once those above a row of pixels are, less those done.
 PixelRect next_part(const Frame& frame, int done_y, int known_y, bool is_last) {
@@ -71,7 +71,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     const bool has_cap = options.memory_bytes > 0;
     Stopwatch watch;
     ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads, !has_cap);
-    const PixelRect region = region_around(frame.crop, 0.5 * frame.scene->lines.style.width_px);
+    const PixelRect region = region_around(frame.crop, frame.scene->lines.style.reach_px());
     const PixelTiles tiles(region, tile_samples / per_pixel);
     PiecePlan plan{{{tiles.rows(), {}}}, {{LayerPass::tiles_of(frame).rows(), {}}}, {{}}};
     if (has_cap) plan = plan_pieces(frame, screen, tiles, options.memory_bytes, stats.threads);

@@ -17,12 +17,18 @@ constexpr int kTilePx = 32;
 /// In front of the number of a line that its tile has found.
 constexpr std::uint32_t kOfTile = 1u << 31;
 
-/// The frame's crop and what strokes from beside it reach.
-PixelRect region_of(const Frame& frame) {
-    const LineStyle& style = frame.scene->lines.style;
-    const int margin = static_cast<int>(std::ceil(0.5 * std::max(style.width_px, style.hidden_width_px()))) + 1;
-    const PixelRect c = frame.crop;
+/// A part of the picture and what strokes from beside it reach.
+PixelRect with_margin(const Frame& frame, PixelRect c) {
+    const int margin = static_cast<int>(std::ceil(frame.scene->lines.style.reach_px())) + 1;
     return {c.x0 - margin, c.y0 - margin, c.x1 + margin, c.y1 + margin};
+}
+
+PixelRect region_of(const Frame& frame) { return with_margin(frame, frame.crop); }
+
+/// Where lines are looked for. Dashes are laid out along chains, which a crop must not cut.
+PixelRect region_of_lines(const Frame& frame) {
+    const bool is_dashed = frame.scene->lines.style.hidden.style == HiddenStyle::dashed;
+    return is_dashed ? with_margin(frame, {0, 0, frame.width, frame.height}) : region_of(frame);
 }
 
 bool shows_hidden(const Frame& frame) { return frame.scene->lines.style.hidden.style != HiddenStyle::none; }
@@ -87,7 +93,8 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threa
       strokes_(frame, threads) {}
 
 void LayerPass::find_edges(TileRows rows) {
-    std::vector<LayerLine> found = find_layer_edges(frame_, screen_, all_tiles_.only(rows).rect(), threads_);
+    const PixelRect region = needs_all_lines(frame_) ? region_of_lines(frame_) : all_tiles_.only(rows).rect();
+    std::vector<LayerLine> found = find_layer_edges(frame_, screen_, region, threads_);
     if (lines_.empty()) {
         lines_ = std::move(found);
     } else {

@@ -4,24 +4,14 @@
 #include <bit>
 
 #include "base/parallel.h"
-#include "lines/stroke_mask.h"
+#include "lines/pen.h"
 #include "methods/abuffer/tile_lists.h"
+#include "methods/abuffer/visible_strokes.h"
 
 namespace burin {
 namespace {
 
 constexpr int kTilePx = 32;
-/// Narrower strokes are drawn this wide and as much lighter: masks have no finer samples.
-constexpr double kFinestWidthPx = 0.25;
-
-struct Pen {
-    double radius_px;
-    float strength;
-    explicit Pen(double width_px)
-        : radius_px(0.5 * std::max(width_px, kFinestWidthPx)),
-          strength(static_cast<float>(width_px / std::max(width_px, kFinestWidthPx))) {}
-};
-
 template <typename Segment>
 TileLists<const Segment*> sort_by_tile(const std::vector<std::vector<Segment>>& segments, const PixelTiles& grid,
                                        double reach_px) {
@@ -59,6 +49,8 @@ class TileStrokes {
         bool is_touched = false;
     };
 
+    explicit TileStrokes(const FilterTable* filter) : filter_(filter) {}
+
     void reset(PixelRect rect) {
         rect_ = rect;
         pixels_.assign(static_cast<std::size_t>(rect.width() * rect.height()), Pixel{});
@@ -74,11 +66,29 @@ class TileStrokes {
         }
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             const int column = static_cast<int>(i) % rect_.width(), row = static_cast<int>(i) / rect_.width();
-            if (canvas_.is_touched(column, row)) use(pixels_[i], canvas_.at(column, row));
+            if (canvas_.is_touched(column, row)) use(i, canvas_.at(column, row));
+        }
+    }
+
+    /// Calls add(pixel, share) for the pixels that see samples of pixel `i`.
+    template <typename Add>
+    void spread(std::size_t i, const StrokeMask& mask, const Add& add) {
+        if (filter_ == nullptr) return add(pixels_[i], share(mask));
+        const FilterTable::Shares shares = filter_->shares_of(mask);
+        const int column = static_cast<int>(i) % rect_.width(), row = static_cast<int>(i) / rect_.width();
+        for (int dy = -FilterTable::kReach; dy <= FilterTable::kReach; ++dy) {
+            for (int dx = -FilterTable::kReach; dx <= FilterTable::kReach; ++dx) {
+                const int x = column + dx, y = row + dy;
+                if (x < 0 || y < 0 || x >= rect_.width() || y >= rect_.height()) continue;
+                add(pixels_[static_cast<std::size_t>(y * rect_.width() + x)],
+                    shares[static_cast<std::size_t>(dy + FilterTable::kReach)]
+                          [static_cast<std::size_t>(dx + FilterTable::kReach)]);
+            }
         }
     }
 
   private:
+    const FilterTable* filter_;
     PixelRect rect_;
     StrokeCanvas canvas_;
     std::vector<Pixel> pixels_;
@@ -93,14 +103,17 @@ void draw_seen_through(std::span<const LayerSegment* const> layers, int transmis
         };
         if (std::none_of(layers.begin(), layers.end(), [&](const LayerSegment* s) { return is_it(*s); })) continue;
         const float strength = pen.strength * static_cast<float>(transmission) / 255.0f;
-        strokes.draw(layers, pen.radius_px, is_it, [&](TileStrokes::Pixel& pixel, StrokeMask mask) {
-            remove(mask, pixel.visible);
-            remove(mask, pixel.through);
-            unite(pixel.through, mask);
-            const float coverage = strength * share(mask);
-            pixel.seen_through.color += glm::vec4(style.color_of(line_class), 1.0f) * coverage;
-            pixel.seen_through.coverage[c] += coverage;
-            pixel.is_touched = true;
+        strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
+            TileStrokes::Pixel& own = strokes.pixels()[i];
+            remove(mask, own.visible);
+            remove(mask, own.through);
+            unite(own.through, mask);
+            strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) {
+                const float coverage = strength * share;
+                pixel.seen_through.color += glm::vec4(style.color_of(line_class), 1.0f) * coverage;
+                pixel.seen_through.coverage[c] += coverage;
+                pixel.is_touched = true;
+            });
         });
     }
 }
@@ -109,15 +122,25 @@ void draw_hidden(std::span<const LayerSegment* const> layers, int transmission, 
                  TileStrokes& strokes) {
     const auto is_it = [&](const LayerSegment& s) { return s.is_hidden && s.transmission == transmission; };
     const float strength = pen.strength * static_cast<float>(transmission) / 255.0f;
-    strokes.draw(layers, pen.radius_px, is_it, [&](TileStrokes::Pixel& pixel, StrokeMask mask) {
-        remove(mask, pixel.hidden);
-        unite(pixel.hidden, mask);
-        pixel.hidden_share += strength * share(mask);
-        remove(mask, pixel.visible);
-        remove(mask, pixel.through);
-        pixel.hidden_seen += strength * share(mask);
-        pixel.is_touched = true;
+    strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
+        TileStrokes::Pixel& own = strokes.pixels()[i];
+        remove(mask, own.hidden);
+        unite(own.hidden, mask);
+        strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) {
+            pixel.hidden_share += strength * share;
+            pixel.is_touched = true;
+        });
+        remove(mask, own.visible);
+        remove(mask, own.through);
+        strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) { pixel.hidden_seen += strength * share; });
     });
+}
+
+/// What a filter's negative lobes take away beside a line, and add in its middle.
+void cut_off_lobes(TileStrokes::Pixel& pixel) {
+    for (float* share : {&pixel.ink, &pixel.hidden_share, &pixel.hidden_seen}) *share = std::clamp(*share, 0.0f, 1.0f);
+    pixel.seen_through.color = glm::clamp(pixel.seen_through.color, 0.0f, 1.0f);
+    for (float& c : pixel.seen_through.coverage) c = std::clamp(c, 0.0f, 1.0f);
 }
 
 }  // namespace
@@ -125,23 +148,36 @@ void draw_hidden(std::span<const LayerSegment* const> layers, int transmission, 
 void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<LineSegment>>& visible,
                               const std::vector<std::vector<LayerSegment>>& layers, Film& film) {
     const LineStyle& style = frame_.scene->lines.style;
+    // What is not in front of all is drawn on both sides.
     const Pen pen(style.width_px), hidden_pen(style.hidden_width_px());
+    const auto filter = FilterTable::make(style.filter);
+    const int reach = reach_px(style.filter);
     const PixelTiles grid(part, kTilePx);
-    const auto visible_in = sort_by_tile(visible, grid, pen.radius_px + 1);
-    const auto layers_in = sort_by_tile(layers, grid, std::max(pen.radius_px, hidden_pen.radius_px) + 1);
+    const auto visible_in = sort_by_tile(visible, grid, Pen(style.width_px, style.side).radius_px + reach + 1);
+    const auto layers_in = sort_by_tile(layers, grid, std::max(pen.radius_px, hidden_pen.radius_px) + reach + 1);
     seen_through_.assign(grid.count(), {});
-    std::vector<TileStrokes> workers(static_cast<std::size_t>(threads_));
+    std::vector<TileStrokes> workers(static_cast<std::size_t>(threads_), TileStrokes(filter.get()));
+    std::vector<VisibleStrokes> in_front(static_cast<std::size_t>(threads_), VisibleStrokes(frame_));
     parallel_for(grid.count(), threads_, [&](std::size_t tile, int worker) {
         const auto list = layers_in.of(tile);
         if (list.empty()) return;
         TileStrokes& strokes = workers[static_cast<std::size_t>(worker)];
-        const PixelRect rect = grid.tile(tile);
+        const PixelRect inner = grid.tile(tile);
+        const PixelRect rect{inner.x0 - reach, inner.y0 - reach, inner.x1 + reach, inner.y1 + reach};
         strokes.reset(rect);
-        strokes.draw(visible_in.of(tile), pen.radius_px, [](const LineSegment&) { return true; },
-                     [&](TileStrokes::Pixel& pixel, const StrokeMask& mask) {
-                         pixel.visible = mask;
-                         pixel.ink = pen.strength * share(mask);
-                     });
+        VisibleStrokes& visible_strokes = in_front[static_cast<std::size_t>(worker)];
+        visible_strokes.draw(visible_in.of(tile), rect);
+        for (std::size_t i = 0; i < strokes.pixels().size(); ++i) {
+            TileStrokes::Pixel& own = strokes.pixels()[i];
+            const int column = static_cast<int>(i) % rect.width(), row = static_cast<int>(i) / rect.width();
+            if (!visible_strokes.is_touched(column, row)) continue;
+            visible_strokes.for_classes(column, row, [&](LineClass, const StrokeMask& mask, const StrokeMask&) {
+                unite(own.visible, mask);
+            });
+            strokes.spread(i, own.visible, [&](TileStrokes::Pixel& pixel, float share) {
+                pixel.ink += visible_strokes.pen().strength * share;
+            });
+        }
         // The least weakened ones first: they cover the others.
         std::vector<int> transmissions;
         for (const LayerSegment* s : list) transmissions.push_back(s->transmission);
@@ -150,10 +186,12 @@ void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<Line
         for (const int t : transmissions) draw_seen_through(list, t, pen, style, strokes);
         for (const int t : transmissions) draw_hidden(list, t, hidden_pen, strokes);
         for (std::size_t i = 0; i < strokes.pixels().size(); ++i) {
-            const TileStrokes::Pixel& pixel = strokes.pixels()[i];
-            if (!pixel.is_touched) continue;
+            TileStrokes::Pixel& pixel = strokes.pixels()[i];
             const int x = rect.x0 + static_cast<int>(i) % rect.width();
             const int y = rect.y0 + static_cast<int>(i) / rect.width();
+            const bool is_inner = x >= inner.x0 && y >= inner.y0 && x < inner.x1 && y < inner.y1;
+            if (!pixel.is_touched || !is_inner) continue;
+            if (filter) cut_off_lobes(pixel);
             // All kinds of lines are disjoint; visible ones come later and cover their share.
             const float left = 1.0f - pixel.ink;
             const glm::vec4 hidden_color(style.hidden.color, 1.0f);

@@ -9,6 +9,15 @@
 
 namespace burin {
 
+namespace {
+
+bool is_occluding(const LineDecision& decision) {
+    return decision.reason == LineReason::turns_away || decision.reason == LineReason::ends_at_border ||
+           decision.reason == LineReason::unexplained;
+}
+
+}  // namespace
+
 LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
                    int samples_per_pixel, const TileKernels& kernels)
     : frame_(frame),
@@ -16,6 +25,8 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       bins_(bins),
       per_pixel_(samples_per_pixel),
       kernels_(kernels),
+      keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
+                                                          frame.criteria.classes.has(LineClass::border))),
       fast_(screen, frame.criteria),
       tracer_(frame.surfaces) {}
 
@@ -189,7 +200,8 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
         }
     }
     crossing.classes = decision.classes & frame_.criteria.classes;
-    if (crossing.classes.empty()) return false;
+    crossing.occludes = is_occluding(decision);
+    if (crossing.classes.empty() && !(keeps_undrawn_ && crossing.occludes)) return false;
     crossing.pixel = glm::mix(a.pixel, b.pixel, std::clamp(decision.fraction, 0.0, 1.0));
     crossing.edge = decision.edge;
     crossing.towards_front = decision.front == 0 ? a.pixel - b.pixel : b.pixel - a.pixel;

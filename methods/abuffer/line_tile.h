@@ -45,6 +45,7 @@ class LineTile {
     const TriangleBins& bins_;
     int per_pixel_;
     const TileKernels& kernels_;
+    bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;
     CellTracer tracer_;
     PixelRect rect_;

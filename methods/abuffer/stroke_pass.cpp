@@ -6,14 +6,13 @@
 #include <span>
 
 #include "base/parallel.h"
-#include "lines/stroke_mask.h"
+#include "lines/pixel_filter.h"
+#include "methods/abuffer/visible_strokes.h"
 
 namespace burin {
 namespace {
 
 constexpr int kTilePx = 32;
-/// Narrower strokes are drawn this wide and as much lighter: masks have no finer samples.
-constexpr double kFinestWidthPx = 0.25;
 
 /// Numbers of the segments whose strokes reach each tile, class by class.
 class SegmentBins {
@@ -65,63 +64,92 @@ class SegmentBins {
     std::vector<const LineSegment*> sorted_;
 };
 
-/// The strokes of one tile, class by class.
-class StrokeTile {
+/// Lines of one pixel before filters' negative lobes are cut off.
+using Coverages = std::array<float, kLineClassCount>;
+
+/// Coverages within 0..1 that add up to the sum of those given, where that is possible.
+void clamp(Coverages& coverages) {
+    float sum = 0, positive = 0;
+    for (float& c : coverages) {
+        sum += c;
+        c = std::max(c, 0.0f);
+        positive += c;
+    }
+    const float scale = positive > 0 ? std::clamp(sum, 0.0f, 1.0f) / positive : 0.0f;
+    for (float& c : coverages) c *= scale;
+}
+
+/// Puts the strokes of a tile over a film.
+class StrokePrinter {
   public:
-    explicit StrokeTile(const TileKernels& kernels) : kernels_(kernels) {
-        for (StrokeCanvas& canvas : canvases_) canvas = StrokeCanvas(kernels);
-    }
+    StrokePrinter(const Frame& frame, const TileKernels& kernels)
+        : style_(frame.scene->lines.style), kernels_(kernels), strokes_(frame, kernels) {}
 
-    void draw(std::span<const LineSegment* const> segments, PixelRect rect, double radius_px) {
-        rect_ = rect;
-        present_ = LineClassSet();
-        for (const LineSegment* s : segments) {
-            StrokeCanvas& canvas = canvas_of(s->drawn_as);
-            if (!present_.has(s->drawn_as)) canvas.reset(rect.x0, rect.y0, rect.width(), rect.height());
-            present_ |= s->drawn_as;
-            canvas.draw(s->from, s->to, radius_px);
-        }
-    }
-
-    void put(const LineStyle& style, float strength, Film& film) {
-        std::vector<LineClass>& classes = classes_;
-        classes.clear();
-        for (int c = 0; c < kLineClassCount; ++c) {
-            if (present_.has(static_cast<LineClass>(c))) classes.push_back(static_cast<LineClass>(c));
-        }
-        for (int row = 0; row < rect_.height(); ++row) {
-            for (int column = 0; column < rect_.width(); ++column) {
-                bool touched = false;
-                for (const LineClass c : classes) touched = touched || canvas_of(c).is_touched(column, row);
-                if (touched) film.draw_over(rect_.x0 + column, rect_.y0 + row, pixel(column, row, style, strength));
+    /// Each pixel sees its own square.
+    void print(std::span<const LineSegment* const> segments, PixelRect rect, Film& film) {
+        strokes_.draw(segments, rect);
+        for (int row = 0; row < rect.height(); ++row) {
+            for (int column = 0; column < rect.width(); ++column) {
+                if (!strokes_.is_touched(column, row)) continue;
+                Coverages coverages{};
+                strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken) {
+                    const int fresh = kernels_.count_bits(mask.rows.data(), taken.rows.data());
+                    coverages[static_cast<std::size_t>(c)] =
+                        strokes_.pen().strength * static_cast<float>(fresh) / (StrokeMask::kRows * StrokeMask::kColumns);
+                });
+                film.draw_over(rect.x0 + column, rect.y0 + row, colored(coverages));
             }
         }
     }
 
-  private:
-    StrokeCanvas& canvas_of(LineClass c) { return canvases_[static_cast<std::size_t>(c)]; }
+    /// Each pixel sees what the filter's weights make of its surroundings.
+    void print(std::span<const LineSegment* const> segments, PixelRect rect, const FilterTable& filter, Film& film) {
+        constexpr int kReach = FilterTable::kReach;
+        strokes_.draw(segments, {rect.x0 - kReach, rect.y0 - kReach, rect.x1 + kReach, rect.y1 + kReach});
+        filtered_.assign(static_cast<std::size_t>(rect.width() * rect.height()), Coverages{});
+        for (int row = 0; row < rect.height() + 2 * kReach; ++row) {
+            for (int column = 0; column < rect.width() + 2 * kReach; ++column) {
+                strokes_.for_classes(column, row, [&](LineClass c, StrokeMask mask, const StrokeMask& taken) {
+                    for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
+                    spread(filter.shares_of(mask), c, column, row, rect);
+                });
+            }
+        }
+        for (std::size_t i = 0; i < filtered_.size(); ++i) {
+            if (filtered_[i] == Coverages{}) continue;
+            clamp(filtered_[i]);
+            const int x = static_cast<int>(i) % rect.width(), y = static_cast<int>(i) / rect.width();
+            film.draw_over(rect.x0 + x, rect.y0 + y, colored(filtered_[i]));
+        }
+    }
 
-    /// Where classes overlap, the first one counts.
-    LinePixel pixel(int column, int row, const LineStyle& style, float strength) {
+  private:
+    /// Column and row count from the first pixels within the filter's reach of `rect`.
+    void spread(const FilterTable::Shares& shares, LineClass c, int column, int row, PixelRect rect) {
+        for (int dy = 0; dy < FilterTable::kSide; ++dy) {
+            for (int dx = 0; dx < FilterTable::kSide; ++dx) {
+                const int x = column + dx - 2 * FilterTable::kReach, y = row + dy - 2 * FilterTable::kReach;
+                if (x < 0 || y < 0 || x >= rect.width() || y >= rect.height()) continue;
+                filtered_[static_cast<std::size_t>(y * rect.width() + x)][static_cast<std::size_t>(c)] +=
+                    strokes_.pen().strength * shares[static_cast<std::size_t>(dy)][static_cast<std::size_t>(dx)];
+            }
+        }
+    }
+
+    LinePixel colored(const Coverages& coverages) const {
         LinePixel result;
-        StrokeMask drawn;
-        for (const LineClass c : classes_) {
-            if (!canvas_of(c).is_touched(column, row)) continue;
-            const StrokeMask& mask = canvas_of(c).at(column, row);
-            const int fresh = kernels_.count_bits(mask.rows.data(), drawn.rows.data());
-            for (std::size_t r = 0; r < mask.rows.size(); ++r) drawn.rows[r] |= mask.rows[r];
-            const float coverage = strength * static_cast<float>(fresh) / (StrokeMask::kRows * StrokeMask::kColumns);
-            result.coverage[static_cast<std::size_t>(c)] = coverage;
-            result.color += glm::vec4(style.color_of(c), 1.0f) * coverage;
+        result.coverage = coverages;
+        for (std::size_t c = 0; c < coverages.size(); ++c) {
+            if (coverages[c] == 0) continue;
+            result.color += glm::vec4(style_.color_of(static_cast<LineClass>(c)), 1.0f) * coverages[c];
         }
         return result;
     }
 
+    const LineStyle& style_;
     const TileKernels& kernels_;
-    std::array<StrokeCanvas, kLineClassCount> canvases_;
-    PixelRect rect_;
-    LineClassSet present_;
-    std::vector<LineClass> classes_;
+    VisibleStrokes strokes_;
+    std::vector<Coverages> filtered_;
 };
 
 }  // namespace
@@ -129,16 +157,18 @@ class StrokeTile {
 void draw_strokes(const Frame& frame, PixelRect part, const std::vector<std::vector<LineSegment>>& segments,
                   const TileKernels& kernels, int threads, Film& film) {
     const LineStyle& style = frame.scene->lines.style;
-    const double width = std::max(style.width_px, kFinestWidthPx);
-    const float strength = static_cast<float>(style.width_px / width);
-    const SegmentBins bins(segments, part, 0.5 * width + 1.0);
-    std::vector<StrokeTile> tiles(static_cast<std::size_t>(threads), StrokeTile(kernels));
+    const auto filter = FilterTable::make(style.filter);
+    const SegmentBins bins(segments, part, Pen(style.width_px, style.side).radius_px + reach_px(style.filter) + 1.0);
+    std::vector<StrokePrinter> printers(static_cast<std::size_t>(threads), StrokePrinter(frame, kernels));
     parallel_for(bins.tile_count(), threads, [&](std::size_t index, int worker) {
         const auto list = bins.segments(index);
         if (list.empty()) return;
-        StrokeTile& tile = tiles[static_cast<std::size_t>(worker)];
-        tile.draw(list, bins.tile(index), 0.5 * width);
-        tile.put(style, strength, film);
+        StrokePrinter& printer = printers[static_cast<std::size_t>(worker)];
+        if (filter) {
+            printer.print(list, bins.tile(index), *filter, film);
+        } else {
+            printer.print(list, bins.tile(index), film);
+        }
     });
 }
 

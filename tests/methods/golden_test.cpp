@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "mesh/shapes.h"
+#include "methods/abuffer/abuffer.h"
 #include "tests/support/drawing.h"
 #include "tests/support/temporary_folder.h"
 
@@ -33,8 +34,9 @@ std::string as_text(const Drawing& d) {
     return text;
 }
 
-void expect_golden(const std::string& name, const Scene& scene, const Camera& camera) {
-    const std::string picture = as_text(Drawing(scene, camera, 48, 32));
+void expect_golden(const std::string& name, const Scene& scene, const Camera& camera,
+                   RenderFunction render = render_patel) {
+    const std::string picture = as_text(Drawing(scene, camera, 48, 32, {0, 0, 48, 32}, 2, render));
     const std::string path = BURIN_SOURCE_FOLDER "/tests/methods/golden/" + name + ".txt";
     const std::string expected = read_file(path);
     if (picture == expected) return;
@@ -82,6 +84,47 @@ TEST(Golden, ThinBars) {
     }
     expect_golden("thin_bars", scene_of(bars), pixel_camera(48, 32));
 }
+
+// ---- strokes of method abuffer ----
+
+/// A roof whose ridge, a crease, runs behind a plate.
+Scene roof_behind_plate() {
+    return scene_of({soup_of({{3.3, 12.4, 0}, {45.2, 19.7, 0}, {45.2, 31.6, -30}, {3.3, 29.6, -30}, {3.3, 1.2, -30}, {45.2, 2.2, -30}},
+                             {{0, 1, 2, 3}, {1, 0, 4, 5}}),
+                     soup_of({{18.4, 6.2, 9}, {31.3, 8.8, 9}, {29.1, 27.2, 9}, {16.2, 24.6, 9}}, {{0, 1, 2, 3}})});
+}
+
+void expect_stroke(const std::string& name, Scene scene, double width_px, StrokeSide side = StrokeSide::both,
+                   LineClassSet classes = kDefaultLineClasses) {
+    scene.lines.style.width_px = width_px;
+    scene.lines.style.side = side;
+    scene.lines.classes = classes;
+    expect_golden("stroke_" + name, scene, pixel_camera(48, 32), render_abuffer);
+}
+
+TEST(Golden, StrokesEndAtASurfaceInFrontThatIsNotDrawn) {
+    expect_stroke("ends_1px", roof_behind_plate(), 1, StrokeSide::both, LineClass::crease);
+    expect_stroke("ends_7px", roof_behind_plate(), 7, StrokeSide::both, LineClass::crease);
+}
+
+TEST(Golden, StrokesOnOneSide) {
+    expect_stroke("inside", roof_behind_plate(), 5, StrokeSide::inside);
+    expect_stroke("outside", roof_behind_plate(), 5, StrokeSide::outside);
+}
+
+/// Obtuse, right and acute corners, turning both ways.
+Scene arrow() {
+    return scene_of({soup_of({{5.3, 10.2, 0}, {24.6, 10.2, 0}, {24.6, 4.3, 0}, {42.7, 16.4, 0}, {24.6, 28.5, 0}, {24.6, 22.3, 0}, {5.3, 22.3, 0}, {12.4, 16.2, 0}},
+                             {{0, 1, 2, 3, 4, 5, 6, 7}})});
+}
+
+TEST(Golden, JoinsAreRoundAndNothingIsDoubled) {
+    expect_stroke("joins", arrow(), 4);
+    expect_stroke("joins_inside", arrow(), 6, StrokeSide::inside);
+    expect_stroke("joins_outside", arrow(), 6, StrokeSide::outside);
+}
+
+TEST(Golden, ThinStrokesAreLightNotBroken) { expect_stroke("thin", arrow(), 0.3); }
 
 }  // namespace
 }  // namespace burin

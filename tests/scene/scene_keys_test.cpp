@@ -274,6 +274,10 @@ TEST(SceneKeys, Lines) {
     EXPECT_EQ(lines("side='both'").style.side, StrokeSide::both);
     EXPECT_EQ(lines("side='inside'").style.side, StrokeSide::inside);
     EXPECT_EQ(lines("side='outside'").style.side, StrokeSide::outside);
+    EXPECT_EQ(lines("").style.filter, PixelFilter::box);
+    EXPECT_EQ(lines("filter='box'").style.filter, PixelFilter::box);
+    EXPECT_EQ(lines("filter='gaussian'").style.filter, PixelFilter::gaussian);
+    EXPECT_EQ(lines("filter='mitchell'").style.filter, PixelFilter::mitchell);
     for (const glm::vec3& color : lines("color='#ff0000'").style.colors)
         EXPECT_EQ(color, glm::vec3(1, 0, 0));
 }

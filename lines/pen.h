@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "lines/mask_stroke.h"
+
+namespace burin {
+
+/// What a stroke of a given width is drawn with.
+struct Pen {
+    /// Narrower strokes are drawn this wide and as much lighter: masks have no finer samples.
+    static constexpr double kFinestWidthPx = 0.25;
+    /// Below a pixel, widths are whole rows of a mask, and lighter by what that adds: else a stroke along
+    /// the rows would have the energy of one row more or less.
+    static constexpr double kRowsPerPx = 16;
+
+    double radius_px;
+    float strength;
+
+    /// For a stroke on one side, the half of the width that is drawn counts.
+    explicit Pen(double width_px, StrokeSide side = StrokeSide::both) {
+        const double share = side == StrokeSide::both ? 1.0 : 0.5;
+        const double wanted = share * width_px;
+        const double drawn =
+            wanted < 1 ? std::max(std::ceil(wanted * kRowsPerPx) / kRowsPerPx, kFinestWidthPx) : wanted;
+        radius_px = 0.5 * drawn / share;
+        strength = static_cast<float>(wanted / drawn);
+    }
+};
+
+}  // namespace burin

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "lines/stroke_mask.h"
+
+namespace burin {
+
+/// What a pixel sees of the lines around its centre. Separable in x and y.
+enum class PixelFilter : std::uint8_t {
+    box,       ///< its own square
+    gaussian,  ///< standard deviation 1/2 pixel
+    mitchell,  ///< Mitchell and Netravali 1988, B = C = 1/3; has negative lobes
+};
+
+/// How far beyond a pixel's own square its filter reaches. Whole pixels.
+constexpr int reach_px(PixelFilter filter) { return filter == PixelFilter::box ? 0 : 2; }
+
+/// Spreads the samples of stroke masks over the pixels around them. Every sample gives away its whole
+/// weight, wherever it lies: no filter changes the sum over the picture.
+class FilterTable {
+  public:
+    static constexpr int kReach = 2;
+    static constexpr int kSide = 2 * kReach + 1;
+    /// What a mask gives to the pixels around it: [2 + dy][2 + dx].
+    using Shares = std::array<std::array<float, kSide>, kSide>;
+
+    /// nullptr for the box, which needs none.
+    static std::unique_ptr<const FilterTable> make(PixelFilter filter);
+
+    Shares shares_of(const StrokeMask& mask) const;
+
+  private:
+    explicit FilterTable(PixelFilter filter);
+
+    static constexpr int kBytes = StrokeMask::kColumns / 8;
+    /// Per byte of a row and its value: the sum of the weights of its samples in x.
+    std::array<std::array<std::array<float, kSide>, 256>, kBytes> columns_;
+    std::array<std::array<float, kSide>, StrokeMask::kRows> rows_;
+};
+
+}  // namespace burin

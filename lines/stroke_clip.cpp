@@ -1,0 +1,234 @@
+#include "lines/stroke_clip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin {
+namespace {
+
+/// Conventions: a farther surface.
+constexpr double kFartherPx = 2;
+/// Lines that end at a boundary may end a little beyond it.
+constexpr double kOvershootPx = 0.25;
+
+/// The direction of shorter pieces, and so their sides, is left to chance. Their neighbours cover them.
+constexpr double kShortestPx = 1.0 / 1024;
+
+double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+/// Cuts [begin, end] to where a value that runs from `at_0` at 0 to `at_1` at 1 is not negative.
+bool clip(double at_0, double at_1, double& begin, double& end) {
+    if (at_0 < 0 && at_1 < 0) return false;
+    if (at_0 < 0) begin = std::max(begin, at_0 / (at_0 - at_1));
+    if (at_1 < 0) end = std::min(end, at_0 / (at_0 - at_1));
+    return begin < end;
+}
+
+double distance_to_piece(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
+    const glm::dvec2 along = b - a;
+    const double square = glm::dot(along, along);
+    return glm::distance(p, square > 0 ? a + along * std::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : a);
+}
+
+}  // namespace
+
+/// Coordinates along a piece (x) and to its left as y runs down (y).
+class StrokeClipper::Frame {
+  public:
+    explicit Frame(const ClipPiece& piece) : origin_(piece.from), length(glm::distance(piece.from, piece.to)) {
+        along_ = (piece.to - piece.from) / length;
+        across_ = {along_.y, -along_.x};
+    }
+    glm::dvec2 to_local(glm::dvec2 p) const { return {glm::dot(p - origin_, along_), glm::dot(p - origin_, across_)}; }
+    /// Local points p with dot(normal, p) >= offset.
+    HalfPlane to_screen(glm::dvec2 normal, double offset) const {
+        const glm::dvec2 n = along_ * normal.x + across_ * normal.y;
+        return {n, offset + glm::dot(n, origin_)};
+    }
+
+  private:
+    glm::dvec2 origin_, along_, across_;
+
+  public:
+    double length;
+};
+
+void StrokeClipper::reset(int x0, int y0, int width, int height) {
+    x0_ = x0;
+    y0_ = y0;
+    width_ = width;
+    height_ = height;
+    behind_.resize(static_cast<std::size_t>(width * height));
+}
+
+bool StrokeClipper::may_hide(const ClipPiece& boundary, const ClipPiece& piece, double radius_px, StrokeSide side) {
+    if (!boundary.occludes || &boundary == &piece) return false;
+    const glm::dvec2 low = glm::min(piece.from, piece.to) - radius_px, high = glm::max(piece.from, piece.to) + radius_px;
+    const glm::dvec2 b_low = glm::min(boundary.from, boundary.to), b_high = glm::max(boundary.from, boundary.to);
+    if (b_low.x > high.x || b_low.y > high.y || b_high.x < low.x || b_high.y < low.y) return false;
+    if (side != StrokeSide::both) return true;  // its own neighbours bound it
+    return std::min(boundary.depth_from_px, boundary.depth_to_px) <
+           std::max(piece.depth_from_px, piece.depth_to_px) - kFartherPx;
+}
+
+template <typename Visit>
+void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& visit) const {
+    for (int row = first_row_; row < end_row_; ++row) {
+        const double y = y0_ + (row + 0.5) / StrokeMask::kRows;
+        double low = first_column_, high = end_column_;  // columns in [low, high)
+        for (const HalfPlane& side : sides) {
+            const double rest = side.offset - side.normal.y * y;
+            if (side.normal.x == 0) {
+                if (rest > 0) high = low;
+                continue;
+            }
+            const double column = (rest / side.normal.x - x0_) * StrokeMask::kColumns - 0.5;
+            if (side.normal.x > 0) {
+                low = std::max(low, std::ceil(column));
+            } else {
+                high = std::min(high, std::floor(column) + 1);
+            }
+        }
+        if (!(low < high)) continue;
+        const int end = static_cast<int>(high);
+        for (int column = static_cast<int>(low); column < end;) {
+            const int pixel = column / StrokeMask::kColumns;
+            const int from = column % StrokeMask::kColumns;
+            const int to = std::min(end - pixel * StrokeMask::kColumns, StrokeMask::kColumns);
+            const std::uint32_t bits = (0xFFFFFFFFu << from) & (0xFFFFFFFFu >> (StrokeMask::kColumns - to));
+            visit(row / StrokeMask::kRows * width_ + pixel, static_cast<std::size_t>(row % StrokeMask::kRows), bits);
+            column = (pixel + 1) * StrokeMask::kColumns;
+        }
+    }
+}
+
+/// The parts of a boundary beside a piece and beyond either of its ends: what lies behind each, seen at
+/// right angles from the piece, or from its end.
+void StrokeClipper::add_shadows(const ClipPiece& boundary, const Frame& frame, double depth_from, double depth_to,
+                                double radius_px, StrokeSide side) {
+    const glm::dvec2 p = frame.to_local(boundary.from), q = frame.to_local(boundary.to), along = q - p;
+    if (glm::dot(along, along) == 0) return;
+    // Where the boundary's front is.
+    glm::dvec2 front(-along.y, along.x);
+    if (!boundary.front_on_left) front = -front;
+    const double length = frame.length;
+    const auto add = [&](double begin, double end, double nearest, glm::dvec2 seen_from, HalfPlane low, HalfPlane high,
+                         HalfPlane beside) {
+        const glm::dvec2 middle = p + along * (0.5 * (begin + end));
+        const double depth = boundary.depth_from_px + (boundary.depth_to_px - boundary.depth_from_px) * 0.5 * (begin + end);
+        const double own = depth_from + (depth_to - depth_from) * std::clamp(middle.x / length, 0.0, 1.0);
+        Shadow shadow;
+        glm::dvec2 beyond(-along.y, along.x);
+        if (glm::dot(beyond, p - seen_from) < 0) beyond = -beyond;
+        shadow.enters = glm::dot(front, beyond) > 0;
+        // Beside a surface, what bounds it hides as well as what is nearer.
+        const double limit = side == StrokeSide::outside ? own + kFartherPx : own - kFartherPx;
+        if (shadow.enters && !(depth < limit)) return;
+        shadow.distance_px = nearest;
+        shadow.sides = {low, high, beside, frame.to_screen(beyond, glm::dot(beyond, p))};
+        shadows_.push_back(shadow);
+    };
+
+    double begin = 0, end = 1;
+    if (clip(p.x, q.x, begin, end) && clip(length - p.x, length - q.x, begin, end)) {
+        for (const double sign : {1.0, -1.0}) {
+            double from = begin, to = end;
+            if (!clip(sign * p.y, sign * q.y, from, to)) continue;
+            const glm::dvec2 a = p + along * from, b = p + along * to;
+            if (std::min(std::abs(a.y), std::abs(b.y)) > radius_px || a.x == b.x) continue;
+            const auto [low, high] = std::minmax(a.x, b.x);
+            const glm::dvec2 middle = 0.5 * (a + b);
+            add(from, to, std::abs(middle.y), {middle.x, 0}, frame.to_screen({1, 0}, low), frame.to_screen({-1, 0}, -high),
+                frame.to_screen({0, sign}, 0));
+        }
+    }
+    const double back = std::min(kOvershootPx, 0.5 * length);
+    for (const double sign : {-1.0, 1.0}) {  // beyond the first end, and the last one
+        const double last = sign > 0 ? length : 0;
+        const glm::dvec2 eye(last - sign * back, 0);
+        double from = 0, to = 1;
+        if (!clip(sign * (p.x - eye.x), sign * (q.x - eye.x), from, to)) continue;
+        const glm::dvec2 a = p + along * from - eye, b = p + along * to - eye;
+        const double turn = cross(a, b);
+        if (std::abs(turn) < 1e-9 || distance_to_piece({last, 0}, a + eye, b + eye) > radius_px) continue;
+        const double way = turn > 0 ? 1 : -1;
+        const glm::dvec2 low = glm::dvec2(-a.y, a.x) * way, high = glm::dvec2(b.y, -b.x) * way;
+        add(from, to, glm::length(0.5 * (a + b)) - back, eye, frame.to_screen(low, glm::dot(low, eye)),
+            frame.to_screen(high, glm::dot(high, eye)), frame.to_screen({sign, 0}, sign * last));
+    }
+}
+
+void StrokeClipper::apply(const Shadow& shadow, bool blocks_outside) {
+    for_spans(shadow.sides, [&](int pixel, std::size_t row, std::uint32_t bits) {
+        Behind& b = behind_[static_cast<std::size_t>(pixel)][row];
+        if (shadow.enters) {
+            b.two |= b.one & bits;
+            b.one |= bits;
+            return;
+        }
+        if (blocks_outside) b.off |= bits & ~b.one;
+        b.one = (b.one & ~bits) | (b.two & bits);
+        b.two &= ~bits;
+    });
+}
+
+void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide side,
+                         std::span<const ClipPiece* const> boundaries, StrokeCanvas& onto) {
+    if (!piece.occludes) side = StrokeSide::both;  // it has no front
+    const auto to_samples = [](double px, int per_px, int size_px) {
+        return std::clamp(px * per_px, 0.0, static_cast<double>(size_px) * per_px);
+    };
+    const glm::dvec2 origin(x0_, y0_);
+    const glm::dvec2 low = glm::min(piece.from, piece.to) - radius_px - origin;
+    const glm::dvec2 high = glm::max(piece.from, piece.to) + radius_px - origin;
+    first_row_ = static_cast<int>(std::floor(to_samples(low.y, StrokeMask::kRows, height_)));
+    end_row_ = static_cast<int>(std::ceil(to_samples(high.y, StrokeMask::kRows, height_)));
+    first_column_ = static_cast<int>(std::floor(to_samples(low.x, StrokeMask::kColumns, width_)));
+    end_column_ = static_cast<int>(std::ceil(to_samples(high.x, StrokeMask::kColumns, width_)));
+    if (first_row_ >= end_row_ || first_column_ >= end_column_ || piece.from == piece.to) return;
+
+    if (side != StrokeSide::both && glm::distance(piece.from, piece.to) < kShortestPx) return;
+    const Frame frame(piece);
+    shadows_.clear();
+    for (const ClipPiece* boundary : boundaries) {
+        if (may_hide(*boundary, piece, radius_px, side)) {
+            add_shadows(*boundary, frame, piece.depth_from_px, piece.depth_to_px, radius_px, side);
+        }
+    }
+    if (shadows_.empty() && side == StrokeSide::both) {
+        onto.draw(piece.from, piece.to, radius_px);
+        return;
+    }
+    std::sort(shadows_.begin(), shadows_.end(), [](const Shadow& a, const Shadow& b) {
+        return a.distance_px != b.distance_px ? a.distance_px < b.distance_px : a.enters > b.enters;
+    });
+    const int first_y = first_row_ / StrokeMask::kRows, end_y = (end_row_ + StrokeMask::kRows - 1) / StrokeMask::kRows;
+    const int first_x = first_column_ / StrokeMask::kColumns;
+    const int end_x = (end_column_ + StrokeMask::kColumns - 1) / StrokeMask::kColumns;
+    for (int y = first_y; y < end_y; ++y) {
+        std::fill_n(behind_.begin() + y * width_ + first_x, end_x - first_x, std::array<Behind, StrokeMask::kRows>{});
+    }
+    if (side != StrokeSide::both) {
+        const double drawn = piece.front_on_left == (side == StrokeSide::inside) ? 1 : -1;
+        const HalfPlane other = frame.to_screen({0, -drawn}, 0);
+        for_spans(std::span(&other, 1), [&](int pixel, std::size_t row, std::uint32_t bits) {
+            behind_[static_cast<std::size_t>(pixel)][row].off |= bits;
+        });
+    }
+    for (const Shadow& shadow : shadows_) apply(shadow, side == StrokeSide::inside);
+
+    canvas_.reset(x0_, y0_, width_, height_);
+    canvas_.draw(piece.from, piece.to, radius_px);
+    for (int y = first_y; y < end_y; ++y) {
+        for (int x = first_x; x < end_x; ++x) {
+            if (!canvas_.is_touched(x, y)) continue;
+            StrokeMask mask = canvas_.at(x, y);
+            const auto& behind = behind_[static_cast<std::size_t>(y * width_ + x)];
+            std::uint32_t any = 0;
+            for (std::size_t r = 0; r < mask.rows.size(); ++r) any |= mask.rows[r] &= ~(behind[r].one | behind[r].off);
+            if (any != 0) onto.add(x, y, mask);
+        }
+    }
+}
+
+}  // namespace burin
