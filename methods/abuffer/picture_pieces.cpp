@@ -14,7 +14,7 @@ namespace burin {
 namespace {
 
 /// So many are shown at a time to take a look at them, even if one instance has fewer.
-constexpr std::size_t kGroupVertices = 1 << 16;
+constexpr std::size_t kGroupVertices = 1 << 14;
 /// Buffers of one thread, and all that is small.
 constexpr std::uint64_t kBytesPerThread = 3 << 20, kBytesForTheRest = 4 << 20;
 
@@ -30,7 +30,7 @@ std::vector<std::vector<std::uint32_t>> group_instances(const Frame& frame) {
     std::size_t count = most;
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
         count += instances[i].mesh->positions.size();
-        if (count > most) {
+        if (count > most || groups.empty()) {
             groups.emplace_back();
             count = instances[i].mesh->positions.size();
         }
@@ -133,9 +133,15 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
         for (const std::uint32_t i : group) bytes += vertex_bytes(frame, i);
         least = std::max(least, bytes);
     }
-    visible.bytes = costs.rows().visible;
-    layers.bytes = costs.rows().layers;
-    const std::uint64_t lasting = lasting_bytes(frame, tiles, threads);
+    // Lines are kept to the end of a piece, or of the picture where other lines have to be found first.
+    std::uint64_t lasting = lasting_bytes(frame, tiles, threads);
+    const auto split = [&](const RowCosts& rows, bool keeps_lines) {
+        std::vector<std::uint64_t> bytes = rows.bins;
+        for (std::size_t i = 0; i < bytes.size(); ++i) (keeps_lines ? lasting : bytes[i]) += rows.lines[i];
+        return bytes;
+    };
+    visible.bytes = split(costs.visible(), has_layers);
+    layers.bytes = split(costs.layers(), LayerPass::needs_all_lines(frame));
     const std::uint64_t left = cap_bytes > lasting ? cap_bytes - lasting : 0;
     plan.visible = cut(frame, visible, left, least);
     plan.layers = cut(frame, layers, left, least);

@@ -17,6 +17,8 @@ constexpr std::uint64_t kPerRun = 40;         // a chunk's list in a tile, as fo
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
+// Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.
+constexpr std::uint64_t kLinesPerVisible = 256, kLinesPerPixel = 32, kLinesPerLayer = 100;
 
 struct Box {  // in pixels
     glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -28,7 +30,7 @@ struct Box {  // in pixels
 
 /// What one thread has counted.
 struct Tally {
-    RowCosts rows;
+    std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;  // per row
     std::vector<std::uint32_t> last_chunk[2];  // per tile, wound either way: 1 + the last chunk with a run there
 };
 
@@ -54,8 +56,9 @@ bool find_box(const ScreenSurfaces& screen, SurfaceId s, Box& box) {
 
 PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, int threads)
     : visible_(visible), layers_(layers), sample_px_(1.0 / samples_per_pixel), threads_(threads) {
-    rows_.visible.assign(static_cast<std::size_t>(visible.rows().end), 0);
-    if (layers != nullptr) rows_.layers.assign(static_cast<std::size_t>(layers->rows().end), 0);
+    counts_.visible_bytes.assign(static_cast<std::size_t>(visible.rows().end), 0);
+    counts_.visible_touches = counts_.visible_bytes;
+    if (layers != nullptr) counts_.layer_touches.assign(static_cast<std::size_t>(layers->rows().end), 0);
 }
 
 void PieceCosts::add(const ScreenSurfaces& screen) {
@@ -66,9 +69,10 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
     };
     parallel_for(chunks.size(), threads_, [&](std::size_t c, int worker) {
         Tally& tally = tallies[static_cast<std::size_t>(worker)];
-        if (tally.rows.visible.empty()) {
-            tally.rows.visible.assign(rows_.visible.size(), 0);
-            tally.rows.layers.assign(rows_.layers.size(), 0);
+        if (tally.visible_bytes.empty()) {
+            tally.visible_bytes.assign(counts_.visible_bytes.size(), 0);
+            tally.visible_touches = tally.visible_bytes;
+            tally.layer_touches.assign(counts_.layer_touches.size(), 0);
             for (auto& last : tally.last_chunk) last.assign(visible_.count(), 0);
         }
         for (std::uint32_t triangle = chunks[c].begin; triangle < chunks[c].end; ++triangle) {
@@ -77,7 +81,7 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
             const bool is_large = find_box(screen, s, box);
             if (!(box.low.x <= box.high.x)) continue;
             if (layers_ != nullptr) {
-                layers_->visit(box.low, box.high, [&](std::uint32_t tile) { tally.rows.layers[row_of(*layers_, tile)] += kPerLayer; });
+                layers_->visit(box.low, box.high, [&](std::uint32_t tile) { ++tally.layer_touches[row_of(*layers_, tile)]; });
             }
             // The samples in the box; a tile also gets those next to its right and lower border.
             const glm::dvec2 first = glm::ceil(box.low / sample_px_ - 0.5), last = glm::floor(box.high / sample_px_ - 0.5);
@@ -87,7 +91,8 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
             std::uint32_t last_row = ~0u;
             visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_, [&](std::uint32_t tile) {
                 const std::uint32_t row = row_of(visible_, tile);
-                std::uint64_t& cost = tally.rows.visible[row];
+                std::uint64_t& cost = tally.visible_bytes[row];
+                ++tally.visible_touches[row];
                 cost += is_large ? kPerLarge : kPerSmall;
                 if (is_large && row != last_row) cost += kPerPolygon;
                 last_row = row;
@@ -98,9 +103,31 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
         }
     });
     for (const Tally& tally : tallies) {
-        for (std::size_t i = 0; i < tally.rows.visible.size(); ++i) rows_.visible[i] += tally.rows.visible[i];
-        for (std::size_t i = 0; i < tally.rows.layers.size(); ++i) rows_.layers[i] += tally.rows.layers[i];
+        const auto add_to = [](std::vector<std::uint64_t>& sums, const std::vector<std::uint64_t>& values) {
+            for (std::size_t i = 0; i < values.size(); ++i) sums[i] += values[i];
+        };
+        add_to(counts_.visible_bytes, tally.visible_bytes);
+        add_to(counts_.visible_touches, tally.visible_touches);
+        add_to(counts_.layer_touches, tally.layer_touches);
     }
+}
+
+RowCosts PieceCosts::visible() const {
+    RowCosts costs{counts_.visible_bytes, {}};
+    const std::uint64_t row_px = static_cast<std::uint64_t>(visible_.rect().width()) * static_cast<std::uint64_t>(visible_.tile_px());
+    for (const std::uint64_t touches : counts_.visible_touches) {
+        costs.lines.push_back(std::min(kLinesPerVisible * touches, kLinesPerPixel * row_px));
+    }
+    return costs;
+}
+
+RowCosts PieceCosts::layers() const {
+    RowCosts costs;
+    for (const std::uint64_t touches : counts_.layer_touches) {
+        costs.bins.push_back(kPerLayer * touches);
+        costs.lines.push_back(kLinesPerLayer * touches);
+    }
+    return costs;
 }
 
 InstanceExtent PieceCosts::extent_of(const ScreenSurfaces& screen, std::uint32_t instance) {

@@ -8,11 +8,10 @@
 
 namespace burin {
 
-/// The memory that each row of tiles takes for what touches it, in bytes. Counted from above: a row is
-/// never found cheaper than it is.
+/// The memory that each row of tiles takes for what touches it, in bytes.
 struct RowCosts {
-    std::vector<std::uint64_t> visible;  ///< TriangleBins
-    std::vector<std::uint64_t> layers;   ///< LayerBins and lines; empty where there are none
+    std::vector<std::uint64_t> bins;   ///< lists of triangles, counted from above
+    std::vector<std::uint64_t> lines;  ///< estimated: more than in any picture measured
 };
 
 /// Where an instance is on the screen, in pixels.
@@ -20,14 +19,17 @@ struct InstanceExtent {
     glm::dvec2 low{0.0}, high{0.0};
 };
 
-/// Adds what the instances shown cost, and says where each of `instances` is.
+/// What the tiles of a picture cost.
 class PieceCosts {
   public:
     /// `layers`: nullptr where nothing behind the first surface is drawn.
     PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, int threads);
 
+    /// Adds the instances shown.
     void add(const ScreenSurfaces& screen);
-    const RowCosts& rows() const { return rows_; }
+    /// Of visible surfaces, and of all layers; the latter are empty where there are none.
+    RowCosts visible() const;
+    RowCosts layers() const;
     static InstanceExtent extent_of(const ScreenSurfaces& screen, std::uint32_t instance);
 
   private:
@@ -35,7 +37,9 @@ class PieceCosts {
     const PixelTiles* layers_;
     double sample_px_;
     int threads_;
-    RowCosts rows_;
+    struct Counts {  // per row
+        std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;
+    } counts_;
 };
 
 }  // namespace burin

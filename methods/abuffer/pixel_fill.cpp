@@ -197,7 +197,7 @@ void PixelFiller::clear(PixelRect rect, Film& film) const {
 
 void PixelFiller::fill(const LineTile& tile, Film& film) {
     const PixelRect rect = in_crop(tile.rect());
-    if (rect.x0 >= rect.x1) return;
+    if (rect.x0 >= rect.x1 || rect.y0 >= rect.y1) return;
     const SampleTile& samples = tile.samples();
     const bool has_geometry = film.has_geometry();
     if (has_geometry) {

@@ -209,6 +209,26 @@ TEST_F(Render, ACropIsAPieceOfTheWholePicture) {
     }
 }
 
+TEST_F(Render, ACapForMemoryChangesNothing) {
+    const Image free = exr({}, "scene.toml");
+    for (const char* size : {"500m", "0.5G", "2000000000", "1T"}) {
+        const Image capped = exr({"--memory", size}, "scene.toml");
+        for (const Channel& channel : free.channels()) {
+            EXPECT_EQ(channel.bytes, capped.find(channel.name)->bytes) << channel.name << " " << size;
+        }
+    }
+}
+
+TEST_F(Render, TooLittleMemoryIsRefusedWithTheLeast) {
+    const ProgramResult result = run_burin(folder_.path(), {"render", "scene.toml", "-o", "little.exr", "-j", "1", "--memory", "1M"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    const std::string words = "scene.toml: --memory: this picture takes at least ";
+    ASSERT_EQ(result.err.find(words), 0u) << result.err;
+    const std::string least = result.err.substr(words.size(), result.err.find(';') - words.size());
+    EXPECT_EQ(run_burin(folder_.path(), {"render", "scene.toml", "-o", "little.exr", "-j", "1", "--memory", least}).status, 0) << least;
+}
+
 TEST_F(Render, ACropOfAPngLiesOnPaper) {
     const DisplayImage whole = picture({}, "whole.png"),
                        crop = picture({"--crop", "30,20,60,50"}, "crop.png");

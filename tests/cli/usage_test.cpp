@@ -66,10 +66,17 @@ TEST_F(Usage, WhatIsNotInThisVersion) {
     expect_bad_options({"--style", "blueprint"}, words);
     expect_bad_options({"--frames", "1-10"}, words);
     expect_bad_options({"-f", "1,5"}, words);
-    expect_bad_options({"--memory", "2G"}, words);
     for (const char* output : {"a.svg", "a.pdf", "a.####.exr", "a.%04d.png"}) {
         expect_refused({"render", "cube.obj", "-o", output}, words);
     }
+}
+
+TEST_F(Usage, Memory) {
+    for (const char* size : {"0", "0G", "-2G", "2X", "G", "2GG", "2 G", "1e9", "0x10", "inf", "nan", "2,5G", "M2", "9999999999T", "0.0001"}) {
+        expect_bad_options({"--memory", size}, "--memory: ");
+    }
+    expect_bad_options({"--memory", "2G", "-m", "patel"}, "--memory: method patel cannot render in pieces");
+    expect_refused({"compare", "cube.obj", "-o", "report", "--memory", "2G"}, "--memory");
 }
 
 TEST_F(Usage, UnknownNames) {
