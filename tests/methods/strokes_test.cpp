@@ -99,7 +99,7 @@ TEST(Strokes, FiltersKeepTheEnergyOfStrokes) {
             if (filter == PixelFilter::box) box = sum;
             // Without its lobes, Mitchell's filter adds what they would take away.
             if (filter == PixelFilter::gaussian) EXPECT_NEAR(sum, box, 0.005 * box) << width;
-            if (filter == PixelFilter::mitchell) EXPECT_NEAR(sum, box, 0.08 * box) << width;
+            if (filter == PixelFilter::mitchell) EXPECT_NEAR(sum, box, 0.05 * box) << width;
         }
     }
 }
