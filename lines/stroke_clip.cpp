@@ -73,17 +73,34 @@ bool StrokeClipper::may_hide(const ClipPiece& boundary, const ClipPiece& piece, 
 
 template <typename Visit>
 void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& visit) const {
-    for (int row = first_row_; row < end_row_; ++row) {
-        const double y = y0_ + (row + 0.5) / StrokeMask::kRows;
-        double low = first_column_, high = end_column_;  // columns in [low, high)
-        for (const HalfPlane& side : sides) {
-            const double rest = side.offset - side.normal.y * y;
-            if (side.normal.x == 0) {
-                if (rest > 0) high = low;
-                continue;
+    // Each side bounds the columns of a row, linearly in the row, or the rows.
+    struct Bound {
+        double column, per_row;
+        bool is_low;
+    };
+    std::array<Bound, 4> bounds;
+    std::size_t count = 0;
+    double first = first_row_, last = end_row_;  // rows in [first, last)
+    for (const HalfPlane& side : sides) {
+        if (side.normal.x == 0) {
+            const double row = (side.offset / side.normal.y - y0_) * StrokeMask::kRows - 0.5;
+            if (side.normal.y > 0) {
+                first = std::max(first, std::ceil(row));
+            } else {
+                last = std::min(last, std::floor(row) + 1);
             }
-            const double column = (rest / side.normal.x - x0_) * StrokeMask::kColumns - 0.5;
-            if (side.normal.x > 0) {
+            continue;
+        }
+        const double per_row = -side.normal.y / side.normal.x / StrokeMask::kRows * StrokeMask::kColumns;
+        const double y = y0_ + 0.5 / StrokeMask::kRows;
+        const double column = ((side.offset - side.normal.y * y) / side.normal.x - x0_) * StrokeMask::kColumns - 0.5;
+        bounds[count++] = {column, per_row, side.normal.x > 0};
+    }
+    for (int row = static_cast<int>(std::min(first, last)); row < last; ++row) {
+        double low = first_column_, high = end_column_;  // columns in [low, high)
+        for (std::size_t i = 0; i < count; ++i) {
+            const double column = bounds[i].column + bounds[i].per_row * row;
+            if (bounds[i].is_low) {
                 low = std::max(low, std::ceil(column));
             } else {
                 high = std::min(high, std::floor(column) + 1);
@@ -104,7 +121,7 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
 
 /// The parts of a boundary beside a piece and beyond either of its ends: what lies behind each, seen at
 /// right angles from the piece, or from its end.
-void StrokeClipper::add_shadows(const ClipPiece& boundary, const Frame& frame, double depth_from, double depth_to,
+void StrokeClipper::add_shadows(const ClipPiece& boundary, const ClipPiece& piece, const Frame& frame,
                                 double radius_px, StrokeSide side) {
     const glm::dvec2 p = frame.to_local(boundary.from), q = frame.to_local(boundary.to), along = q - p;
     if (glm::dot(along, along) == 0) return;
@@ -112,11 +129,14 @@ void StrokeClipper::add_shadows(const ClipPiece& boundary, const Frame& frame, d
     glm::dvec2 front(-along.y, along.x);
     if (!boundary.front_on_left) front = -front;
     const double length = frame.length;
+    // +1 and -1: the side of the piece that is drawn; 0: both.
+    const double drawn = side == StrokeSide::both ? 0 : (piece.front_on_left == (side == StrokeSide::inside) ? 1 : -1);
     const auto add = [&](double begin, double end, double nearest, glm::dvec2 seen_from, HalfPlane low, HalfPlane high,
                          HalfPlane beside) {
         const glm::dvec2 middle = p + along * (0.5 * (begin + end));
         const double depth = boundary.depth_from_px + (boundary.depth_to_px - boundary.depth_from_px) * 0.5 * (begin + end);
-        const double own = depth_from + (depth_to - depth_from) * std::clamp(middle.x / length, 0.0, 1.0);
+        const double own = piece.depth_from_px + (piece.depth_to_px - piece.depth_from_px) *
+                                                      std::clamp(middle.x / length, 0.0, 1.0);
         Shadow shadow;
         glm::dvec2 beyond(-along.y, along.x);
         if (glm::dot(beyond, p - seen_from) < 0) beyond = -beyond;
@@ -132,6 +152,7 @@ void StrokeClipper::add_shadows(const ClipPiece& boundary, const Frame& frame, d
     double begin = 0, end = 1;
     if (clip(p.x, q.x, begin, end) && clip(length - p.x, length - q.x, begin, end)) {
         for (const double sign : {1.0, -1.0}) {
+            if (sign == -drawn) continue;
             double from = begin, to = end;
             if (!clip(sign * p.y, sign * q.y, from, to)) continue;
             const glm::dvec2 a = p + along * from, b = p + along * to;
@@ -150,7 +171,7 @@ void StrokeClipper::add_shadows(const ClipPiece& boundary, const Frame& frame, d
         if (!clip(sign * (p.x - eye.x), sign * (q.x - eye.x), from, to)) continue;
         const glm::dvec2 a = p + along * from - eye, b = p + along * to - eye;
         const double turn = cross(a, b);
-        if (std::abs(turn) < 1e-9 || distance_to_piece({last, 0}, a + eye, b + eye) > radius_px) continue;
+        if ((drawn != 0 && a.y * drawn < 0 && b.y * drawn < 0) || std::abs(turn) < 1e-9 || distance_to_piece({last, 0}, a + eye, b + eye) > radius_px) continue;
         const double way = turn > 0 ? 1 : -1;
         const glm::dvec2 low = glm::dvec2(-a.y, a.x) * way, high = glm::dvec2(b.y, -b.x) * way;
         add(from, to, glm::length(0.5 * (a + b)) - back, eye, frame.to_screen(low, glm::dot(low, eye)),
@@ -192,7 +213,7 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     shadows_.clear();
     for (const ClipPiece* boundary : boundaries) {
         if (may_hide(*boundary, piece, radius_px, side)) {
-            add_shadows(*boundary, frame, piece.depth_from_px, piece.depth_to_px, radius_px, side);
+            add_shadows(*boundary, piece, frame, radius_px, side);
         }
     }
     if (shadows_.empty() && side == StrokeSide::both) {
@@ -215,7 +236,11 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
             behind_[static_cast<std::size_t>(pixel)][row].off |= bits;
         });
     }
-    for (const Shadow& shadow : shadows_) apply(shadow, side == StrokeSide::inside);
+    bool is_behind = side == StrokeSide::inside;  // before that, there is nothing to come out from
+    for (const Shadow& shadow : shadows_) {
+        is_behind = is_behind || shadow.enters;
+        if (is_behind) apply(shadow, side == StrokeSide::inside);
+    }
 
     canvas_.reset(x0_, y0_, width_, height_);
     canvas_.draw(piece.from, piece.to, radius_px);

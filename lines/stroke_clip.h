@@ -57,8 +57,8 @@ class StrokeClipper {
     };
     class Frame;
 
-    void add_shadows(const ClipPiece& boundary, const Frame& frame, double depth_px_at_from, double depth_px_at_to,
-                     double radius_px, StrokeSide side);
+    void add_shadows(const ClipPiece& boundary, const ClipPiece& piece, const Frame& frame, double radius_px,
+                     StrokeSide side);
     template <typename Visit>
     void for_spans(std::span<const HalfPlane> sides, const Visit& visit) const;
     void apply(const Shadow& shadow, bool blocks_outside);
