@@ -30,6 +30,7 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, std::vector<
     // y runs down: what is to the left of the way has a negative cross product.
     segment.front_on_left = cross(to - from, style.towards_front) < 0;
     segment.line_key = style.line_key;
+    segment.opacity = style.opacity;
     segments.push_back(segment);
 }
 

@@ -15,6 +15,7 @@ struct LineCrossing {
     SurfaceEdge edge;       ///< none for intersections
     std::uint64_t line_key = 0;  ///< equal for two crossings of one mesh edge or one intersection
     double nearness = 0;    ///< of the front surface
+    std::uint8_t opacity = 255;  ///< 255 = full
     glm::dvec2 towards_front{0.0};  ///< from the crossing to the sample of the front surface
 };
 
@@ -28,6 +29,7 @@ struct LineSegment {
     LineClass drawn_as = LineClass::silhouette;
     bool front_on_left = false;  ///< of the way from `from` to `to`, as seen on the screen
     std::uint64_t line_key = 0;
+    std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades
     std::uint32_t block = 0;  ///< only pieces of one block of the picture are merged
 };
 

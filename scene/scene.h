@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lines/crease_fade.h"
 #include "mesh/mesh.h"
 #include "mesh/subdivide.h"
 #include "scene/camera.h"
@@ -27,7 +28,14 @@ struct PictureSettings {
 struct LineSettings {
     LineClassSet classes = kDefaultLineClasses;
     double crease_angle_deg = 40;
+    /// Over so many degrees, half of them below that angle, creases fade in. Only method `abuffer`; the
+    /// others draw a crease or none.
+    double crease_fade_deg = 0;
     LineStyle style;
+
+    CreaseFade crease_fade() const {
+        return {crease_angle_deg - 0.5 * crease_fade_deg, crease_angle_deg + 0.5 * crease_fade_deg};
+    }
 };
 
 /// An object of the finished scene: a mesh at its place.

@@ -237,7 +237,7 @@ class SceneReader {
             }
         }
         lines.style.width_px = t.number("width", {0, 1024, true, false}).value_or(1);
-        lines.crease_angle_deg = t.number("crease_angle", {0, 180}).value_or(40);
+        read_crease_angle(t, lines);
         static constexpr StrokeSide kSides[] = {StrokeSide::both, StrokeSide::inside, StrokeSide::outside};
         lines.style.side = kSides[t.choice("side", {"both", "inside", "outside"}).value_or(0)];
         if (const auto color = t.color("color")) lines.style.colors.fill(*color);
@@ -252,6 +252,20 @@ class SceneReader {
         }
         if (auto hidden = t.table("hidden")) read_hidden(*hidden, lines.style.hidden);
         t.finish();
+    }
+
+    /// An angle, or two between which creases fade in.
+    static void read_crease_angle(TomlReader& t, LineSettings& lines) {
+        if (!t.has("crease_angle") || t.is_number("crease_angle")) {
+            lines.crease_angle_deg = t.number("crease_angle", {0, 180}).value_or(40);
+            return;
+        }
+        const std::vector<double> angles = *t.numbers("crease_angle", 2);
+        if (!(angles[0] >= 0 && angles[0] <= angles[1] && angles[1] <= 180)) {
+            t.fail("crease_angle", "must be an angle, or two from 0 to 180 degrees, the smaller one first");
+        }
+        lines.crease_angle_deg = 0.5 * (angles[0] + angles[1]);
+        lines.crease_fade_deg = angles[1] - angles[0];
     }
 
     static void read_hidden(TomlReader& t, HiddenLineStyle& hidden) {

@@ -27,19 +27,27 @@ PixelRect region_around(PixelRect crop, double reach_px) {
             down(crop.y1 + margin + kMergeBlockPx - 1)};
 }
 
+/// A crease begins where it begins to fade in.
+LineCriteria criteria_of(const LineSettings& lines) {
+    LineCriteria criteria;
+    criteria.classes = lines.classes;
+    criteria.cos_crease_angle = std::cos(glm::radians(lines.crease_fade().from_deg));
+    return criteria;
+}
+
 }  // namespace
 
 void prepare_for_abuffer(Scene& scene, int threads) {
-    LineCriteria criteria;
-    criteria.classes = scene.lines.classes;
-    criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
+    const LineCriteria criteria = criteria_of(scene.lines);
     scene.sharp_edges.resize(scene.meshes.size());
     parallel_for(scene.meshes.size(), threads, [&](std::size_t i, int) {
         scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria);
     });
 }
 
-RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film) {
+RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
+    Frame frame = given;
+    frame.criteria.cos_crease_angle = criteria_of(given.scene->lines).cos_crease_angle;
     RenderStats stats;
     stats.threads = resolve_thread_count(options.threads);
     const int per_pixel = frame.scene->abuffer.samples_per_pixel;

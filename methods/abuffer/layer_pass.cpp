@@ -130,7 +130,7 @@ void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>&
         segment.to = glm::mix(line.from, line.to, (end - position[0]) / length) / 256.0;
         segment.drawn_as = line.drawn_as;
         segment.is_hidden = true;
-        segment.transmission = piece.transmission;
+        segment.transmission = line.opacity_behind(piece.transmission);
         segments.push_back(segment);
     }
 }
@@ -153,7 +153,7 @@ std::vector<std::vector<LayerSegment>> LayerPass::make_segments() const {
         segment.to = glm::mix(line.from, line.to, piece.end) / 256.0;
         segment.drawn_as = line.drawn_as;
         segment.is_hidden = is_hidden;
-        segment.transmission = piece.transmission;
+        segment.transmission = line.opacity_behind(piece.transmission);
         segments[0].push_back(segment);
     }
     return segments;

@@ -17,6 +17,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       per_pixel_(samples_per_pixel),
       kernels_(kernels),
       fast_(screen, frame.criteria),
+      fade_(frame.scene->lines.crease_fade()),
       tracer_(frame.surfaces) {}
 
 SampleView LineTile::view() {
@@ -190,6 +191,8 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
     }
     crossing.classes = decision.classes & frame_.criteria.classes;
     if (crossing.classes.empty()) return false;
+    crossing.opacity = fade_.opacity(crossing.classes, decision.crease_cosine);
+    if (crossing.opacity == 0) return false;
     crossing.pixel = glm::mix(a.pixel, b.pixel, std::clamp(decision.fraction, 0.0, 1.0));
     crossing.edge = decision.edge;
     crossing.towards_front = decision.front == 0 ? a.pixel - b.pixel : b.pixel - a.pixel;

@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "lines/stroke_mask.h"
+#include "methods/abuffer/faded_strokes.h"
 
 namespace burin {
 namespace {
@@ -68,14 +69,16 @@ class SegmentBins {
 /// The strokes of one tile, class by class.
 class StrokeTile {
   public:
-    explicit StrokeTile(const TileKernels& kernels) : kernels_(kernels) {
+    explicit StrokeTile(const TileKernels& kernels) : kernels_(kernels), faded_(kernels) {
         for (StrokeCanvas& canvas : canvases_) canvas = StrokeCanvas(kernels);
     }
 
     void draw(std::span<const LineSegment* const> segments, PixelRect rect, double radius_px) {
         rect_ = rect;
         present_ = LineClassSet();
+        faded_.draw(segments, rect, radius_px);
         for (const LineSegment* s : segments) {
+            if (s->opacity < 255) continue;
             StrokeCanvas& canvas = canvas_of(s->drawn_as);
             if (!present_.has(s->drawn_as)) canvas.reset(rect.x0, rect.y0, rect.width(), rect.height());
             present_ |= s->drawn_as;
@@ -91,7 +94,7 @@ class StrokeTile {
         }
         for (int row = 0; row < rect_.height(); ++row) {
             for (int column = 0; column < rect_.width(); ++column) {
-                bool touched = false;
+                bool touched = faded_.is_touched(column, row);
                 for (const LineClass c : classes) touched = touched || canvas_of(c).is_touched(column, row);
                 if (touched) film.draw_over(rect_.x0 + column, rect_.y0 + row, pixel(column, row, style, strength));
             }
@@ -114,11 +117,17 @@ class StrokeTile {
             result.coverage[static_cast<std::size_t>(c)] = coverage;
             result.color += glm::vec4(style.color_of(c), 1.0f) * coverage;
         }
+        if (faded_.is_touched(column, row)) {  // all are creases
+            const float coverage = strength * faded_.coverage(column, row, drawn);
+            result.coverage[static_cast<std::size_t>(LineClass::crease)] += coverage;
+            result.color += glm::vec4(style.color_of(LineClass::crease), 1.0f) * coverage;
+        }
         return result;
     }
 
     const TileKernels& kernels_;
     std::array<StrokeCanvas, kLineClassCount> canvases_;
+    FadedStrokes faded_;
     PixelRect rect_;
     LineClassSet present_;
     std::vector<LineClass> classes_;

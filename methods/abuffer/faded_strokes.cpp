@@ -1,0 +1,54 @@
+#include "methods/abuffer/faded_strokes.h"
+
+#include <algorithm>
+
+namespace burin {
+
+void FadedStrokes::draw(std::span<const LineSegment* const> segments, PixelRect rect, double radius_px) {
+    masks_.clear();
+    width_ = rect.width();
+    std::vector<std::uint8_t> opacities;
+    for (const LineSegment* s : segments) {
+        if (s->opacity < 255) opacities.push_back(s->opacity);
+    }
+    if (opacities.empty()) return;
+    std::sort(opacities.rbegin(), opacities.rend());
+    opacities.erase(std::unique(opacities.begin(), opacities.end()), opacities.end());
+    for (const std::uint8_t opacity : opacities) {
+        canvas_.reset(rect.x0, rect.y0, rect.width(), rect.height());
+        for (const LineSegment* s : segments) {
+            if (s->opacity == opacity) canvas_.draw(s->from, s->to, radius_px);
+        }
+        for (int row = 0; row < rect.height(); ++row) {
+            for (int column = 0; column < rect.width(); ++column) {
+                if (!canvas_.is_touched(column, row)) continue;
+                masks_.push_back({static_cast<std::uint32_t>(row * width_ + column), opacity, canvas_.at(column, row)});
+            }
+        }
+    }
+    std::stable_sort(masks_.begin(), masks_.end(),
+                     [](const PixelMask& a, const PixelMask& b) { return a.pixel < b.pixel; });
+}
+
+std::span<const FadedStrokes::PixelMask> FadedStrokes::masks_of(int column, int row) const {
+    const auto pixel = static_cast<std::uint32_t>(row * width_ + column);
+    const auto is_before = [](const PixelMask& m, std::uint32_t p) { return m.pixel < p; };
+    const auto first = std::lower_bound(masks_.begin(), masks_.end(), pixel, is_before);
+    return {first, std::lower_bound(first, masks_.end(), pixel + 1, is_before)};
+}
+
+bool FadedStrokes::is_touched(int column, int row) const { return !masks_.empty() && !masks_of(column, row).empty(); }
+
+float FadedStrokes::coverage(int column, int row, StrokeMask drawn) const {
+    float sum = 0;
+    if (masks_.empty()) return sum;
+    for (const PixelMask& m : masks_of(column, row)) {
+        const int fresh = kernels_->count_bits(m.mask.rows.data(), drawn.rows.data());
+        for (std::size_t r = 0; r < drawn.rows.size(); ++r) drawn.rows[r] |= m.mask.rows[r];
+        sum += static_cast<float>(m.opacity) / 255.0f * static_cast<float>(fresh) /
+               (StrokeMask::kRows * StrokeMask::kColumns);
+    }
+    return sum;
+}
+
+}  // namespace burin
