@@ -238,6 +238,9 @@ class SceneReader {
         }
         lines.style.width_px = t.number("width", {0, 1024, true, false}).value_or(1);
         read_crease_angle(t, lines);
+        static constexpr Contours kContours[] = {Contours::mesh, Contours::smooth};
+        lines.contours = kContours[t.choice("contours", {"mesh", "smooth"}).value_or(0)];
+        lines.style.dash_px = read_dash(t);
         static constexpr StrokeSide kSides[] = {StrokeSide::both, StrokeSide::inside, StrokeSide::outside};
         lines.style.side = kSides[t.choice("side", {"both", "inside", "outside"}).value_or(0)];
         if (const auto color = t.color("color")) lines.style.colors.fill(*color);
@@ -252,6 +255,15 @@ class SceneReader {
         }
         if (auto hidden = t.table("hidden")) read_hidden(*hidden, lines.style.hidden);
         t.finish();
+    }
+
+    static std::optional<std::array<double, 2>> read_dash(TomlReader& t) {
+        const auto dash = t.numbers("dash", 2);
+        if (!dash) return std::nullopt;
+        for (const double length : *dash) {
+            if (!(length > 0 && length <= 65535)) t.fail("dash", "must be two lengths in pixels, greater than 0");
+        }
+        return std::array{(*dash)[0], (*dash)[1]};
     }
 
     /// An angle, or two between which creases fade in.
@@ -273,12 +285,7 @@ class SceneReader {
         hidden.style = kStyles[t.choice("style", {"none", "solid", "dashed"}).value_or(0)];
         hidden.width_px = t.number("width", {0, 1024, true, false});
         hidden.color = t.color("color").value_or(hidden.color);
-        if (const auto dash = t.numbers("dash", 2)) {
-            for (const double length : *dash) {
-                if (!(length > 0 && length <= 65535)) t.fail("dash", "must be two lengths in pixels, greater than 0");
-            }
-            hidden.dash_px = {(*dash)[0], (*dash)[1]};
-        }
+        hidden.dash_px = read_dash(t);
         t.finish();
     }
 

@@ -8,8 +8,11 @@
 #include "base/stopwatch.h"
 #include "methods/abuffer/layer_pass.h"
 #include "methods/abuffer/line_tile.h"
+#include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/pixel_fill.h"
+#include "methods/abuffer/smooth_contours.h"
 #include "methods/abuffer/stroke_pass.h"
+#include "methods/abuffer/visible_dashes.h"
 
 namespace burin {
 namespace {
@@ -54,8 +57,13 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     const TileKernels& kernels = best_kernels();
     Stopwatch watch;
     ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads);
-    const PixelRect region = region_around(frame.crop, 0.5 * frame.scene->lines.style.width_px);
+    const LineSettings& lines = frame.scene->lines;
+    const PixelRect region = region_around(rect_with_lines(frame), 0.5 * lines.style.width_px);
     const TriangleBins bins(screen, region, per_pixel, kernels, stats.threads);
+    std::unique_ptr<SmoothContours> contours;
+    if (lines.contours == Contours::smooth) {
+        contours = std::make_unique<SmoothContours>(frame.surfaces, frame.criteria.cos_crease_angle, stats.threads);
+    }
     stats.prepare_s = watch.lap();
 
     if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());
@@ -75,6 +83,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
             tiles[w]->draw(index);
             times[w].raster += lap.lap();
             tiles[w]->find_lines(segments[index]);
+            if (contours) contours->move(segments[index]);
             times[w].lines += lap.lap();
             fillers[w]->fill(*tiles[w], film);
         }
@@ -95,8 +104,9 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     stats.lines_s = sum.lines * scale;
     stats.shade_s = sum.shade * scale;
     stats.fragments = sum.fragments;
+    if (lines.style.dash_px) segments = dashed(segments, *lines.style.dash_px, lines.style.width_px);
     if (LayerPass::is_needed(frame)) {
-        LayerPass layers(frame, screen, stats.threads);
+        LayerPass layers(frame, screen, stats.threads, contours.get());
         layers.draw_below(segments, film);
         draw_strokes(frame, segments, kernels, stats.threads, film);
         layers.draw_above(film);

@@ -37,11 +37,8 @@ std::span<const FadedStrokes::PixelMask> FadedStrokes::masks_of(int column, int 
     return {first, std::lower_bound(first, masks_.end(), pixel + 1, is_before)};
 }
 
-bool FadedStrokes::is_touched(int column, int row) const { return !masks_.empty() && !masks_of(column, row).empty(); }
-
 float FadedStrokes::coverage(int column, int row, StrokeMask drawn) const {
     float sum = 0;
-    if (masks_.empty()) return sum;
     for (const PixelMask& m : masks_of(column, row)) {
         const int fresh = kernels_->count_bits(m.mask.rows.data(), drawn.rows.data());
         for (std::size_t r = 0; r < drawn.rows.size(); ++r) drawn.rows[r] |= m.mask.rows[r];

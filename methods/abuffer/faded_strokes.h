@@ -20,9 +20,8 @@ class FadedStrokes {
     /// Draws those of the segments that are not opaque.
     void draw(std::span<const LineSegment* const> segments, PixelRect rect, double radius_px);
 
-    bool is_empty() const { return masks_.empty(); }
     /// Whether there is any in a pixel of the rectangle.
-    bool is_touched(int column, int row) const;
+    bool is_touched(int column, int row) const { return !masks_.empty() && !masks_of(column, row).empty(); }
     /// Coverage times opacity in a pixel, besides what is `drawn` already.
     float coverage(int column, int row, StrokeMask drawn) const;
 

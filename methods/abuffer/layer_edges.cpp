@@ -280,6 +280,7 @@ class EdgeFinder {
         line.has_more_owners = has_more;
         line.drawn_as = *classes.first();
         line.opacity = opacity;
+        line.line_key = std::uint64_t{s.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
         if (is_on_screen(s.instance, a)) line.nodes[0] = std::uint64_t{s.instance} << 32 | a;
         if (is_on_screen(s.instance, b)) line.nodes[1] = std::uint64_t{s.instance} << 32 | b;
         lines.push_back(line);

@@ -5,6 +5,7 @@
 #include "methods/abuffer/layer_bins.h"
 #include "methods/abuffer/layer_strokes.h"
 #include "methods/abuffer/layer_tile.h"
+#include "methods/abuffer/smooth_contours.h"
 
 namespace burin {
 
@@ -16,7 +17,9 @@ class LayerPass {
     static bool is_needed(const Frame& frame);
 
     /// The facing of all triangles must be known to `screen`.
-    LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads);
+    /// `contours`: nullptr where they follow the mesh.
+    LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads,
+              const SmoothContours* contours = nullptr);
 
     /// The lines, per tile; finds them at the first call of find().
     void find();
@@ -32,11 +35,13 @@ class LayerPass {
 
   private:
     std::vector<std::vector<LayerSegment>> make_segments() const;
+    void add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const;
     void add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
                     std::vector<LayerSegment>& segments) const;
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
+    const SmoothContours* contours_;
     int threads_;
     PixelTiles grid_;
     LayerBins bins_;
