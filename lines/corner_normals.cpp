@@ -9,6 +9,9 @@
 namespace burin {
 namespace {
 
+/// Of 60 degrees: whatever the crease angle, no surface is smooth that turns by more around a vertex.
+constexpr double kCosBluntestTip = 0.5;
+
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 
 double angle_at(const Mesh& mesh, HalfEdge corner) {
@@ -45,8 +48,13 @@ SmoothMesh make_smooth(const Mesh& mesh, double cos_crease_angle) {
         });
         glm::dvec3 sum(0.0);
         for (const glm::dvec3& part : parts) sum += part;
+        const glm::dvec3 normal = unit(sum);
+        const bool is_tip = std::any_of(corners.begin(), corners.end(), [&](HalfEdge h) {
+            const glm::dvec3 own = unit(glm::dvec3(mesh.polygon_area_vector(h / 3)));
+            return glm::dot(own, normal) < std::max(cos_crease_angle, kCosBluntestTip);
+        });
         for (const HalfEdge h : corners) {
-            smooth.normals[h] = glm::vec3(unit(sum));
+            smooth.normals[h] = is_tip ? glm::vec3(0.0f) : glm::vec3(normal);
             done[h] = true;
         }
     }

@@ -55,7 +55,9 @@ std::optional<SmoothContours::Piece> SmoothContours::piece_in(SurfaceId s) const
     for (std::size_t k = 0; k < 3; ++k) {
         view[k] = surfaces_.view_position(s.instance, t[k]);
         if (!needs_no_clipping(projection, view[k])) return std::nullopt;
-        const glm::dvec3 normal = instance.normal_to_view * glm::dvec3(smooth_of_[s.instance]->normals[3 * s.triangle + k]);
+        const glm::vec3& own = smooth_of_[s.instance]->normals[3 * s.triangle + k];
+        if (own == glm::vec3(0.0f)) return std::nullopt;
+        const glm::dvec3 normal = instance.normal_to_view * glm::dvec3(own);
         const glm::dvec3 ray = projection.orthographic ? glm::dvec3(0, 0, -1) : view[k] / glm::length(view[k]);
         facing[k] = glm::dot(normal, ray) / std::max(glm::length(normal), 1e-300);
     }

@@ -94,6 +94,13 @@ TEST(SmoothContours, LeaveFlatSidesAlone) {
     EXPECT_TRUE(same_bits(smooth.image(), mesh.image()));
 }
 
+TEST(SmoothContours, LeaveTheTipOfAConeAlone) {
+    const glm::dvec3 eye(1.2, 0.8, 2.6);
+    const Drawing smooth = drawing_of(smooth_scene(make_cylinder(0.5, 0, 1, 40)), eye);
+    const Drawing mesh = drawing_of(smooth_scene(make_cylinder(0.5, 0, 1, 40), Contours::mesh), eye);
+    EXPECT_TRUE(same_bits(smooth.image(), mesh.image()));
+}
+
 /// Share of the line in a picture that is further than this from all line of another.
 double stray_share(const Drawing& lines, const Drawing& others, int reach_px) {
     double all = 0, stray = 0;
