@@ -7,6 +7,8 @@
 namespace burin {
 namespace {
 
+/// Smaller loops come from samples beside a vertex, not from anything to be seen.
+constexpr double kSmallestLoopPx = 1.0 / 16;
 constexpr std::uint32_t kNoEnd = 0xFFFFFFFFu;
 
 /// Higher on the screen, then further left.
@@ -136,6 +138,7 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
     for (const Chains::Chain& chain : chains.all()) {
         double total = 0;
         for (const std::uint32_t end : chain.ends) total += chains.length(end);
+        if (total < (chain.is_closed ? kSmallestLoopPx : std::max(1.0, width_px))) continue;  // a hook of facets
         double on = dash_px[0], period = dash_px[0] + dash_px[1];
         if (chain.is_closed) {
             const double stretch = total / (period * std::max(1.0, std::round(total / period)));

@@ -14,7 +14,9 @@ namespace burin {
 /// if they are two; the others end there. A chain's first dash begins at the end that is higher on
 /// the screen (of two level ones, the left one). A closed chain begins at its highest point and runs
 /// clockwise, and its dashes are stretched or squeezed so that a whole number of them fits: there is
-/// no seam. All of that depends on nothing but where the lines are, if all of the picture's are given.
+/// no seam. Open chains shorter than a pixel or than the pen is wide, and loops shorter than 1/16 pixel, are
+/// left out: hooks of facets would dot the gaps of the lines that they hang on. All of that depends on
+/// nothing but where the lines are, if all of the picture's are given.
 std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
                                              std::array<double, 2> dash_px, double width_px);
 

@@ -103,6 +103,13 @@ TEST(VisibleDashes, TheOrderOfPiecesChangesNothing) {
     }
 }
 
+TEST(VisibleDashes, HooksDoNotDotTheGaps) {
+    std::vector<LineSegment> pieces = polyline({{10, 10}, {50, 10}});
+    const auto expected = sorted_ends(dashed({pieces}, {6, 4}, 2));
+    for (const LineSegment& s : polyline({{19, 10}, {20, 10.5}})) pieces.push_back(s);
+    EXPECT_EQ(sorted_ends(dashed({pieces}, {6, 4}, 2)), expected);
+}
+
 TEST(VisibleDashes, DotsAreRound) {
     const auto parts = dashed({polyline({{10, 10}, {50, 10}})}, {1, 4}, 3);
     ASSERT_EQ(parts[0].size(), 8u);
