@@ -177,7 +177,8 @@ void add_scene_options(CLI::App& app, Texts& t) {
                    "line classes, comma separated: silhouette border crease intersection object material "
                    "polygon mark, or all, none (default silhouette,border,crease,intersection,object)");
     app.add_option("-w,--line-width", t.width, "full width of strokes in pixels (default 1)");
-    app.add_option("--crease-angle", t.crease, "angle between polygons from which on they meet in a crease, degrees (default 40)");
+    app.add_option("--crease-angle", t.crease, "angle between polygons from which on they meet in a crease, degrees (default 40); LOW,HIGH: creases fade in "
+                   "between the two");
     app.add_option("--hidden", t.hidden, "how occluded lines are drawn: none (default), solid, dashed");
     app.add_option("--style", t.style, "line style sheet (not in this version)");
     app.add_option("--set", t.sets, "override a value of the scene, KEY=VALUE; may be repeated")
@@ -308,10 +309,12 @@ void fill_scene_options(const Texts& t, Arguments& a) {
         }
     }
     if (!t.crease.empty()) {
-        a.crease_angle_deg = number("--crease-angle", t.crease);
-        if (!(*a.crease_angle_deg >= 0 && *a.crease_angle_deg <= 180)) {
-            fail("--crease-angle", "must be from 0 to 180 degrees");
+        const auto parts = split(t.crease, ',');
+        const double from = number("--crease-angle", parts.front()), to = number("--crease-angle", parts.back());
+        if (!(parts.size() <= 2 && from >= 0 && from <= to && to <= 180)) {
+            fail("--crease-angle", "must be from 0 to 180 degrees, or two such angles, the smaller one first");
         }
+        a.crease_angle_deg = {from, to};
     }
     if (!t.hidden.empty()) {
         const std::pair<std::string_view, HiddenStyle> styles[] = {

@@ -31,7 +31,8 @@ struct Arguments {
     std::optional<GBufferOperatorSet> gbuffer_operators;
     std::optional<int> supersample;
     std::optional<LineClassSet> lines;
-    std::optional<double> line_width_px, crease_angle_deg;
+    std::optional<double> line_width_px;
+    std::optional<std::array<double, 2>> crease_angle_deg;  ///< from where to where creases fade in; or twice the same
     std::optional<HiddenStyle> hidden;
     LayerSet layers;
     bool names_layers = false;

@@ -96,7 +96,11 @@ Scene load_input(const Arguments& a) {
     if (a.lines) scene.lines.classes = *a.lines;
     if (a.hidden) scene.lines.style.hidden.style = *a.hidden;
     if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
-    if (a.crease_angle_deg) scene.lines.crease_angle_deg = *a.crease_angle_deg;
+    if (a.crease_angle_deg) {
+        const auto [from, to] = *a.crease_angle_deg;
+        scene.lines.crease_angle_deg = 0.5 * (from + to);
+        scene.lines.crease_fade_deg = to - from;
+    }
     return scene;
 }
 

@@ -43,6 +43,7 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 c
     const double side = cross(inwards(style, center), style.towards_front);
     segment.front_on_left = (to == style.pixel ? -side : side) < 0;
     segment.line_key = style.line_key;
+    segment.opacity = style.opacity;
     segments.push_back(segment);
 }
 

@@ -96,6 +96,7 @@ class Decider {
         decision.classes = w.crossed;
         decision.reason = w.crossed.empty() ? LineReason::smooth : LineReason::feature_edge;
         decision.edge = w.crossed_edge;
+        decision.crease_cosine = w.crease_cosine;
         return with_fraction(decision, i, w.crossed.empty() ? 0.5 : w.crossed_fraction);
     }
 
@@ -109,18 +110,18 @@ class Decider {
         const SurfaceEdge edge{w.surface, w.half_edge};
         LineDecision decision;
         decision.edge = edge;
-        decision.classes = edge_classes(surfaces_, edge, criteria_);
+        decision.classes = edge_classes(surfaces_, edge, criteria_, &decision.crease_cosine);
         decision.gap_px = in_pixels(gap, i);
         if (touching) {
             decision.classes |= contact_classes(surfaces_, w.surface, behind_[i],
-                                                place(i, w.fraction), criteria_);
+                                                place(i, w.fraction), criteria_, &decision.crease_cosine);
         }
         if (w.end == WalkEnd::fold) {
             decision.classes |= LineClass::silhouette;
             decision.reason = LineReason::turns_away;
         } else if (w.end == WalkEnd::crack) {
             decision.classes |= contact_classes(surfaces_, w.surface, w.beyond,
-                                                place(i, w.fraction), criteria_);
+                                                place(i, w.fraction), criteria_, &decision.crease_cosine);
             decision.reason = LineReason::crack;
         } else if (touching) {
             decision.reason = decision.classes.empty() ? LineReason::touches_smoothly : LineReason::touches;
@@ -158,8 +159,8 @@ class Decider {
         LineDecision decision;
         decision.front = gap[0] >= gap[1] ? 0 : 1;
         const glm::dvec2 middle = glm::mix(points_[0].pixel, points_[1].pixel, 0.5);
-        const LineClassSet contact = contact_classes(surfaces_, points_[0].surface,
-                                                     points_[1].surface, middle, criteria_);
+        const LineClassSet contact = contact_classes(surfaces_, points_[0].surface, points_[1].surface,
+                                                     middle, criteria_, &decision.crease_cosine);
         const double apart = std::max(tolerance[0], tolerance[1]);
         for (const int i : {0, 1}) {
             // The other's surface reaches this point in front of what is visible there: it ends

@@ -41,6 +41,8 @@ struct LineDecision {
     /// How much farther the other surface is at that place, in pixel widths there. Infinite for the
     /// background, 0 where not computed.
     double gap_px = 0;
+    /// Where classes has crease: the least cosine between the normals that meet here.
+    double crease_cosine = 1;
 };
 
 /// Decides whether a line passes between two neighbouring visible points, and which classes it has.

@@ -16,6 +16,7 @@ struct LineCrossing {
     std::uint64_t line_key = 0;  ///< equal for two crossings of one mesh edge or one intersection
     double nearness = 0;    ///< of the front surface
     bool occludes = false;  ///< the front surface ends here, before another one or the background
+    std::uint8_t opacity = 255;  ///< 255 = full
     glm::dvec2 towards_front{0.0};  ///< from the crossing to the sample of the front surface
 };
 
@@ -32,6 +33,7 @@ struct LineSegment {
     bool is_drawn = true;   ///< else it only hides strokes
     float nearness_from = 0, nearness_to = 0;
     std::uint64_t line_key = 0;
+    std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades
     std::uint32_t block = 0;  ///< only pieces of one block of the picture are merged
 };
 

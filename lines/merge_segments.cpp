@@ -22,12 +22,13 @@ bool is_before(const LineSegment& a, const LineSegment& b) {
     if (a.block != b.block) return a.block < b.block;
     if (a.from.x != b.from.x) return a.from.x < b.from.x;
     if (a.from.y != b.from.y) return a.from.y < b.from.y;
-    return a.to.x != b.to.x ? a.to.x < b.to.x : a.to.y < b.to.y;
+    if (a.to.x != b.to.x) return a.to.x < b.to.x;
+    return a.to.y != b.to.y ? a.to.y < b.to.y : a.opacity < b.opacity;
 }
 
 bool continues(const LineSegment& a, const LineSegment& b) {
     const bool is_same_line = a.line_key == b.line_key && a.drawn_as == b.drawn_as && a.is_drawn == b.is_drawn &&
-                              a.block == b.block;
+                              a.opacity == b.opacity && a.block == b.block;
     if (!is_same_line || a.to != b.from || a.front_on_left != b.front_on_left) return false;
     const glm::dvec2 along = b.to - a.from, bend = a.to - a.from;
     const double area = along.x * bend.y - along.y * bend.x;

@@ -87,7 +87,8 @@ class Walker {
                 note_contact(result, last_solid, next.place.surface, at_edge);
                 over_slivers = false;
             } else {
-                note(result, edge_classes_between(edge, {next.place.surface, next.entry}), edge, at_edge);
+                note(result, edge_classes_between(edge, {next.place.surface, next.entry}, &result.crease_cosine), edge,
+                     at_edge);
             }
             if (!sliver) last_solid = next.place.surface;
             current = next.place;
@@ -97,7 +98,7 @@ class Walker {
     }
 
     /// Classes of an edge, given the triangle on its other side.
-    LineClassSet edge_classes_between(SurfaceEdge a, SurfaceEdge b) const;
+    LineClassSet edge_classes_between(SurfaceEdge a, SurfaceEdge b, double* crease_cosine) const;
 
   private:
     /// Where the walking line crosses an edge.
@@ -257,8 +258,8 @@ class Walker {
 
     /// Slivers lie between a and b: what counts is how those two meet.
     void note_contact(SurfaceWalk& result, SurfaceId a, SurfaceId b, double fraction) const {
-        note(result, contact_classes(surfaces_, a, b, at(fraction), criteria_), {a, kNoHalfEdge},
-             fraction);
+        note(result, contact_classes(surfaces_, a, b, at(fraction), criteria_, &result.crease_cosine),
+             {a, kNoHalfEdge}, fraction);
     }
 
     const SurfaceSet& surfaces_;
@@ -269,7 +270,14 @@ class Walker {
     double length_;
 };
 
-LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b) const {
+/// Adds the class crease where the normals are far enough apart.
+void add_crease(double cosine, const LineCriteria& criteria, LineClassSet& classes, double* crease_cosine) {
+    if (!(cosine < criteria.cos_crease_angle)) return;
+    classes |= LineClass::crease;
+    if (crease_cosine != nullptr) *crease_cosine = std::min(*crease_cosine, cosine);
+}
+
+LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b, double* crease_cosine) const {
     const Mesh& mesh = surfaces_.mesh_of(a.surface);
     LineClassSet classes;
     if (mesh.is_marked(a.half_edge)) classes |= LineClass::mark;
@@ -282,7 +290,7 @@ LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b) const {
     const double winding = start_of(a.half_edge) == start_of(b.half_edge) ? -1.0 : 1.0;
     const double cosine =
         winding * glm::dot(surfaces_.view_normal(a.surface), surfaces_.view_normal(b.surface));
-    if (cosine < criteria_.cos_crease_angle) classes |= LineClass::crease;
+    add_crease(cosine, criteria_, classes, crease_cosine);
     return classes;
 }
 
@@ -294,20 +302,20 @@ SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2
 }
 
 LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
-                          const LineCriteria& criteria) {
+                          const LineCriteria& criteria, double* crease_cosine) {
     const Mesh& mesh = surfaces.mesh_of(edge.surface);
     LineClassSet classes;
     if (mesh.is_marked(edge.half_edge)) classes |= LineClass::mark;
     const Walker walker(surfaces, {0, 0}, {1, 0}, criteria);
     for (HalfEdge g = mesh.next_on_edge[edge.half_edge]; g != edge.half_edge;
          g = mesh.next_on_edge[g]) {
-        classes |= walker.edge_classes_between(edge, {{edge.surface.instance, g / 3}, g});
+        classes |= walker.edge_classes_between(edge, {{edge.surface.instance, g / 3}, g}, crease_cosine);
     }
     return classes;
 }
 
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
-                             const LineCriteria& criteria) {
+                             const LineCriteria& criteria, double* crease_cosine) {
     LineClassSet classes;
     if (surfaces.polygon_id(a) == surfaces.polygon_id(b)) return classes;
     if (surfaces.material_id(a) != surfaces.material_id(b)) classes |= LineClass::material;
@@ -315,7 +323,7 @@ LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId 
     classes |= LineClass::polygon;
     const double cosine =
         glm::dot(surfaces.normal_towards_eye(a, at), surfaces.normal_towards_eye(b, at));
-    if (cosine < criteria.cos_crease_angle) classes |= LineClass::crease;
+    add_crease(cosine, criteria, classes, crease_cosine);
     return classes;
 }
 

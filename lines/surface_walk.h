@@ -38,6 +38,7 @@ struct SurfaceWalk {
     LineClassSet crossed;              ///< classes of the edges on the way
     SurfaceEdge crossed_edge;          ///< the first of them with a class asked for
     double crossed_fraction = 0;       ///< where that is
+    double crease_cosine = 1;          ///< of the sharpest crease on the way: between its normals
 };
 
 /// Follows the surface of triangle `start` along the straight line on the screen from `from` (a
@@ -53,14 +54,15 @@ SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2
                          glm::dvec2 to, const LineCriteria& criteria);
 
 /// The classes of the edge between two polygons as such: mark, material, crease, polygon. For a
-/// border edge that can only be mark.
+/// border edge that can only be mark. Where it is a crease, `crease_cosine` is lowered to the cosine
+/// between its normals.
 LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
-                          const LineCriteria& criteria);
+                          const LineCriteria& criteria, double* crease_cosine = nullptr);
 
 /// The classes of a place where two visible surfaces touch: object, or, within one object, material,
 /// crease, polygon. `at` is the position on the screen.
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
-                             const LineCriteria& criteria);
+                             const LineCriteria& criteria, double* crease_cosine = nullptr);
 
 /// Whether a triangle is so thin (in its own proportions, and less than 1/64 pixel high) that rounding
 /// decides its normal.

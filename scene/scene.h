@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lines/crease_fade.h"
 #include "mesh/mesh.h"
 #include "mesh/subdivide.h"
 #include "scene/camera.h"
@@ -23,11 +24,25 @@ struct PictureSettings {
     bool transparent = false;  ///< PNG and TIFF get an alpha channel instead of white paper
 };
 
+/// Where a smooth surface turns away from the eye.
+enum class Contours : std::uint8_t {
+    mesh,    ///< along the edges between polygons that face apart
+    smooth,  ///< where normals, interpolated between the vertices, are across the line of sight
+};
+
 /// Which lines are drawn, and how.
 struct LineSettings {
     LineClassSet classes = kDefaultLineClasses;
     double crease_angle_deg = 40;
+    /// Over so many degrees, half of them below that angle, creases fade in. Only method `abuffer`; the
+    /// others draw a crease or none.
+    double crease_fade_deg = 0;
+    Contours contours = Contours::mesh;  ///< only method `abuffer`
     LineStyle style;
+
+    CreaseFade crease_fade() const {
+        return {crease_angle_deg - 0.5 * crease_fade_deg, crease_angle_deg + 0.5 * crease_fade_deg};
+    }
 };
 
 /// An object of the finished scene: a mesh at its place.

@@ -237,7 +237,10 @@ class SceneReader {
             }
         }
         lines.style.width_px = t.number("width", {0, 1024, true, false}).value_or(1);
-        lines.crease_angle_deg = t.number("crease_angle", {0, 180}).value_or(40);
+        read_crease_angle(t, lines);
+        static constexpr Contours kContours[] = {Contours::mesh, Contours::smooth};
+        lines.contours = kContours[t.choice("contours", {"mesh", "smooth"}).value_or(0)];
+        lines.style.dash_px = read_dash(t);
         static constexpr StrokeSide kSides[] = {StrokeSide::both, StrokeSide::inside, StrokeSide::outside};
         lines.style.side = kSides[t.choice("side", {"both", "inside", "outside"}).value_or(0)];
         static constexpr PixelFilter kFilters[] = {PixelFilter::box, PixelFilter::gaussian, PixelFilter::mitchell};
@@ -256,17 +259,35 @@ class SceneReader {
         t.finish();
     }
 
+    static std::optional<std::array<double, 2>> read_dash(TomlReader& t) {
+        const auto dash = t.numbers("dash", 2);
+        if (!dash) return std::nullopt;
+        for (const double length : *dash) {
+            if (!(length > 0 && length <= 65535)) t.fail("dash", "must be two lengths in pixels, greater than 0");
+        }
+        return std::array{(*dash)[0], (*dash)[1]};
+    }
+
+    /// An angle, or two between which creases fade in.
+    static void read_crease_angle(TomlReader& t, LineSettings& lines) {
+        if (!t.has("crease_angle") || t.is_number("crease_angle")) {
+            lines.crease_angle_deg = t.number("crease_angle", {0, 180}).value_or(40);
+            return;
+        }
+        const std::vector<double> angles = *t.numbers("crease_angle", 2);
+        if (!(angles[0] >= 0 && angles[0] <= angles[1] && angles[1] <= 180)) {
+            t.fail("crease_angle", "must be an angle, or two from 0 to 180 degrees, the smaller one first");
+        }
+        lines.crease_angle_deg = 0.5 * (angles[0] + angles[1]);
+        lines.crease_fade_deg = angles[1] - angles[0];
+    }
+
     static void read_hidden(TomlReader& t, HiddenLineStyle& hidden) {
         static constexpr HiddenStyle kStyles[] = {HiddenStyle::none, HiddenStyle::solid, HiddenStyle::dashed};
         hidden.style = kStyles[t.choice("style", {"none", "solid", "dashed"}).value_or(0)];
         hidden.width_px = t.number("width", {0, 1024, true, false});
         hidden.color = t.color("color").value_or(hidden.color);
-        if (const auto dash = t.numbers("dash", 2)) {
-            for (const double length : *dash) {
-                if (!(length > 0 && length <= 65535)) t.fail("dash", "must be two lengths in pixels, greater than 0");
-            }
-            hidden.dash_px = {(*dash)[0], (*dash)[1]};
-        }
+        hidden.dash_px = read_dash(t);
         t.finish();
     }
 

@@ -29,6 +29,7 @@ struct LineStyle {
     PixelFilter filter = PixelFilter::box;
     std::array<glm::vec3, kLineClassCount> colors{};  ///< linear RGB, per class; black by default
 
+    std::optional<std::array<double, 2>> dash_px;  ///< lengths of a dash and of a gap; none: solid
     HiddenLineStyle hidden;
 
     const glm::vec3& color_of(LineClass c) const { return colors[static_cast<std::size_t>(c)]; }

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "methods/abuffer/layer_pass.h"
+#include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/picture_pieces.h"
+#include "methods/abuffer/smooth_contours.h"
 #include "methods/abuffer/stroke_pass.h"
 #include "methods/abuffer/surface_pass.h"
+#include "methods/abuffer/visible_dashes.h"
 
 namespace burin {
 namespace {
@@ -49,50 +53,67 @@ void drop_above(double y, std::vector<std::vector<Segment>>& lists) {
     std::erase_if(lists, [](const auto& list) { return list.empty(); });
 }
 
+/// A crease begins where it begins to fade in.
+LineCriteria criteria_of(const LineSettings& lines) {
+    LineCriteria criteria;
+    criteria.classes = lines.classes;
+    criteria.cos_crease_angle = std::cos(glm::radians(lines.crease_fade().from_deg));
+    return criteria;
+}
+
 }  // namespace
 
 void prepare_for_abuffer(Scene& scene, int threads) {
-    LineCriteria criteria;
-    criteria.classes = scene.lines.classes;
-    criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
+    const LineCriteria criteria = criteria_of(scene.lines);
     scene.sharp_edges.resize(scene.meshes.size());
     parallel_for(scene.meshes.size(), threads, [&](std::size_t i, int) {
         scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria);
     });
 }
 
-RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film) {
+RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
+    Frame frame = given;
+    frame.criteria.cos_crease_angle = criteria_of(given.scene->lines).cos_crease_angle;
     RenderStats stats;
     stats.threads = resolve_thread_count(options.threads);
     stats.triangles = frame.surfaces.triangle_count();
+    const LineSettings& lines = frame.scene->lines;
     const int per_pixel = frame.scene->abuffer.samples_per_pixel;
     const int tile_samples = options.tile_samples > 0 ? options.tile_samples : TileGrid::kTileSamples;
     const TileKernels& kernels = best_kernels();
     const bool has_cap = options.memory_bytes > 0;
     Stopwatch watch;
     ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads, !has_cap);
-    const PixelRect region = region_around(frame.crop, frame.scene->lines.style.reach_px());
+    const PixelRect region = region_around(rect_with_lines(frame), lines.style.reach_px());
     const PixelTiles tiles(region, tile_samples / per_pixel);
     PiecePlan plan{{{tiles.rows(), {}}}, {{LayerPass::tiles_of(frame).rows(), {}}}, {{}}};
     if (has_cap) plan = plan_pieces(frame, screen, tiles, options.memory_bytes, stats.threads);
     const auto show = [&](const std::vector<std::uint32_t>& instances) {
         if (has_cap) screen.show(instances, stats.threads);
     };
+    std::unique_ptr<SmoothContours> contours;
+    if (lines.contours == Contours::smooth) {
+        contours = std::make_unique<SmoothContours>(frame.surfaces, frame.criteria.cos_crease_angle, stats.threads);
+    }
     stats.prepare_s = watch.lap();
     if (options.progress != nullptr) options.progress->begin("rendering", tiles.count());
 
     const bool has_layers = LayerPass::is_needed(frame);
-    const double reach_px = reach_of(frame.scene->lines.style);
+    const double reach_px = reach_of(lines.style);
     std::vector<std::vector<LineSegment>> segments;
     int done_y = frame.crop.y0;
-    SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress);
+    SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress, contours.get());
+    const bool waits = has_layers || needs_all_visible_lines(frame);  // hidden lines are drawn below visible ones
     for (const PicturePiece& piece : plan.visible) {
         show(piece.instances);
         const PixelRect rows = tiles.only(piece.rows).rect();
         surfaces.draw(rows, tile_samples, segments, film, stats);
-        if (has_layers) continue;  // hidden lines are drawn below visible ones
+        const bool is_last = &piece == &plan.visible.back();
+        if (waits && !is_last) continue;
         watch.lap();
-        const PixelRect part = next_part(frame, done_y, rows.y1, &piece == &plan.visible.back());
+        if (lines.style.dash_px) segments = dashed(segments, *lines.style.dash_px, lines.style.width_px);
+        if (has_layers) continue;
+        const PixelRect part = next_part(frame, done_y, rows.y1, is_last);
         if (part.height() == 0) continue;
         draw_strokes(frame, part, segments, kernels, stats.threads, film);
         done_y = part.y1;
@@ -102,7 +123,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
     if (!has_layers) return stats;
 
     watch.lap();
-    LayerPass layers(frame, screen, stats.threads);
+    LayerPass layers(frame, screen, stats.threads, contours.get());
     const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
     const bool needs_all = LayerPass::needs_all_lines(frame);
     for (const std::vector<std::uint32_t>& group : plan.groups) {

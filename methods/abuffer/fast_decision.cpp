@@ -130,7 +130,8 @@ FastDecision::Walk FastDecision::walk(const NeighbourSamples& pair, bool backwar
             if (sharp == nullptr || (sharp[entry / 3] >> entry % 3 & 1) != 0) {
                 const HalfEdge own = mesh.next_on_edge[entry];
                 const LineClassSet classes =
-                    edge_classes(surfaces_, {{start.instance, own / 3}, own}, criteria_) & criteria_.classes;
+                    edge_classes(surfaces_, {{start.instance, own / 3}, own}, criteria_, &result.crease_cosine) &
+                    criteria_.classes;
                 if (!classes.empty() && result.crossed.empty()) {
                     result.crossed_edge = own;
                     result.crossed_fraction = current;
@@ -186,16 +187,12 @@ bool FastDecision::is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const
     return std::abs(distance - other) <= depth_tolerance(surfaces_, distance, plane);
 }
 
-/// edge_classes(), unless the table says that there are none.
-LineClassSet FastDecision::classes_of(std::uint32_t instance, HalfEdge h) const {
-    const std::uint8_t* const sharp = screen_.sharp_edges(instance);
-    if (sharp != nullptr && (sharp[h / 3] >> h % 3 & 1) == 0) return {};
-    return edge_classes(surfaces_, {{instance, h / 3}, h}, criteria_);
-}
-
-LineClassSet FastDecision::classes_at_end(const Walk& walk, std::uint32_t instance) const {
+LineClassSet FastDecision::classes_at_end(const Walk& walk, std::uint32_t instance, double& crease_cosine) const {
     const LineClass own = walk.end == Walk::fold ? LineClass::silhouette : LineClass::border;
-    return own | classes_of(instance, walk.half_edge);
+    const HalfEdge h = walk.half_edge;
+    const std::uint8_t* const sharp = screen_.sharp_edges(instance);
+    if (sharp != nullptr && (sharp[h / 3] >> h % 3 & 1) == 0) return own;  // it has no other class
+    return own | edge_classes(surfaces_, {{instance, h / 3}, h}, criteria_, &crease_cosine);
 }
 
 double FastDecision::nearness_at(SurfaceId s, double x, double y) const {
@@ -240,6 +237,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
             if (other == kNoSurface) return false;
             if (screen_.number_of({s.instance, w.triangle}) != other) continue;
             decision.classes = w.crossed;
+            decision.crease_cosine = w.crease_cosine;
             decision.reason = w.crossed.empty() ? LineReason::smooth : LineReason::feature_edge;
             if (!w.crossed.empty()) take_edge(w, w.crossed_edge, s.instance, i, w.crossed_fraction);
             return true;
@@ -247,7 +245,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
         if (other == kNoSurface) {
             take_edge(w, w.half_edge, s.instance, i, w.fraction);
             decision.reason = w.end == Walk::fold ? LineReason::turns_away : LineReason::ends_at_border;
-            decision.classes = classes_at_end(w, s.instance);
+            decision.classes = classes_at_end(w, s.instance, decision.crease_cosine);
             return true;
         }
     }
@@ -268,7 +266,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
     // The tolerance depends on the other's slope; where that matters, it is not an ordinary case.
     if (!(gap > depth_tolerance(surfaces_, distance, surfaces_.plane(behind_triangle)))) return false;
     decision.reason = w.end == Walk::fold ? LineReason::turns_away : LineReason::ends_at_border;
-    decision.classes = classes_at_end(w, own.instance);
+    decision.classes = classes_at_end(w, own.instance, decision.crease_cosine);
     return true;
 }
 

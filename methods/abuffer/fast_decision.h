@@ -36,12 +36,12 @@ class FastDecision {
         LineClassSet crossed;
         HalfEdge crossed_edge = kNoHalfEdge;
         double crossed_fraction = 0.5;
+        double crease_cosine = 1;
     };
     /// Whether only triangles that face as the first one, and edges that are no lines, lie between.
     bool is_smooth(const NeighbourSamples& pair) const;
     Walk walk(const NeighbourSamples& pair, bool backwards, double goal) const;
-    LineClassSet classes_of(std::uint32_t instance, HalfEdge h) const;
-    LineClassSet classes_at_end(const Walk& walk, std::uint32_t instance) const;
+    LineClassSet classes_at_end(const Walk& walk, std::uint32_t instance, double& crease_cosine) const;
     bool is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const;
     bool has_seam(std::uint32_t instance, HalfEdge border, double along) const;
     double nearness_at(SurfaceId s, double x, double y) const;

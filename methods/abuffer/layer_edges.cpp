@@ -25,6 +25,7 @@ class EdgeFinder {
     EdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region)
         : surfaces_(frame.surfaces),
           criteria_(frame.criteria),
+          fade_(frame.scene->lines.crease_fade()),
           screen_(screen),
           low_(glm::dvec2(region.x0, region.y0) * 256.0),
           high_(glm::dvec2(region.x1, region.y1) * 256.0) {}
@@ -138,6 +139,7 @@ class EdgeFinder {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const auto solid_h = solid_behind(s.instance, h), solid_g = solid_behind(s.instance, g);
         LineClassSet classes;
+        double crease_cosine = 1;
         if (mesh.is_marked(h)) classes |= LineClass::mark;
         if (solid_h && solid_g) {
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
@@ -145,12 +147,12 @@ class EdgeFinder {
             if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
         }
         if (!is_sliver(surfaces_, triangle_of(s, h)) && !is_sliver(surfaces_, triangle_of(s, g))) {
-            classes |= edge_classes(surfaces_, {s, h}, criteria_);
+            classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
         } else if (solid_h && solid_g) {
             classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g),
-                                       middle_px(s, h), criteria_);
+                                       middle_px(s, h), criteria_, &crease_cosine);
         }
-        add(s, h, classes, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
+        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
     }
 
     void visit_ring(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
@@ -165,15 +167,17 @@ class EdgeFinder {
             g = mesh.next_on_edge[g];
             if (g == h) break;
         }
-        LineClassSet classes = edge_classes(surfaces_, {s, h}, criteria_);
+        double crease_cosine = 1;
+        LineClassSet classes = edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
         if (low == high && low != 0) classes |= LineClass::silhouette;
         const std::uint32_t number = screen_.number_of(s);
-        add(s, h, classes, {number, number}, true, lines);
+        add(s, h, classes, crease_cosine, {number, number}, true, lines);
     }
 
     void visit_border(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         LineClassSet classes;
+        double crease_cosine = 1;
         if (mesh.is_marked(h)) classes |= LineClass::mark;
         const std::uint32_t number = screen_.number_of(s);
         std::array<std::uint32_t, 2> owners{number, number};
@@ -186,11 +190,11 @@ class EdgeFinder {
             const int side_h = side(s.instance, a, b, apex_of(mesh, h));
             const int side_g = side(s.instance, a, b, apex_of(mesh, *partner));
             if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
-            classes |= contact_classes(surfaces_, s, beyond, middle_px(s, h), criteria_);
+            classes |= contact_classes(surfaces_, s, beyond, middle_px(s, h), criteria_, &crease_cosine);
         } else {
             classes |= LineClass::border;
         }
-        add(s, h, classes, owners, false, lines);
+        add(s, h, classes, crease_cosine, owners, false, lines);
     }
 
     double length_of(const Mesh& mesh, HalfEdge h) const {
@@ -253,10 +257,12 @@ class EdgeFinder {
                           has_b ? point(v[b]) : project(glm::mix(p, q, t1))};
     }
 
-    void add(SurfaceId s, HalfEdge h, LineClassSet classes, std::array<std::uint32_t, 2> owners, bool has_more,
-             std::vector<LayerLine>& lines) const {
+    void add(SurfaceId s, HalfEdge h, LineClassSet classes, double crease_cosine,
+             std::array<std::uint32_t, 2> owners, bool has_more, std::vector<LayerLine>& lines) const {
         classes = classes & criteria_.classes;
         if (classes.empty()) return;
+        const std::uint8_t opacity = fade_.opacity(classes, crease_cosine);
+        if (opacity == 0) return;
         const Mesh& mesh = surfaces_.mesh_of(s);
         // One direction, whichever triangle asks.
         const std::uint32_t a = std::min(start_of(mesh, h), end_of(mesh, h));
@@ -273,6 +279,8 @@ class EdgeFinder {
         line.owners = owners;
         line.has_more_owners = has_more;
         line.drawn_as = *classes.first();
+        line.opacity = opacity;
+        line.line_key = std::uint64_t{s.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
         if (is_on_screen(s.instance, a)) line.nodes[0] = std::uint64_t{s.instance} << 32 | a;
         if (is_on_screen(s.instance, b)) line.nodes[1] = std::uint64_t{s.instance} << 32 | b;
         lines.push_back(line);
@@ -280,6 +288,7 @@ class EdgeFinder {
 
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
+    CreaseFade fade_;
     const ScreenSurfaces& screen_;
     glm::dvec2 low_, high_;
 };

@@ -21,10 +21,16 @@ struct LayerLine {
     std::array<std::uint32_t, 2> owners{};
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;
+    std::uint64_t line_key = ~std::uint64_t{0};  ///< of an edge: LineCrossing::line_key
     LineClass drawn_as = LineClass::silhouette;
+    std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades
     /// Lines that meet at an end have equal nodes there. For edges: instance and vertex.
     std::array<std::uint64_t, 2> nodes{kNoNode, kNoNode};
 
+    /// Opacity of a line behind what lets through so much, 255 = all.
+    std::uint8_t opacity_behind(std::uint8_t transmission) const {
+        return static_cast<std::uint8_t>((opacity * transmission + 127) / 255);
+    }
     double length_px() const { return glm::distance(from, to) / 256; }
 };
 

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "methods/abuffer/layer_edges.h"
 #include "methods/abuffer/line_chains.h"
+#include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/transparent_fill.h"
 
 namespace burin {
@@ -23,7 +24,7 @@ PixelRect with_margin(const Frame& frame, PixelRect c) {
     return {c.x0 - margin, c.y0 - margin, c.x1 + margin, c.y1 + margin};
 }
 
-PixelRect region_of(const Frame& frame) { return with_margin(frame, frame.crop); }
+PixelRect region_of(const Frame& frame) { return with_margin(frame, rect_with_lines(frame)); }
 
 /// Where lines are looked for. Dashes are laid out along chains, which a crop must not cut.
 PixelRect region_of_lines(const Frame& frame) {
@@ -81,12 +82,13 @@ bool LayerPass::is_needed(const Frame& frame) { return shows_hidden(frame) || ha
 PixelTiles LayerPass::tiles_of(const Frame& frame) { return PixelTiles(region_of(frame), kTilePx); }
 
 bool LayerPass::needs_all_lines(const Frame& frame) {
-    return frame.scene->lines.style.hidden.style == HiddenStyle::dashed;
+    return frame.scene->lines.style.hidden.style == HiddenStyle::dashed || needs_all_visible_lines(frame);
 }
 
-LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads)
+LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads, const SmoothContours* contours)
     : frame_(frame),
       screen_(screen),
+      contours_(contours),
       threads_(threads),
       all_tiles_(tiles_of(frame)),
       tiles_(all_tiles_),
@@ -158,13 +160,30 @@ std::vector<LayerSegment> LayerPass::take_segments() {
     return segments;
 }
 
+/// Adds a part of a line, moved to the smooth contour if it is one.
+void LayerPass::add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const {
+    if (contours_ == nullptr) return segments.push_back(segment);
+    std::vector<LineSegment> moved(1);
+    moved[0].from = segment.from;
+    moved[0].to = segment.to;
+    moved[0].drawn_as = line.drawn_as;
+    moved[0].line_key = line.line_key;
+    contours_->move(moved);
+    for (const LineSegment& part : moved) {
+        segment.from = part.from;
+        segment.to = part.to;
+        segments.push_back(segment);
+    }
+}
+
 void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
                            std::vector<LayerSegment>& segments) const {
     const LayerLine& line = lines_[piece.line];
     const LineStyle& style = frame_.scene->lines.style;
-    const auto [on, off] = style.hidden_dash_px();
+    const bool is_hidden = piece.invisibility > 0;
+    const auto [on, off] = is_hidden ? style.hidden_dash_px() : *style.dash_px;
     // Strokes have round ends; a dash with its ends is as long as asked for.
-    const double inset = 0.5 * std::min(on, style.hidden_width_px());
+    const double inset = 0.5 * std::min(on, is_hidden ? style.hidden_width_px() : style.width_px);
     const double length = position[1] - position[0];
     const double a = position[0] + length * piece.begin, b = position[0] + length * piece.end;
     const auto [low, high] = std::minmax(a, b);
@@ -175,21 +194,22 @@ void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>&
         segment.from = glm::mix(line.from, line.to, (begin - position[0]) / length) / 256.0;
         segment.to = glm::mix(line.from, line.to, (end - position[0]) / length) / 256.0;
         segment.drawn_as = line.drawn_as;
-        segment.is_hidden = true;
-        segment.transmission = piece.transmission;
-        segments.push_back(segment);
+        segment.is_hidden = is_hidden;
+        segment.transmission = line.opacity_behind(piece.transmission);
+        add(line, segment, segments);
     }
 }
 
 std::vector<LayerSegment> LayerPass::make_segments() const {
     const HiddenStyle style = frame_.scene->lines.style.hidden.style;
     std::vector<std::array<double, 2>> positions;
-    if (needs_all_lines(frame_)) positions = positions_along_chains(lines_);
+    const bool dashes_visible = frame_.scene->lines.style.dash_px.has_value();
+    if (style == HiddenStyle::dashed || dashes_visible) positions = positions_along_chains(lines_);
     std::vector<LayerSegment> segments;
     for (const LayerPiece& piece : pieces_) {
         const bool is_hidden = piece.invisibility > 0;
         if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
-        if (is_hidden && style == HiddenStyle::dashed) {
+        if (is_hidden ? style == HiddenStyle::dashed : dashes_visible) {
             add_dashes(piece, positions[piece.line], segments);
             continue;
         }
@@ -199,8 +219,8 @@ std::vector<LayerSegment> LayerPass::make_segments() const {
         segment.to = glm::mix(line.from, line.to, piece.end) / 256.0;
         segment.drawn_as = line.drawn_as;
         segment.is_hidden = is_hidden;
-        segment.transmission = piece.transmission;
-        segments.push_back(segment);
+        segment.transmission = line.opacity_behind(piece.transmission);
+        add(line, segment, segments);
     }
     return segments;
 }

@@ -5,6 +5,7 @@
 #include "methods/abuffer/layer_bins.h"
 #include "methods/abuffer/layer_strokes.h"
 #include "methods/abuffer/layer_tile.h"
+#include "methods/abuffer/smooth_contours.h"
 
 namespace burin {
 
@@ -28,7 +29,10 @@ class LayerPass {
     /// Whether all lines are needed before the first one can be drawn: dashes run on from line to line.
     static bool needs_all_lines(const Frame& frame);
 
-    LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads);
+    /// The facing of all triangles must be known to `screen`.
+    /// `contours`: nullptr where they follow the mesh.
+    LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads,
+              const SmoothContours* contours = nullptr);
 
     /// All lines of a picture in one piece. The facing of all triangles must be known to `screen`.
     void find();
@@ -60,11 +64,13 @@ class LayerPass {
   private:
     std::vector<LayerSegment> make_segments() const;
     void join_results();
+    void add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const;
     void add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
                     std::vector<LayerSegment>& segments) const;
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
+    const SmoothContours* contours_;
     int threads_;
     PixelTiles all_tiles_, tiles_;
     LayerBins bins_;

@@ -171,8 +171,8 @@ void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<Line
             TileStrokes::Pixel& own = strokes.pixels()[i];
             const int column = static_cast<int>(i) % rect.width(), row = static_cast<int>(i) / rect.width();
             if (!visible_strokes.is_touched(column, row)) continue;
-            visible_strokes.for_classes(column, row, [&](LineClass, const StrokeMask& mask, const StrokeMask&) {
-                unite(own.visible, mask);
+            visible_strokes.for_classes(column, row, [&](LineClass, const StrokeMask& mask, const StrokeMask&, float opacity) {
+                if (opacity == 1.0f) unite(own.visible, mask);  // hidden lines shine through what fades
             });
             strokes.spread(i, own.visible, [&](TileStrokes::Pixel& pixel, float share) {
                 pixel.ink += visible_strokes.pen().strength * share;

@@ -28,6 +28,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
                                                           frame.criteria.classes.has(LineClass::border))),
       fast_(screen, frame.criteria),
+      fade_(frame.scene->lines.crease_fade()),
       tracer_(frame.surfaces) {}
 
 SampleView LineTile::view() {
@@ -200,6 +201,8 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
         }
     }
     crossing.classes = decision.classes & frame_.criteria.classes;
+    crossing.opacity = fade_.opacity(crossing.classes, decision.crease_cosine);
+    if (crossing.opacity == 0) crossing.classes = {};
     crossing.occludes = is_occluding(decision);
     if (crossing.classes.empty() && !(keeps_undrawn_ && crossing.occludes)) return false;
     crossing.pixel = glm::mix(a.pixel, b.pixel, std::clamp(decision.fraction, 0.0, 1.0));

@@ -6,6 +6,7 @@
 #include "abuffer/sample_tile.h"
 #include "abuffer/tile_kernels.h"
 #include "lines/cell_tracer.h"
+#include "lines/crease_fade.h"
 #include "lines/line_decision.h"
 #include "methods/abuffer/fast_decision.h"
 #include "methods/abuffer/triangle_bins.h"
@@ -47,6 +48,7 @@ class LineTile {
     const TileKernels& kernels_;
     bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;
+    CreaseFade fade_;
     CellTracer tracer_;
     PixelRect rect_;
     SampleTile samples_;

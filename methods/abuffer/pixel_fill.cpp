@@ -186,7 +186,9 @@ void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y) {
 
 PixelRect PixelFiller::in_crop(PixelRect r) const {
     const PixelRect& crop = frame_.crop;
-    return {std::max(r.x0, crop.x0), std::max(r.y0, crop.y0), std::min(r.x1, crop.x1), std::min(r.y1, crop.y1)};
+    const PixelRect common{std::max(r.x0, crop.x0), std::max(r.y0, crop.y0), std::min(r.x1, crop.x1),
+                           std::min(r.y1, crop.y1)};
+    return common.x0 < common.x1 && common.y0 < common.y1 ? common : PixelRect{};
 }
 
 void PixelFiller::clear(PixelRect rect, Film& film) const {

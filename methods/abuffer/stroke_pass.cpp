@@ -92,10 +92,10 @@ class StrokePrinter {
             for (int column = 0; column < rect.width(); ++column) {
                 if (!strokes_.is_touched(column, row)) continue;
                 Coverages coverages{};
-                strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken) {
+                strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
                     const int fresh = kernels_.count_bits(mask.rows.data(), taken.rows.data());
-                    coverages[static_cast<std::size_t>(c)] =
-                        strokes_.pen().strength * static_cast<float>(fresh) / (StrokeMask::kRows * StrokeMask::kColumns);
+                    coverages[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(fresh) /
+                                                              (StrokeMask::kRows * StrokeMask::kColumns);
                 });
                 film.draw_over(rect.x0 + column, rect.y0 + row, colored(coverages));
             }
@@ -109,9 +109,9 @@ class StrokePrinter {
         filtered_.assign(static_cast<std::size_t>(rect.width() * rect.height()), Coverages{});
         for (int row = 0; row < rect.height() + 2 * kReach; ++row) {
             for (int column = 0; column < rect.width() + 2 * kReach; ++column) {
-                strokes_.for_classes(column, row, [&](LineClass c, StrokeMask mask, const StrokeMask& taken) {
+                strokes_.for_classes(column, row, [&](LineClass c, StrokeMask mask, const StrokeMask& taken, float opacity) {
                     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
-                    spread(filter.shares_of(mask), c, column, row, rect);
+                    spread(filter.shares_of(mask), opacity * strokes_.pen().strength, c, column, row, rect);
                 });
             }
         }
@@ -125,13 +125,13 @@ class StrokePrinter {
 
   private:
     /// Column and row count from the first pixels within the filter's reach of `rect`.
-    void spread(const FilterTable::Shares& shares, LineClass c, int column, int row, PixelRect rect) {
+    void spread(const FilterTable::Shares& shares, float strength, LineClass c, int column, int row, PixelRect rect) {
         for (int dy = 0; dy < FilterTable::kSide; ++dy) {
             for (int dx = 0; dx < FilterTable::kSide; ++dx) {
                 const int x = column + dx - 2 * FilterTable::kReach, y = row + dy - 2 * FilterTable::kReach;
                 if (x < 0 || y < 0 || x >= rect.width() || y >= rect.height()) continue;
                 filtered_[static_cast<std::size_t>(y * rect.width() + x)][static_cast<std::size_t>(c)] +=
-                    strokes_.pen().strength * shares[static_cast<std::size_t>(dy)][static_cast<std::size_t>(dx)];
+                    strength * shares[static_cast<std::size_t>(dy)][static_cast<std::size_t>(dx)];
             }
         }
     }
@@ -142,6 +142,11 @@ class StrokePrinter {
         for (std::size_t c = 0; c < coverages.size(); ++c) {
             if (coverages[c] == 0) continue;
             result.color += glm::vec4(style_.color_of(static_cast<LineClass>(c)), 1.0f) * coverages[c];
+        }
+        if (faded_.is_touched(column, row)) {  // all are creases
+            const float coverage = strength * faded_.coverage(column, row, drawn);
+            result.coverage[static_cast<std::size_t>(LineClass::crease)] += coverage;
+            result.color += glm::vec4(style.color_of(LineClass::crease), 1.0f) * coverage;
         }
         return result;
     }

@@ -40,6 +40,7 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
             tiles[w]->draw(index);
             times[w].raster += lap.lap();
             tiles[w]->find_lines(segments[before + index]);
+            if (contours_ != nullptr) contours_->move(segments[before + index]);
             times[w].lines += lap.lap();
             fillers[w]->fill(*tiles[w], film);
         }

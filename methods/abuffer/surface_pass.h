@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "lines/line_segment.h"
 #include "methods/abuffer/screen_surfaces.h"
+#include "methods/abuffer/smooth_contours.h"
 #include "render/film.h"
 #include "render/frame.h"
 #include "render/stats.h"
@@ -17,8 +18,8 @@ namespace burin {
 class SurfacePass {
   public:
     SurfacePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads,
-                Progress* progress)
-        : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress) {}
+                Progress* progress, const SmoothContours* contours)
+        : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress), contours_(contours) {}
 
     /// Draws the tiles of `region`, adds their lines and the time it took.
     void draw(PixelRect region, int tile_samples, std::vector<std::vector<LineSegment>>& segments, Film& film,
@@ -30,6 +31,7 @@ class SurfacePass {
     const TileKernels& kernels_;
     int threads_;
     Progress* progress_;
+    const SmoothContours* contours_;  // nullptr where they follow the mesh
 };
 
 }  // namespace burin

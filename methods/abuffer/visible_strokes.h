@@ -7,6 +7,7 @@
 #include "lines/line_segment.h"
 #include "lines/pen.h"
 #include "lines/stroke_clip.h"
+#include "methods/abuffer/faded_strokes.h"
 #include "render/frame.h"
 
 namespace burin {
@@ -26,25 +27,30 @@ class VisibleStrokes {
         for (const LineClass c : classes_) {
             if (canvas_of(c).is_touched(column, row)) return true;
         }
-        return false;
+        return faded_.is_touched(column, row);
     }
-    /// Calls use(class, mask, samples of earlier classes) for the classes at a pixel. Where several overlap,
-    /// the first one counts.
+    /// Calls use(class, mask, samples taken by others, opacity 0..1) for the strokes at a pixel, class by class;
+    /// what fades comes last. Where several overlap, the first one counts.
     template <typename Use>
     void for_classes(int column, int row, const Use& use) const {
         StrokeMask drawn;
         for (const LineClass c : classes_) {
             if (!canvas_of(c).is_touched(column, row)) continue;
             const StrokeMask& mask = canvas_of(c).at(column, row);
-            use(c, mask, drawn);
+            use(c, mask, drawn, 1.0f);
             for (std::size_t r = 0; r < mask.rows.size(); ++r) drawn.rows[r] |= mask.rows[r];
         }
+        if (!faded_.is_touched(column, row)) return;
+        faded_.for_masks(column, row, drawn, [&](const StrokeMask& mask, const StrokeMask& taken, float opacity) {
+            use(LineClass::crease, mask, taken, opacity);  // nothing else fades
+        });
     }
 
   private:
     StrokeCanvas& canvas_of(LineClass c) { return canvases_[static_cast<std::size_t>(c)]; }
     const StrokeCanvas& canvas_of(LineClass c) const { return canvases_[static_cast<std::size_t>(c)]; }
     bool needs_clipping(std::span<const LineSegment* const> segments) const;
+    void find_boundaries(std::span<const LineSegment* const> segments, LineClass line_class);
     void draw_clipped(std::span<const LineSegment* const> segments);
     double depth_px(float nearness) const;
 
@@ -53,7 +59,8 @@ class VisibleStrokes {
     Pen pen_;
     std::array<StrokeCanvas, kLineClassCount> canvases_;
     PixelRect rect_;
-    std::vector<LineClass> classes_;  // that have strokes in the tile
+    std::vector<LineClass> classes_;  // that have opaque strokes in the tile
+    FadedStrokes faded_;
     StrokeClipper clipper_;
     std::vector<ClipPiece> pieces_;
     std::vector<const ClipPiece*> boundaries_;

@@ -265,6 +265,8 @@ TEST_F(Render, WidthsAnglesAndMasks) {
     const Arguments crease = {"--lines", "crease"};
     EXPECT_GT(sum(exr({"--lines", "crease", "--crease-angle", "89"}), "lines.A"), 10);
     EXPECT_EQ(sum(exr({"--lines", "crease", "--crease-angle", "91"}), "lines.A"), 0);
+    const double full = sum(exr({"--lines", "crease"}), "lines.A");
+    EXPECT_NEAR(sum(exr({"--lines", "crease", "--crease-angle", "80,100"}), "lines.A"), 0.5 * full, 0.01 * full);
     EXPECT_FALSE(bytes({"-m", "patel", "--mask", "16"}) == bytes({"-m", "patel", "--mask", "256"}));
     EXPECT_TRUE(bytes({"-m", "patel", "--mask", "64"}) == bytes({"-m", "patel"}));
     EXPECT_FALSE(bytes({"--samples", "2"}) == bytes({}));

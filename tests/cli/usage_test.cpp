@@ -134,7 +134,7 @@ TEST_F(Usage, WidthsAndAngles) {
         expect_bad_options({"-w", value}, "--line-width");
         expect_bad_options({std::string("--line-width=") + value}, "--line-width");
     }
-    for (const char* value : {"-1", "180.1", "nan", "flat", ""})
+    for (const char* value : {"-1", "180.1", "nan", "flat", "", "45,35", "35,181", "35,40,45", "35,"})
         expect_bad_options({"--crease-angle", value}, "--crease-angle");
     for (const char* value : {"0", "180", "-35", "nan", "inf", "wide", ""})
         expect_bad_options({"--fov", value}, "--fov");

@@ -271,6 +271,14 @@ TEST(SceneKeys, Lines) {
     EXPECT_EQ(lines("width=1024").style.width_px, 1024);
     EXPECT_EQ(lines("crease_angle=0").crease_angle_deg, 0);
     EXPECT_EQ(lines("crease_angle=180").crease_angle_deg, 180);
+    EXPECT_EQ(lines("crease_angle=180").crease_fade_deg, 0);
+    EXPECT_EQ(lines("crease_angle=[35,45]").crease_angle_deg, 40);
+    EXPECT_EQ(lines("").contours, Contours::mesh);
+    EXPECT_EQ(lines("contours='smooth'").contours, Contours::smooth);
+    EXPECT_FALSE(lines("").style.dash_px.has_value());
+    EXPECT_EQ(*lines("dash=[6,2.5]").style.dash_px, (std::array<double, 2>{6, 2.5}));
+    EXPECT_EQ(lines("crease_angle=[35,45]").crease_fade().from_deg, 35);
+    EXPECT_EQ(lines("crease_angle=[35,45]").crease_fade().to_deg, 45);
     EXPECT_EQ(lines("side='both'").style.side, StrokeSide::both);
     EXPECT_EQ(lines("side='inside'").style.side, StrokeSide::inside);
     EXPECT_EQ(lines("side='outside'").style.side, StrokeSide::outside);

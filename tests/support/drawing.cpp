@@ -65,7 +65,8 @@ Drawing::Drawing(const Scene& scene, const Camera& camera, int width, int height
 Drawing::Drawing(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop, int threads,
                  RenderFunction render) {
     const Frame frame = make_frame(scene, camera, width, height, crop);
-    const LayerSet all{true, true, true, true, true, true, true};
+    LayerSet all{true, true, true, true, true, true, true};
+    all.lines_hidden = scene.lines.style.hidden.style != HiddenStyle::none;
     Film film({0, 0, width, height}, crop, all, frame.criteria.classes);
     RunOptions options;
     options.threads = threads;
