@@ -143,11 +143,6 @@ class StrokePrinter {
             if (coverages[c] == 0) continue;
             result.color += glm::vec4(style_.color_of(static_cast<LineClass>(c)), 1.0f) * coverages[c];
         }
-        if (faded_.is_touched(column, row)) {  // all are creases
-            const float coverage = strength * faded_.coverage(column, row, drawn);
-            result.coverage[static_cast<std::size_t>(LineClass::crease)] += coverage;
-            result.color += glm::vec4(style.color_of(LineClass::crease), 1.0f) * coverage;
-        }
         return result;
     }
 

@@ -157,7 +157,7 @@ TEST(TileKernels, CullingLosesNoSample) {
         Triangles triangles(100 + seed, per_pixel, 0, 0);
         triangles.vertices[5].x = ScreenVertex::kOffScreen;  // of triangle 1
         triangles.vertices[7].x += 4 * kLargestSmallTriangle;  // of triangle 2
-        const TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel))};
+        const TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), 7};
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<TileTriangle> kept(triangles.count() + 8);
             std::vector<std::uint32_t> keys(triangles.count() + 8);
