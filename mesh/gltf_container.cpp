@@ -15,32 +15,11 @@ static_assert(std::endian::native == std::endian::little, "GLB numbers are littl
 constexpr std::uint32_t kGlbMagic = 0x46546C67;      // "glTF"
 constexpr std::uint32_t kGlbJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kGlbBinaryChunk = 0x004E4942;
-constexpr int kMaxJsonDepth = 256;
 
 std::uint32_t load_u32(const char* p) {
     std::uint32_t value;
     std::memcpy(&value, p, sizeof value);
     return value;
-}
-
-/// How deep lists and objects stand in each other.
-int nesting_depth(std::string_view text) {
-    int depth = 0, deepest = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            in_string = c != '"';
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    }
-    return deepest;
 }
 
 }  // namespace
@@ -72,22 +51,6 @@ GltfContainer split_gltf_container(const std::string& path, std::string_view byt
     }
     if (container.json.empty()) throw InputError(path + ": the GLB has no JSON chunk; re-export it");
     return container;
-}
-
-nlohmann::json parse_gltf_json(const std::string& path, std::string_view text) {
-    // Not by the parser's callback, which takes time in the square of a list's length.
-    if (nesting_depth(text) > kMaxJsonDepth) throw InputError(path + ": the JSON is nested too deeply");
-    try {
-        return nlohmann::json::parse(text.begin(), text.end());
-    } catch (const nlohmann::json::parse_error& error) {
-        const std::size_t at = std::min<std::size_t>(error.byte, text.size());
-        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-        throw InputError({path, static_cast<std::size_t>(line)},
-                         "the JSON breaks off or is malformed at byte " + std::to_string(at) +
-                             "; was the file written completely?");
-    } catch (const nlohmann::json::exception&) {
-        throw InputError(path + ": the JSON holds a number that no computer can hold; repair the file");
-    }
 }
 
 }  // namespace burin

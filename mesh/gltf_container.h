@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -15,8 +14,5 @@ struct GltfContainer {
 
 /// `path` is for messages. Throws InputError when it is cut off or no glTF 2.0.
 GltfContainer split_gltf_container(const std::string& path, std::string_view bytes);
-
-/// Throws InputError with the line where the text breaks off, and when it is nested more than 256 deep.
-nlohmann::json parse_gltf_json(const std::string& path, std::string_view text);
 
 }  // namespace burin

@@ -90,4 +90,8 @@ class JsonPlace {
     std::string place_;
 };
 
+/// Throws InputError with the line where the text breaks off, and when it is nested more than 256 deep.
+/// `path` is for messages.
+nlohmann::json parse_gltf_json(const std::string& path, std::string_view text);
+
 }  // namespace burin
