@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
 // Bytes. Lists that grow may have twice the room that they need.
-constexpr std::uint64_t kPerSmall = 4;        // a number in a tile's list
+constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
 constexpr std::uint64_t kPerRun = 40;         // a chunk's list in a tile, as found and as sorted
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
