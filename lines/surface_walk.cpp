@@ -75,7 +75,7 @@ class Walker {
                                  reached >= farthest.exit.fraction;
             if (turned_back ||
                 (unfolds && !is_level(farthest.surface, next.place.surface, farthest.exit.fraction))) {
-                return ended(result, is_border(farthest) ? WalkEnd::border : WalkEnd::fold, farthest);
+                return ended(result, WalkEnd::fold, farthest);  // over a seam, too
             }
             const SurfaceEdge edge{current.surface, current.exit.half_edge};
             const double at_edge = current.exit.fraction;

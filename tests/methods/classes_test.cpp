@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesh/shapes.h"
+#include "methods/abuffer/abuffer.h"
 #include "tests/support/drawing.h"
 
 namespace burin {
@@ -130,6 +131,25 @@ TEST(Seam, StaysInvisibleWhenItGapes) {
             const Drawing d(scene_of({moved}), pixel_camera(100, 100), 100, 100);
             EXPECT_EQ(d.drawn_share({50 + shift, 25}, {50 + shift, 75}), 0) << "gap " << gap << ", shift " << shift;
         }
+    }
+}
+
+TEST(Seam, WhereTheSurfaceTurnsAwayIsASilhouette) {
+    // A sheet, and a second one from its right border back below it, that has a vertex more there.
+    const PolygonSoup soup = soup_of({{10, 10, 0}, {50, 10, 0}, {50, 50, 0}, {10, 50, 0}, {50, 30, 0}, {30, 10, -40}, {30, 30, -40}, {30, 50, -40}},
+                                     {{0, 1, 2, 3}, {1, 5, 6, 4}, {4, 6, 7, 2}});
+    for (const RenderFunction method : {render_patel, render_abuffer}) {
+        const Drawing d(scene_of({soup}), pixel_camera(60, 60), 60, 60, {0, 0, 60, 60}, 1, method);
+        for (int y = 14; y < 46; ++y) {
+            double silhouette = 0, border = 0;
+            for (int x = 47; x < 53; ++x) {
+                silhouette += d.line(LineClass::silhouette, x, y);
+                border += d.line(LineClass::border, x, y);
+            }
+            EXPECT_NEAR(silhouette, 1, 0.05) << y;
+            EXPECT_EQ(border, 0) << y;
+        }
+        EXPECT_GT(d.sum(LineClass::border), 110);
     }
 }
 
