@@ -126,6 +126,11 @@ struct TileKernels {
     int (*count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
 };
 
+/// By how many columns the samples in the rows of a StrokeMask lie further right. Rows take turns, in the
+/// order of van der Corput's sequence: a stroke in step with the samples, as at 45 degrees, would be up to
+/// a column too wide or too narrow all along.
+constexpr double kStrokeRowShift[16] = {-15.0 / 32, 1.0 / 32, -7.0 / 32, 9.0 / 32, -11.0 / 32, 5.0 / 32, -3.0 / 32, 13.0 / 32,
+                                        -13.0 / 32, 3.0 / 32, -5.0 / 32, 11.0 / 32, -9.0 / 32, 7.0 / 32, -1.0 / 32, 15.0 / 32};
 constexpr std::int32_t kBlockShift = 3;
 constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
 /// A tile's key for triangles wound one way: twice its number, and 1 for clockwise ones.

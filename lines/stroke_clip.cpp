@@ -98,8 +98,9 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
     }
     for (int row = static_cast<int>(std::min(first, last)); row < last; ++row) {
         double low = first_column_, high = end_column_;  // columns in [low, high)
+        const double shift = kStrokeRowShift[static_cast<std::uint32_t>(row) % StrokeMask::kRows];
         for (std::size_t i = 0; i < count; ++i) {
-            const double column = bounds[i].column + bounds[i].per_row * row;
+            const double column = bounds[i].column + bounds[i].per_row * row - shift;
             if (bounds[i].is_low) {
                 low = std::max(low, std::ceil(column));
             } else {

@@ -10,12 +10,11 @@
 namespace burin {
 
 /// A pixel's coverage mask for strokes: 16 rows of 32 samples, bit c of row r at
-/// ((c + 1/2) / 32, (r + 1/2) / 16) of the pixel.
+/// ((c + 1/2 + kStrokeRowShift[r]) / 32, (r + 1/2) / 16) of the pixel.
 struct StrokeMask {
     static constexpr int kRows = 16;
     static constexpr int kColumns = 32;
     std::array<std::uint32_t, kRows> rows{};
-
 };
 
 /// Coverage masks of a rectangle of pixels, into which strokes are drawn. Pieces that overlap or meet

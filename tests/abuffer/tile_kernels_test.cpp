@@ -223,7 +223,7 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
         }
         for (int row = 0; row < kRows; ++row) {
             for (int column = 0; column < kColumns; ++column) {
-                const double x = (column + 0.5) / 32 - s.ax, y = (row + 0.5) / 16 - s.ay;
+                const double x = (column + 0.5 + kStrokeRowShift[row % 16]) / 32 - s.ax, y = (row + 0.5) / 16 - s.ay;
                 const double along = std::clamp(x * s.ux + y * s.uy, 0.0, s.length);
                 const double distance = std::hypot(x - along * s.ux, y - along * s.uy);
                 if (std::abs(distance - s.radius) < 1e-9) continue;
