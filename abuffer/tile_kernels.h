@@ -97,7 +97,8 @@ struct TileKernels {
     /// blocks mean nothing) or kNotSmall. Returns their number. The lists need room for end - begin + 8.
     std::size_t (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
                         std::uint8_t* facing, TileTriangle* triangles, std::uint32_t* keys);
-    /// Draws triangles of a mesh into a tile: nearest wins, then the smaller id. They must be smaller than kLargestSmallTriangle in both directions.
+    /// Draws triangles of a mesh into a tile: nearest wins, then the smaller id. They must be smaller than
+    /// kLargestSmallTriangle in both directions.
     /// `farthest` (from find_farthest()) lets it leave out what is hidden; nullptr: nothing is known.
     /// Returns how many were drawn.
     std::size_t (*draw_small)(const SampleView& tile, const float* farthest, const ScreenMesh& mesh,
@@ -131,6 +132,7 @@ struct TileKernels {
 /// a column too wide or too narrow all along.
 constexpr double kStrokeRowShift[16] = {-15.0 / 32, 1.0 / 32, -7.0 / 32, 9.0 / 32, -11.0 / 32, 5.0 / 32, -3.0 / 32, 13.0 / 32,
                                         -13.0 / 32, 3.0 / 32, -5.0 / 32, 11.0 / 32, -9.0 / 32, 7.0 / 32, -1.0 / 32, 15.0 / 32};
+
 constexpr std::int32_t kBlockShift = 3;
 constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
 /// A tile's key for triangles wound one way: twice its number, and 1 for clockwise ones.

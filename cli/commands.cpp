@@ -156,9 +156,12 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
                      "burin: note: method %s draws strokes on both sides; lines.side is for abuffer, patel and reference\n",
                      std::string(method.name).c_str());
     }
-    if (lines.style.filter != PixelFilter::box && method.name != "abuffer") {
-        std::fprintf(stderr, "burin: note: method %s has no lines.filter; it is for abuffer\n",
-                     std::string(method.name).c_str());
+    note_if_unused(lines.style.filter != PixelFilter::box, "lines.filter", "abuffer");
+    note_if_unused(lines.style.dash_px.has_value(), "lines.dash", "abuffer");
+    note_if_unused(lines.contours != Contours::mesh, "lines.contours", "abuffer");
+    if (lines.crease_fade_deg > 0 && method.name != "abuffer") {
+        std::fprintf(stderr, "burin: note: method %s fades no creases; it draws them from %.4g degrees on\n",
+                     std::string(method.name).c_str(), lines.crease_angle_deg);
     }
     const double wanted = lines.style.width_px;
     const double drawn = patel_line_width_px(frame.scene->patel.mask_bits, wanted);

@@ -62,6 +62,9 @@ void draw_what_all_can(Scene& scene, bool quiet) {
     LineStyle& style = scene.lines.style;
     if (style.side != StrokeSide::both) leave_out("lines.side (strokes lie on both sides)");
     if (style.filter != PixelFilter::box) leave_out("lines.filter");
+    if (style.dash_px) leave_out("lines.dash");
+    if (scene.lines.contours != Contours::mesh) leave_out("lines.contours");
+    if (scene.lines.crease_fade_deg > 0) leave_out("creases that fade");
     if (style.hidden.style != HiddenStyle::none) leave_out("lines.hidden");
     bool is_opaque = true;
     for (Material& material : scene.materials) {
@@ -71,6 +74,9 @@ void draw_what_all_can(Scene& scene, bool quiet) {
     if (!is_opaque) leave_out("opacity");
     style.side = StrokeSide::both;
     style.filter = PixelFilter::box;
+    style.dash_px.reset();
+    scene.lines.contours = Contours::mesh;
+    scene.lines.crease_fade_deg = 0;
     style.hidden.style = HiddenStyle::none;
     if (!left_out.empty() && !quiet) {
         std::fprintf(stderr, "burin: note: not every method has %s; the comparison goes without\n",

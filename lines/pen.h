@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lines/mask_stroke.h"
+#include "lines/stroke_mask.h"
 
 namespace burin {
 
@@ -13,7 +14,7 @@ struct Pen {
     static constexpr double kFinestWidthPx = 0.25;
     /// Below a pixel, widths are whole rows of a mask, and lighter by what that adds: else a stroke along
     /// the rows would have the energy of one row more or less.
-    static constexpr double kRowsPerPx = 16;
+    static constexpr double kRowsPerPx = StrokeMask::kRows;
 
     double radius_px;
     float strength;

@@ -108,15 +108,9 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
             }
         }
         if (!(low < high)) continue;
-        const int end = static_cast<int>(high);
-        for (int column = static_cast<int>(low); column < end;) {
-            const int pixel = column / StrokeMask::kColumns;
-            const int from = column % StrokeMask::kColumns;
-            const int to = std::min(end - pixel * StrokeMask::kColumns, StrokeMask::kColumns);
-            const std::uint32_t bits = (0xFFFFFFFFu << from) & (0xFFFFFFFFu >> (StrokeMask::kColumns - to));
+        StrokeMask::for_pixels(static_cast<int>(low), static_cast<int>(high), [&](int pixel, std::uint32_t bits) {
             visit(row / StrokeMask::kRows * width_ + pixel, static_cast<std::size_t>(row % StrokeMask::kRows), bits);
-            column = (pixel + 1) * StrokeMask::kColumns;
-        }
+        });
     }
 }
 

@@ -25,16 +25,11 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
 void StrokeCanvas::draw_row(int sub_row, int begin, int end) {
     const int row = sub_row % StrokeMask::kRows;
     const int first_pixel = sub_row / StrokeMask::kRows * width_;
-    for (int column = begin; column < end;) {
-        const int pixel = column / StrokeMask::kColumns;
-        const int low = column % StrokeMask::kColumns;
-        const int high = std::min(end - pixel * StrokeMask::kColumns, StrokeMask::kColumns);
-        const std::uint32_t bits = (0xFFFFFFFFu << low) & (0xFFFFFFFFu >> (StrokeMask::kColumns - high));
+    StrokeMask::for_pixels(begin, end, [&](int pixel, std::uint32_t bits) {
         const auto i = static_cast<std::size_t>(first_pixel + pixel);
         masks_[i].rows[static_cast<std::size_t>(row)] |= bits;
         touched_[i] = 1;
-        column = (pixel + 1) * StrokeMask::kColumns;
-    }
+    });
 }
 
 void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -15,6 +16,17 @@ struct StrokeMask {
     static constexpr int kRows = 16;
     static constexpr int kColumns = 32;
     std::array<std::uint32_t, kRows> rows{};
+
+    /// Calls visit(pixel, bits) for the pixels of a row that columns [begin, end) lie in, counted from the row's start.
+    template <typename Visit>
+    static void for_pixels(int begin, int end, const Visit& visit) {
+        for (int column = begin; column < end;) {
+            const int pixel = column / kColumns, from = column % kColumns;
+            const int to = std::min(end - pixel * kColumns, kColumns);
+            visit(pixel, (0xFFFFFFFFu << from) & (0xFFFFFFFFu >> (kColumns - to)));
+            column = (pixel + 1) * kColumns;
+        }
+    }
 };
 
 /// Coverage masks of a rectangle of pixels, into which strokes are drawn. Pieces that overlap or meet

@@ -112,17 +112,16 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         if (waits && !is_last) continue;
         watch.lap();
         if (lines.style.dash_px) segments = dashed(segments, *lines.style.dash_px, lines.style.width_px);
-        if (has_layers) continue;
         const PixelRect part = next_part(frame, done_y, rows.y1, is_last);
-        if (part.height() == 0) continue;
-        draw_strokes(frame, part, segments, kernels, stats.threads, film);
-        done_y = part.y1;
-        if (has_cap) drop_above(done_y - reach_px, segments);
+        if (!has_layers && part.height() > 0) {
+            draw_strokes(frame, part, segments, kernels, stats.threads, film);
+            done_y = part.y1;
+            if (has_cap) drop_above(done_y - reach_px, segments);
+        }
         stats.lines_s += watch.lap();
     }
     if (!has_layers) return stats;
 
-    watch.lap();
     LayerPass layers(frame, screen, stats.threads, contours.get());
     const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
     const bool needs_all = LayerPass::needs_all_lines(frame);

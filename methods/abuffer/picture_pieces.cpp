@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "methods/abuffer/layer_pass.h"
+#include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/piece_costs.h"
 
 namespace burin {
@@ -140,7 +141,7 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
         for (std::size_t i = 0; i < bytes.size(); ++i) (keeps_lines ? lasting : bytes[i]) += rows.lines[i];
         return bytes;
     };
-    visible.bytes = split(costs.visible(), has_layers);
+    visible.bytes = split(costs.visible(), has_layers || needs_all_visible_lines(frame));
     layers.bytes = split(costs.layers(), LayerPass::needs_all_lines(frame));
     const std::uint64_t left = cap_bytes > lasting ? cap_bytes - lasting : 0;
     plan.visible = cut(frame, visible, left, least);

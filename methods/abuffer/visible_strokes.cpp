@@ -29,7 +29,7 @@ void VisibleStrokes::draw(std::span<const LineSegment* const> segments, PixelRec
     }
     if (needs_clipping(segments)) return draw_clipped(segments);
     for (const LineSegment* s : segments) {
-        if (s->opacity == 255) canvas_of(s->drawn_as).draw(s->from, s->to, pen_.radius_px);
+        if (s->is_drawn && s->opacity == 255) canvas_of(s->drawn_as).draw(s->from, s->to, pen_.radius_px);
     }
     faded_.draw(segments, rect, [&](std::size_t i, StrokeCanvas& canvas) {
         canvas.draw(segments[i]->from, segments[i]->to, pen_.radius_px);

@@ -431,6 +431,13 @@ TEST_F(Render, WhatIsSaidOnTheWay) {
     EXPECT_EQ(verbose.err.find("a.exr: 40x30, 12 triangles"), 0u) << verbose.err;
     EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--mask", "16"}).err,
               "burin: note: --mask is for method patel and changes nothing here\n");
+    const std::string unused = run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-m", "simple",
+                                                          "--set", "lines.dash=[3, 2]", "--set", "lines.contours=smooth",
+                                                          "--set", "lines.filter=gaussian", "--crease-angle", "30,50"}).err;
+    for (const char* part : {"lines.dash is for method abuffer", "lines.contours is for", "lines.filter is for",
+                             "fades no creases; it draws them from 40 degrees on"}) {
+        EXPECT_NE(unused.find(part), std::string::npos) << unused;
+    }
     // Patel's widths go in steps, which a user should know.
     EXPECT_NE(run_burin(folder_.path(),
                         {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "a.exr", "-w", "1.37"})

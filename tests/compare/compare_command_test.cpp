@@ -96,14 +96,18 @@ TEST(Compare, DrawsBothSidesOfVisibleLinesWhateverTheSceneAsksFor) {
     for (int i = 0; i < 2; ++i) {
         std::vector<std::string> arguments = {"cube.obj", "-o", "d", "--size", "32x24",
                                               "--methods", "abuffer"};
-        if (i == 1) {
+        if (i == 0) {
+            arguments.insert(arguments.end(), {"--crease-angle", "90"});
+        } else {
             arguments.insert(arguments.end(), {"--set", "lines.side=inside", "--set",
-                                               "lines.hidden.style=solid"});
+                                               "lines.hidden.style=solid", "--set", "lines.dash=[3, 2]",
+                                               "--set", "lines.contours=smooth", "--crease-angle", "60,120"});
         }
         const ProgramResult r = run_compare(folder, arguments);
         ASSERT_EQ(r.status, 0) << r.err;
-        EXPECT_EQ(r.err.find("lines.side") != std::string::npos, i == 1) << r.err;
-        EXPECT_EQ(r.err.find("lines.hidden") != std::string::npos, i == 1) << r.err;
+        for (const char* name : {"lines.side", "lines.hidden", "lines.dash", "lines.contours", "creases that fade"}) {
+            EXPECT_EQ(r.err.find(name) != std::string::npos, i == 1) << r.err;
+        }
         rmse[i] = measured(folder)["rmse"];
     }
     EXPECT_EQ(rmse[0], rmse[1]);

@@ -125,6 +125,23 @@ TEST(Memory, ACapChangesNothingBehindTransparentSurfacesAndInACrop) {
     EXPECT_TRUE(same_bits(whole, draw(scene, options, crop)));
 }
 
+TEST(Memory, LinesThatOthersDependOnAreKeptToTheEnd) {
+    Scene scene = heap_of_instances(4);
+    const std::uint64_t plain = least_memory(scene, 1);
+    for (const bool is_dashed : {true, false}) {
+        scene.lines.style.dash_px.reset();
+        if (is_dashed) scene.lines.style.dash_px = {7.0, 4.0};
+        scene.lines.contours = is_dashed ? Contours::mesh : Contours::smooth;
+        RunOptions options;
+        options.threads = 1;
+        options.tile_samples = kTileSamples;
+        options.memory_bytes = least_memory(scene, 1);
+        EXPECT_GT(options.memory_bytes, plain);
+        EXPECT_GE(count_pieces(scene, options.memory_bytes, 1)[0], 2u);
+        EXPECT_TRUE(same_bits(draw(scene), draw(scene, options))) << (is_dashed ? "dashed" : "smooth");
+    }
+}
+
 TEST(Memory, TheLeastCapTakesMorePiecesThanALargeOne) {
     Scene scene = heap_of_instances(1);
     EXPECT_GE(count_pieces(scene, least_memory(scene, 1), 1)[0], 2u);
