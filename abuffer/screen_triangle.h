@@ -27,10 +27,10 @@ struct ScreenMesh {
     const ScreenVertex* vertices = nullptr;
     const std::uint32_t* corners = nullptr;  ///< vertex numbers, three per triangle
     std::uint32_t first_number = 0;          ///< of the mesh's first triangle, among all of the frame
-    /// What tells plain triangles (see SampleTile). `sharp` == nullptr: none is plain.
     const std::uint8_t* sharp = nullptr;      ///< per triangle, 0: no edge is sharp
     const std::uint32_t* partners = nullptr;  ///< half-edges on the other side, three per triangle
     const std::uint8_t* facing = nullptr;     ///< Facing, per triangle
+    const std::uint8_t* plain = nullptr;      ///< per triangle, 1: plain (see SampleTile)
 };
 
 /// Which way a triangle is wound on the screen.

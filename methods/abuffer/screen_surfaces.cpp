@@ -57,6 +57,7 @@ ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& c
     }
     first_triangle_.push_back(static_cast<std::uint32_t>(triangle_count));
     facing_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
+    plain_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
     for (const SurfaceInstance& instance : surfaces.instances) {
         transforms_.push_back(transform_of(surfaces, instance));
         sharp_.push_back(keeps_angles(instance.to_view) ? sharp_edges_of(instance) : nullptr);
@@ -116,6 +117,7 @@ ScreenMesh ScreenSurfaces::mesh(std::uint32_t instance) const {
     result.sharp = sharp_[instance];
     result.partners = mesh.next_on_edge.data();
     result.facing = facing_.get() + first_triangle_[instance];
+    result.plain = plain_.get() + first_triangle_[instance];
     return result;
 }
 
@@ -124,16 +126,13 @@ SurfaceId ScreenSurfaces::surface_of(std::uint32_t number) const {
     return {static_cast<std::uint32_t>(it - first_triangle_.begin()), number - *it};
 }
 
-bool ScreenSurfaces::is_plain(std::uint32_t number) const {
-    const Facing own = facing(number);
-    if (own == edge_on || own == off_screen) return false;
-    const SurfaceId s = surface_of(number);
-    const std::uint8_t* const sharp = sharp_[s.instance];
-    if (sharp == nullptr || sharp[s.triangle] != 0) return false;
-    const std::uint32_t first = number - s.triangle;
-    const HalfEdge* const partner = &surfaces_.mesh_of(s).next_on_edge[3 * s.triangle];
-    return facing(first + partner[0] / 3) == own && facing(first + partner[1] / 3) == own &&
-           facing(first + partner[2] / 3) == own;
+void ScreenSurfaces::find_plain(const TriangleChunk& chunk) {
+    std::uint8_t* const plain = plain_.get() + first_triangle_[chunk.instance];
+    if (sharp_[chunk.instance] == nullptr) {
+        std::fill(plain + chunk.begin, plain + chunk.end, std::uint8_t{0});
+    } else {
+        kernels_.find_plain(mesh(chunk.instance), chunk.begin, chunk.end, plain);
+    }
 }
 
 }  // namespace burin

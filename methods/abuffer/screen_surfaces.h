@@ -54,8 +54,9 @@ class ScreenSurfaces {
     void set_facing(std::uint32_t number, Facing f) { facing_[number] = f; }
     /// Those of an instance.
     std::uint8_t* facings(std::uint32_t instance) { return facing_.get() + first_triangle_[instance]; }
-    /// Once the facing of all triangles is known: whether no edge of a triangle can be a line.
-    bool is_plain(std::uint32_t number) const;
+    /// Once the facing of all triangles of the instance is known: finds those of which no edge can be a line.
+    void find_plain(const TriangleChunk& chunk);
+    bool is_plain(std::uint32_t number) const { return plain_[number] != 0; }
 
     const SurfaceSet& surfaces() const { return surfaces_; }
 
@@ -74,7 +75,7 @@ class ScreenSurfaces {
     std::vector<std::uint32_t> first_triangle_;  // one more than instances
     std::vector<ScreenTransform> transforms_;  // per instance
     std::unique_ptr<ScreenVertex[]> vertices_;
-    std::unique_ptr<std::uint8_t[]> facing_;
+    std::unique_ptr<std::uint8_t[]> facing_, plain_;
     std::vector<const std::uint8_t*> sharp_;  // per instance
     std::map<const Mesh*, std::vector<std::uint8_t>> made_here_;
 };

@@ -41,6 +41,8 @@ struct Triangles {
         mesh.corners = corners.data();
         mesh.first_number = 1000;
         mesh.facing = facing.data();
+        plain.assign(facing.size(), 0);
+        mesh.plain = plain.data();
     }
     std::uint32_t count() const { return static_cast<std::uint32_t>(corners.size() / 3); }
     const ScreenVertex& corner(std::uint32_t t, std::uint32_t k) const { return vertices[corners[3 * t + k]]; }
@@ -48,7 +50,7 @@ struct Triangles {
 
     std::vector<ScreenVertex> vertices;
     std::vector<std::uint32_t> corners;
-    std::vector<std::uint8_t> facing;
+    std::vector<std::uint8_t> facing, plain;
     ScreenMesh mesh;
 };
 
@@ -116,6 +118,7 @@ std::vector<const TileKernels*> all_kernels() {
 }
 
 TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
+    std::size_t left_out = 0;
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         const int per_pixel = 2 << seed % 3;
         Triangles triangles(seed, per_pixel, 37, -20);
@@ -138,7 +141,10 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
                     drawn += kernels->draw_small(view_of(tile), with_look ? farthest.data() : nullptr, triangles.mesh,
                                                  &drawable[first], std::min<std::size_t>(50, drawable.size() - first));
                 }
-                EXPECT_EQ(with_look, drawn < drawable.size());
+                if (!with_look) {
+                    EXPECT_EQ(drawn, drawable.size());
+                }
+                left_out += drawable.size() - drawn;
                 for (int row = -20; row < 77; ++row) {
                     for (int column = 37; column < 166; ++column) {
                         const std::size_t i = tile.index(column, row);
@@ -149,6 +155,7 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
             }
         }
     }
+    EXPECT_GT(left_out, 0u);
 }
 
 TEST(TileKernels, CullingLosesNoSample) {
