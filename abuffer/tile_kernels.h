@@ -106,8 +106,10 @@ struct TileKernels {
     /// Returns how many were drawn.
     std::size_t (*draw_small)(const SampleView& tile, const float* farthest, const ScreenMesh& mesh,
                               const TileTriangle* triangles, std::size_t count);
-    /// The least nearness in every block of kBlockSamples x kBlockSamples samples, row by row;
-    /// stride / kBlockSamples blocks to a row.
+    /// The least nearness in every block of kBlockSamples x kBlockSamples samples, row by row, with
+    /// stride / kBlockSamples blocks to a row; then in every block and the next one to the right; in every block
+    /// and the one below; in every two by two. `farthest` has room for kFarthestTables floats for
+    /// every kBlockSamples samples of the tile.
     void (*find_farthest)(const SampleView& tile, float* farthest);
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
@@ -138,6 +140,7 @@ constexpr double kStrokeRowShift[16] = {-15.0 / 32, 1.0 / 32, -7.0 / 32, 9.0 / 3
 
 constexpr std::int32_t kBlockShift = 3;
 constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
+constexpr std::size_t kFarthestTables = 4;
 /// A tile's key for triangles wound one way: twice its number, and 1 for clockwise ones.
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
 /// Too large for draw_small(), or not all on the screen.

@@ -40,7 +40,7 @@ struct TileRun {
 /// One chunk's triangles with the tiles they touch.
 struct Records {
     std::vector<TileRun> runs;             // of `small`
-    std::vector<TileTriangle> small;       // sorted by tile
+    std::unique_ptr<TileTriangle[]> small;  // sorted by tile
     std::vector<std::uint32_t> large_tiles, large;  // numbers into polygons
     std::vector<LargePolygon> polygons;
 };
@@ -133,7 +133,7 @@ class Binner {
             records.runs.push_back({key, begin, count[key]});
             begin += std::exchange(count[key], begin);
         }
-        records.small.resize(begin);
+        records.small = std::make_unique_for_overwrite<TileTriangle[]>(begin);
         for (std::size_t i = 0; i < found; ++i) records.small[count[scratch.keys[i]]++] = scratch.triangles[i];
         for (std::size_t i = 0; i < scratch.more_keys.size(); ++i) {
             records.small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
@@ -285,7 +285,7 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
         triangles_[c] = std::move(r.small);
         for (const TileRun& run : r.runs) {
             runs_[next_run[run.key / 2]++] = {chunks[c].instance, run.count, run.key % 2 == 1,
-                                              triangles_[c].data() + run.begin};
+                                              triangles_[c].get() + run.begin};
         }
         const auto before = static_cast<std::uint32_t>(large_.size());
         for (std::size_t i = 0; i < r.large.size(); ++i) {

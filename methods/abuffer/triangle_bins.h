@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -49,7 +50,7 @@ class TriangleBins {
   private:
     PixelRect region_;
     int tile_px_, columns_, rows_;
-    std::vector<std::vector<TileTriangle>> triangles_;  // what runs point into
+    std::vector<std::unique_ptr<TileTriangle[]>> triangles_;  // what runs point into
     std::vector<std::size_t> run_end_, large_end_;
     std::vector<TriangleRun> runs_;
     std::vector<std::uint32_t> large_sorted_;
