@@ -79,11 +79,10 @@ class Binner {
         scratch.triangles.resize(room);
         scratch.keys.resize(room);
         scratch.count.resize(2 * tile_count(), 0);
-        std::size_t found = kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_,
-                                          surfaces_.facings(chunk.instance), scratch.triangles.data(),
-                                          scratch.keys.data());
-        find_tiles_of_others(chunk.instance, found, scratch, records);
-        sort(found, scratch, records);
+        const std::size_t found = kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_,
+                                                surfaces_.facings(chunk.instance), scratch.triangles.data(),
+                                                scratch.keys.data());
+        sort(chunk.instance, found, scratch, records);
     }
 
   private:
@@ -92,40 +91,25 @@ class Binner {
         return static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(rows);
     }
 
-    /// Takes what is not in exactly one tile out of the kernel's lists.
-    void find_tiles_of_others(std::uint32_t instance, std::size_t& found, Scratch& scratch, Records& records) const {
-        scratch.more_triangles.clear();
-        scratch.more_keys.clear();
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < found; ++i) {
-            const TileTriangle found_one = scratch.triangles[i];
-            const std::uint32_t triangle = found_one.triangle, key = scratch.keys[i];
-            scratch.triangles[kept] = found_one;
-            scratch.keys[kept] = key;
-            if (key < kNotSmall) {
-                ++kept;
-            } else if (key == kNotSmall) {
-                add_not_small({instance, triangle}, records);
-            } else {
-                const ScreenTriangle t = surfaces_.triangle({instance, triangle});
-                const bool turned = surfaces_.facing(surfaces_.number_of({instance, triangle})) == clockwise;
-                for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched, const SampleBox& samples) {
-                    scratch.more_triangles.push_back(in_tile(found_one, touched, samples));
-                    scratch.more_keys.push_back(2 * touched + (turned ? 1 : 0));
-                });
-            }
-        }
-        found = kept;
-    }
-
-    /// Counting sort by key.
-    static void sort(std::size_t found, Scratch& scratch, Records& records) {
+    /// Sorts by counting keys. What is not in exactly one tile goes ways of its own.
+    void sort(std::uint32_t instance, std::size_t found, Scratch& scratch, Records& records) const {
         auto& count = scratch.count;
         scratch.used.clear();
+        scratch.more_triangles.clear();
+        scratch.more_keys.clear();
         const auto add = [&](std::uint32_t key) {
             if (count[key]++ == 0) scratch.used.push_back(key);
         };
-        for (std::size_t i = 0; i < found; ++i) add(scratch.keys[i]);
+        for (std::size_t i = 0; i < found; ++i) {
+            const std::uint32_t key = scratch.keys[i];
+            if (key < kNotSmall) {
+                add(key);
+            } else if (key == kNotSmall) {
+                add_not_small({instance, scratch.triangles[i].triangle}, records);
+            } else {
+                find_tiles(instance, scratch.triangles[i], scratch);
+            }
+        }
         for (const std::uint32_t key : scratch.more_keys) add(key);
         std::uint32_t begin = 0;
         records.runs.reserve(scratch.used.size());
@@ -134,11 +118,24 @@ class Binner {
             begin += std::exchange(count[key], begin);
         }
         records.small = std::make_unique_for_overwrite<TileTriangle[]>(begin);
-        for (std::size_t i = 0; i < found; ++i) records.small[count[scratch.keys[i]]++] = scratch.triangles[i];
+        TileTriangle* const small = records.small.get();
+        for (std::size_t i = 0; i < found; ++i) {
+            if (scratch.keys[i] < kNotSmall) small[count[scratch.keys[i]]++] = scratch.triangles[i];
+        }
         for (std::size_t i = 0; i < scratch.more_keys.size(); ++i) {
-            records.small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
+            small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
         }
         for (const std::uint32_t key : scratch.used) count[key] = 0;
+    }
+
+    /// Lists a small triangle once for every tile that it may touch.
+    void find_tiles(std::uint32_t instance, const TileTriangle& found, Scratch& scratch) const {
+        const ScreenTriangle t = surfaces_.triangle({instance, found.triangle});
+        const bool turned = surfaces_.facing(surfaces_.number_of({instance, found.triangle})) == clockwise;
+        for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched, const SampleBox& samples) {
+            scratch.more_triangles.push_back(in_tile(found, touched, samples));
+            scratch.more_keys.push_back(2 * touched + (turned ? 1 : 0));
+        });
     }
 
     void add_not_small(SurfaceId s, Records& records) const {
