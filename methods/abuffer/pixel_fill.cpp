@@ -1,6 +1,7 @@
 #include "methods/abuffer/pixel_fill.h"
 
 #include <algorithm>
+#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 
@@ -145,7 +146,12 @@ void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, int y) {
     std::uint8_t covered[kWidth + 8];
     const std::size_t first = samples.index(rect.x0 * s, y * s);
     kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(rect.width()); ++i) {
+    const auto width = static_cast<std::size_t>(rect.width());
+    if (std::memcmp(covered, covered + 1, width - 1) == 0) {  // most rows: all of one colour
+        for (std::size_t c = 0; c < 4; ++c) std::fill_n(row_.color[c], width, paper_[covered[0]][c]);
+        return;
+    }
+    for (std::size_t i = 0; i < width; ++i) {
         const auto& color = paper_[covered[i]];
         for (std::size_t c = 0; c < 4; ++c) row_.color[c][i] = color[c];
     }
