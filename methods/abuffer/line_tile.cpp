@@ -177,7 +177,7 @@ VisiblePoint LineTile::point(int column, int row) const {
     return {pixel, surface_at(i)};
 }
 
-bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
+bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) {
     const auto number = [this](std::size_t sample) {
         const std::uint32_t id = samples_.ids[sample];
         return id == SampleTile::kBackground ? FastDecision::kNoSurface : id >> 1;
@@ -190,6 +190,7 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
                                       pair.down,
                                       number(at),
                                       number(at + (pair.down ? static_cast<std::size_t>(samples_.stride) : 1))};
+    if (fast_.is_smooth(neighbours)) return false;
     LineDecision decision;
     const VisiblePoint a = point(pair.column, pair.row);
     const VisiblePoint b = point(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));

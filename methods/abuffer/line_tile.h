@@ -37,7 +37,7 @@ class LineTile {
     bool coincide(std::uint32_t loser, std::uint32_t winner, std::uint32_t sample);
     void order_runs(std::size_t tile);
     void draw_large(const LargePolygon& large, bool plain);
-    bool decide(const SamplePair& pair, LineCrossing& crossing) const;
+    bool decide(const SamplePair& pair, LineCrossing& crossing);
     VisiblePoint point(int column, int row) const;
     void trace_cells(std::vector<LineSegment>& segments);
 

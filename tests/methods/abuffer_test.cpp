@@ -99,7 +99,7 @@ Comparison compare_decisions(const Scene& scene, int samples) {
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
     const TriangleBins bins(screen, frame.crop, samples, best_kernels(), 1);
     LineTile tile(frame, screen, bins, samples, best_kernels());
-    const FastDecision fast(screen, frame.criteria);
+    FastDecision fast(screen, frame.criteria);
     const std::int32_t pitch = kSubpixelsPerPixel / samples;
     Comparison result;
     const auto compare = [&](int column, int row, bool down) {
