@@ -22,7 +22,7 @@ bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
     for (int step = 0; step < kMaxTriangles; ++step) {
         // The last one need not be solid: it meets the one before at an edge that is not sharp.
         if (t == goal) return true;
-        if (step > 0 && !walker_.is_surely_solid(mesh, start.instance, t)) return false;
+        if (step > 0 && !FastWalker::is_surely_solid(mesh, t)) return false;
         const std::uint32_t* const corners = mesh.corners + 3 * static_cast<std::size_t>(t);
         bool side[3];
         for (std::size_t k = 0; k < 3; ++k) {
@@ -126,10 +126,6 @@ LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, c
 
 bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness) {
     decision = LineDecision{};
-    if (is_smooth(pair)) {
-        decision.reason = LineReason::smooth;
-        return true;
-    }
     const std::uint32_t numbers[2] = {pair.first, pair.second};
     const auto take_nearness = [&](int i, const FastWalk& w) {
         const SurfaceId s{screen_.surface_of(numbers[i]).instance, w.triangle};

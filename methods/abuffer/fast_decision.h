@@ -18,8 +18,9 @@ class FastDecision {
     /// settles most pairs.
     bool is_smooth(const NeighbourSamples& pair) const;
 
-    /// False where the case is not ordinary; then `decision` means nothing. Otherwise `decision` is
-    /// what decide_line() says, as far as classes asked for go, and `nearness` that of the line.
+    /// For pairs that are not known to be smooth. False where the case is not ordinary; then `decision` means
+    /// nothing. Otherwise `decision` is what decide_line() says, as far as classes asked for go, and `nearness`
+    /// that of the line.
     bool decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness);
 
   private:

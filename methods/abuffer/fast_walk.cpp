@@ -8,12 +8,9 @@ namespace burin {
 namespace {
 
 constexpr int kMaxSteps = 24;
-/// surface_walk.cpp's, the first one and the last two.
+/// surface_walk.cpp's.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
 constexpr double kWidestCrackPx = 1;
-constexpr double kSliverHeightPart = 1.0 / 1024;
-/// A triangle that is at least this high on the screen is no sliver. In 1/256 pixel.
-constexpr double kSurelySolid = 256.0 / 64 + 1;
 
 /// A triangle, and where the walk leaves it.
 struct Place {
@@ -85,16 +82,6 @@ class Way {
     std::int32_t u_[3] = {}, v_[3] = {};
     bool side_[3] = {};
 };
-
-/// Whether a triangle is a sliver in its own proportions, or nearly.
-bool is_thin(const Mesh& mesh, std::uint32_t triangle) {
-    const auto& c = mesh.triangles[triangle];
-    const glm::dvec3 a(mesh.positions[c[0]]), b(mesh.positions[c[1]]), d(mesh.positions[c[2]]);
-    const glm::dvec3 ab = b - a, ad = d - a, bd = d - b, area = glm::cross(ab, ad);
-    const double longest2 = std::max({glm::dot(ab, ab), glm::dot(ad, ad), glm::dot(bd, bd)});
-    constexpr double kPart = 1.001 * kSliverHeightPart;
-    return !(glm::dot(area, area) > kPart * kPart * longest2 * longest2);
-}
 
 }  // namespace
 
@@ -173,7 +160,8 @@ FastWalk FastWalker::walk(const NeighbourSamples& pair, bool backwards, double g
         }
         const HalfEdge edge = current.exit;
         const bool is_sharp = mesh.sharp == nullptr || (mesh.sharp[current.triangle] >> edge % 3 & 1) != 0;
-        const bool sliver = !is_surely_solid(mesh, instance, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
+        const bool sliver =
+            !is_surely_solid(mesh, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
         if (sliver) {
             over_slivers = true;
             const Mesh& own = *surfaces_.instances[instance].mesh;
@@ -204,17 +192,6 @@ std::optional<HalfEdge> FastWalker::seam_beyond(std::uint32_t instance, HalfEdge
     const double part = surfaces_.projection.orthographic ? along : along * qn / ((1 - along) * qk + along * qn);
     const glm::dvec3 a(mesh.positions[k]), b(mesh.positions[n]);
     return seams_.partner(mesh.borders, border, glm::mix(a, b, part));
-}
-
-bool FastWalker::is_surely_solid(const ScreenMesh& mesh, std::uint32_t instance, std::uint32_t triangle) const {
-    const std::uint32_t* const corners = mesh.corners + 3 * static_cast<std::size_t>(triangle);
-    const ScreenVertex &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]], &c = mesh.vertices[corners[2]];
-    const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
-    const double longest2 = std::max({ux * ux + uy * uy, vx * vx + vy * vy, (ux - vx) * (ux - vx) + (uy - vy) * (uy - vy)});
-    const double area = ux * vy - uy * vx;
-    if (area * area >= kSurelySolid * kSurelySolid * longest2) return true;
-    // Where the transform keeps angles, it keeps proportions.
-    return mesh.sharp != nullptr && !is_thin(*surfaces_.instances[instance].mesh, triangle);
 }
 
 DepthPlane FastWalker::plane(SurfaceId s) const {

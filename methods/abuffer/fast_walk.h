@@ -48,8 +48,10 @@ class FastWalker {
     /// Unsure where triangles reach off the screen, more than two meet at an edge, or there are very many.
     FastWalk walk(const NeighbourSamples& pair, bool backwards, double goal);
 
-    /// False where nothing but the rounding of a triangle's corners may decide its normal, see is_sliver().
-    bool is_surely_solid(const ScreenMesh& mesh, std::uint32_t instance, std::uint32_t triangle) const;
+    /// Whether a triangle is no sliver in any view.
+    static bool is_surely_solid(const ScreenMesh& mesh, std::uint32_t triangle) {
+        return mesh.sharp != nullptr && (mesh.sharp[triangle] & kThinTriangle) == 0;
+    }
     /// Nearness as a function of the position in pixels.
     DepthPlane plane(SurfaceId s) const;
 
