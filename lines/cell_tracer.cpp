@@ -47,38 +47,22 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 c
     segments.push_back(segment);
 }
 
+bool has_edge(const LineCrossing& c) { return c.edge_ends[0] != c.edge_ends[1]; }
+glm::dvec2 along_edge(const LineCrossing& c) { return c.edge_ends[1] - c.edge_ends[0]; }
+
 }  // namespace
 
-CellTracer::EdgeLine CellTracer::line_of(const LineCrossing& c) const {
-    EdgeLine line;
-    if (c.edge.half_edge == kNoHalfEdge) return line;
-    const auto& t = surfaces_.mesh_of(c.edge.surface).triangles[c.edge.half_edge / 3];
-    for (std::size_t k = 0; k < 2; ++k) {
-        const glm::dvec3 view =
-            surfaces_.view_position(c.edge.surface.instance, t[(c.edge.half_edge + k) % 3]);
-        if (!needs_no_clipping(surfaces_.projection, view)) return line;
-        const glm::dvec2 pixel = surfaces_.projection.to_pixel(view);
-        line.ends[k] = glm::dvec2(snap_to_subpixels(pixel.x), snap_to_subpixels(pixel.y)) /
-                       static_cast<double>(kSubpixelsPerPixel);
-    }
-    line.exists = line.ends[0] != line.ends[1];
-    return line;
-}
-
-void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
-                       std::vector<LineSegment>& segments) const {
+void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
+                std::vector<LineSegment>& segments) {
     const glm::dvec2 center = 0.5 * (low + high);
     const auto join = [&](const LineCrossing& a, const LineCrossing& b) {
         if (a.line_key != b.line_key) {
-            const EdgeLine la = line_of(a), lb = line_of(b);
-            if (la.exists && lb.exists) {
+            if (has_edge(a) && has_edge(b)) {
                 std::optional<glm::dvec2> corner;
-                for (const glm::dvec2& p : la.ends) {
-                    if (p == lb.ends[0] || p == lb.ends[1]) corner = p;
+                for (const glm::dvec2& p : a.edge_ends) {
+                    if (p == b.edge_ends[0] || p == b.edge_ends[1]) corner = p;
                 }
-                if (!corner) {
-                    corner = meeting_point(a.pixel, la.ends[1] - la.ends[0], b.pixel, lb.ends[1] - lb.ends[0]);
-                }
+                if (!corner) corner = meeting_point(a.pixel, along_edge(a), b.pixel, along_edge(b));
                 if (corner && is_inside(*corner, low, high)) {
                     add(a, a.pixel, *corner, center, segments);
                     add(b, *corner, b.pixel, center, segments);
@@ -95,13 +79,12 @@ void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec
     };
     /// From a crossing to the line between two others.
     const auto end_at = [&](const LineCrossing& c, glm::dvec2 from, glm::dvec2 to) {
-        const EdgeLine line = line_of(c);
         const glm::dvec2 along = to - from;
         const double length = glm::dot(along, along);
         const double t = length > 0 ? std::clamp(glm::dot(c.pixel - from, along) / length, 0.0, 1.0) : 0.0;
         glm::dvec2 end = from + along * t;
-        if (line.exists) {
-            const auto met = meeting_point(c.pixel, line.ends[1] - line.ends[0], from, along);
+        if (has_edge(c)) {
+            const auto met = meeting_point(c.pixel, along_edge(c), from, along);
             if (met && is_inside(*met, low, high)) end = *met;
         }
         add(c, c.pixel, end, center, segments);
@@ -111,12 +94,11 @@ void CellTracer::trace(std::span<const LineCrossing* const> crossings, glm::dvec
         case 0: return;
         case 1: {
             const LineCrossing& c = *crossings[0];
-            const EdgeLine line = line_of(c);
-            if (!line.exists) return;
-            for (const glm::dvec2& p : line.ends) {
+            if (!has_edge(c)) return;
+            for (const glm::dvec2& p : c.edge_ends) {
                 if (is_inside(p, low, high)) return add(c, c.pixel, p, center, segments);
             }
-            const glm::dvec2 along = line.ends[1] - line.ends[0];
+            const glm::dvec2 along = along_edge(c);
             add(c, c.pixel, c.pixel + along * (glm::dot(center - c.pixel, along) / glm::dot(along, along)),
                 center, segments);
             return;

@@ -14,22 +14,9 @@ namespace burin {
 /// Two crossings are joined; where they belong to two edges of the mesh, by way of the corner in which
 /// these meet, if it lies in the cell. Where three or four come together, the nearest line goes through
 /// and the others end at it. A single one runs on to the end of its edge.
-class CellTracer {
-  public:
-    explicit CellTracer(const SurfaceSet& surfaces) : surfaces_(surfaces) {}
-
-    /// `low` and `high` are the positions of the cell's upper left and lower right sample.
-    void trace(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
-               std::vector<LineSegment>& segments) const;
-
-  private:
-    struct EdgeLine {
-        bool exists = false;
-        glm::dvec2 ends[2];
-    };
-    EdgeLine line_of(const LineCrossing& c) const;
-
-    const SurfaceSet& surfaces_;
-};
+///
+/// `low` and `high` are the positions of the cell's upper left and lower right sample.
+void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
+                std::vector<LineSegment>& segments);
 
 }  // namespace burin

@@ -4,7 +4,6 @@
 #include <glm/glm.hpp>
 
 #include "lines/line_class.h"
-#include "lines/surface_walk.h"
 
 namespace burin {
 
@@ -12,7 +11,8 @@ namespace burin {
 struct LineCrossing {
     glm::dvec2 pixel{0.0};
     LineClassSet classes;   ///< all that apply, among those asked for; none: it only hides strokes
-    SurfaceEdge edge;       ///< none for intersections
+    /// Of the mesh's edge that the line is; equal: there is none (intersections), or it leaves the screen.
+    glm::dvec2 edge_ends[2] = {glm::dvec2(0.0), glm::dvec2(0.0)};
     std::uint64_t line_key = 0;  ///< equal for two crossings of one mesh edge or one intersection
     double nearness = 0;    ///< of the front surface
     bool occludes = false;  ///< the front surface ends here, before another one or the background

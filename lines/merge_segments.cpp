@@ -1,7 +1,7 @@
 #include "lines/merge_segments.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace burin {
@@ -17,9 +17,13 @@ void put_in_order(LineSegment& s) {
     s.front_on_left = !s.front_on_left;
 }
 
+/// What pieces are sorted by, so that few of them are looked at, and none is moved.
+struct SortKey {
+    std::uint64_t line_key;
+    std::uint32_t block, index;
+};
+
 bool is_before(const LineSegment& a, const LineSegment& b) {
-    if (a.line_key != b.line_key) return a.line_key < b.line_key;
-    if (a.block != b.block) return a.block < b.block;
     if (a.from.x != b.from.x) return a.from.x < b.from.x;
     if (a.from.y != b.from.y) return a.from.y < b.from.y;
     if (a.to.x != b.to.x) return a.to.x < b.to.x;
@@ -38,19 +42,28 @@ bool continues(const LineSegment& a, const LineSegment& b) {
 }  // namespace
 
 void merge_segments(std::vector<LineSegment>& segments) {
-    for (LineSegment& s : segments) put_in_order(s);
-    std::sort(segments.begin(), segments.end(), is_before);
-    std::size_t kept = 0;
-    for (std::size_t i = 1; i < segments.size(); ++i) {
-        if (continues(segments[kept], segments[i])) {
-            segments[kept].to = segments[i].to;
-            segments[kept].nearness_to = segments[i].nearness_to;
-            segments[kept].occludes = segments[kept].occludes || segments[i].occludes;
+    std::vector<SortKey> order(segments.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        put_in_order(segments[i]);
+        order[i] = {segments[i].line_key, segments[i].block, i};
+    }
+    std::sort(order.begin(), order.end(), [&](const SortKey& a, const SortKey& b) {
+        if (a.line_key != b.line_key) return a.line_key < b.line_key;
+        return a.block != b.block ? a.block < b.block : is_before(segments[a.index], segments[b.index]);
+    });
+    std::vector<LineSegment> merged;
+    merged.reserve(segments.size());
+    for (const SortKey& key : order) {
+        const LineSegment& next = segments[key.index];
+        if (!merged.empty() && continues(merged.back(), next)) {
+            merged.back().to = next.to;
+            merged.back().nearness_to = next.nearness_to;
+            merged.back().occludes = merged.back().occludes || next.occludes;
         } else {
-            segments[++kept] = segments[i];
+            merged.push_back(next);
         }
     }
-    if (!segments.empty()) segments.resize(kept + 1);
+    segments = std::move(merged);
 }
 
 }  // namespace burin

@@ -1,5 +1,7 @@
 #include "lines/sharp_edges.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace burin {
@@ -18,6 +20,16 @@ std::vector<glm::vec3> unit_normals(const Mesh& mesh) {
         normals[t] = unit(glm::cross(glm::dvec3(mesh.positions[c[1]]) - a, glm::dvec3(mesh.positions[c[2]]) - a));
     }
     return normals;
+}
+
+/// Whether a triangle is a sliver in its own proportions, or nearly.
+bool is_thin(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+    const glm::dvec3 a(mesh.positions[t[0]]);
+    const glm::dvec3 ab = glm::dvec3(mesh.positions[t[1]]) - a, ac = glm::dvec3(mesh.positions[t[2]]) - a;
+    const glm::dvec3 bc = ac - ab, area = glm::cross(ab, ac);
+    const double longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
+    constexpr double kPart = 1.001 * kSliverHeightPart;
+    return !(glm::dot(area, area) > kPart * kPart * longest2 * longest2);
 }
 
 }  // namespace
@@ -47,6 +59,9 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
             sharp[h / 3] |= bit;
             sharp[g / 3] |= static_cast<std::uint8_t>(1u << g % 3);
         }
+    }
+    for (std::size_t t = 0; t < sharp.size(); ++t) {
+        if (is_thin(mesh, mesh.triangles[t])) sharp[t] |= kThinTriangle;
     }
     return sharp;
 }

@@ -7,9 +7,12 @@
 
 namespace burin {
 
+constexpr std::uint8_t kThinTriangle = 8;
+
 /// Per triangle of a mesh, bit k: its half-edge k may be a line in some view without being a contour.
 /// That is, it has not exactly one partner wound the other way, or a class asked for. An edge without
 /// its bit is none, under any transform that keeps angles.
+/// kThinTriangle: the triangle may be a sliver, see is_sliver(), under any such transform.
 std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria);
 
 /// Whether a transform keeps angles: rotation, translation and one scale for all directions.

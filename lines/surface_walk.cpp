@@ -11,10 +11,9 @@ namespace {
 constexpr int kMaxSteps = 96;
 /// A fold that turns back by less than this is no contour. Pixels.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
-/// A triangle lower than this (in pixels) and than this part of its length is a sliver: rounding
+/// A triangle lower than this (in pixels) and than kSliverHeightPart of its length is a sliver: rounding
 /// decides its normal, and it says nothing about the surface.
 constexpr double kSliverHeightPx = 1.0 / 64;
-constexpr double kSliverHeightPart = 1.0 / 1024;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an

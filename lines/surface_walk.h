@@ -64,6 +64,9 @@ LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
                              const LineCriteria& criteria, double* crease_cosine = nullptr);
 
+/// A triangle lower than this part of its length may be a sliver.
+constexpr double kSliverHeightPart = 1.0 / 1024;
+
 /// Whether a triangle is so thin (in its own proportions, and less than 1/64 pixel high) that rounding
 /// decides its normal.
 bool is_sliver(const SurfaceSet& surfaces, SurfaceId triangle);

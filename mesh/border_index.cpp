@@ -19,6 +19,16 @@ double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::
     return glm::distance(p, a + t * d);
 }
 
+/// How near a seam's other side must be, in lengths of the edge.
+constexpr double kReachPart = 0.05;
+
+glm::dvec3 direction_of(const BorderIndex::Segment& s) { return glm::dvec3(s.b) - glm::dvec3(s.a); }
+
+bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderIndex::Segment& other) {
+    const glm::dvec3 way = direction_of(other);
+    return std::abs(glm::dot(along, way)) > 0.9 * length * glm::length(way);
+}
+
 double distance_to_box(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high) {
     const glm::dvec3 outside = glm::max(glm::dvec3(low) - p, p - glm::dvec3(high));
     return glm::length(glm::max(outside, glm::dvec3(0.0)));
@@ -64,13 +74,18 @@ void BorderIndex::build(std::uint32_t node, std::uint32_t first, std::uint32_t c
     nodes_[node] = box;
 }
 
-std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
+const BorderIndex::Segment* BorderIndex::find(HalfEdge half_edge) const {
     const auto own = std::lower_bound(segments_.begin(), segments_.end(), half_edge,
                                       [](const Segment& s, HalfEdge h) { return s.half_edge < h; });
-    if (own == segments_.end() || own->half_edge != half_edge) return std::nullopt;
-    const glm::dvec3 along = glm::dvec3(own->b) - glm::dvec3(own->a);
+    return own == segments_.end() || own->half_edge != half_edge ? nullptr : &*own;
+}
+
+std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
+    const Segment* const own = find(half_edge);
+    if (own == nullptr) return std::nullopt;
+    const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
-    double reach = 0.05 * length;
+    double reach = kReachPart * length;
     std::optional<HalfEdge> partner;
     std::uint32_t stack[64];  // halving 2^32 segments takes 32 levels
     int top = 0;
@@ -86,16 +101,63 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const Segment& other = segments_[order_[i]];
-            if (other.polygon == own->polygon) continue;
-            const glm::dvec3 a(other.a), b(other.b);
-            if (std::abs(glm::dot(along, b - a)) <= 0.9 * length * glm::length(b - a)) continue;
-            const double distance = distance_to_segment(at, a, b);
+            if (other.polygon == own->polygon || !are_nearly_parallel(along, length, other)) continue;
+            const double distance = distance_to_segment(at, glm::dvec3(other.a), glm::dvec3(other.b));
             const bool is_better =
                 distance < reach || (distance == reach && partner && other.half_edge < *partner);
             if (is_better) {
                 reach = distance;
                 partner = other.half_edge;
             }
+        }
+    }
+    return partner;
+}
+
+void BorderIndex::find_candidates(HalfEdge half_edge, SeamCandidates& candidates) const {
+    candidates.segments_.clear();
+    const Segment* const own = find(half_edge);
+    if (own == nullptr) return;
+    const glm::dvec3 along = direction_of(*own);
+    const double length = glm::length(along);
+    candidates.reach_ = kReachPart * length;
+    const double margin = candidates.reach_ * (1 + 1e-6);
+    const glm::dvec3 low = glm::dvec3(glm::min(own->a, own->b)) - margin;
+    const glm::dvec3 high = glm::dvec3(glm::max(own->a, own->b)) + margin;
+    const auto may_be_near = [&](const glm::vec3& other_low, const glm::vec3& other_high) {
+        return glm::all(glm::lessThanEqual(glm::dvec3(other_low), high)) &&
+               glm::all(glm::lessThanEqual(low, glm::dvec3(other_high)));
+    };
+    std::uint32_t stack[64];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const Node& node = nodes_[stack[--top]];
+        if (!may_be_near(node.low, node.high)) continue;
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = node.first + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Segment& other = segments_[order_[i]];
+            if (other.polygon == own->polygon || !are_nearly_parallel(along, length, other) ||
+                !may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b))) {
+                continue;
+            }
+            candidates.segments_.push_back(other);
+        }
+    }
+}
+
+std::optional<HalfEdge> BorderIndex::SeamCandidates::nearest(const glm::dvec3& at) const {
+    double reach = reach_;
+    std::optional<HalfEdge> partner;
+    for (const Segment& other : segments_) {
+        const double distance = distance_to_segment(at, glm::dvec3(other.a), glm::dvec3(other.b));
+        if (distance < reach || (distance == reach && partner && other.half_edge < *partner)) {
+            reach = distance;
+            partner = other.half_edge;
         }
     }
     return partner;

@@ -33,6 +33,18 @@ class BorderIndex {
     /// gaps between two different tessellations of one curve.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at) const;
 
+    /// What seam_partner() chooses from along one edge, wherever the point lies.
+    class SeamCandidates {
+      public:
+        std::optional<HalfEdge> nearest(const glm::dvec3& at) const;
+
+      private:
+        friend class BorderIndex;
+        double reach_ = 0;
+        std::vector<Segment> segments_;
+    };
+    void find_candidates(HalfEdge half_edge, SeamCandidates& candidates) const;
+
   private:
     /// A box around segments: those at [first, first + count) of order_ (a leaf), or all of its
     /// children's, which are nodes `first` and `first + 1` (count 0).
@@ -40,6 +52,7 @@ class BorderIndex {
         glm::vec3 low{0.0f}, high{0.0f};
         std::uint32_t first = 0, count = 0;
     };
+    const Segment* find(HalfEdge half_edge) const;
     void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 
     std::vector<Segment> segments_;  // by half-edge

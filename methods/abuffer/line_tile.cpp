@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "abuffer/scan_convert.h"
+#include "lines/cell_tracer.h"
 #include "lines/merge_segments.h"
 
 namespace burin {
@@ -28,8 +29,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
                                                           frame.criteria.classes.has(LineClass::border))),
       fast_(screen, frame.criteria),
-      fade_(frame.scene->lines.crease_fade()),
-      tracer_(frame.surfaces) {}
+      fade_(frame.scene->lines.crease_fade()) {}
 
 SampleView LineTile::view() {
     // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
@@ -48,11 +48,6 @@ SampleView LineTile::view() {
             contests_.data(),
             &contest_count_,
             static_cast<std::uint32_t>(contests_.size())};
-}
-
-SurfaceId LineTile::surface_at(std::size_t sample) const {
-    const std::uint32_t id = samples_.ids[sample];
-    return id == SampleTile::kBackground ? kBackground : screen_.surface_of(id >> 1);
 }
 
 void LineTile::draw(std::size_t tile) {
@@ -129,7 +124,7 @@ bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner, std::uint32_t
         }
     }
     const auto row = static_cast<int>(sample) / samples_.stride, column = static_cast<int>(sample) % samples_.stride;
-    return it->second = frame_.surfaces.coincide(a, b, point(column, row).pixel);
+    return it->second = frame_.surfaces.coincide(a, b, position(column, row));
 }
 
 /// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it
@@ -157,47 +152,33 @@ void LineTile::draw_large(const LargePolygon& large, bool plain) {
     plane.id |= plain ? 1u : 0u;
     const int first = std::max(scan.first_row(), samples_.first_row);
     const int end = std::min(scan.end_row(), samples_.first_row + samples_.rows);
+    const SampleView tile = view();
     for (int row = first; row < end; ++row) {
         const SampleSpan span = scan.span(row);
         const int from = std::max(span.begin - samples_.first_column, 0);
         const int to = std::min(span.end - samples_.first_column, samples_.columns);
-        if (from < to) kernels_.draw_span(view(), row - samples_.first_row, from, to, plane);
+        if (from < to) kernels_.draw_span(tile, row - samples_.first_row, from, to, plane);
     }
 }
 
-VisiblePoint LineTile::point(int column, int row) const {
+glm::dvec2 LineTile::position(int column, int row) const {
     // A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken
     // a trifle further there.
     constexpr double kTrifleX = 0x1p-14, kTrifleY = 0x1p-20;
     const double s = per_pixel_;
-    const glm::dvec2 pixel((samples_.first_column + column + 0.5) / s + kTrifleX,
-                           (samples_.first_row + row + 0.5) / s + kTrifleY);
-    const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(samples_.stride) +
-                   static_cast<std::size_t>(column);
-    return {pixel, surface_at(i)};
+    return {(samples_.first_column + column + 0.5) / s + kTrifleX, (samples_.first_row + row + 0.5) / s + kTrifleY};
 }
 
-bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
-    const auto number = [this](std::size_t sample) {
-        const std::uint32_t id = samples_.ids[sample];
-        return id == SampleTile::kBackground ? FastDecision::kNoSurface : id >> 1;
-    };
-    const std::int32_t pitch = kSubpixelsPerPixel / per_pixel_;
-    const std::size_t at = static_cast<std::size_t>(pair.row) * static_cast<std::size_t>(samples_.stride) + pair.column;
-    const NeighbourSamples neighbours{(samples_.first_column + pair.column) * pitch + pitch / 2,
-                                      (samples_.first_row + pair.row) * pitch + pitch / 2,
-                                      pitch,
-                                      pair.down,
-                                      number(at),
-                                      number(at + (pair.down ? static_cast<std::size_t>(samples_.stride) : 1))};
+/// Whether there is a line between two samples that are not known to lie on one smooth surface.
+bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing) {
     LineDecision decision;
-    const VisiblePoint a = point(pair.column, pair.row);
-    const VisiblePoint b = point(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));
+    const glm::dvec2 a = position(pair.column, pair.row);
+    const glm::dvec2 b = position(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));
     if (!fast_.decide(neighbours, decision, crossing.nearness)) {
-        decision = decide_line(frame_.surfaces, a, b, frame_.criteria);
-        const VisiblePoint& front = decision.front == 0 ? a : b;
+        decision = decide_line(frame_.surfaces, {a, neighbours.surfaces[0]}, {b, neighbours.surfaces[1]}, frame_.criteria);
         if (!decision.classes.empty()) {
-            crossing.nearness = frame_.surfaces.plane(front.surface).nearness(glm::mix(a.pixel, b.pixel, decision.fraction));
+            const DepthPlane plane = frame_.surfaces.plane(neighbours.surfaces[decision.front]);
+            crossing.nearness = plane.nearness(glm::mix(a, b, decision.fraction));
         }
     }
     crossing.classes = decision.classes & frame_.criteria.classes;
@@ -205,43 +186,64 @@ bool LineTile::decide(const SamplePair& pair, LineCrossing& crossing) const {
     if (crossing.opacity == 0) crossing.classes = {};
     crossing.occludes = is_occluding(decision);
     if (crossing.classes.empty() && !(keeps_undrawn_ && crossing.occludes)) return false;
-    crossing.pixel = glm::mix(a.pixel, b.pixel, std::clamp(decision.fraction, 0.0, 1.0));
-    crossing.edge = decision.edge;
-    crossing.towards_front = decision.front == 0 ? a.pixel - b.pixel : b.pixel - a.pixel;
-    if (decision.edge.half_edge != kNoHalfEdge) {
-        const Mesh& mesh = frame_.surfaces.mesh_of(decision.edge.surface);
-        const HalfEdge h = decision.edge.half_edge;
-        crossing.line_key = std::uint64_t{decision.edge.surface.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
+    crossing.pixel = glm::mix(a, b, std::clamp(decision.fraction, 0.0, 1.0));
+    crossing.towards_front = decision.front == 0 ? a - b : b - a;
+    const HalfEdge h = decision.edge.half_edge;
+    if (h != kNoHalfEdge) {
+        const std::uint32_t instance = decision.edge.surface.instance;
+        const ScreenMesh& mesh = screen_.mesh(instance);
+        crossing.line_key = std::uint64_t{instance} << 32 | std::min(h, mesh.partners[h]);
+        const std::uint32_t first = h - h % 3;
+        const ScreenVertex& from = mesh.vertices[mesh.corners[h]];
+        const ScreenVertex& to = mesh.vertices[mesh.corners[first + (h - first + 1) % 3]];
+        if (from.x != ScreenVertex::kOffScreen && to.x != ScreenVertex::kOffScreen) {
+            crossing.edge_ends[0] = glm::dvec2(from.x, from.y) / double{kSubpixelsPerPixel};
+            crossing.edge_ends[1] = glm::dvec2(to.x, to.y) / double{kSubpixelsPerPixel};
+        }
     } else {
         // The background is beside a surface where no edge of it is found: views too narrow for numbers.
-        const auto [low, high] = std::minmax({neighbours.first, neighbours.second});
+        const auto number = [this](SurfaceId id) { return id.is_background() ? ~0u : screen_.number_of(id); };
+        const auto [low, high] = std::minmax({number(neighbours.surfaces[0]), number(neighbours.surfaces[1])});
         crossing.line_key = std::uint64_t{1} << 63 | std::uint64_t{low} << 32 | high;
     }
     return true;
 }
 
-void LineTile::find_lines(std::vector<LineSegment>& segments) {
+void LineTile::find_crossings() {
     pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows));
     const std::size_t count = kernels_.find_pairs(view(), pairs_.data());
+    const auto stride = static_cast<std::size_t>(samples_.stride);
+    const std::int32_t pitch = kSubpixelsPerPixel / per_pixel_;
+    const std::int32_t origin_x = samples_.first_column * pitch + pitch / 2;
+    const std::int32_t origin_y = samples_.first_row * pitch + pitch / 2;
+    crossings_.clear();
+    crossing_places_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        const SamplePair pair = pairs_[i];
+        const std::size_t at = pair.row * stride + pair.column;
+        const NeighbourSamples neighbours{origin_x + pair.column * pitch, origin_y + pair.row * pitch, pitch, pair.down,
+                                          {surface_at(at), surface_at(at + (pair.down ? stride : 1))}};
+        if (fast_.is_smooth(neighbours)) continue;
+        if (!decide(pair, neighbours, crossings_.emplace_back())) {
+            crossings_.pop_back();
+            continue;
+        }
+        crossing_places_.push_back(pair);
+        (pair.down ? down_ : right_)[at] = static_cast<std::uint32_t>(crossings_.size());
+    }
+}
 
+void LineTile::find_lines(std::vector<LineSegment>& segments) {
     const std::size_t size = samples_.ids.size();
     if (right_.size() < size) {
         right_.assign(size, 0);
         down_.assign(size, 0);
     }
-    crossings_.clear();
-    crossing_places_.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-        LineCrossing crossing;
-        if (!decide(pairs_[i], crossing)) continue;
-        crossings_.push_back(crossing);
-        crossing_places_.push_back(pairs_[i]);
-        auto& table = pairs_[i].down ? down_ : right_;
-        table[static_cast<std::size_t>(pairs_[i].row) * static_cast<std::size_t>(samples_.stride) +
-              pairs_[i].column] = static_cast<std::uint32_t>(crossings_.size());
-    }
-    trace_cells(segments);
-    merge_segments(segments);
+    find_crossings();
+    pieces_.clear();
+    trace_cells(pieces_);
+    merge_segments(pieces_);
+    segments.insert(segments.end(), pieces_.begin(), pieces_.end());
     for (const SamplePair& place : crossing_places_) {
         (place.down ? down_ : right_)[static_cast<std::size_t>(place.row) *
                                           static_cast<std::size_t>(samples_.stride) +
@@ -252,6 +254,8 @@ void LineTile::find_lines(std::vector<LineSegment>& segments) {
 void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
     const double s = per_pixel_;
+    const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
+    const auto block_of = [block_shift](int sample) { return static_cast<std::uint32_t>(sample >> block_shift) & 0xFFFFu; };
     // Each cell is traced when its first crossing is met, in the order left, upper, lower, right side.
     const auto trace = [&](int column, int row, const SamplePair& from) {
         if (column < 0 || row < 0 || column + 1 >= samples_.columns || row + 1 >= samples_.rows) return;
@@ -266,11 +270,7 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         if (found[0] != &crossings_[own - 1]) return;  // another crossing traces this cell
         const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
         std::size_t fresh = segments.size();
-        tracer_.trace({found.data(), count}, low, low + 1.0 / s, segments);
-        const auto block_of = [this](int sample) {
-            const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
-            return static_cast<std::uint32_t>(sample >> shift) & 0xFFFFu;
-        };
+        trace_cell({found.data(), count}, low, low + 1.0 / s, segments);
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
         for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };

@@ -5,9 +5,8 @@
 
 #include "abuffer/sample_tile.h"
 #include "abuffer/tile_kernels.h"
-#include "lines/cell_tracer.h"
 #include "lines/crease_fade.h"
-#include "lines/line_decision.h"
+#include "lines/line_segment.h"
 #include "methods/abuffer/fast_decision.h"
 #include "methods/abuffer/triangle_bins.h"
 #include "render/frame.h"
@@ -27,7 +26,10 @@ class LineTile {
 
     const SampleTile& samples() const { return samples_; }
     PixelRect rect() const { return rect_; }
-    SurfaceId surface_at(std::size_t sample) const;
+    SurfaceId surface_at(std::size_t sample) const {
+        const std::uint32_t id = samples_.ids[sample];
+        return id == SampleTile::kBackground ? kBackground : screen_.surface_of(id >> 1);
+    }
     std::uint64_t sample_tests() const { return drawn_; }
 
   private:
@@ -37,8 +39,9 @@ class LineTile {
     bool coincide(std::uint32_t loser, std::uint32_t winner, std::uint32_t sample);
     void order_runs(std::size_t tile);
     void draw_large(const LargePolygon& large, bool plain);
-    bool decide(const SamplePair& pair, LineCrossing& crossing) const;
-    VisiblePoint point(int column, int row) const;
+    glm::dvec2 position(int column, int row) const;
+    void find_crossings();
+    bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing);
     void trace_cells(std::vector<LineSegment>& segments);
 
     const Frame& frame_;
@@ -49,7 +52,6 @@ class LineTile {
     bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;
     CreaseFade fade_;
-    CellTracer tracer_;
     PixelRect rect_;
     SampleTile samples_;
     struct PlacedRun {
@@ -63,6 +65,7 @@ class LineTile {
     std::vector<SamplePair> crossing_places_;
     // Per sample, 1 + the number of the crossing to its right and below it; 0: none.
     std::vector<std::uint32_t> right_, down_;
+    std::vector<LineSegment> pieces_;
     std::uint64_t drawn_ = 0;
     std::vector<Contest> contests_;
     std::uint32_t contest_count_ = 0, contests_used_ = 0;

@@ -38,6 +38,12 @@ ScreenTransform transform_of(const SurfaceSet& surfaces, const SurfaceInstance& 
     return t;
 }
 
+/// The instance that has the triangle with a number of the frame.
+std::uint32_t instance_with(const std::vector<std::uint32_t>& first_triangle, std::uint64_t number) {
+    return static_cast<std::uint32_t>(std::upper_bound(first_triangle.begin(), first_triangle.end(), number) -
+                                      first_triangle.begin()) - 1;
+}
+
 }  // namespace
 
 ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria,
@@ -56,6 +62,10 @@ ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& c
         }
     }
     first_triangle_.push_back(static_cast<std::uint32_t>(triangle_count));
+    for (std::uint64_t number = 0; number < triangle_count; number += std::uint64_t{1} << kNumberBlockShift) {
+        instance_at_.push_back(instance_with(first_triangle_, number));
+    }
+    instance_at_.push_back(triangle_count == 0 ? 0 : instance_with(first_triangle_, triangle_count - 1));
     facing_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
     plain_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
     for (const SurfaceInstance& instance : surfaces.instances) {
@@ -82,6 +92,8 @@ void ScreenSurfaces::show(std::span<const std::uint32_t> instances, int threads)
         vertices_ = std::make_unique_for_overwrite<ScreenVertex[]>(count);
         room_ = count;
     }
+    meshes_.resize(is_shown_.size());
+    for (const std::uint32_t i : instances) meshes_[i] = make_mesh(i);
     for (const std::uint32_t i : instances) {
         const std::vector<glm::vec3>& positions = surfaces_.instances[i].mesh->positions;
         for_chunks(positions.size(), threads, [&](std::size_t begin, std::size_t end) {
@@ -108,7 +120,7 @@ const std::uint8_t* ScreenSurfaces::sharp_edges_of(const SurfaceInstance& instan
     return table.data();
 }
 
-ScreenMesh ScreenSurfaces::mesh(std::uint32_t instance) const {
+ScreenMesh ScreenSurfaces::make_mesh(std::uint32_t instance) const {
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
     ScreenMesh result;
     result.vertices = vertices(instance);
@@ -119,11 +131,6 @@ ScreenMesh ScreenSurfaces::mesh(std::uint32_t instance) const {
     result.facing = facing_.get() + first_triangle_[instance];
     result.plain = plain_.get() + first_triangle_[instance];
     return result;
-}
-
-SurfaceId ScreenSurfaces::surface_of(std::uint32_t number) const {
-    const auto it = std::upper_bound(first_triangle_.begin(), first_triangle_.end(), number) - 1;
-    return {static_cast<std::uint32_t>(it - first_triangle_.begin()), number - *it};
 }
 
 void ScreenSurfaces::find_plain(const TriangleChunk& chunk) {

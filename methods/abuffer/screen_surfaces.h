@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -36,7 +37,15 @@ class ScreenSurfaces {
     std::uint32_t triangle_count() const { return first_triangle_.back(); }
     /// Triangles of the whole frame are numbered through, instance by instance.
     std::uint32_t number_of(SurfaceId s) const { return first_triangle_[s.instance] + s.triangle; }
-    SurfaceId surface_of(std::uint32_t number) const;
+    SurfaceId surface_of(std::uint32_t number) const {
+        const std::uint32_t* const block = &instance_at_[number >> kNumberBlockShift];
+        std::uint32_t instance = block[0];
+        if (instance != block[1]) {
+            const auto first = first_triangle_.begin() + instance + 1, last = first_triangle_.begin() + block[1] + 1;
+            instance = static_cast<std::uint32_t>(std::upper_bound(first, last, number) - first_triangle_.begin()) - 1;
+        }
+        return {instance, number - first_triangle_[instance]};
+    }
 
     const ScreenVertex* vertices(std::uint32_t instance) const {
         return vertices_.get() + first_vertex_[instance];
@@ -46,8 +55,11 @@ class ScreenSurfaces {
         const ScreenVertex* const v = vertices(s.instance);
         return {{v[t[0]], v[t[1]], v[t[2]]}};
     }
-    /// An instance as the kernels see it.
-    ScreenMesh mesh(std::uint32_t instance) const;
+    /// An instance that is shown, as the kernels see it.
+    const ScreenMesh& mesh(std::uint32_t instance) const { return meshes_[instance]; }
+    std::uint32_t triangle_count(std::uint32_t instance) const {
+        return first_triangle_[instance + 1] - first_triangle_[instance];
+    }
     const ScreenTransform& transform(std::uint32_t instance) const { return transforms_[instance]; }
 
     Facing facing(std::uint32_t number) const { return static_cast<Facing>(facing_[number]); }
@@ -64,7 +76,10 @@ class ScreenSurfaces {
     const std::uint8_t* sharp_edges(std::uint32_t instance) const { return sharp_[instance]; }
 
   private:
+    static constexpr int kNumberBlockShift = 8;
+
     const std::uint8_t* sharp_edges_of(const SurfaceInstance& instance);
+    ScreenMesh make_mesh(std::uint32_t instance) const;
 
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
@@ -73,10 +88,12 @@ class ScreenSurfaces {
     std::vector<std::size_t> first_vertex_;  // in vertices_, of instances that are shown
     std::size_t room_ = 0;                   // in vertices_
     std::vector<std::uint32_t> first_triangle_;  // one more than instances
+    std::vector<std::uint32_t> instance_at_;     // of the first number of each block of numbers, and of the last one
     std::vector<ScreenTransform> transforms_;  // per instance
     std::unique_ptr<ScreenVertex[]> vertices_;
     std::unique_ptr<std::uint8_t[]> facing_, plain_;
     std::vector<const std::uint8_t*> sharp_;  // per instance
+    std::vector<ScreenMesh> meshes_;          // per instance
     std::map<const Mesh*, std::vector<std::uint8_t>> made_here_;
 };
 

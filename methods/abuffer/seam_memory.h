@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mesh/border_index.h"
+
+namespace burin {
+
+/// BorderIndex::seam_partner() for places that are asked for one after the other along the same few edges: remembers
+/// which edges run along each of them.
+class SeamMemory {
+  public:
+    std::optional<HalfEdge> partner(const BorderIndex& borders, HalfEdge half_edge, const glm::dvec3& at);
+
+  private:
+    static constexpr std::size_t kEntries = 512;
+    struct Entry {
+        const BorderIndex* borders = nullptr;
+        HalfEdge half_edge = 0;
+        BorderIndex::SeamCandidates candidates;
+    };
+    std::vector<Entry> entries_;
+};
+
+}  // namespace burin
