@@ -77,9 +77,9 @@ void measure_widths(JsonWriter& json, double width_px) {
 }
 
 /// The busiest part of a picture while the camera moves by 1/32 pixel per frame, beside what the
-/// reference makes of it with 16 x 16 samples.
+/// reference makes of it with 16 x 16 samples. The truth has 32 x 32.
 void measure_motion(JsonWriter& json, const std::string& name, Scene& scene, const View& still) {
-    constexpr int kFrames = 32, kPart = 64;
+    constexpr int kFrames = 32, kPart = 48;
     const PixelRect part = busiest_part(lines_of(abuffer(), scene, still), still.crop, kPart, kPart);
     std::vector<Plane> results, references, truths;
     for (int j = 0; j < kFrames; ++j) {
@@ -87,7 +87,7 @@ void measure_motion(JsonWriter& json, const std::string& name, Scene& scene, con
         view.crop = part;
         results.push_back(lines_of(abuffer(), scene, view));
         references.push_back(truth_of(scene, view, 16));
-        truths.push_back(truth_of(scene, view, 64));
+        truths.push_back(truth_of(scene, view, 32));
     }
     const auto ours = flicker(results, truths), sampled = flicker(references, truths);
     if (!ours || !sampled) return;
