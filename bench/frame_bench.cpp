@@ -1,6 +1,6 @@
-// frame_bench MODEL WIDTH HEIGHT RUNS [scaling]: what frames of the method abuffer cost, beside Embree's
-// primary rays. Prints the JSON object of section "frame": seconds of CPU time of this process (of all
-// its threads) or, where a name says so, of wall time; medians over the runs.
+// frame_bench MODEL WIDTH HEIGHT RUNS [scaling]: what frames of the method abuffer cost, beside
+// Embree's primary rays. Prints the JSON object of section "frame": seconds of CPU time of this
+// process (of all its threads) or, where a name says so, of wall time; medians over the runs.
 //
 // The camera fits the model to 95 % of the frame, at a vertical field of view of 35 degrees. With
 // "scaling" also a frame of four times the pixels, and one of four times the triangles.
@@ -62,7 +62,8 @@ struct View {
         CameraSettings settings;
         settings.fov_deg = 35;
         settings.fit = 0.95;
-        const Camera camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
+        const Camera camera =
+            resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
         prepare_for_abuffer(scene, 1);
         frame = make_frame(scene, camera, width, height, {0, 0, width, height});
     }
@@ -76,8 +77,8 @@ struct View {
 
 // ---- stages of the whole way from a file to a file, in a process of its own ----
 
-constexpr std::array<const char*, 8> kStageNames = {"load",    "prepare", "raster", "resolve",
-                                                    "lines",   "shade",   "write",  "fragments"};
+constexpr std::array<const char*, 8> kStageNames = {"load",  "prepare", "raster", "resolve",
+                                                    "lines", "shade",   "write",  "fragments"};
 using Stages = std::array<double, kStageNames.size()>;
 
 Stages run_stages(const std::string& model, int width, int height, const std::string& picture) {
@@ -112,7 +113,8 @@ std::pair<Stages, double> in_process(const std::function<Stages()>& work) {
     const bool is_read = ::read(pipe_ends[0], &stages, sizeof stages) == sizeof stages;
     ::close(pipe_ends[0]);
     rusage usage{};
-    if (::wait4(child, nullptr, 0, &usage) != child || !is_read) throw std::runtime_error("a run of all stages failed");
+    if (::wait4(child, nullptr, 0, &usage) != child || !is_read)
+        throw std::runtime_error("a run of all stages failed");
     return {stages, 1024.0 * static_cast<double>(usage.ru_maxrss)};
 }
 
@@ -123,7 +125,8 @@ void write_stages(JsonWriter& json, const std::string& model, int width, int hei
     std::array<Samples, kStageNames.size()> stages;
     Samples peak;
     for (int run = 0; run < runs; ++run) {
-        const auto [times, bytes] = in_process([&] { return run_stages(model, width, height, picture); });
+        const auto [times, bytes] =
+            in_process([&] { return run_stages(model, width, height, picture); });
         for (std::size_t i = 0; i < stages.size(); ++i) stages[i].add(times[i]);
         peak.add(bytes);
     }
@@ -173,7 +176,8 @@ std::function<void()> drawing(View& view, Film& film, int samples, int threads =
     };
 }
 
-std::string measure_frames(const std::string& model, int width, int height, int runs, bool has_scaling) {
+std::string measure_frames(const std::string& model, int width, int height, int runs,
+                           bool has_scaling) {
     JsonWriter json;
     json.begin_object().key("runs").value(runs);
     json.key("width").value(width).key("height").value(height);
@@ -184,7 +188,9 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     Film picture = view.film(kLinesAndFill), layers = view.film(kAllLayers);
     std::size_t hits = 0;
     std::vector<Case> cases;
-    const auto add = [&](const char* name, std::function<void()> work) { cases.push_back({name, std::move(work), {}, {}}); };
+    const auto add = [&](const char* name, std::function<void()> work) {
+        cases.push_back({name, std::move(work), {}, {}});
+    };
     add("E", [&] { hits = embree.trace(); });
     add("samples_2", drawing(view, picture, 2));
     add("samples_4", drawing(view, picture, 4));
@@ -220,9 +226,13 @@ std::string measure_frames(const std::string& model, int width, int height, int 
         write_ratio(json, "per_E", c.cpu, named("E").cpu);
         json.end_object();
     }
-    const auto ratio = [&](const char* name, const Samples& a, const Samples& b) { write_ratio(json, name, a, b); };
-    ratio("one_thread_per_two_wall_samples_2", named("samples_2").wall, named("samples_2_two_threads").wall);
-    ratio("one_thread_per_two_wall_samples_4", named("samples_4").wall, named("samples_4_two_threads").wall);
+    const auto ratio = [&](const char* name, const Samples& a, const Samples& b) {
+        write_ratio(json, name, a, b);
+    };
+    ratio("one_thread_per_two_wall_samples_2", named("samples_2").wall,
+          named("samples_2_two_threads").wall);
+    ratio("one_thread_per_two_wall_samples_4", named("samples_4").wall,
+          named("samples_4_two_threads").wall);
     if (has_scaling) {
         ratio("pixels_x4_per_one", named("pixels_x4").cpu, named("samples_2").cpu);
         ratio("triangles_x4_per_one", named("triangles_x4").cpu, named("samples_2").cpu);
@@ -236,14 +246,16 @@ std::string measure_frames(const std::string& model, int width, int height, int 
 
 int main(int argc, char** argv) {
     const bool has_scaling = argc == 6 && std::strcmp(argv[5], "scaling") == 0;
-    const int width = argc >= 5 ? std::atoi(argv[2]) : 0, height = argc >= 5 ? std::atoi(argv[3]) : 0;
+    const int width = argc >= 5 ? std::atoi(argv[2]) : 0,
+              height = argc >= 5 ? std::atoi(argv[3]) : 0;
     const int runs = argc >= 5 ? std::atoi(argv[4]) : 0;
     if ((argc != 5 && !has_scaling) || width < 1 || height < 1 || runs < 1) {
         std::fputs("usage: frame_bench MODEL WIDTH HEIGHT RUNS [scaling]\n", stderr);
         return 2;
     }
     try {
-        std::fputs(burin::bench::measure_frames(argv[1], width, height, runs, has_scaling).c_str(), stdout);
+        std::fputs(burin::bench::measure_frames(argv[1], width, height, runs, has_scaling).c_str(),
+                   stdout);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "frame_bench: %s\n", error.what());

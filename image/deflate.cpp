@@ -25,7 +25,8 @@ std::size_t common_length(const std::uint8_t* p, const std::uint8_t* q, const st
     const std::uint8_t* const start = p;
     for (; end - p >= 8; p += 8, q += 8) {
         const std::uint64_t difference = load_eight(p) ^ load_eight(q);
-        if (difference != 0) return static_cast<std::size_t>(p - start + std::countr_zero(difference) / 8);
+        if (difference != 0)
+            return static_cast<std::size_t>(p - start + std::countr_zero(difference) / 8);
     }
     while (p < end && *p == *q) ++p, ++q;
     return static_cast<std::size_t>(p - start);
@@ -194,7 +195,8 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
             newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;
             const std::uint8_t* const candidate = begin + place - 1;
             if (place != 0 && p - candidate <= static_cast<std::ptrdiff_t>(kMaxDistance) &&
-                static_cast<std::uint32_t>(load_eight(candidate)) == static_cast<std::uint32_t>(here)) {
+                static_cast<std::uint32_t>(load_eight(candidate)) ==
+                    static_cast<std::uint32_t>(here)) {
                 from = candidate;
             }
         }
@@ -247,7 +249,8 @@ std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> b
         for (const Sequence& s : block) {
             const std::uint8_t* const copied = from + s.literals;
             for (; copied - from >= 3; from += 3) {
-                for (int k = 0; k < 3; ++k) out.put(literals.codes[from[k]], literals.lengths[from[k]]);
+                for (int k = 0; k < 3; ++k)
+                    out.put(literals.codes[from[k]], literals.lengths[from[k]]);
                 out.flush();
             }
             for (; from < copied; ++from) out.put(literals.codes[*from], literals.lengths[*from]);

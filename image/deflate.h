@@ -13,7 +13,8 @@ namespace burin {
 /// Rendered channels are mostly runs: background, flat fills, constant numbers. General compressors
 /// enter every byte of a run into their tables, at some nanoseconds each; here a run of bytes or of
 /// pairs of bytes costs what comparing memory costs. What lies between is looked up in a hash table
-/// with one place per hash (as LZ4 does), and all is Huffman coded in blocks with codes of their own.
+/// with one place per hash (as LZ4 does), and all is Huffman coded in blocks with codes of their
+/// own.
 class Deflater {
   public:
     /// The stream is valid until the next call. It depends on `bytes` alone.

@@ -27,9 +27,12 @@ namespace {
 
 Imf::PixelType exr_type(PixelType type) {
     switch (type) {
-        case PixelType::float16: return Imf::HALF;
-        case PixelType::float32: return Imf::FLOAT;
-        case PixelType::uint32: return Imf::UINT;
+        case PixelType::float16:
+            return Imf::HALF;
+        case PixelType::float32:
+            return Imf::FLOAT;
+        case PixelType::uint32:
+            return Imf::UINT;
     }
     return Imf::FLOAT;
 }
@@ -41,8 +44,7 @@ Imf::FrameBuffer frame_buffer(const Image& image) {
         const std::size_t x_stride = size_of(channel.type);
         const std::size_t y_stride = x_stride * static_cast<std::size_t>(image.width());
         const Imath::V2i origin(image.data().x0, image.data().y0);
-        char* const base =
-            reinterpret_cast<char*>(const_cast<std::byte*>(channel.bytes.data()));
+        char* const base = reinterpret_cast<char*>(const_cast<std::byte*>(channel.bytes.data()));
         buffer.insert(channel.name,
                       Imf::Slice::Make(exr_type(channel.type), base, origin, image.width(),
                                        image.height(), x_stride, y_stride));
@@ -50,9 +52,9 @@ Imf::FrameBuffer frame_buffer(const Image& image) {
     return buffer;
 }
 
-/// Rows of an image as ZIP compression packs them: up to 16 at once, each of them channel by channel
-/// in the order of names. First all bytes of even number and then the others, of each the difference
-/// to the byte before, plus 128 (OpenEXR's "zip" with its predictor).
+/// Rows of an image as ZIP compression packs them: up to 16 at once, each of them channel by
+/// channel in the order of names. First all bytes of even number and then the others, of each the
+/// difference to the byte before, plus 128 (OpenEXR's "zip" with its predictor).
 class RowPacker {
   public:
     static constexpr int kRows = 16;
@@ -64,7 +66,9 @@ class RowPacker {
     }
 
     std::span<const Channel* const> channels() const { return channels_; }
-    std::size_t chunk_count() const { return static_cast<std::size_t>((image_.height() + kRows - 1) / kRows); }
+    std::size_t chunk_count() const {
+        return static_cast<std::size_t>((image_.height() + kRows - 1) / kRows);
+    }
 
     /// The bytes of a chunk as they are.
     void raw(std::size_t chunk, std::vector<std::uint8_t>& bytes) const {
@@ -110,8 +114,10 @@ class RowPacker {
         const int first = static_cast<int>(chunk) * kRows;
         for (int y = first; y < std::min(first + kRows, image_.height()); ++y) {
             for (const Channel* const channel : channels_) {
-                const std::size_t size = size_of(channel->type) * static_cast<std::size_t>(image_.width());
-                const auto* const bytes = reinterpret_cast<const std::uint8_t*>(channel->bytes.data());
+                const std::size_t size =
+                    size_of(channel->type) * static_cast<std::size_t>(image_.width());
+                const auto* const bytes =
+                    reinterpret_cast<const std::uint8_t*>(channel->bytes.data());
                 use(std::span(bytes + static_cast<std::size_t>(y) * size, size));
             }
         }
@@ -128,8 +134,9 @@ class ChunkFile {
         exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
         options.user_data = this;
         options.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
-        options.write_fn = [](exr_const_context_t, void* self, const void* bytes, std::uint64_t size,
-                              std::uint64_t place, exr_stream_error_func_ptr_t) {
+        options.write_fn = [](exr_const_context_t, void* self, const void* bytes,
+                              std::uint64_t size, std::uint64_t place,
+                              exr_stream_error_func_ptr_t) {
             return static_cast<ChunkFile*>(self)->write(bytes, size, place);
         };
         check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &options));
@@ -140,7 +147,8 @@ class ChunkFile {
     ChunkFile(const ChunkFile&) = delete;
     ChunkFile& operator=(const ChunkFile&) = delete;
 
-    void write_header(const Image& image, std::span<const Channel* const> channels, const ExrOptions& options) {
+    void write_header(const Image& image, std::span<const Channel* const> channels,
+                      const ExrOptions& options) {
         int part = 0;
         check(exr_add_part(context_, nullptr, EXR_STORAGE_SCANLINE, &part));
         const exr_attr_box2i_t display = box(image.display()), data = box(image.data());
@@ -178,7 +186,8 @@ class ChunkFile {
     }
     void check(exr_result_t result) const {
         if (failure_) std::rethrow_exception(failure_);
-        if (result != EXR_ERR_SUCCESS) throw std::runtime_error(exr_get_default_error_message(result));
+        if (result != EXR_ERR_SUCCESS)
+            throw std::runtime_error(exr_get_default_error_message(result));
     }
 
     AtomicFile& file_;
@@ -214,7 +223,8 @@ void write_chunks(ChunkFile& file, const RowPacker& rows, int first_y, int threa
         const std::lock_guard lock(writing);
         chunk.is_ready = true;
         for (; next < chunks.size() && chunks[next].is_ready; ++next) {
-            file.write_chunk(first_y + static_cast<int>(next) * RowPacker::kRows, chunks[next].bytes);
+            file.write_chunk(first_y + static_cast<int>(next) * RowPacker::kRows,
+                             chunks[next].bytes);
             chunks[next].bytes = {};
         }
     });
@@ -225,7 +235,8 @@ void write_chunks(ChunkFile& file, const RowPacker& rows, int first_y, int threa
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
     AtomicFile file(path);
     try {
-        if (image.channels().empty()) throw InputError(path + ": cannot write: the image has no channels");
+        if (image.channels().empty())
+            throw InputError(path + ": cannot write: the image has no channels");
         const RowPacker rows(image);
         ChunkFile chunks(file, path);
         chunks.write_header(image, rows.channels(), options);

@@ -7,8 +7,8 @@
 
 namespace burin {
 
-/// A canonical Huffman code (RFC 1951, 3.2.2) for symbols that occur with given frequencies. At least
-/// two symbols get a code, which keeps the code complete.
+/// A canonical Huffman code (RFC 1951, 3.2.2) for symbols that occur with given frequencies. At
+/// least two symbols get a code, which keeps the code complete.
 template <std::size_t kSymbols, std::uint32_t kMaxBits>
 struct HuffmanCode {
     std::array<std::uint8_t, kSymbols> lengths{};  ///< bits; 0 = does not occur
@@ -16,7 +16,8 @@ struct HuffmanCode {
 
     explicit HuffmanCode(std::array<std::uint32_t, kSymbols> frequencies) {
         const auto used = [&] {
-            return std::count_if(frequencies.begin(), frequencies.end(), [](auto f) { return f > 0; });
+            return std::count_if(frequencies.begin(), frequencies.end(),
+                                 [](auto f) { return f > 0; });
         };
         for (std::size_t s = 0; used() < 2; ++s) frequencies[s] += frequencies[s] == 0 ? 1 : 0;
         find_lengths(frequencies);
@@ -36,7 +37,8 @@ struct HuffmanCode {
         }
         std::sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(leaves),
                   [](const Node& a, const Node& b) {
-                      return a.frequency != b.frequency ? a.frequency < b.frequency : a.symbol < b.symbol;
+                      return a.frequency != b.frequency ? a.frequency < b.frequency
+                                                        : a.symbol < b.symbol;
                   });
         // Inner nodes arise in the order of their frequencies: both queues are sorted.
         std::size_t leaf = 0, inner = leaves, end = leaves;
@@ -59,7 +61,8 @@ struct HuffmanCode {
             if (i < leaves) ++leaves_at[std::min<std::uint32_t>(depth[i], kMaxBits)];
         }
         std::uint32_t taken = 0;  // of 2^kMaxBits codes of the greatest length
-        for (std::uint32_t bits = 1; bits <= kMaxBits; ++bits) taken += leaves_at[bits] << (kMaxBits - bits);
+        for (std::uint32_t bits = 1; bits <= kMaxBits; ++bits)
+            taken += leaves_at[bits] << (kMaxBits - bits);
         for (; taken > 1u << kMaxBits; --taken) {
             std::uint32_t bits = kMaxBits - 1;
             while (leaves_at[bits] == 0) --bits;
@@ -85,7 +88,8 @@ struct HuffmanCode {
             std::uint32_t reversed = 0;
             if (lengths[s] == 0) continue;
             const std::uint32_t code = next[lengths[s]]++;
-            for (std::uint32_t i = 0; i < lengths[s]; ++i) reversed |= (code >> i & 1u) << (lengths[s] - 1 - i);
+            for (std::uint32_t i = 0; i < lengths[s]; ++i)
+                reversed |= (code >> i & 1u) << (lengths[s] - 1 - i);
             codes[s] = static_cast<std::uint16_t>(reversed);
         }
     }

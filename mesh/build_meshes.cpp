@@ -145,7 +145,8 @@ Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
     if (options.subdivision_levels > 0 || has_duplicates) {
         PolygonMesh polygons;
         polygons.positions = std::move(mesh.positions);
-        for (const auto& [a, b, c] : mesh.triangles) polygons.corners.insert(polygons.corners.end(), {a, b, c});
+        for (const auto& [a, b, c] : mesh.triangles)
+            polygons.corners.insert(polygons.corners.end(), {a, b, c});
         return finish_mesh(std::move(polygons), options, std::move(mesh));
     }
     mesh.borders = index_borders(mesh);

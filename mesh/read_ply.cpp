@@ -9,11 +9,10 @@
 #include "base/huge_pages.h"
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
-#include "base/parallel.h"
 #include "mesh/ply_header.h"
+#include "mesh/ply_pieces.h"
 #include "mesh/ply_values.h"
 #include "mesh/readers.h"
-#include "mesh/text_pieces.h"
 #include "mesh/text_scan.h"
 
 namespace burin {
@@ -163,9 +162,13 @@ class BodyReader {
             if (item_ == 0 && goes_parallel()) {
                 const std::size_t before = soup_.positions.size();
                 soup_.positions.resize(before + element.count);
-                item_ = read_in_pieces(element.count, [&](Values& values, std::uint64_t first, std::uint64_t count, Largest&) {
-                    return values.plain_positions(axis_of, std::span(soup_.positions).subspan(before + first, count));
-                });
+                item_ = read_in_pieces(
+                    values_, text_pieces(), element.count, threads_, largest_,
+                    [&](AsciiValues& values, std::uint64_t first, std::uint64_t count,
+                        LargestIndex&) {
+                        return values.plain_positions(
+                            axis_of, std::span(soup_.positions).subspan(before + first, count));
+                    });
                 soup_.positions.resize(before + item_);
             }
             std::array<glm::dvec3, 1024> rows;
@@ -187,95 +190,36 @@ class BodyReader {
                 std::min(element.count - item_, (PolygonSoup::kMaxCorners - before) / 3);
             if (item_ == 0 && goes_parallel()) {
                 soup_.corners.resize(before + 3 * most);
-                item_ = read_in_pieces(most, [&](Values& values, std::uint64_t first, std::uint64_t count, Largest& largest) {
-                    return read_triangle_rows(values, first, count, &soup_.corners[before + 3 * first], largest);
-                });
+                item_ = read_in_pieces(values_, text_pieces(), most, threads_, largest_,
+                                       [&](AsciiValues& values, std::uint64_t first,
+                                           std::uint64_t count, LargestIndex& largest) {
+                                           return read_triangle_rows(
+                                               values, first, count,
+                                               &soup_.corners[before + 3 * first], largest);
+                                       });
                 soup_.corners.resize(before + 3 * item_);
             }
             std::array<std::uint32_t, 3 * AsciiValues::PlainTriangles::kMax> corners;
-            for (std::size_t count = AsciiValues::PlainTriangles::kMax; count == AsciiValues::PlainTriangles::kMax;
-                 item_ += count) {
+            for (std::size_t count = AsciiValues::PlainTriangles::kMax;
+                 count == AsciiValues::PlainTriangles::kMax; item_ += count) {
                 const std::uint64_t left = std::min(
                     element.count - item_, (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
-                count = read_triangle_rows(values_, item_, std::min<std::uint64_t>(left, AsciiValues::PlainTriangles::kMax),
-                                           corners.data(), largest_);
+                count = read_triangle_rows(
+                    values_, item_,
+                    std::min<std::uint64_t>(left, AsciiValues::PlainTriangles::kMax),
+                    corners.data(), largest_);
                 soup_.corners.insert(soup_.corners.end(), corners.begin(),
                                      corners.begin() + static_cast<std::ptrdiff_t>(3 * count));
             }
         }
     }
 
-    /// The largest vertex number so far, and where it stands first.
-    struct Largest {
-        std::int64_t index = -1;
-        std::size_t line = 0;
-        std::uint64_t item = 0;
-    };
-
-    /// Up to `count` rows of plain triangles into `corners`; how many.
-    static std::uint64_t read_triangle_rows(Values& values, std::uint64_t first_item, std::uint64_t count,
-                                            std::uint32_t* corners, Largest& largest) {
-        AsciiValues::PlainTriangles rows;
-        for (std::uint64_t done = 0; done < count;) {
-            throw_if_interrupted();
-            const std::uint64_t wanted = std::min<std::uint64_t>(count - done, rows.kMax);
-            const std::size_t got = values.plain_triangles(wanted, rows);
-            const std::span read = std::span(rows.corners).first(3 * got);
-            std::copy(read.begin(), read.end(), corners + 3 * done);
-            std::uint32_t most = 0;
-            for (const std::uint32_t v : read) most = std::max(most, v);
-            if (got > 0 && most > largest.index) {
-                const auto at = static_cast<std::size_t>(std::find(read.begin(), read.end(), most) - read.begin()) / 3;
-                largest = {most, rows.lines[at], first_item + done + at};
-            }
-            done += got;
-            if (got < wanted) return done;
-        }
-        return count;
-    }
-
     /// Threads pay for themselves where there is enough to read.
     bool goes_parallel() const { return threads_ != 1 && values_.rest().size() > 65536; }
-
-    /// Reads plain rows, up to `rows` of them, in pieces of the text on all threads, each piece taken to
-    /// have a row per line: read(values, first row, count, largest) reads a piece's and returns how many it
-    /// could. Ends with the first piece that has anything else. Returns how many rows were read.
-    template <typename ReadPiece>
-    std::uint64_t read_in_pieces(std::uint64_t rows, const ReadPiece& read) {
-        values_.at_end();  // goes to the first row
-        const std::string_view text = values_.rest();
-        if (text_pieces_.empty()) text_pieces_ = split_at_lines(text, values_.line(), threads_);
-        const std::size_t first_line = values_.line();
-        struct Piece {
-            Values values;
-            std::uint64_t first_row, row_count;
-            std::uint64_t read = 0;
-            Largest largest{};
-        };
-        std::vector<Piece> pieces{{values_, 0, rows}};
-        for (const TextPiece& p : text_pieces_) {
-            if (p.line <= first_line || p.line - first_line >= rows) continue;
-            const std::uint64_t row = p.line - first_line;
-            const std::string_view from_here = text.substr(static_cast<std::size_t>(p.begin - text.data()));
-            pieces.back().row_count = row - pieces.back().first_row;
-            pieces.push_back({Values(from_here, p.line), row, rows - row});
-        }
-        parallel_for(pieces.size(), threads_, [&](std::size_t i, int) {
-            Piece& p = pieces[i];
-            p.read = read(p.values, p.first_row, p.row_count, p.largest);
-            p.values.at_end();
-        });
-        std::uint64_t count = 0;
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            const Piece& p = pieces[i];
-            count += p.read;
-            if (p.largest.index > largest_.index) largest_ = p.largest;
-            values_ = p.values;
-            const bool leads_on = i + 1 < pieces.size() && p.read == p.row_count &&
-                                  p.values.line() == pieces[i + 1].values.line();
-            if (!leads_on) break;
-        }
-        return count;
+    std::span<const TextPiece> text_pieces() {
+        if (text_pieces_.empty())
+            text_pieces_ = split_at_lines(values_.rest(), values_.line(), threads_);
+        return text_pieces_;
     }
 
     /// One value of a vertex number list. Faces may stand before the vertices, so the upper bound
@@ -426,7 +370,7 @@ class BodyReader {
     PolygonSoup soup_;
     const PlyElement* element_ = nullptr;
     std::uint64_t item_ = 0;
-    Largest largest_;
+    LargestIndex largest_;
     int threads_;
     std::vector<TextPiece> text_pieces_;  // of the body, once asked for
 };

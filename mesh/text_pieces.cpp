@@ -31,11 +31,13 @@ std::size_t count_feeds(std::string_view text) {
 }  // namespace
 
 std::vector<TextPiece> split_at_lines(std::string_view text, std::size_t first_line, int threads) {
-    const std::size_t wanted = text.size() / (8 * static_cast<std::size_t>(resolve_thread_count(threads)));
+    const std::size_t wanted =
+        text.size() / (8 * static_cast<std::size_t>(resolve_thread_count(threads)));
     const std::size_t size = std::clamp<std::size_t>(wanted, 4096, 1 << 20);
     const std::size_t count = text.size() / size + 1;
     std::vector<std::size_t> feeds(count);
-    parallel_for(count, threads, [&](std::size_t i, int) { feeds[i] = count_feeds(text.substr(i * size, size)); });
+    parallel_for(count, threads,
+                 [&](std::size_t i, int) { feeds[i] = count_feeds(text.substr(i * size, size)); });
     std::vector<TextPiece> pieces{{text.data(), first_line}};
     std::size_t line = first_line;
     for (std::size_t i = 1; i < count; ++i) {

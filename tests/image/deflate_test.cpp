@@ -23,7 +23,8 @@ Bytes inflated(std::span<const std::uint8_t> stream, std::size_t size) {
 }
 
 void expect_survives(Deflater& deflater, const Bytes& bytes) {
-    EXPECT_TRUE(inflated(deflater.compress(bytes), bytes.size()) == bytes) << bytes.size() << " bytes";
+    EXPECT_TRUE(inflated(deflater.compress(bytes), bytes.size()) == bytes)
+        << bytes.size() << " bytes";
 }
 
 TEST(Deflate, RunsOfEveryLengthSurvive) {
@@ -71,7 +72,8 @@ TEST(Deflate, RareBytesGetCodesOfAllowedLengths) {
         before = std::exchange(count, count + before);
     }
     Random random(1);
-    for (std::size_t i = bytes.size() - 1; i > 0; --i) std::swap(bytes[i], bytes[random.bits() % (i + 1)]);
+    for (std::size_t i = bytes.size() - 1; i > 0; --i)
+        std::swap(bytes[i], bytes[random.bits() % (i + 1)]);
     Deflater deflater;
     expect_survives(deflater, bytes);
 }
