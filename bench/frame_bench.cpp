@@ -1,165 +1,264 @@
-// Times frames of the production A-buffer against Embree's primary rays, in one process and
-// interleaved, by the CPU time of the process. Prints JSON.
+// frame_bench MODEL WIDTH HEIGHT RUNS [scaling]: what frames of the method abuffer cost, beside
+// Embree's primary rays. Prints the JSON object of section "frame": seconds of CPU time of this
+// process (of all its threads) or, where a name says so, of wall time; medians over the runs.
 //
-//   frame_bench MODEL WIDTH HEIGHT RUNS
-//
-// E is the time of Embree 3 for one primary ray per pixel with rtcIntersect8 on one thread, without
-// building its tree. The camera fits the model to 95 % of the frame.
-#include <embree3/rtcore.h>
-#include <time.h>
+// The camera fits the model to 95 % of the frame, at a vertical field of view of 35 degrees. With
+// "scaling" also a frame of four times the pixels, and one of four times the triangles.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
-#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
 #include <functional>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "base/json_writer.h"
+#include "base/stopwatch.h"
+#include "bench/embree_view.h"
+#include "bench/statistics.h"
+#include "mesh/build_meshes.h"
 #include "methods/abuffer/abuffer.h"
+#include "render/output.h"
 #include "scene/scene_description.h"
 
+namespace burin::bench {
 namespace {
 
-using namespace burin;
+// What a PNG needs, and what an EXR gets unless asked otherwise.
+constexpr LayerSet kLinesAndFill{.depth = false, .normal = false, .ids = false};
+constexpr LayerSet kAllLayers{};
 
-double cpu_seconds() {
+/// Each triangle in four, at the middles of its sides.
+void quarter(Mesh& mesh) {
+    PolygonSoup soup;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const glm::dvec3 p = mesh.position(a), q = mesh.position(b), r = mesh.position(c);
+        const glm::dvec3 pq = 0.5 * (p + q), qr = 0.5 * (q + r), rp = 0.5 * (r + p);
+        soup.positions.insert(soup.positions.end(), {p, pq, rp, pq, q, qr, rp, qr, r, pq, qr, rp});
+    }
+    for (std::uint32_t i = 0; i < soup.positions.size(); ++i) soup.corners.push_back(i);
+    soup.object_names = {mesh.name};
+    mesh = std::move(build_meshes(soup, {}).front());
+}
+
+/// A model, ready to be drawn.
+struct View {
+    Scene scene;
+    Frame frame;
+
+    View(const std::string& model, int width, int height, bool has_quarters = false)
+        : scene(load_scene(bare_model_scene(model, {}))) {
+        for (Mesh& mesh : scene.meshes) {
+            if (has_quarters) quarter(mesh);
+        }
+        CameraSettings settings;
+        settings.fov_deg = 35;
+        settings.fit = 0.95;
+        const Camera camera =
+            resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
+        prepare_for_abuffer(scene, 1);
+        frame = make_frame(scene, camera, width, height, {0, 0, width, height});
+    }
+    View(const View&) = delete;  // the frame points into the scene
+    View& operator=(const View&) = delete;
+
+    Film film(const LayerSet& layers) const {
+        return {frame.crop, frame.crop, layers, frame.criteria.classes};
+    }
+};
+
+// ---- stages of the whole way from a file to a file, in a process of its own ----
+
+constexpr std::array<const char*, 8> kStageNames = {"load",  "prepare", "raster", "resolve",
+                                                    "lines", "shade",   "write",  "fragments"};
+using Stages = std::array<double, kStageNames.size()>;
+
+Stages run_stages(const std::string& model, int width, int height, const std::string& picture) {
+    Stopwatch watch;
+    const View view(model, width, height);
+    const double load_s = watch.lap();
+    RunOptions options;
+    options.threads = 1;
+    Film film = view.film(kAllLayers);
+    const RenderStats stats = render_abuffer(view.frame, options, film);
+    watch.lap();
+    OutputOptions output;
+    output.path = picture;
+    write_output(view.frame, film, output);
+    return {load_s,        stats.prepare_s, stats.raster_s, stats.resolve_s,
+            stats.lines_s, stats.shade_s,   watch.lap(),    static_cast<double>(stats.fragments)};
+}
+
+/// Calls work() in a process of its own; what it returns, and the process's peak memory in bytes.
+std::pair<Stages, double> in_process(const std::function<Stages()>& work) {
+    int pipe_ends[2];
+    std::fflush(nullptr);
+    if (::pipe(pipe_ends) != 0) throw std::runtime_error("cannot open a pipe");
+    const pid_t child = ::fork();
+    if (child < 0) throw std::runtime_error("cannot start a process");
+    if (child == 0) {
+        const Stages stages = work();
+        ::_exit(::write(pipe_ends[1], &stages, sizeof stages) == sizeof stages ? 0 : 1);
+    }
+    ::close(pipe_ends[1]);
+    Stages stages{};
+    const bool is_read = ::read(pipe_ends[0], &stages, sizeof stages) == sizeof stages;
+    ::close(pipe_ends[0]);
+    rusage usage{};
+    if (::wait4(child, nullptr, 0, &usage) != child || !is_read)
+        throw std::runtime_error("a run of all stages failed");
+    return {stages, 1024.0 * static_cast<double>(usage.ru_maxrss)};
+}
+
+void write_stages(JsonWriter& json, const std::string& model, int width, int height, int runs) {
+    const std::string picture = (std::filesystem::temp_directory_path() /
+                                 ("burin-bench-" + std::to_string(::getpid()) + ".exr"))
+                                    .string();
+    std::array<Samples, kStageNames.size()> stages;
+    Samples peak;
+    for (int run = 0; run < runs; ++run) {
+        const auto [times, bytes] =
+            in_process([&] { return run_stages(model, width, height, picture); });
+        for (std::size_t i = 0; i < stages.size(); ++i) stages[i].add(times[i]);
+        peak.add(bytes);
+    }
+    std::filesystem::remove(picture);
+    json.key("stages").begin_object();
+    for (std::size_t i = 0; i + 1 < stages.size(); ++i) {
+        write_samples(json, std::string(kStageNames[i]) + "_wall_s", stages[i]);
+    }
+    json.key("fragments").value(static_cast<std::uint64_t>(stages.back().median()));
+    json.key("peak_bytes").value(static_cast<std::uint64_t>(peak.median()));
+    json.end_object();
+}
+
+// ---- frames against Embree ----
+
+/// Something that is timed once in every run.
+struct Case {
+    const char* name;
+    std::function<void()> work;
+    Samples cpu, wall;
+};
+
+double process_cpu_s() {
     timespec t{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-class EmbreeView {
-  public:
-    explicit EmbreeView(const Frame& frame) : frame_(frame) {
-        device_ = rtcNewDevice("threads=1");
-        scene_ = rtcNewScene(device_);
-        for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
-            const Mesh& mesh = *frame.surfaces.instances[i].mesh;
-            if (mesh.triangles.empty()) continue;
-            RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-            auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                  12, mesh.positions.size()));
-            for (std::uint32_t k = 0; k < mesh.positions.size(); ++k) {
-                const glm::dvec3 p = frame.surfaces.view_position(i, k);
-                for (int c = 0; c < 3; ++c) v[3 * k + static_cast<std::uint32_t>(c)] = static_cast<float>(p[c]);
-            }
-            auto* t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-                g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
-            for (std::size_t k = 0; k < mesh.triangles.size(); ++k) std::copy_n(mesh.triangles[k].data(), 3, t + 3 * k);
-            rtcCommitGeometry(g);
-            rtcAttachGeometry(scene_, g);
-            rtcReleaseGeometry(g);
-        }
-        rtcCommitScene(scene_);
-    }
-    ~EmbreeView() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-
-    std::size_t trace() const {
-        const Projection& p = frame_.surfaces.projection;
-        std::size_t hits = 0;
-        alignas(32) const int valid[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
-        for (int y = 0; y < frame_.height; y += 2) {
-            for (int x = 0; x < frame_.width; x += 4) {
-                alignas(32) RTCRayHit8 r;
-                for (int k = 0; k < 8; ++k) {
-                    glm::dvec3 origin, direction;
-                    p.view_ray({x + k % 4 + 0.5, y + k / 4 + 0.5}, origin, direction);
-                    r.ray.org_x[k] = static_cast<float>(origin.x);
-                    r.ray.org_y[k] = static_cast<float>(origin.y);
-                    r.ray.org_z[k] = static_cast<float>(origin.z);
-                    r.ray.dir_x[k] = static_cast<float>(direction.x);
-                    r.ray.dir_y[k] = static_cast<float>(direction.y);
-                    r.ray.dir_z[k] = -1;
-                    r.ray.tnear[k] = 0;
-                    r.ray.tfar[k] = 1e30f;
-                    r.ray.mask[k] = 0xFFFFFFFFu;
-                    r.ray.flags[k] = 0;
-                    r.ray.time[k] = 0;
-                    r.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-                    r.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-                }
-                RTCIntersectContext context;
-                rtcInitIntersectContext(&context);
-                context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-                rtcIntersect8(valid, scene_, &context, &r);
-                for (int k = 0; k < 8; ++k) hits += r.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
-            }
-        }
-        return hits;
-    }
-
-  private:
-    const Frame& frame_;
-    RTCDevice device_;
-    RTCScene scene_;
-};
-
-double at(std::vector<double> v, double quantile) {
-    std::sort(v.begin(), v.end());
-    return v[static_cast<std::size_t>(quantile * static_cast<double>(v.size() - 1) + 0.5)];
+void run_case(Case& c, bool counts) {
+    const Stopwatch watch;
+    const double start = process_cpu_s();
+    c.work();
+    if (!counts) return;
+    c.cpu.add(process_cpu_s() - start);
+    c.wall.add(watch.seconds());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    if (argc != 5) {
-        std::fputs("usage: frame_bench MODEL WIDTH HEIGHT RUNS\n", stderr);
-        return 2;
-    }
-    const int width = std::atoi(argv[2]), height = std::atoi(argv[3]), runs = std::atoi(argv[4]);
-    Scene scene = load_scene(bare_model_scene(argv[1], {}));
-    CameraSettings settings = scene.cameras.front();
-    settings.fov_deg = 35;
-    settings.fit = 0.95;
-    const Camera camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
-    const PixelRect all{0, 0, width, height};
-    prepare_for_abuffer(scene, 1);
-    const Frame frame = make_frame(scene, camera, width, height, all);
-    const EmbreeView embree(frame);
-
-    struct Case {
-        const char* name;
-        std::function<void()> run;
-        std::vector<double> times;
+/// Draws a view with some settings.
+std::function<void()> drawing(View& view, Film& film, int samples, int threads = 1,
+                              HiddenStyle hidden = HiddenStyle::none) {
+    return [&view, &film, samples, threads, hidden] {
+        view.scene.abuffer.samples_per_pixel = samples;
+        view.scene.lines.style.hidden.style = hidden;
+        RunOptions options;
+        options.threads = threads;
+        render_abuffer(view.frame, options, film);
     };
-    // Lines and fill; and what an EXR gets unless asked otherwise.
-    const LayerSet lines_and_fill{.depth = false, .normal = false, .ids = false};
-    Film picture(all, all, lines_and_fill, frame.criteria.classes), layers(all, all, LayerSet{}, frame.criteria.classes);
-    const auto frame_with = [&](int samples, Film& film) {
-        return [&, samples] {
-            scene.abuffer.samples_per_pixel = samples;
-            RunOptions options;
-            options.threads = 1;
-            render_abuffer(frame, options, film);
-        };
-    };
-    std::size_t hits = 0;
-    std::vector<Case> cases = {{"E", [&] { hits = embree.trace(); }, {}},
-                               {"samples_2", frame_with(2, picture), {}},
-                               {"samples_4", frame_with(4, picture), {}},
-                               {"samples_2_all_layers", frame_with(2, layers), {}},
-                               {"samples_4_all_layers", frame_with(4, layers), {}}};
-    for (int i = 0; i <= runs; ++i) {
-        for (Case& c : cases) {
-            const double start = cpu_seconds();
-            c.run();
-            if (i > 0) c.times.push_back(cpu_seconds() - start);
-        }
-    }
+}
+
+std::string measure_frames(const std::string& model, int width, int height, int runs,
+                           bool has_scaling) {
     JsonWriter json;
-    json.begin_object().key("triangles").value(frame.surfaces.triangle_count());
+    json.begin_object().key("runs").value(runs);
+    json.key("width").value(width).key("height").value(height);
+    write_stages(json, model, width, height, runs);
+
+    View view(model, width, height);
+    const EmbreeView embree(view.frame);
+    Film picture = view.film(kLinesAndFill), layers = view.film(kAllLayers);
+    std::size_t hits = 0;
+    std::vector<Case> cases;
+    const auto add = [&](const char* name, std::function<void()> work) {
+        cases.push_back({name, std::move(work), {}, {}});
+    };
+    add("E", [&] { hits = embree.trace(); });
+    add("samples_2", drawing(view, picture, 2));
+    add("samples_4", drawing(view, picture, 4));
+    add("samples_2_all_layers", drawing(view, layers, 2));
+    add("samples_4_all_layers", drawing(view, layers, 4));
+    add("samples_2_two_threads", drawing(view, picture, 2, 2));
+    add("samples_4_two_threads", drawing(view, picture, 4, 2));
+    add("hidden_solid", drawing(view, picture, 2, 1, HiddenStyle::solid));
+    std::unique_ptr<View> large, fine;
+    std::unique_ptr<Film> large_film;
+    if (has_scaling) {
+        large = std::make_unique<View>(model, 2 * width, 2 * height);
+        large_film = std::make_unique<Film>(large->film(kLinesAndFill));
+        fine = std::make_unique<View>(model, width, height, true);
+        add("pixels_x4", drawing(*large, *large_film, 2));
+        add("triangles_x4", drawing(*fine, picture, 2));
+    }
+    for (int run = -1; run < runs; ++run) {
+        for (Case& c : cases) run_case(c, run >= 0);  // run -1 warms up
+    }
+    const auto named = [&](const std::string& name) -> const Case& {
+        for (const Case& c : cases) {
+            if (name == c.name) return c;
+        }
+        throw std::logic_error(name);
+    };
+    json.key("triangles").value(view.frame.surfaces.triangle_count());
     json.key("covered_pixels").value(static_cast<std::uint64_t>(hits));
     for (const Case& c : cases) {
         json.key(c.name).begin_object();
-        json.key("median_s").value(at(c.times, 0.5)).key("min_s").value(at(c.times, 0));
-        json.key("noise").value((at(c.times, 0.9) - at(c.times, 0.1)) / at(c.times, 0.5));
-        json.key("median_per_E").value(at(c.times, 0.5) / at(cases[0].times, 0.5));
-        json.key("min_per_E").value(at(c.times, 0) / at(cases[0].times, 0)).end_object();
+        write_samples(json, "cpu_s", c.cpu);
+        write_samples(json, "wall_s", c.wall);
+        write_ratio(json, "per_E", c.cpu, named("E").cpu);
+        json.end_object();
+    }
+    const auto ratio = [&](const char* name, const Samples& a, const Samples& b) {
+        write_ratio(json, name, a, b);
+    };
+    ratio("one_thread_per_two_wall_samples_2", named("samples_2").wall,
+          named("samples_2_two_threads").wall);
+    ratio("one_thread_per_two_wall_samples_4", named("samples_4").wall,
+          named("samples_4_two_threads").wall);
+    if (has_scaling) {
+        ratio("pixels_x4_per_one", named("pixels_x4").cpu, named("samples_2").cpu);
+        ratio("triangles_x4_per_one", named("triangles_x4").cpu, named("samples_2").cpu);
     }
     json.end_object();
-    std::fputs(json.text().c_str(), stdout);
+    return json.text();
+}
+
+}  // namespace
+}  // namespace burin::bench
+
+int main(int argc, char** argv) {
+    const bool has_scaling = argc == 6 && std::strcmp(argv[5], "scaling") == 0;
+    const int width = argc >= 5 ? std::atoi(argv[2]) : 0,
+              height = argc >= 5 ? std::atoi(argv[3]) : 0;
+    const int runs = argc >= 5 ? std::atoi(argv[4]) : 0;
+    if ((argc != 5 && !has_scaling) || width < 1 || height < 1 || runs < 1) {
+        std::fputs("usage: frame_bench MODEL WIDTH HEIGHT RUNS [scaling]\n", stderr);
+        return 2;
+    }
+    try {
+        std::fputs(burin::bench::measure_frames(argv[1], width, height, runs, has_scaling).c_str(),
+                   stdout);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "frame_bench: %s\n", error.what());
+        return 1;
+    }
 }

@@ -78,7 +78,7 @@ PixelRect crop_of(const Arguments& a, int width, int height) {
 }  // namespace
 
 Scene load_input(const Arguments& a) {
-    Scene scene = load_scene(describe_input(a));
+    Scene scene = load_scene(describe_input(a), a.threads);
     if (a.size) {
         scene.picture.width = (*a.size)[0];
         scene.picture.height = (*a.size)[1];

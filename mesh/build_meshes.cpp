@@ -37,13 +37,15 @@ glm::dvec3 choose_origin(const PolygonSoup& soup) {
     return distance > 16 * std::max({half.x, half.y, half.z}) ? center : glm::dvec3(0.0);
 }
 
+void check_triangle_count(const std::string& object, std::size_t triangles) {
+    if (3 * triangles < kNoHalfEdge) return;
+    throw InputError("object '" + object + "': more than 1.4 billion triangles; split the model");
+}
+
 /// Triangles, their polygons, and the polygons' normals.
 void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
     mesh.polygon_count = static_cast<std::uint32_t>(polygons.polygon_count());
-    if (3 * (polygons.corners.size() - 2 * polygons.polygon_count()) >= kNoHalfEdge) {
-        throw InputError("object '" + mesh.name +
-                         "': more than 1.4 billion triangles; split the model");
-    }
+    check_triangle_count(mesh.name, polygons.corners.size() - 2 * polygons.polygon_count());
     mesh.triangles.clear();
     mesh.triangle_polygon.clear();
     mesh.polygon_normals.clear();
@@ -133,6 +135,24 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh) {
     return mesh;
 }
 
+/// The same for a mesh that has nothing but triangles and has them already.
+Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
+    check_triangle_count(mesh.name, mesh.triangles.size());
+    bool has_duplicates = false;
+    if (options.subdivision_levels == 0) {
+        mesh.next_on_edge = link_edges(mesh.triangles, mesh.positions.size(), &has_duplicates);
+    }
+    if (options.subdivision_levels > 0 || has_duplicates) {
+        PolygonMesh polygons;
+        polygons.positions = std::move(mesh.positions);
+        for (const auto& [a, b, c] : mesh.triangles)
+            polygons.corners.insert(polygons.corners.end(), {a, b, c});
+        return finish_mesh(std::move(polygons), options, std::move(mesh));
+    }
+    mesh.borders = index_borders(mesh);
+    return mesh;
+}
+
 }  // namespace
 
 std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& options) {
@@ -145,17 +165,16 @@ std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& optio
     throw_if_interrupted();
     const std::vector<std::uint32_t> welded = weld_vertices(positions);
     std::vector<Mesh> meshes;
-    const auto add_mesh = [&](std::size_t object, const auto& collect) {
+    const auto empty_mesh = [&](std::size_t object) {
         Mesh mesh;
         mesh.name = soup.object_names.empty() ? "" : soup.object_names[object];
         mesh.origin = origin;
-        PolygonMesh polygons = collect(mesh.repairs);
-        meshes.push_back(finish_mesh(std::move(polygons), options, std::move(mesh)));
+        return mesh;
     };
     if (has_only_triangles(soup)) {
-        add_mesh(0, [&](MeshRepairs& repairs) {
-            return collect_triangles(soup, positions, welded, repairs);
-        });
+        Mesh mesh = empty_mesh(0);
+        collect_triangles(soup, positions, welded, mesh);
+        meshes.push_back(finish_triangles(options, std::move(mesh)));
         return meshes;
     }
     const PolygonsByObject groups = group_by_object(soup);
@@ -164,9 +183,9 @@ std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& optio
     for (std::size_t object = 0; object < groups.end.size(); ++object) {
         const std::size_t end = groups.end[object];
         if (begin == end) continue;
-        add_mesh(object, [&](MeshRepairs& repairs) {
-            return collector.collect(groups, begin, end, repairs);
-        });
+        Mesh mesh = empty_mesh(object);
+        PolygonMesh polygons = collector.collect(groups, begin, end, mesh.repairs);
+        meshes.push_back(finish_mesh(std::move(polygons), options, std::move(mesh)));
         begin = end;
     }
     return meshes;

@@ -11,6 +11,7 @@ namespace burin {
 struct MeshOptions {
     int subdivision_levels = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
+    int threads = 1;  ///< for reading a file; 0 = all cores. Changes no result.
 };
 
 /// Turns the polygons of a file into one Mesh per object that has polygons left.

@@ -11,6 +11,9 @@ namespace {
 
 /// How many of the vertices that triangles use fall together with others of these.
 std::uint64_t count_welded(const PolygonSoup& soup, const std::vector<std::uint32_t>& welded) {
+    bool all_apart = true;
+    for (std::uint32_t v = 0; v < welded.size(); ++v) all_apart &= welded[v] == v;
+    if (all_apart) return 0;
     std::vector<std::uint8_t> is_corner(welded.size(), 0), is_welded_corner(welded.size(), 0);
     for (const std::uint32_t corner : soup.corners) is_corner[corner] = 1;
     std::uint64_t count = 0;
@@ -22,9 +25,11 @@ std::uint64_t count_welded(const PolygonSoup& soup, const std::vector<std::uint3
     return count;
 }
 
+/// Whether the cross product of two sides is not 0. Its parts are looked at one by one: the first one
+/// nearly always tells.
 bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    const glm::dvec3 p(a);
-    return glm::cross(glm::dvec3(b) - p, glm::dvec3(c) - p) != glm::dvec3(0.0);
+    const glm::dvec3 p(a), u = glm::dvec3(b) - p, v = glm::dvec3(c) - p;
+    return u.x * v.y != v.x * u.y || u.y * v.z != v.y * u.z || u.z * v.x != v.z * u.x;
 }
 
 }  // namespace
@@ -35,15 +40,14 @@ bool has_only_triangles(const PolygonSoup& soup) {
            soup.marked_edges.empty();
 }
 
-PolygonMesh collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
-                              const std::vector<std::uint32_t>& welded, MeshRepairs& repairs) {
+void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
+                       const std::vector<std::uint32_t>& welded, Mesh& mesh) {
     constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
     const std::size_t count = soup.polygon_count();
     std::vector<std::uint32_t> local =
         large_vector(positions.size(), kUnused);  // number in the object
-    PolygonMesh mesh;
     reserve_large(mesh.positions, positions.size());
-    reserve_large(mesh.corners, 3 * count);
+    reserve_large(mesh.triangles, count);
     for (std::size_t i = 0; i < count; ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
         const std::uint32_t* const corners = &soup.corners[3 * i];
@@ -57,12 +61,12 @@ PolygonMesh collect_triangles(const PolygonSoup& soup, const std::vector<glm::ve
             }
             v = local[v];
         }
-        mesh.corners.insert(mesh.corners.end(), t.begin(), t.end());
+        mesh.triangles.push_back(t);
     }
-    repairs.input_polygons = repairs.input_triangles = count;
-    repairs.degenerate_polygons = count - mesh.polygon_count();
-    repairs.welded_vertices = count_welded(soup, welded);
-    return mesh;
+    mesh.polygon_count = static_cast<std::uint32_t>(mesh.triangles.size());
+    mesh.repairs.input_polygons = mesh.repairs.input_triangles = count;
+    mesh.repairs.degenerate_polygons = count - mesh.triangles.size();
+    mesh.repairs.welded_vertices = count_welded(soup, welded);
 }
 
 }  // namespace burin

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "mesh/polygon_mesh.h"
 #include "mesh/polygon_soup.h"
 
 namespace burin {
@@ -14,8 +13,9 @@ namespace burin {
 /// large models are like that.
 bool has_only_triangles(const PolygonSoup& soup);
 
-/// What ObjectCollector collects from a soup that has_only_triangles, faster. Arguments as there.
-PolygonMesh collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
-                              const std::vector<std::uint32_t>& welded, MeshRepairs& repairs);
+/// What ObjectCollector collects from a soup that has_only_triangles, faster, and into a mesh: its
+/// positions, triangles, polygon count and repairs. Arguments as there.
+void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
+                       const std::vector<std::uint32_t>& welded, Mesh& mesh);
 
 }  // namespace burin

@@ -1,6 +1,11 @@
 #include "mesh/edge_links.h"
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -45,30 +50,37 @@ class EdgeTable {
         const std::uint32_t u_owns = 0u - ((u < v ? 1u : 0u) ^ ((u ^ v) & 1));
         return v ^ ((u ^ v) & u_owns);
     }
-    /// Without branches, which would guess wrong half of the time: masks are 0 or ~0.
+    /// Without branches, which would guess wrong half of the time.
     HalfEdge exchange_in(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
         const std::uint32_t key = other + 1;  // 0 = free
         Bucket& bucket = buckets_.get()[owner];
-        std::uint32_t used = 0, match = 0, is_known = 0;
-        for (std::uint32_t i = 0; i < kSlots; ++i) {
-            const std::uint32_t is_here = 0u - static_cast<std::uint32_t>(bucket.keys[i] == key);
-            used += static_cast<std::uint32_t>(bucket.keys[i] != 0);
-            match |= i & is_here;
-            is_known |= is_here;
-        }
-        const std::uint32_t slot = used ^ ((used ^ match) & is_known);
-        if (slot == kSlots) return kFull;
-        const HalfEdge newest = h ^ ((h ^ bucket.half_edges[slot]) & is_known);
+        const std::uint32_t is_known = slots_with(bucket.keys, key);
+        const std::uint32_t places = is_known != 0 ? is_known : slots_with(bucket.keys, 0);
+        if (places == 0) return kFull;
+        const int slot = std::countr_zero(places);
+        const HalfEdge newest = bucket.half_edges[slot];
         bucket.keys[slot] = key;
         bucket.half_edges[slot] = h;
-        return newest;
+        return is_known != 0 ? newest : h;
     }
 
     static constexpr std::uint32_t kSlots = 4;
-    struct Bucket {
+    struct alignas(16) Bucket {
         std::uint32_t keys[kSlots];
         HalfEdge half_edges[kSlots];
     };
+    /// Bit i: keys[i] is `key`.
+    static std::uint32_t slots_with(const std::uint32_t (&keys)[kSlots], std::uint32_t key) {
+#ifdef __SSE2__
+        const __m128i all = _mm_load_si128(reinterpret_cast<const __m128i*>(keys));
+        const __m128i equal = _mm_cmpeq_epi32(all, _mm_set1_epi32(static_cast<int>(key)));
+        return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(equal)));
+#else
+        std::uint32_t slots = 0;
+        for (std::uint32_t i = 0; i < kSlots; ++i) slots |= (keys[i] == key ? 1u : 0u) << i;
+        return slots;
+#endif
+    }
     struct Free {
         void operator()(Bucket* p) const { std::free(p); }
     };
@@ -95,15 +107,32 @@ void link_by_sorting(std::vector<LeftOver>& left_over, std::vector<HalfEdge>& ne
     }
 }
 
+/// Whether a triangle has the vertices of an earlier one in the ring of its half-edge h; true also for
+/// long rings. Triangles on one edge are twins if their third vertices are one.
+bool has_twin(std::span<const std::array<std::uint32_t, 3>> triangles,
+              const std::vector<HalfEdge>& next_on_edge, HalfEdge h) {
+    const auto vertices = [&](HalfEdge g) {
+        const auto& [a, b, c] = triangles[g / 3];
+        return a ^ b ^ c;
+    };
+    const std::uint32_t own = vertices(h);
+    int length = 0;
+    for (HalfEdge g = next_on_edge[h]; g != h; g = next_on_edge[g]) {
+        if (vertices(g) == own || ++length > 32) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
-                                 std::size_t vertex_count) {
+                                 std::size_t vertex_count, bool* has_twins) {
     std::vector<HalfEdge> next_on_edge;
     reserve_large(next_on_edge, 3 * triangles.size());
     EdgeTable table(vertex_count);
     std::vector<LeftOver> left_over;
     constexpr std::size_t kAhead = 16;
+    bool twins = false;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         if ((t & 0xFFFF) == 0) throw_if_interrupted();
         if (t + kAhead < triangles.size()) {
@@ -125,8 +154,12 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
             }
             ++h;
         }
+        // Twins share all three edges.
+        if (next_on_edge[h - 3] != h - 3) twins = twins || has_twin(triangles, next_on_edge, h - 3);
     }
     link_by_sorting(left_over, next_on_edge);
+    for (const LeftOver& l : left_over) twins = twins || has_twin(triangles, next_on_edge, l.half_edge);
+    if (has_twins != nullptr) *has_twins = twins;
     return next_on_edge;
 }
 

@@ -66,6 +66,8 @@ class AsciiValues {
         return p_ == end_;
     }
     std::size_t line() const { return line_; }
+    /// All that is left.
+    std::string_view rest() const { return {p_, static_cast<std::size_t>(end_ - p_)}; }
 
     /// Reads rows of plain numbers from here on, as many as `rows` holds, and returns how many.
     /// Stops in front of the first row that is not plain, for number() and skip() to have a look

@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
 #include "mesh/ply_header.h"
+#include "mesh/ply_pieces.h"
 #include "mesh/ply_values.h"
 #include "mesh/readers.h"
 #include "mesh/text_scan.h"
@@ -20,8 +21,8 @@ namespace {
 template <typename Values>
 class BodyReader {
   public:
-    BodyReader(const std::string& path, const PlyHeader& header, Values values)
-        : path_(path), header_(header), values_(values) {}
+    BodyReader(const std::string& path, const PlyHeader& header, Values values, int threads)
+        : path_(path), header_(header), values_(values), threads_(threads) {}
 
     PolygonSoup read() {
         for (const PlyElement& element : header_.elements) {
@@ -158,6 +159,18 @@ class BodyReader {
     void read_plain_positions(const PlyElement& element, std::span<const int> axis_of) {
         if constexpr (kHasPlainRows) {
             if (element.has_lists()) return;
+            if (item_ == 0 && goes_parallel()) {
+                const std::size_t before = soup_.positions.size();
+                soup_.positions.resize(before + element.count);
+                item_ = read_in_pieces(
+                    values_, text_pieces(), element.count, threads_, largest_,
+                    [&](AsciiValues& values, std::uint64_t first, std::uint64_t count,
+                        LargestIndex&) {
+                        return values.plain_positions(
+                            axis_of, std::span(soup_.positions).subspan(before + first, count));
+                    });
+                soup_.positions.resize(before + item_);
+            }
             std::array<glm::dvec3, 1024> rows;
             for (std::size_t count = rows.size(); count == rows.size(); item_ += count) {
                 throw_if_interrupted();
@@ -172,25 +185,41 @@ class BodyReader {
     void read_plain_triangles(const PlyElement& element) {
         if constexpr (kHasPlainRows) {
             if (element.properties.size() != 1) return;
-            AsciiValues::PlainTriangles rows;
-            for (std::size_t count = rows.kMax; count == rows.kMax; item_ += count) {
-                throw_if_interrupted();
+            const std::size_t before = soup_.corners.size();
+            const std::uint64_t most =
+                std::min(element.count - item_, (PolygonSoup::kMaxCorners - before) / 3);
+            if (item_ == 0 && goes_parallel()) {
+                soup_.corners.resize(before + 3 * most);
+                item_ = read_in_pieces(values_, text_pieces(), most, threads_, largest_,
+                                       [&](AsciiValues& values, std::uint64_t first,
+                                           std::uint64_t count, LargestIndex& largest) {
+                                           return read_triangle_rows(
+                                               values, first, count,
+                                               &soup_.corners[before + 3 * first], largest);
+                                       });
+                soup_.corners.resize(before + 3 * item_);
+            }
+            std::array<std::uint32_t, 3 * AsciiValues::PlainTriangles::kMax> corners;
+            for (std::size_t count = AsciiValues::PlainTriangles::kMax;
+                 count == AsciiValues::PlainTriangles::kMax; item_ += count) {
                 const std::uint64_t left = std::min(
                     element.count - item_, (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
-                count = values_.plain_triangles(std::min<std::uint64_t>(left, rows.kMax), rows);
-                const std::span corners = std::span(rows.corners).first(3 * count);
-                soup_.corners.insert(soup_.corners.end(), corners.begin(), corners.end());
-                std::uint32_t largest = 0;
-                for (const std::uint32_t v : corners) largest = std::max(largest, v);
-                if (count > 0 && largest > largest_index_) {
-                    const auto at =
-                        std::find(corners.begin(), corners.end(), largest) - corners.begin();
-                    largest_index_ = largest;
-                    largest_index_line_ = rows.lines[static_cast<std::size_t>(at / 3)];
-                    largest_index_item_ = item_ + static_cast<std::uint64_t>(at / 3);
-                }
+                count = read_triangle_rows(
+                    values_, item_,
+                    std::min<std::uint64_t>(left, AsciiValues::PlainTriangles::kMax),
+                    corners.data(), largest_);
+                soup_.corners.insert(soup_.corners.end(), corners.begin(),
+                                     corners.begin() + static_cast<std::ptrdiff_t>(3 * count));
             }
         }
+    }
+
+    /// Threads pay for themselves where there is enough to read.
+    bool goes_parallel() const { return threads_ != 1 && values_.rest().size() > 65536; }
+    std::span<const TextPiece> text_pieces() {
+        if (text_pieces_.empty())
+            text_pieces_ = split_at_lines(values_.rest(), values_.line(), threads_);
+        return text_pieces_;
     }
 
     /// One value of a vertex number list. Faces may stand before the vertices, so the upper bound
@@ -198,11 +227,7 @@ class BodyReader {
     std::int64_t list_index(const PlyProperty& property) {
         std::int64_t index = 0;
         if (!values_.integer(property.type, index)) fail_value();
-        if (index > largest_index_) {
-            largest_index_ = index;
-            largest_index_line_ = values_.line();
-            largest_index_item_ = item_;
-        }
+        if (index > largest_.index) largest_ = {index, values_.line(), item_};
         return index;
     }
 
@@ -327,11 +352,11 @@ class BodyReader {
         }
     }
     void check_references() const {
-        if (largest_index_ < static_cast<std::int64_t>(soup_.positions.size())) return;
+        if (largest_.index < static_cast<std::int64_t>(soup_.positions.size())) return;
         const std::string item =
-            largest_index_line_ > 0 ? "" : "item " + std::to_string(largest_index_item_) + ": ";
-        throw InputError({path_, largest_index_line_},
-                         item + "vertex " + std::to_string(largest_index_) +
+            largest_.line > 0 ? "" : "item " + std::to_string(largest_.item) + ": ";
+        throw InputError({path_, largest_.line},
+                         item + "vertex " + std::to_string(largest_.index) +
                              " does not exist (the file has " +
                              std::to_string(soup_.positions.size()) +
                              ", counted from 0); repair or re-export the file");
@@ -345,23 +370,23 @@ class BodyReader {
     PolygonSoup soup_;
     const PlyElement* element_ = nullptr;
     std::uint64_t item_ = 0;
-    std::int64_t largest_index_ = -1;
-    std::size_t largest_index_line_ = 0;
-    std::uint64_t largest_index_item_ = 0;
+    LargestIndex largest_;
+    int threads_;
+    std::vector<TextPiece> text_pieces_;  // of the body, once asked for
 };
 
 }  // namespace
 
-PolygonSoup read_ply(const std::string& path) {
+PolygonSoup read_ply(const std::string& path, int threads) {
     const MappedFile file(path);
     const PlyHeader header = read_ply_header(path, file.bytes());
     const std::string_view body = file.bytes().substr(header.size);
     PolygonSoup soup;
     if (header.encoding == PlyEncoding::ascii) {
-        soup = BodyReader(path, header, AsciiValues(body, header.lines + 1)).read();
+        soup = BodyReader(path, header, AsciiValues(body, header.lines + 1), threads).read();
     } else {
         const bool big_endian = header.encoding == PlyEncoding::big_endian;
-        soup = BodyReader(path, header, BinaryValues(body, big_endian)).read();
+        soup = BodyReader(path, header, BinaryValues(body, big_endian), threads).read();
     }
     soup.object_names = {std::filesystem::path(path).stem().string()};
     soup.materials = {Material{}};

@@ -19,8 +19,9 @@ namespace burin {
 PolygonSoup read_obj(const std::string& path);
 
 /// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
-/// `element edge` marks edges; other elements and properties are skipped.
-PolygonSoup read_ply(const std::string& path);
+/// `element edge` marks edges; other elements and properties are skipped. Plain ASCII is read on `threads`
+/// threads (0 = all cores), which changes nothing else.
+PolygonSoup read_ply(const std::string& path, int threads = 1);
 
 /// STL, ASCII and binary. Each `solid` of an ASCII file is an object.
 PolygonSoup read_stl(const std::string& path);

@@ -31,7 +31,7 @@ struct LoadedModel {
 
 class SceneLoader {
   public:
-    explicit SceneLoader(SceneDescription description) : from_(std::move(description)) {
+    SceneLoader(SceneDescription description, int threads) : from_(std::move(description)), threads_(threads) {
         scene_.materials = from_.materials;
         scene_.cameras = from_.cameras;
         scene_.picture = from_.picture;
@@ -67,7 +67,7 @@ class SceneLoader {
     }
 
     const LoadedModel& model_of(ObjectDescription& object) {
-        const MeshOptions options{object.subdivide, object.scheme};
+        const MeshOptions options{object.subdivide, object.scheme, threads_};
         if (object.file.empty()) {
             Model model;
             model.meshes = build_meshes(object.shape, options);
@@ -141,6 +141,7 @@ class SceneLoader {
     }
 
     SceneDescription from_;
+    int threads_;
     Scene scene_;
     std::map<std::tuple<std::string, int, SubdivisionScheme>, LoadedModel> files_;
     std::vector<LoadedModel> shapes_;
@@ -149,7 +150,9 @@ class SceneLoader {
 
 }  // namespace
 
-Scene load_scene(SceneDescription description) { return SceneLoader(std::move(description)).load(); }
+Scene load_scene(SceneDescription description, int threads) {
+    return SceneLoader(std::move(description), threads).load();
+}
 
 bool is_named(const SceneObject& object, const std::string& name) {
     const std::string& own = object.name;

@@ -54,7 +54,8 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
 /// The scene of a bare model: that one object, everything else at its default.
 SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides);
 
-/// Loads the models that a description names, each file once. Throws InputError.
-Scene load_scene(SceneDescription description);
+/// Loads the models that a description names, each file once, on `threads` threads (0 = all cores). Throws
+/// InputError.
+Scene load_scene(SceneDescription description, int threads = 1);
 
 }  // namespace burin

@@ -45,15 +45,25 @@ std::string file_of(const std::vector<std::string>& rows) {
     return text;
 }
 
-class PlainPly : public testing::Test {
+/// On how many threads a file is read must not show either.
+class PlainPly : public testing::TestWithParam<int> {
   protected:
-    PolygonSoup read(const std::vector<std::string>& rows) { return read_ply(folder_.write("part.ply", file_of(rows))); }
+    PolygonSoup read(const std::vector<std::string>& rows) {
+        return read_ply(folder_.write("part.ply", file_of(rows)), GetParam());
+    }
+    testing::AssertionResult refuses(const std::vector<std::string>& rows, std::initializer_list<std::string_view> parts) {
+        const auto read_it = [](const std::string& path) { return read_ply(path, GetParam()); };
+        return test::refuses(read_it, folder_.write("part.ply", file_of(rows)), parts);
+    }
     test::TemporaryFolder folder_;
 };
+INSTANTIATE_TEST_SUITE_P(Threads, PlainPly, testing::Values(1, 2, 5));
 
-TEST_F(PlainPly, UnusualSpellingsMeanTheSame) {
+TEST_P(PlainPly, UnusualSpellingsMeanTheSame) {
     const std::vector<std::string> plain = plain_rows();
     const PolygonSoup expected = read(plain);
+    EXPECT_EQ(expected.positions, read_ply(folder_.file("part.ply")).positions);
+    EXPECT_EQ(expected.corners, read_ply(folder_.file("part.ply")).corners);
     ASSERT_EQ(expected.positions.size(), static_cast<std::size_t>(kVertices));
     ASSERT_EQ(expected.corners.size(), static_cast<std::size_t>(3 * kFaces));
     EXPECT_TRUE(expected.polygon_ends.empty());
@@ -78,7 +88,7 @@ TEST_F(PlainPly, UnusualSpellingsMeanTheSame) {
     }
 }
 
-TEST_F(PlainPly, OtherPolygonsMayFollowAnywhere) {
+TEST_P(PlainPly, OtherPolygonsMayFollowAnywhere) {
     for (const int at : {0, 1, 1023, 1024, 1025, 2048, kFaces - 1}) {
         std::vector<std::string> rows = plain_rows();
         rows[static_cast<std::size_t>(kVertices + at)] = "4 0 1 2 3";
@@ -88,12 +98,12 @@ TEST_F(PlainPly, OtherPolygonsMayFollowAnywhere) {
     }
 }
 
-TEST_F(PlainPly, ErrorsNameTheLine) {
+TEST_P(PlainPly, ErrorsNameTheLine) {
     const auto refused = [&](int row, const std::string& text, std::string_view what) {
         std::vector<std::string> rows = plain_rows();
         rows[static_cast<std::size_t>(row)] = text;
         const std::string place = ":" + std::to_string(kFirstVertexLine + row) + ":";
-        return test::refuses(read_ply, folder_.write("part.ply", file_of(rows)), {place, what});
+        return refuses(rows, {place, what});
     };
     for (const int row : {0, 1, 500, 1023, 1024, 1025, kVertices - 1}) {
         EXPECT_TRUE(refused(row, "0 x 255 0", "no number")) << row;
@@ -107,10 +117,10 @@ TEST_F(PlainPly, ErrorsNameTheLine) {
     }
 }
 
-TEST_F(PlainPly, AFileThatEndsTooEarlyIsRefused) {
+TEST_P(PlainPly, AFileThatEndsTooEarlyIsRefused) {
     std::vector<std::string> rows = plain_rows();
     rows.back() = "3 0 1";
-    EXPECT_TRUE(test::refuses(read_ply, folder_.write("part.ply", file_of(rows)), {"ends in the middle"}));
+    EXPECT_TRUE(refuses(rows, {"ends in the middle"}));
 }
 
 }  // namespace

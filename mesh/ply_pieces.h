@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "mesh/ply_values.h"
+#include "mesh/text_pieces.h"
+
+namespace burin {
+
+/// The largest vertex number so far, and where it stands first.
+struct LargestIndex {
+    std::int64_t index = -1;
+    std::size_t line = 0;
+    std::uint64_t item = 0;
+};
+
+/// Up to `count` rows of plain triangles into `corners`; how many.
+inline std::uint64_t read_triangle_rows(AsciiValues& values, std::uint64_t first_item,
+                                        std::uint64_t count, std::uint32_t* corners,
+                                        LargestIndex& largest) {
+    AsciiValues::PlainTriangles rows;
+    for (std::uint64_t done = 0; done < count;) {
+        throw_if_interrupted();
+        const std::uint64_t wanted = std::min<std::uint64_t>(count - done, rows.kMax);
+        const std::size_t got = values.plain_triangles(wanted, rows);
+        const std::span read = std::span(rows.corners).first(3 * got);
+        std::copy(read.begin(), read.end(), corners + 3 * done);
+        std::uint32_t most = 0;
+        for (const std::uint32_t v : read) most = std::max(most, v);
+        if (got > 0 && most > largest.index) {
+            const auto at =
+                static_cast<std::size_t>(std::find(read.begin(), read.end(), most) - read.begin()) /
+                3;
+            largest = {most, rows.lines[at], first_item + done + at};
+        }
+        done += got;
+        if (got < wanted) return done;
+    }
+    return count;
+}
+
+/// Reads plain rows, up to `rows` of them, in pieces of the text on all threads, each piece taken
+/// to have a row per line: read(values, first row, count, largest) reads a piece's and returns how
+/// many it could. Ends with the first piece that has anything else, and leaves `values` there.
+/// Returns how many rows were read.
+template <typename ReadPiece>
+std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> text_pieces,
+                             std::uint64_t rows, int threads, LargestIndex& largest,
+                             const ReadPiece& read) {
+    values.at_end();  // goes to the first row
+    const std::string_view text = values.rest();
+    const std::size_t first_line = values.line();
+    struct Piece {
+        AsciiValues values;
+        std::uint64_t first_row, row_count;
+        std::uint64_t read = 0;
+        LargestIndex largest{};
+    };
+    std::vector<Piece> pieces{{values, 0, rows}};
+    for (const TextPiece& p : text_pieces) {
+        if (p.line <= first_line || p.line - first_line >= rows) continue;
+        const std::uint64_t row = p.line - first_line;
+        const std::string_view from_here =
+            text.substr(static_cast<std::size_t>(p.begin - text.data()));
+        pieces.back().row_count = row - pieces.back().first_row;
+        pieces.push_back({AsciiValues(from_here, p.line), row, rows - row});
+    }
+    parallel_for(pieces.size(), threads, [&](std::size_t i, int) {
+        Piece& p = pieces[i];
+        p.read = read(p.values, p.first_row, p.row_count, p.largest);
+        p.values.at_end();
+    });
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& p = pieces[i];
+        count += p.read;
+        if (p.largest.index > largest.index) largest = p.largest;
+        values = p.values;
+        const bool leads_on = i + 1 < pieces.size() && p.read == p.row_count &&
+                              p.values.line() == pieces[i + 1].values.line();
+        if (!leads_on) break;
+    }
+    return count;
+}
+
+}  // namespace burin
