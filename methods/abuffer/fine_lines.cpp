@@ -1,0 +1,238 @@
+#include "methods/abuffer/fine_lines.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/parallel.h"
+#include "methods/abuffer/layer_edges.h"
+#include "methods/abuffer/layer_triangle.h"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kChunkTriangles = 1 << 14;
+constexpr std::size_t kChunkParts = 256;
+/// Shorter parts of lines are not worth a stroke. Pixels.
+constexpr double kShortestPiecePx = 1.0 / 32;
+/// In front of the number of a triangle that is cut by the near plane or the guard band.
+constexpr std::uint32_t kClipped = 1u << 31;
+
+/// A part of an edge that is a line.
+struct Candidate {
+    FinePart part;
+    LayerLine line;
+};
+
+std::vector<Candidate> find_candidates(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                                       const std::vector<std::vector<FinePart>>& parts, int threads) {
+    std::vector<const FinePart*> all;
+    for (const auto& list : parts) {
+        for (const FinePart& part : list) all.push_back(&part);
+    }
+    constexpr bool kHasBothOfSeam = true;
+    const LayerEdgeFinder finder(frame, screen, region, kHasBothOfSeam);
+    std::vector<std::vector<Candidate>> found((all.size() + kChunkParts - 1) / kChunkParts);
+    parallel_for(found.size(), threads, [&](std::size_t chunk, int) {
+        std::vector<LayerLine> lines;
+        for (std::size_t i = chunk * kChunkParts; i < std::min(all.size(), (chunk + 1) * kChunkParts); ++i) {
+            lines.clear();
+            finder.find({all[i]->edge.instance, all[i]->edge.half_edge / 3}, all[i]->edge.half_edge, lines);
+            if (!lines.empty()) found[chunk].push_back({*all[i], lines.front()});
+        }
+    });
+    std::vector<Candidate> candidates;
+    for (const auto& list : found) candidates.insert(candidates.end(), list.begin(), list.end());
+    return candidates;
+}
+
+/// The blocks of a region that have candidates, and what may hide them.
+class Blocks {
+  public:
+    static constexpr std::uint32_t kNone = ~0u;
+
+    Blocks(const ScreenSurfaces& screen, const SampleBlocks& grid, PixelRect region, const std::vector<Candidate>& candidates)
+        : screen_(screen),
+          grid_(grid),
+          first_x_(region.x0 / kMergeBlockPx),
+          first_y_(region.y0 / kMergeBlockPx),
+          columns_(region.width() / kMergeBlockPx),
+          rows_(region.height() / kMergeBlockPx),
+          index_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNone) {
+        std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
+        for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+            const LayerLine& line = candidates[i].line;
+            std::uint32_t& index = at(candidates[i].part.block_x - first_x_, candidates[i].part.block_y - first_y_);
+            if (index == kNone) {
+                index = static_cast<std::uint32_t>(farthest_.size());
+                farthest_.push_back(std::numeric_limits<double>::infinity());
+            }
+            farthest_[index] = std::min({farthest_[index], line.nearness_from, line.nearness_to});
+            records[0].push_back({index, i});
+        }
+        candidates_ = TileLists<std::uint32_t>(records, count());
+    }
+
+    std::size_t count() const { return farthest_.size(); }
+    std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_.of(block); }
+    /// Numbers, with kClipped.
+    std::span<const std::uint32_t> triangles(std::size_t block) const { return triangles_.of(block); }
+
+    void sort_triangles(int threads) {
+        const std::vector<TriangleChunk> chunks = screen_.chunks_of_triangles(kChunkTriangles);
+        std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(chunks.size());
+        parallel_for(chunks.size(), threads, [&](std::size_t c, int) { sort(chunks[c], records[c]); });
+        triangles_ = TileLists<std::uint32_t>(records, count());
+    }
+
+  private:
+    std::uint32_t& at(int x, int y) { return index_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)]; }
+
+    void sort(const TriangleChunk& chunk, std::vector<TileLists<std::uint32_t>::Record>& records) {
+        const ScreenMesh mesh = screen_.mesh(chunk.instance);
+        for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
+            if (mesh.facing[t] == edge_on) continue;
+            const std::uint32_t number = mesh.first_number + t;
+            if (mesh.facing[t] == off_screen) {
+                sort_clipped({chunk.instance, t}, number, records);
+                continue;
+            }
+            const std::uint32_t* const v = mesh.corners + 3 * std::size_t{t};
+            const ScreenVertex &a = mesh.vertices[v[0]], &b = mesh.vertices[v[1]], &c = mesh.vertices[v[2]];
+            const auto lowest = [](auto p, auto q, auto r) { return std::min(std::min(p, q), r); };
+            const auto highest = [](auto p, auto q, auto r) { return std::max(std::max(p, q), r); };
+            add(number, lowest(a.x, b.x, c.x), lowest(a.y, b.y, c.y), highest(a.x, b.x, c.x), highest(a.y, b.y, c.y),
+                static_cast<double>(highest(a.nearness, b.nearness, c.nearness)), records);
+        }
+    }
+
+    void sort_clipped(SurfaceId s, std::uint32_t number, std::vector<TileLists<std::uint32_t>::Record>& records) {
+        const ScreenPolygon polygon = screen_.surfaces().screen_polygon(s);
+        if (polygon.count == 0) return;
+        SubpixelPoint low = polygon.corners[0], high = low;
+        for (int i = 1; i < polygon.count; ++i) {
+            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+        }
+        add(number | kClipped, low.x, low.y, high.x, high.y, std::numeric_limits<double>::infinity(), records);
+    }
+
+    void add(std::uint32_t value, int x0, int y0, int x1, int y1, double nearest,
+             std::vector<TileLists<std::uint32_t>::Record>& records) {
+        const int left = std::max(grid_.at(x0) - first_x_, 0), right = std::min(grid_.at(x1) - first_x_, columns_ - 1);
+        const int top = std::max(grid_.at(y0) - first_y_, 0), bottom = std::min(grid_.at(y1) - first_y_, rows_ - 1);
+        for (int y = top; y <= bottom; ++y) {
+            for (int x = left; x <= right; ++x) {
+                const std::uint32_t index = at(x, y);
+                if (index != kNone && nearest > farthest_[index]) records.push_back({index, value});
+            }
+        }
+    }
+
+    const ScreenSurfaces& screen_;
+    SampleBlocks grid_;
+    int first_x_, first_y_, columns_, rows_;
+    std::vector<std::uint32_t> index_;  // of a block that has candidates
+    std::vector<double> farthest_;      // the least nearness of its candidates
+    TileLists<std::uint32_t> candidates_, triangles_;
+};
+
+/// Finds what is visible in one block after the other. Buffers are used again.
+class BlockClipper {
+  public:
+    BlockClipper(const ScreenSurfaces& screen) : screen_(screen) {}
+
+    void set_triangles(std::span<const std::uint32_t> values) {
+        triangles_.clear();
+        for (const std::uint32_t value : values) {
+            const std::uint32_t number = value & ~kClipped;
+            const SurfaceId s = screen_.surface_of(number);
+            if (value == number) {
+                triangles_.push_back(layer_triangle(screen_, s, number));
+            } else {
+                const auto clipped = clipped_layer_triangles(screen_, s, number);
+                triangles_.insert(triangles_.end(), clipped.begin(), clipped.end());
+            }
+        }
+    }
+
+    void add_visible(const Candidate& candidate, std::vector<LineSegment>& segments) {
+        const LayerLine& line = candidate.line;
+        const double begin = candidate.part.begin, end = candidate.part.end;
+        const double slack = line_slack(screen_.surfaces(), line);
+        hidden_.clear();
+        for (const LayerTriangle& t : triangles_) {
+            double from = begin, to = end;
+            if (lies_on(line, t) || !clip_where_hidden(line, slack, t, from, to)) continue;
+            if (from <= begin && to >= end) return;
+            hidden_.push_back({from, to});
+        }
+        std::sort(hidden_.begin(), hidden_.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+        const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
+        double reached = begin;
+        for (const Interval& h : hidden_) {
+            if (h.begin - reached > shortest) add(candidate, reached, h.begin, segments);
+            reached = std::max(reached, h.end);
+        }
+        if (end - reached > shortest) add(candidate, reached, end, segments);
+    }
+
+  private:
+    struct Interval {
+        double begin, end;
+    };
+
+    void add(const Candidate& candidate, double begin, double end, std::vector<LineSegment>& segments) const {
+        const LayerLine& line = candidate.line;
+        LineSegment s;
+        s.from = glm::mix(line.from, line.to, begin) / 256.0;
+        s.to = glm::mix(line.from, line.to, end) / 256.0;
+        s.drawn_as = line.drawn_as;
+        s.opacity = line.opacity;
+        s.line_key = line.line_key;
+        s.block = static_cast<std::uint32_t>(candidate.part.block_y & 0xFFFF) << 16 |
+                  static_cast<std::uint32_t>(candidate.part.block_x & 0xFFFF);
+        const double zero = screen_.surfaces().farthest_nearness;
+        s.nearness_from = static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * begin);
+        s.nearness_to = static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * end);
+        s.occludes = line.classes.has(LineClass::silhouette) || line.classes.has(LineClass::border);
+        s.front_on_left = is_owner_on_left(candidate);
+        segments.push_back(s);
+    }
+
+    /// Of the way from the line's beginning to its end.
+    bool is_owner_on_left(const Candidate& candidate) const {
+        const HalfEdge h = candidate.part.edge.half_edge;
+        const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
+        const ScreenVertex& apex = mesh.vertices[mesh.corners[h - h % 3 + (h + 2) % 3]];
+        const glm::dvec2 along = candidate.line.to - candidate.line.from;
+        const glm::dvec2 across = glm::dvec2(apex.x, apex.y) - candidate.line.from;
+        return along.x * across.y - along.y * across.x < 0;  // y runs down
+    }
+
+    const ScreenSurfaces& screen_;
+    std::vector<LayerTriangle> triangles_;
+    std::vector<Interval> hidden_;
+};
+
+}  // namespace
+
+std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                                         const std::vector<std::vector<FinePart>>& parts, int threads) {
+    std::vector<LineSegment> segments;
+    const std::vector<Candidate> candidates = find_candidates(frame, screen, region, parts, threads);
+    if (candidates.empty()) return segments;
+    Blocks blocks(screen, SampleBlocks(frame.scene->abuffer.samples_per_pixel), region, candidates);
+    blocks.sort_triangles(threads);
+    std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads), BlockClipper(screen));
+    std::vector<std::vector<LineSegment>> found(blocks.count());
+    parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {
+        BlockClipper& clipper = clippers[static_cast<std::size_t>(worker)];
+        clipper.set_triangles(blocks.triangles(block));
+        for (const std::uint32_t i : blocks.candidates(block)) clipper.add_visible(candidates[i], found[block]);
+    });
+    for (const auto& list : found) segments.insert(segments.end(), list.begin(), list.end());
+    return segments;
+}
+
+}  // namespace burin

@@ -1,0 +1,229 @@
+#include "methods/abuffer/fine_parts.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "methods/abuffer/layer_triangle.h"
+
+namespace burin {
+namespace {
+
+/// What is left beside a line that was found is looked at if it is as long as this.
+constexpr double kShortestRestSubpixels = 16;
+/// Ends of lines are as exact as this.
+constexpr double kSlackSubpixels = 1;
+/// Something is clearly in front if it is nearer by this many pixels' widths.
+constexpr double kClearlyInFrontPx = 2;
+
+}  // namespace
+
+EdgeOnScreen::EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge) {
+    const auto& t = screen.surfaces().instances[edge.instance].mesh->triangles[edge.half_edge / 3];
+    const auto [low, high] = std::minmax(t[edge.half_edge % 3], t[(edge.half_edge + 1) % 3]);
+    const ScreenVertex &a = screen.vertices(edge.instance)[low], &b = screen.vertices(edge.instance)[high];
+    from = {a.x, a.y};
+    to = {b.x, b.y};
+    nearness_from = static_cast<double>(a.nearness);
+    nearness_to = static_cast<double>(b.nearness);
+}
+
+void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges, std::span<const LineSegment> drawn,
+                     std::vector<FinePart>& parts) {
+    if (edges.empty()) return;
+    find_farthest(samples);
+    const SampleBlocks blocks(samples.samples_per_pixel);
+    const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
+    const int first_x = samples.first_column >> shift, last_x = (samples.first_column + samples.columns - 2) >> shift;
+    const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
+    for (const FineEdge& e : edges) {
+        const EdgeOnScreen edge(screen_, e);
+        if (is_behind_blocks(samples, edge)) continue;
+        const Owners owners = owners_of(e);
+        const glm::dvec2 low = glm::min(edge.from, edge.to), high = glm::max(edge.from, edge.to);
+        const int x0 = blocks.at(static_cast<int>(low.x)), x1 = blocks.at(static_cast<int>(high.x));
+        const int y0 = blocks.at(static_cast<int>(low.y)), y1 = blocks.at(static_cast<int>(high.y));
+        const HalfEdge partner = screen_.mesh(e.instance).partners[e.half_edge];
+        const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
+        for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
+            for (int x = std::max(x0, first_x); x <= std::min(x1, last_x); ++x) {
+                double begin = 0, end = 1;
+                LayerLine line;
+                line.from = edge.from;
+                line.to = edge.to;
+                if ((x0 != x1 || y0 != y1) &&
+                    !clip_to_rect(line, {blocks.begin(x), blocks.begin(y)}, {blocks.begin(x + 1), blocks.begin(y + 1)},
+                                  begin, end)) {
+                    continue;
+                }
+                open_.clear();
+                find_open(samples, edge, owners, begin, end);
+                if (open_.empty()) continue;
+                const std::uint32_t block = static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
+                const auto is_before = [](const LineSegment& s, const std::pair<std::uint64_t, std::uint32_t>& k) {
+                    return s.line_key != k.first ? s.line_key < k.first : s.block < k.second;
+                };
+                const auto first = std::lower_bound(drawn.begin(), drawn.end(), std::pair(key, block), is_before);
+                auto last = first;
+                while (last != drawn.end() && last->line_key == key && last->block == block) ++last;
+                if (first != last) take_out_drawn(edge, {first, last});
+                for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
+            }
+        }
+    }
+}
+
+void FineParts::find_farthest(const SampleTile& samples) {
+    farthest_.resize(samples.nearness.size() / kBlockSamples);
+    // The kernel only reads.
+    const SampleView view{const_cast<float*>(samples.nearness.data()),
+                          const_cast<std::uint32_t*>(samples.ids.data()),
+                          samples.first_column,
+                          samples.first_row,
+                          samples.columns,
+                          samples.rows,
+                          samples.stride,
+                          samples.samples_per_pixel,
+                          0,
+                          0,
+                          nullptr,
+                          nullptr,
+                          0};
+    kernels_.find_farthest(view, farthest_.data());
+}
+
+double FineParts::level(double nearness) const {
+    const Projection& p = screen_.surfaces().projection;
+    const double part = kClearlyInFrontPx / p.focal_px;
+    return p.orthographic ? part : part * (nearness + screen_.surfaces().farthest_nearness);
+}
+
+/// The triangles at an edge, and whether each of them shows where the edge is a line.
+FineParts::Owners FineParts::owners_of(FineEdge edge) const {
+    const ScreenMesh mesh = screen_.mesh(edge.instance);
+    const std::uint32_t t = edge.half_edge / 3, u = mesh.partners[edge.half_edge] / 3;
+    const bool is_fold = mesh.facing[t] != mesh.facing[u];
+    return {{mesh.first_number + t, mesh.first_number + u}, !is_fold};
+}
+
+/// Whether all samples around an edge are clearly in front of it.
+bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge) const {
+    constexpr int kMostBlocks = 16;
+    const double per_sample = samples.samples_per_pixel / 256.0;
+    const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
+    const glm::dvec2 low = glm::floor(glm::min(edge.from, edge.to) * per_sample - first);
+    const glm::dvec2 high = glm::floor(glm::max(edge.from, edge.to) * per_sample - first) + 1.0;
+    const int x0 = static_cast<int>(std::max(low.x, 0.0)) >> kBlockShift;
+    const int y0 = static_cast<int>(std::max(low.y, 0.0)) >> kBlockShift;
+    const int x1 = static_cast<int>(std::min(high.x, samples.columns - 1.0)) >> kBlockShift;
+    const int y1 = static_cast<int>(std::min(high.y, samples.rows - 1.0)) >> kBlockShift;
+    if ((x1 - x0 + 1) * (y1 - y0 + 1) > kMostBlocks) return false;
+    const double nearest = std::max(edge.nearness_from, edge.nearness_to);
+    const double limit = nearest + level(nearest);
+    for (int y = y0; y <= y1; ++y) {
+        for (int x = x0; x <= x1; ++x) {
+            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.stride / kBlockSamples);
+            if (!(static_cast<double>(farthest_[i + static_cast<std::size_t>(x)]) > limit)) return false;
+        }
+    }
+    return true;
+}
+
+/// Goes along an edge from square to square of four samples.
+void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, double begin,
+                          double end) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const double per_sample = samples.samples_per_pixel / 256.0;
+    const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
+    const glm::dvec2 origin = edge.from * per_sample - first, along = (edge.to - edge.from) * per_sample;
+    const glm::dvec2 start = origin + along * begin;
+    double next[2], step[2];
+    for (int k = 0; k < 2; ++k) {
+        const double border = along[k] > 0 ? std::floor(start[k]) + 1 : std::ceil(start[k]) - 1;
+        next[k] = along[k] == 0 ? kNever : (border - origin[k]) / along[k];
+        step[k] = along[k] == 0 ? kNever : 1 / std::abs(along[k]);
+    }
+    for (double t = begin; t < end;) {
+        const int axis = next[0] < next[1] ? 0 : 1;
+        const double to = std::min(next[axis], end);
+        const double middle = 0.5 * (t + to);
+        const glm::dvec2 at = origin + along * middle;
+        const int column = std::clamp(static_cast<int>(std::floor(at.x)), 0, samples.columns - 2);
+        const int row = std::clamp(static_cast<int>(std::floor(at.y)), 0, samples.rows - 2);
+        if (to > t && is_open(samples, column, row, edge, middle, owners)) {
+            if (!open_.empty() && open_.back().end == t) {
+                open_.back().end = to;
+            } else {
+                open_.push_back({t, to});
+            }
+        }
+        t = to;
+        next[axis] += step[axis];
+    }
+}
+
+bool FineParts::is_open(const SampleTile& samples, int column, int row, const EdgeOnScreen& edge, double t,
+                        const Owners& owners) const {
+    const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(samples.stride) +
+                          static_cast<std::size_t>(column);
+    const std::size_t corners[4] = {i, i + 1, i + static_cast<std::size_t>(samples.stride),
+                                    i + static_cast<std::size_t>(samples.stride) + 1};
+    bool sees[2] = {false, false};
+    float farthest = std::numeric_limits<float>::infinity();
+    for (const std::size_t c : corners) {
+        for (int k = 0; k < 2; ++k) sees[k] = sees[k] || samples.ids[c] >> 1 == owners.numbers[k];
+        farthest = std::min(farthest, samples.nearness[c]);
+    }
+    if (owners.needs_both ? sees[0] && sees[1] : sees[0] || sees[1]) return false;
+    const double nearness = edge.nearness_at(t);
+    if (!(static_cast<double>(farthest) > nearness + level(nearness))) return true;
+    for (int k = 0; k < 4; ++k) {
+        const std::uint32_t id = samples.ids[corners[k]];
+        bool is_known = false;
+        for (int j = 0; j < k; ++j) is_known = is_known || samples.ids[corners[j]] >> 1 == id >> 1;
+        if (!is_known && !is_in_front(id >> 1, edge.at(t), nearness)) return true;
+    }
+    return false;
+}
+
+/// Whether the plane of a triangle beside a place is clearly in front there.
+bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const {
+    const SurfaceId s = screen_.surface_of(number);
+    double at = 0;
+    if (screen_.facing(number) == off_screen) {
+        at = screen_.surfaces().plane(s).extended_to(subpixel / 256.0) - screen_.surfaces().farthest_nearness;
+    } else {
+        const ScreenTriangle t = screen_.triangle(s);
+        const ScreenVertex &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
+        const auto area = static_cast<double>(doubled_area(a, b, c));
+        const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
+                     qc = static_cast<double>(c.nearness) - qa;
+        const double px = subpixel.x - a.x, py = subpixel.y - a.y;
+        at = qa + ((px * (c.y - a.y) - py * (c.x - a.x)) * qb + ((b.x - a.x) * py - (b.y - a.y) * px) * qc) / area;
+    }
+    return at > nearness + level(nearness);
+}
+
+/// Takes out of what is open where lines of the edge were found.
+void FineParts::take_out_drawn(const EdgeOnScreen& edge, std::span<const LineSegment> drawn) {
+    const glm::dvec2 along = edge.to - edge.from;
+    const double square = glm::dot(along, along);
+    const double slack = kSlackSubpixels / std::sqrt(square), shortest = kShortestRestSubpixels / std::sqrt(square);
+    for (const LineSegment& s : drawn) {
+        const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;
+        const double q = glm::dot(s.to * 256.0 - edge.from, along) / square;
+        const double begin = std::min(p, q) - slack, end = std::max(p, q) + slack;
+        const std::size_t count = open_.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            Interval& own = open_[i];
+            if (end <= own.begin || begin >= own.end) continue;
+            const Interval rest{end, own.end};
+            own.end = begin;  // may be empty now
+            if (rest.begin < rest.end) open_.push_back(rest);
+        }
+    }
+    std::erase_if(open_, [&](const Interval& i) { return !(i.end - i.begin >= shortest); });
+}
+
+}  // namespace burin

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "abuffer/sample_tile.h"
+#include "lines/line_segment.h"
+#include "methods/abuffer/fine_edges.h"
+
+namespace burin {
+
+/// A part of an edge within one block that may be a line though the samples do not tell.
+struct FinePart {
+    FineEdge edge;
+    std::int32_t block_x, block_y;
+    double begin, end;  ///< shares of the way from the edge's vertex with the smaller number to the other
+};
+
+/// An edge between its vertices, that with the smaller number first, on the screen in 1/256 pixel.
+struct EdgeOnScreen {
+    EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge);
+    glm::dvec2 at(double t) const { return from + (to - from) * t; }
+    double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
+
+    glm::dvec2 from, to;
+    double nearness_from, nearness_to;
+};
+
+/// Finds where along edges the samples of a tile do not tell whether there is a line: no line of the edge
+/// was found there, the samples beside it do not see the edge's own triangles, and they do not see
+/// something that is clearly in front, either. Buffers are used again from tile to tile.
+class FineParts {
+  public:
+    FineParts(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels) {}
+
+    /// `drawn`: the lines found in the tile, as merge_segments() leaves them.
+    void find(const SampleTile& samples, std::span<const FineEdge> edges, std::span<const LineSegment> drawn,
+              std::vector<FinePart>& parts);
+
+  private:
+    struct Owners {
+        std::uint32_t numbers[2];
+        bool needs_both;  // the line runs between two polygons that are seen
+    };
+    struct Interval {
+        double begin, end;
+    };
+    void find_farthest(const SampleTile& samples);
+    Owners owners_of(FineEdge edge) const;
+    bool is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge) const;
+    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, double begin, double end);
+    bool is_open(const SampleTile& samples, int column, int row, const EdgeOnScreen& edge, double t,
+                 const Owners& owners) const;
+    bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
+    void take_out_drawn(const EdgeOnScreen& edge, std::span<const LineSegment> drawn);
+    double level(double nearness) const;
+
+    const ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
+    std::vector<float> farthest_;  // per block of kBlockSamples^2 samples
+    std::vector<Interval> open_;
+};
+
+}  // namespace burin
