@@ -17,6 +17,7 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
         const ScreenMesh mesh = screen.mesh(chunks[c].instance);
         for_possible_lines(screen, chunks[c], [&](SurfaceId s, HalfEdge h) {
+            if (mesh.partners[mesh.partners[h]] != h) return;
             const std::uint32_t* const t = mesh.corners + 3 * std::size_t{s.triangle};
             const ScreenVertex &a = mesh.vertices[t[h % 3]], &b = mesh.vertices[t[(h + 1) % 3]];
             if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "base/parallel.h"
 #include "methods/abuffer/layer_edges.h"
@@ -140,7 +141,7 @@ class Blocks {
 /// Finds what is visible in one block after the other. Buffers are used again.
 class BlockClipper {
   public:
-    BlockClipper(const ScreenSurfaces& screen) : screen_(screen) {}
+    BlockClipper(const ScreenSurfaces& screen, const LineCriteria& criteria) : screen_(screen), criteria_(criteria) {}
 
     void set_triangles(std::span<const std::uint32_t> values) {
         triangles_.clear();
@@ -184,10 +185,19 @@ class BlockClipper {
 
     void add(const Candidate& candidate, double begin, double end, std::vector<LineSegment>& segments) const {
         const LayerLine& line = candidate.line;
+        LineClassSet classes = line.classes;
+        bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
+        if (classes.has(LineClass::border)) {
+            if (const auto contact = contact_behind(line, 0.5 * (begin + end))) {
+                classes = (classes & LineClass::mark) | (*contact & criteria_.classes);
+                occludes = false;
+                if (classes.empty()) return;
+            }
+        }
         LineSegment s;
         s.from = glm::mix(line.from, line.to, begin) / 256.0;
         s.to = glm::mix(line.from, line.to, end) / 256.0;
-        s.drawn_as = line.drawn_as;
+        s.drawn_as = *classes.first();
         s.opacity = line.opacity;
         s.line_key = line.line_key;
         s.block = static_cast<std::uint32_t>(candidate.part.block_y & 0xFFFF) << 16 |
@@ -195,9 +205,31 @@ class BlockClipper {
         const double zero = screen_.surfaces().farthest_nearness;
         s.nearness_from = static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * begin);
         s.nearness_to = static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * end);
-        s.occludes = line.classes.has(LineClass::silhouette) || line.classes.has(LineClass::border);
+        s.occludes = occludes;
         s.front_on_left = is_owner_on_left(candidate);
         segments.push_back(s);
+    }
+
+    /// A surface that ends in contact with another one has no border there, but the classes of a contact.
+    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t) const {
+        const glm::dvec2 at = glm::mix(line.from, line.to, t);
+        const double nearness = glm::mix(line.nearness_from, line.nearness_to, t);
+        const LayerTriangle* behind = nullptr;
+        double nearest = 0;
+        for (const LayerTriangle& triangle : triangles_) {
+            const double other = triangle.nearness_at(at);
+            if (lies_on(line, triangle) || !triangle.covers(at) || (behind != nullptr && other <= nearest)) continue;
+            behind = &triangle;
+            nearest = other;
+        }
+        if (behind == nullptr) return std::nullopt;
+        const SurfaceSet& surfaces = screen_.surfaces();
+        const Projection& p = surfaces.projection;
+        const SurfaceId own = screen_.surface_of(line.owners[0]), other = screen_.surface_of(behind->number);
+        const double distance = distance_of(p, surfaces.farthest_nearness + nearness);
+        const double gap = distance_of(p, surfaces.farthest_nearness + nearest) - distance;
+        if (gap > depth_tolerance(surfaces, distance, surfaces.plane(other))) return std::nullopt;
+        return contact_classes(surfaces, own, other, at / 256.0, criteria_);
     }
 
     /// Of the way from the line's beginning to its end.
@@ -211,6 +243,7 @@ class BlockClipper {
     }
 
     const ScreenSurfaces& screen_;
+    const LineCriteria& criteria_;
     std::vector<LayerTriangle> triangles_;
     std::vector<Interval> hidden_;
 };
@@ -224,7 +257,7 @@ std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurface
     if (candidates.empty()) return segments;
     Blocks blocks(screen, SampleBlocks(frame.scene->abuffer.samples_per_pixel), region, candidates);
     blocks.sort_triangles(threads);
-    std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads), BlockClipper(screen));
+    std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads), BlockClipper(screen, frame.criteria));
     std::vector<std::vector<LineSegment>> found(blocks.count());
     parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {
         BlockClipper& clipper = clippers[static_cast<std::size_t>(worker)];

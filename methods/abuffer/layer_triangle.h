@@ -20,6 +20,14 @@ struct LayerTriangle {
     std::uint32_t number, instance;
     std::array<std::uint32_t, 3> vertices;
 
+    bool covers(glm::dvec2 p) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t n = k == 2 ? 0 : k + 1;
+            const double side = (x[n] - x[k]) * (p.y - y[k]) - (y[n] - y[k]) * (p.x - x[k]);
+            if (side < 0 || (side == 0 && !owns_edge[k])) return false;
+        }
+        return true;
+    }
     double nearness_at(glm::dvec2 p) const { return nearness + per_x * (p.x - x[0]) + per_y * (p.y - y[0]); }
 };
 
