@@ -15,6 +15,8 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr std::size_t kChunkParts = 256;
 /// Shorter parts of lines are not worth a stroke. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
+/// What rounding does to nearness, as part of what counts as level.
+constexpr double kRounding = 1.0 / 64;
 /// In front of the number of a triangle that is cut by the near plane or the guard band.
 constexpr std::uint32_t kClipped = 1u << 31;
 
@@ -161,10 +163,16 @@ class BlockClipper {
         const LayerLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
         const double slack = line_slack(screen_.surfaces(), line);
+        // One mesh hides its own edges exactly; other surfaces, and patches that are not stitched, may touch.
+        const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_from);
+        const HalfEdge h = candidate.part.edge.half_edge;
+        const bool is_inner = screen_.mesh(candidate.part.edge.instance).partners[h] != h;
         hidden_.clear();
         for (const LayerTriangle& t : triangles_) {
             double from = begin, to = end;
-            if (lies_on(line, t) || !clip_where_hidden(line, slack, t, from, to)) continue;
+            const bool is_one_mesh = is_inner && t.instance == candidate.part.edge.instance;
+            const double level = is_one_mesh ? rounding : slack + t.slack;
+            if (lies_on(line, t) || !clip_where_hidden(line, level, t, from, to)) continue;
             if (from <= begin && to >= end) return;
             hidden_.push_back({from, to});
         }

@@ -179,7 +179,7 @@ void LayerTile::sort_into_cells() {
 void LayerTile::hide(const LayerLine& line, std::uint32_t i, double begin, double end) {
     if (static_cast<double>(bounds_.high[i]) <= std::min(line.nearness_from, line.nearness_to)) return;
     const LayerTriangle& t = triangle(i);
-    if (lies_on(line, t) || !clip_where_hidden(line, line_slack_, t, begin, end)) return;
+    if (lies_on(line, t) || !clip_where_hidden(line, line_slack_ + t.slack, t, begin, end)) return;
     intervals_.push_back({begin, end, t.transmission});
 }
 

@@ -126,9 +126,8 @@ bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle&
         if (at_0 == 0 && at_1 == 0 && !t.owns_edge[k]) return false;
         if (!clip_where_positive(at_0, at_1, begin, end)) return false;
     }
-    const double level = slack + t.slack;
-    return clip_where_positive(t.nearness_at(line.from) - line.nearness_from - level,
-                               t.nearness_at(line.to) - line.nearness_to - level, begin, end);
+    return clip_where_positive(t.nearness_at(line.from) - line.nearness_from - slack,
+                               t.nearness_at(line.to) - line.nearness_to - slack, begin, end);
 }
 
 }  // namespace burin

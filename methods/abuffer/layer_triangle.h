@@ -52,7 +52,7 @@ double level_slack(const SurfaceSet& surfaces, double nearness);
 /// The same for a line, with what snapping does to it.
 double line_slack(const SurfaceSet& surfaces, const LayerLine& line);
 
-/// Keeps the part of [begin, end] in which a triangle is in front of a line. `slack`: line_slack().
+/// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`.
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin, double& end);
 
 }  // namespace burin
