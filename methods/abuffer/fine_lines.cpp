@@ -40,7 +40,12 @@ std::vector<Candidate> find_candidates(const Frame& frame, const ScreenSurfaces&
         for (std::size_t i = chunk * kChunkParts; i < std::min(all.size(), (chunk + 1) * kChunkParts); ++i) {
             lines.clear();
             finder.find({all[i]->edge.instance, all[i]->edge.half_edge / 3}, all[i]->edge.half_edge, lines);
-            if (!lines.empty()) found[chunk].push_back({*all[i], lines.front()});
+            if (lines.empty()) continue;
+            LayerLine& line = lines.front();
+            const ScreenMesh mesh = screen.mesh(all[i]->edge.instance);
+            const HalfEdge h = all[i]->edge.half_edge;
+            if (mesh.partners[h] == h) line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
+            found[chunk].push_back({*all[i], line});
         }
     });
     std::vector<Candidate> candidates;
@@ -163,16 +168,17 @@ class BlockClipper {
         const LayerLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
         const double slack = line_slack(screen_.surfaces(), line);
-        // One mesh hides its own edges exactly; other surfaces, and patches that are not stitched, may touch.
         const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_from);
-        const HalfEdge h = candidate.part.edge.half_edge;
-        const bool is_inner = screen_.mesh(candidate.part.edge.instance).partners[h] != h;
+        const bool is_border = line.owners[0] == line.owners[1];
         hidden_.clear();
         for (const LayerTriangle& t : triangles_) {
             double from = begin, to = end;
-            const bool is_one_mesh = is_inner && t.instance == candidate.part.edge.instance;
-            const double level = is_one_mesh ? rounding : slack + t.slack;
-            if (lies_on(line, t) || !clip_where_hidden(line, level, t, from, to)) continue;
+            if (lies_on(line, t)) continue;
+            // A mesh hides its own edges exactly; patches that are not stitched are snapped apart, and other
+            // objects may touch.
+            const bool is_own_mesh = t.instance == candidate.part.edge.instance;
+            const double level = !is_own_mesh ? slack + t.slack : is_border ? rounding + t.slack : rounding;
+            if (!clip_where_hidden(line, level, t, from, to)) continue;
             if (from <= begin && to >= end) return;
             hidden_.push_back({from, to});
         }
