@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "methods/abuffer/fold_width.h"
 #include "methods/abuffer/layer_edges.h"
 #include "methods/abuffer/layer_triangle.h"
 
@@ -15,6 +16,10 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr std::size_t kChunkParts = 256;
 /// Shorter parts of lines are not worth a stroke. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
+/// Folds that turn back by less are no contours (docs/conventions.md). 1/64 pixel.
+constexpr double kNegligibleFoldSubpixels = 4;
+/// How exactly the place is found where a fold begins. Pixels.
+constexpr double kWidthStepPx = 1.0 / 32;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 /// In front of the number of a triangle that is cut by the near plane or the guard band.
@@ -186,16 +191,44 @@ class BlockClipper {
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         double reached = begin;
         for (const Interval& h : hidden_) {
-            if (h.begin - reached > shortest) add(candidate, reached, h.begin, segments);
+            add_wide(candidate, reached, h.begin, shortest, segments);
             reached = std::max(reached, h.end);
         }
-        if (end - reached > shortest) add(candidate, reached, end, segments);
+        add_wide(candidate, reached, end, shortest, segments);
     }
 
   private:
     struct Interval {
         double begin, end;
     };
+
+    /// Adds what is no negligible fold.
+    void add_wide(const Candidate& candidate, double begin, double end, double shortest,
+                  std::vector<LineSegment>& segments) const {
+        if (candidate.line.classes.has(LineClass::silhouette)) {
+            while (end - begin > shortest && !is_wide(candidate, begin)) begin = std::min(end, begin + step_of(candidate));
+            while (end - begin > shortest && !is_wide(candidate, end)) end = std::max(begin, end - step_of(candidate));
+        }
+        if (end - begin > shortest) add(candidate, begin, end, segments);
+    }
+    static double step_of(const Candidate& candidate) { return kWidthStepPx / candidate.line.length_px(); }
+
+    /// Whether both surfaces at a contour go on for more than a negligible fold.
+    bool is_wide(const Candidate& candidate, double t) const {
+        const glm::dvec2 at = glm::mix(candidate.line.from, candidate.line.to, t);
+        const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
+        const HalfEdge h = candidate.part.edge.half_edge, partner = mesh.partners[h];
+        const double nearness = glm::mix(candidate.line.nearness_from, candidate.line.nearness_to, t);
+        const double level = 32 * level_slack(screen_.surfaces(), nearness);
+        // Along rows and columns, as samples would see it.
+        for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
+            const auto goes_on = [&](HalfEdge side) {
+                return is_surface_wide(mesh, side, at, nearness, way, kNegligibleFoldSubpixels, level);
+            };
+            if (goes_on(h) && (partner == h || goes_on(partner))) return true;
+        }
+        return false;
+    }
 
     void add(const Candidate& candidate, double begin, double end, std::vector<LineSegment>& segments) const {
         const LayerLine& line = candidate.line;
