@@ -1,10 +1,10 @@
 #include "methods/abuffer/fine_lines.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "base/parallel.h"
+#include "methods/abuffer/fine_blocks.h"
 #include "methods/abuffer/fold_width.h"
 #include "methods/abuffer/layer_edges.h"
 #include "methods/abuffer/layer_triangle.h"
@@ -12,7 +12,6 @@
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr std::size_t kChunkParts = 256;
 /// Shorter parts of lines are not worth a stroke. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
@@ -20,18 +19,10 @@ constexpr double kShortestPiecePx = 1.0 / 32;
 constexpr double kNegligibleFoldSubpixels = 4;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
+constexpr double kFar = 1e300;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
-/// In front of the number of a triangle that is cut by the near plane or the guard band.
-constexpr std::uint32_t kClipped = 1u << 31;
-
-/// A part of an edge that is a line.
-struct Candidate {
-    FinePart part;
-    LayerLine line;
-};
-
-std::vector<Candidate> find_candidates(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                        const std::vector<std::vector<FinePart>>& parts, int threads) {
     std::vector<const FinePart*> all;
     for (const auto& list : parts) {
@@ -39,7 +30,7 @@ std::vector<Candidate> find_candidates(const Frame& frame, const ScreenSurfaces&
     }
     constexpr bool kHasBothOfSeam = true;
     const LayerEdgeFinder finder(frame, screen, region, kHasBothOfSeam);
-    std::vector<std::vector<Candidate>> found((all.size() + kChunkParts - 1) / kChunkParts);
+    std::vector<std::vector<FineCandidate>> found((all.size() + kChunkParts - 1) / kChunkParts);
     parallel_for(found.size(), threads, [&](std::size_t chunk, int) {
         std::vector<LayerLine> lines;
         for (std::size_t i = chunk * kChunkParts; i < std::min(all.size(), (chunk + 1) * kChunkParts); ++i) {
@@ -53,140 +44,43 @@ std::vector<Candidate> find_candidates(const Frame& frame, const ScreenSurfaces&
             found[chunk].push_back({*all[i], line});
         }
     });
-    std::vector<Candidate> candidates;
+    std::vector<FineCandidate> candidates;
     for (const auto& list : found) candidates.insert(candidates.end(), list.begin(), list.end());
     return candidates;
 }
-
-/// The blocks of a region that have candidates, and what may hide them.
-class Blocks {
-  public:
-    static constexpr std::uint32_t kNone = ~0u;
-
-    Blocks(const ScreenSurfaces& screen, const SampleBlocks& grid, PixelRect region, const std::vector<Candidate>& candidates)
-        : screen_(screen),
-          grid_(grid),
-          first_x_(region.x0 / kMergeBlockPx),
-          first_y_(region.y0 / kMergeBlockPx),
-          columns_(region.width() / kMergeBlockPx),
-          rows_(region.height() / kMergeBlockPx),
-          index_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNone) {
-        std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
-        for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-            const LayerLine& line = candidates[i].line;
-            std::uint32_t& index = at(candidates[i].part.block_x - first_x_, candidates[i].part.block_y - first_y_);
-            if (index == kNone) {
-                index = static_cast<std::uint32_t>(farthest_.size());
-                farthest_.push_back(std::numeric_limits<double>::infinity());
-            }
-            farthest_[index] = std::min({farthest_[index], line.nearness_from, line.nearness_to});
-            records[0].push_back({index, i});
-        }
-        candidates_ = TileLists<std::uint32_t>(records, count());
-    }
-
-    std::size_t count() const { return farthest_.size(); }
-    std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_.of(block); }
-    /// Numbers, with kClipped.
-    std::span<const std::uint32_t> triangles(std::size_t block) const { return triangles_.of(block); }
-
-    void sort_triangles(int threads) {
-        const std::vector<TriangleChunk> chunks = screen_.chunks_of_triangles(kChunkTriangles);
-        std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(chunks.size());
-        parallel_for(chunks.size(), threads, [&](std::size_t c, int) { sort(chunks[c], records[c]); });
-        triangles_ = TileLists<std::uint32_t>(records, count());
-    }
-
-  private:
-    std::uint32_t& at(int x, int y) { return index_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)]; }
-
-    void sort(const TriangleChunk& chunk, std::vector<TileLists<std::uint32_t>::Record>& records) {
-        const ScreenMesh mesh = screen_.mesh(chunk.instance);
-        for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
-            if (mesh.facing[t] == edge_on) continue;
-            const std::uint32_t number = mesh.first_number + t;
-            if (mesh.facing[t] == off_screen) {
-                sort_clipped({chunk.instance, t}, number, records);
-                continue;
-            }
-            const std::uint32_t* const v = mesh.corners + 3 * std::size_t{t};
-            const ScreenVertex &a = mesh.vertices[v[0]], &b = mesh.vertices[v[1]], &c = mesh.vertices[v[2]];
-            const auto lowest = [](auto p, auto q, auto r) { return std::min(std::min(p, q), r); };
-            const auto highest = [](auto p, auto q, auto r) { return std::max(std::max(p, q), r); };
-            add(number, lowest(a.x, b.x, c.x), lowest(a.y, b.y, c.y), highest(a.x, b.x, c.x), highest(a.y, b.y, c.y),
-                static_cast<double>(highest(a.nearness, b.nearness, c.nearness)), records);
-        }
-    }
-
-    void sort_clipped(SurfaceId s, std::uint32_t number, std::vector<TileLists<std::uint32_t>::Record>& records) {
-        const ScreenPolygon polygon = screen_.surfaces().screen_polygon(s);
-        if (polygon.count == 0) return;
-        SubpixelPoint low = polygon.corners[0], high = low;
-        for (int i = 1; i < polygon.count; ++i) {
-            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
-            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        }
-        add(number | kClipped, low.x, low.y, high.x, high.y, std::numeric_limits<double>::infinity(), records);
-    }
-
-    void add(std::uint32_t value, int x0, int y0, int x1, int y1, double nearest,
-             std::vector<TileLists<std::uint32_t>::Record>& records) {
-        const int left = std::max(grid_.at(x0) - first_x_, 0), right = std::min(grid_.at(x1) - first_x_, columns_ - 1);
-        const int top = std::max(grid_.at(y0) - first_y_, 0), bottom = std::min(grid_.at(y1) - first_y_, rows_ - 1);
-        for (int y = top; y <= bottom; ++y) {
-            for (int x = left; x <= right; ++x) {
-                const std::uint32_t index = at(x, y);
-                if (index != kNone && nearest > farthest_[index]) records.push_back({index, value});
-            }
-        }
-    }
-
-    const ScreenSurfaces& screen_;
-    SampleBlocks grid_;
-    int first_x_, first_y_, columns_, rows_;
-    std::vector<std::uint32_t> index_;  // of a block that has candidates
-    std::vector<double> farthest_;      // the least nearness of its candidates
-    TileLists<std::uint32_t> candidates_, triangles_;
-};
 
 /// Finds what is visible in one block after the other. Buffers are used again.
 class BlockClipper {
   public:
     BlockClipper(const ScreenSurfaces& screen, const LineCriteria& criteria) : screen_(screen), criteria_(criteria) {}
 
-    void set_triangles(std::span<const std::uint32_t> values) {
-        triangles_.clear();
-        for (const std::uint32_t value : values) {
-            const std::uint32_t number = value & ~kClipped;
-            const SurfaceId s = screen_.surface_of(number);
-            if (value == number) {
-                triangles_.push_back(layer_triangle(screen_, s, number));
-            } else {
-                const auto clipped = clipped_layer_triangles(screen_, s, number);
-                triangles_.insert(triangles_.end(), clipped.begin(), clipped.end());
-            }
-        }
+    void set_triangles(std::span<const HidingTriangle> triangles) {
+        given_ = triangles;
+        places_.assign(triangles.size(), {});
+        set_up_.clear();
     }
 
-    void add_visible(const Candidate& candidate, std::vector<LineSegment>& segments) {
+    void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
         const LayerLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
         const double slack = line_slack(screen_.surfaces(), line);
         const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_from);
         const bool is_border = line.owners[0] == line.owners[1];
         hidden_.clear();
-        for (const LayerTriangle& t : triangles_) {
+        bool is_hidden = false;
+        for_triangles(line, begin, end, std::min(line.nearness_from, line.nearness_to), [&](const LayerTriangle& t) {
             double from = begin, to = end;
-            if (lies_on(line, t)) continue;
+            if (lies_on(line, t)) return true;
             // A mesh hides its own edges exactly; patches that are not stitched are snapped apart, and other
             // objects may touch.
             const bool is_own_mesh = t.instance == candidate.part.edge.instance;
             const double level = !is_own_mesh ? slack + t.slack : is_border ? rounding + t.slack : rounding;
-            if (!clip_where_hidden(line, level, t, from, to)) continue;
-            if (from <= begin && to >= end) return;
+            if (!clip_where_hidden(line, level, t, from, to)) return true;
+            is_hidden = from <= begin && to >= end;
             hidden_.push_back({from, to});
-        }
+            return !is_hidden;
+        });
+        if (is_hidden) return;
         std::sort(hidden_.begin(), hidden_.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         double reached = begin;
@@ -201,20 +95,51 @@ class BlockClipper {
     struct Interval {
         double begin, end;
     };
+    struct Place {
+        std::uint32_t first = 0, count = 0;
+    };
+
+    /// Calls use(triangle) for those beside a part of a line that are nearer than `least`, until it says false.
+    template <typename Use>
+    void for_triangles(const LayerLine& line, double begin, double end, double least, const Use& use) {
+        const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+        const glm::ivec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
+        for (std::size_t i = 0; i < given_.size(); ++i) {
+            const HidingTriangle& t = given_[i];
+            if (t.x0 > high.x || t.x1 < low.x || t.y0 > high.y || t.y1 < low.y) continue;
+            if (!(static_cast<double>(t.nearest) > least)) continue;
+            if (places_[i].count == 0) set_up(i);
+            for (std::uint32_t k = 0; k < places_[i].count; ++k) {
+                if (!use(set_up_[places_[i].first + k])) return;
+            }
+        }
+    }
+
+    void set_up(std::size_t i) {
+        const SurfaceId s = screen_.surface_of(given_[i].number);
+        places_[i].first = static_cast<std::uint32_t>(set_up_.size());
+        if (given_[i].is_clipped) {
+            const auto parts = clipped_layer_triangles(screen_, s, given_[i].number);
+            set_up_.insert(set_up_.end(), parts.begin(), parts.end());
+        } else {
+            set_up_.push_back(layer_triangle(screen_, s, given_[i].number));
+        }
+        places_[i].count = static_cast<std::uint32_t>(set_up_.size()) - places_[i].first;
+    }
 
     /// Adds what is no negligible fold.
-    void add_wide(const Candidate& candidate, double begin, double end, double shortest,
-                  std::vector<LineSegment>& segments) const {
+    void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
+                  std::vector<LineSegment>& segments) {
         if (candidate.line.classes.has(LineClass::silhouette)) {
             while (end - begin > shortest && !is_wide(candidate, begin)) begin = std::min(end, begin + step_of(candidate));
             while (end - begin > shortest && !is_wide(candidate, end)) end = std::max(begin, end - step_of(candidate));
         }
         if (end - begin > shortest) add(candidate, begin, end, segments);
     }
-    static double step_of(const Candidate& candidate) { return kWidthStepPx / candidate.line.length_px(); }
+    static double step_of(const FineCandidate& candidate) { return kWidthStepPx / candidate.line.length_px(); }
 
     /// Whether both surfaces at a contour go on for more than a negligible fold.
-    bool is_wide(const Candidate& candidate, double t) const {
+    bool is_wide(const FineCandidate& candidate, double t) const {
         const glm::dvec2 at = glm::mix(candidate.line.from, candidate.line.to, t);
         const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
         const HalfEdge h = candidate.part.edge.half_edge, partner = mesh.partners[h];
@@ -230,7 +155,7 @@ class BlockClipper {
         return false;
     }
 
-    void add(const Candidate& candidate, double begin, double end, std::vector<LineSegment>& segments) const {
+    void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
         const LayerLine& line = candidate.line;
         LineClassSet classes = line.classes;
         bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
@@ -258,18 +183,19 @@ class BlockClipper {
     }
 
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
-    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t) const {
+    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t) {
         const glm::dvec2 at = glm::mix(line.from, line.to, t);
         const double nearness = glm::mix(line.nearness_from, line.nearness_to, t);
-        const LayerTriangle* behind = nullptr;
-        double nearest = 0;
-        for (const LayerTriangle& triangle : triangles_) {
+        std::optional<LayerTriangle> behind;
+        double nearest = -kFar;
+        for_triangles(line, t, t, -kFar, [&](const LayerTriangle& triangle) {
             const double other = triangle.nearness_at(at);
-            if (lies_on(line, triangle) || !triangle.covers(at) || (behind != nullptr && other <= nearest)) continue;
-            behind = &triangle;
+            if (lies_on(line, triangle) || !triangle.covers(at) || other <= nearest) return true;
+            behind = triangle;
             nearest = other;
-        }
-        if (behind == nullptr) return std::nullopt;
+            return true;
+        });
+        if (!behind) return std::nullopt;
         const SurfaceSet& surfaces = screen_.surfaces();
         const Projection& p = surfaces.projection;
         const SurfaceId own = screen_.surface_of(line.owners[0]), other = screen_.surface_of(behind->number);
@@ -280,7 +206,7 @@ class BlockClipper {
     }
 
     /// Of the way from the line's beginning to its end.
-    bool is_owner_on_left(const Candidate& candidate) const {
+    bool is_owner_on_left(const FineCandidate& candidate) const {
         const HalfEdge h = candidate.part.edge.half_edge;
         const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
         const ScreenVertex& apex = mesh.vertices[mesh.corners[h - h % 3 + (h + 2) % 3]];
@@ -291,19 +217,20 @@ class BlockClipper {
 
     const ScreenSurfaces& screen_;
     const LineCriteria& criteria_;
-    std::vector<LayerTriangle> triangles_;
+    std::span<const HidingTriangle> given_;
+    std::vector<Place> places_;              // of given triangles in set_up_
+    std::vector<LayerTriangle> set_up_;
     std::vector<Interval> hidden_;
 };
 
 }  // namespace
 
-std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
-                                         const std::vector<std::vector<FinePart>>& parts, int threads) {
+std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
+                                         PixelRect region, const std::vector<std::vector<FinePart>>& parts, int threads) {
     std::vector<LineSegment> segments;
-    const std::vector<Candidate> candidates = find_candidates(frame, screen, region, parts, threads);
+    const std::vector<FineCandidate> candidates = find_candidates(frame, screen, region, parts, threads);
     if (candidates.empty()) return segments;
-    Blocks blocks(screen, SampleBlocks(frame.scene->abuffer.samples_per_pixel), region, candidates);
-    blocks.sort_triangles(threads);
+    const FineBlocks blocks(screen, kernels, frame.scene->abuffer.samples_per_pixel, region, candidates, threads);
     std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads), BlockClipper(screen, frame.criteria));
     std::vector<std::vector<LineSegment>> found(blocks.count());
     parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {

@@ -16,6 +16,8 @@ constexpr double kShortestRestSubpixels = 16;
 constexpr double kSlackSubpixels = 1;
 /// Something is clearly in front if it is nearer by this many pixels' widths.
 constexpr double kClearlyInFrontPx = 2;
+/// No surface beside an edge is so steep that a sample on it is in front by so many times that.
+constexpr double kFarInFront = 8;
 
 }  // namespace
 
@@ -39,7 +41,6 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
     const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
     for (const FineEdge& e : edges) {
         const EdgeOnScreen edge(screen_, e);
-        if (is_behind_blocks(samples, edge)) continue;
         const Owners owners = owners_of(e);
         const glm::dvec2 low = glm::min(edge.from, edge.to), high = glm::max(edge.from, edge.to);
         const int x0 = blocks.at(static_cast<int>(low.x)), x1 = blocks.at(static_cast<int>(high.x));
@@ -57,17 +58,11 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
                                   begin, end)) {
                     continue;
                 }
-                open_.clear();
-                find_open(samples, edge, owners, begin, end);
-                if (open_.empty()) continue;
+                if (is_behind_blocks(samples, edge, begin, end)) continue;
                 const std::uint32_t block = static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
-                const auto is_before = [](const LineSegment& s, const std::pair<std::uint64_t, std::uint32_t>& k) {
-                    return s.line_key != k.first ? s.line_key < k.first : s.block < k.second;
-                };
-                const auto first = std::lower_bound(drawn.begin(), drawn.end(), std::pair(key, block), is_before);
-                auto last = first;
-                while (last != drawn.end() && last->line_key == key && last->block == block) ++last;
-                if (first != last) take_out_drawn(edge, {first, last});
+                find_undrawn(edge, begin, end, pieces_of(drawn, key, block));
+                open_.clear();
+                for (const Interval& i : undrawn_) find_open(samples, edge, owners, {x << shift, y << shift}, i);
                 for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
             }
         }
@@ -107,20 +102,18 @@ FineParts::Owners FineParts::owners_of(FineEdge edge) const {
     return {{mesh.first_number + t, mesh.first_number + u}, !is_fold};
 }
 
-/// Whether all samples around an edge are clearly in front of it.
-bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge) const {
-    constexpr int kMostBlocks = 16;
+/// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.
+bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const {
     const double per_sample = samples.samples_per_pixel / 256.0;
     const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
-    const glm::dvec2 low = glm::floor(glm::min(edge.from, edge.to) * per_sample - first);
-    const glm::dvec2 high = glm::floor(glm::max(edge.from, edge.to) * per_sample - first) + 1.0;
+    const glm::dvec2 low = glm::floor(glm::min(edge.at(begin), edge.at(end)) * per_sample - first);
+    const glm::dvec2 high = glm::floor(glm::max(edge.at(begin), edge.at(end)) * per_sample - first) + 1.0;
     const int x0 = static_cast<int>(std::max(low.x, 0.0)) >> kBlockShift;
     const int y0 = static_cast<int>(std::max(low.y, 0.0)) >> kBlockShift;
     const int x1 = static_cast<int>(std::min(high.x, samples.columns - 1.0)) >> kBlockShift;
     const int y1 = static_cast<int>(std::min(high.y, samples.rows - 1.0)) >> kBlockShift;
-    if ((x1 - x0 + 1) * (y1 - y0 + 1) > kMostBlocks) return false;
-    const double nearest = std::max(edge.nearness_from, edge.nearness_to);
-    const double limit = nearest + level(nearest);
+    const double nearest = std::max(edge.nearness_at(begin), edge.nearness_at(end));
+    const double limit = nearest + kFarInFront * level(nearest);
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
             const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.stride / kBlockSamples);
@@ -130,43 +123,42 @@ bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& 
     return true;
 }
 
-/// Goes along an edge from square to square of four samples.
-void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, double begin,
-                          double end) {
+/// Goes along an edge from square to square of four samples, in a block whose upper left sample is given.
+/// All places are on the picture's grid of samples: equal in all tiles.
+void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, glm::ivec2 block,
+                          Interval part) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
+    const int last = kMergeBlockPx * samples.samples_per_pixel - 1;
     const double per_sample = samples.samples_per_pixel / 256.0;
-    const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
-    const glm::dvec2 origin = edge.from * per_sample - first, along = (edge.to - edge.from) * per_sample;
-    const glm::dvec2 start = origin + along * begin;
+    const glm::dvec2 origin = edge.from * per_sample - 0.5, along = (edge.to - edge.from) * per_sample;
+    const glm::dvec2 start = origin + along * part.begin;
     double next[2], step[2];
     for (int k = 0; k < 2; ++k) {
         const double border = along[k] > 0 ? std::floor(start[k]) + 1 : std::ceil(start[k]) - 1;
         next[k] = along[k] == 0 ? kNever : (border - origin[k]) / along[k];
         step[k] = along[k] == 0 ? kNever : 1 / std::abs(along[k]);
     }
-    for (double t = begin; t < end;) {
+    for (double t = part.begin; t < part.end;) {
         const int axis = next[0] < next[1] ? 0 : 1;
-        const double to = std::min(next[axis], end);
+        const double to = std::min(next[axis], part.end);
         const double middle = 0.5 * (t + to);
-        const glm::dvec2 at = origin + along * middle;
-        const int column = std::clamp(static_cast<int>(std::floor(at.x)), 0, samples.columns - 2);
-        const int row = std::clamp(static_cast<int>(std::floor(at.y)), 0, samples.rows - 2);
-        if (to > t && is_open(samples, column, row, edge, middle, owners)) {
+        const glm::ivec2 at(glm::floor(origin + along * middle));
+        const glm::ivec2 square = glm::clamp(at, block, block + last);
+        if (to > t && is_open(samples, square, edge, middle, owners)) {
             if (!open_.empty() && open_.back().end == t) {
                 open_.back().end = to;
             } else {
                 open_.push_back({t, to});
             }
         }
-        t = to;
+        t = std::max(t, to);
         next[axis] += step[axis];
     }
 }
 
-bool FineParts::is_open(const SampleTile& samples, int column, int row, const EdgeOnScreen& edge, double t,
+bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
                         const Owners& owners) const {
-    const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(samples.stride) +
-                          static_cast<std::size_t>(column);
+    const std::size_t i = samples.index(square.x, square.y);
     const std::size_t corners[4] = {i, i + 1, i + static_cast<std::size_t>(samples.stride),
                                     i + static_cast<std::size_t>(samples.stride) + 1};
     bool sees[2] = {false, false};
@@ -177,7 +169,10 @@ bool FineParts::is_open(const SampleTile& samples, int column, int row, const Ed
     }
     if (owners.needs_both ? sees[0] && sees[1] : sees[0] || sees[1]) return false;
     const double nearness = edge.nearness_at(t);
-    if (!(static_cast<double>(farthest) > nearness + level(nearness))) return true;
+    const double gap = static_cast<double>(farthest) - nearness, clearly = level(nearness);
+    if (!(gap > clearly)) return true;
+    // Samples lie on steep surfaces beside the edge, or on something else.
+    if (gap > kFarInFront * clearly) return false;
     for (int k = 0; k < 4; ++k) {
         const std::uint32_t id = samples.ids[corners[k]];
         bool is_known = false;
@@ -205,25 +200,36 @@ bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double ne
     return at > nearness + level(nearness);
 }
 
-/// Takes out of what is open where lines of the edge were found.
-void FineParts::take_out_drawn(const EdgeOnScreen& edge, std::span<const LineSegment> drawn) {
+/// The pieces of a line in a block.
+std::span<const LineSegment> FineParts::pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
+                                                  std::uint32_t block) {
+    const auto is_before = [&](const LineSegment& s) { return s.line_key != key ? s.line_key < key : s.block < block; };
+    const auto first = std::partition_point(drawn.begin(), drawn.end(), is_before);
+    auto last = first;
+    while (last != drawn.end() && last->line_key == key && last->block == block) ++last;
+    return {first, last};
+}
+
+/// What is left of an edge where pieces of its line were found.
+void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces) {
+    undrawn_.assign(1, {begin, end});
+    if (pieces.empty()) return;
     const glm::dvec2 along = edge.to - edge.from;
     const double square = glm::dot(along, along);
     const double slack = kSlackSubpixels / std::sqrt(square), shortest = kShortestRestSubpixels / std::sqrt(square);
-    for (const LineSegment& s : drawn) {
+    for (const LineSegment& s : pieces) {
         const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;
         const double q = glm::dot(s.to * 256.0 - edge.from, along) / square;
-        const double begin = std::min(p, q) - slack, end = std::max(p, q) + slack;
-        const std::size_t count = open_.size();
+        const Interval piece{std::min(p, q) - slack, std::max(p, q) + slack};
+        const std::size_t count = undrawn_.size();
         for (std::size_t i = 0; i < count; ++i) {
-            Interval& own = open_[i];
-            if (end <= own.begin || begin >= own.end) continue;
-            const Interval rest{end, own.end};
-            own.end = begin;  // may be empty now
-            if (rest.begin < rest.end) open_.push_back(rest);
+            const Interval whole = undrawn_[i];
+            if (piece.end <= whole.begin || piece.begin >= whole.end) continue;
+            undrawn_[i].end = piece.begin;  // may be empty now
+            if (piece.end < whole.end) undrawn_.push_back({piece.end, whole.end});
         }
     }
-    std::erase_if(open_, [&](const Interval& i) { return !(i.end - i.begin >= shortest); });
+    std::erase_if(undrawn_, [&](const Interval& i) { return !(i.end - i.begin >= shortest); });
 }
 
 }  // namespace burin

@@ -47,18 +47,21 @@ class FineParts {
     };
     void find_farthest(const SampleTile& samples);
     Owners owners_of(FineEdge edge) const;
-    bool is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge) const;
-    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, double begin, double end);
-    bool is_open(const SampleTile& samples, int column, int row, const EdgeOnScreen& edge, double t,
+    bool is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const;
+    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, glm::ivec2 block,
+                   Interval part);
+    bool is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
                  const Owners& owners) const;
     bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
-    void take_out_drawn(const EdgeOnScreen& edge, std::span<const LineSegment> drawn);
+    static std::span<const LineSegment> pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
+                                                  std::uint32_t block);
+    void find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces);
     double level(double nearness) const;
 
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
     std::vector<float> farthest_;  // per block of kBlockSamples^2 samples
-    std::vector<Interval> open_;
+    std::vector<Interval> undrawn_, open_;
 };
 
 }  // namespace burin

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -11,25 +12,35 @@
 namespace burin {
 
 /// Calls visit(triangle, half-edge) for the edges of some triangles that may be lines in this view: that
-/// are sharp, or whose triangles do not face one way. Edges of two triangles come once. The facing of all
-/// triangles must be known.
+/// are sharp, or whose triangles do not face one way. Edges of two triangles come once, as the smaller of
+/// their half-edges. The facing of all triangles must be known.
 template <typename Visit>
 void for_possible_lines(const ScreenSurfaces& screen, const TriangleChunk& chunk, const Visit& visit) {
     const ScreenMesh mesh = screen.mesh(chunk.instance);
+    // A contour is found from the side that comes first here, so that half of a surface without sharp edges
+    // need not be read.
+    static_assert(edge_on == 0 && clockwise == 1 && counterclockwise == 2 && off_screen == 3);
+    constexpr std::uint8_t kRank[4] = {0, 2, 1, 0};
     for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
         const std::uint8_t own = mesh.facing[t];
-        const bool is_solid = own == clockwise || own == counterclockwise;
-        const unsigned sharp = !is_solid || mesh.sharp == nullptr ? 7u : mesh.sharp[t];
-        const HalfEdge* const partner = mesh.partners + 3 * t;
+        const unsigned rank = kRank[own];
+        const unsigned sharp = rank == 0 || mesh.sharp == nullptr ? 7u : mesh.sharp[t];
+        if (sharp == 0 && rank == 2) continue;
+        const HalfEdge* const partner = mesh.partners + 3 * std::size_t{t};
         if (sharp == 0 && mesh.facing[partner[0] / 3] == own && mesh.facing[partner[1] / 3] == own &&
             mesh.facing[partner[2] / 3] == own) {
             continue;
         }
         for (unsigned k = 0; k < 3; ++k) {
             const HalfEdge h = 3 * t + k, g = partner[k];
-            if ((sharp >> k & 1) == 0 && mesh.facing[g / 3] == own) continue;
-            if (g < h && mesh.partners[g] == h) continue;
-            visit(SurfaceId{chunk.instance, t}, h);
+            const std::uint8_t other = mesh.facing[g / 3];
+            if ((sharp >> k & 1) == 0 && other == own) continue;
+            if (g != h && mesh.partners[g] == h) {
+                if (rank != kRank[other] ? rank > kRank[other] : g < h) continue;
+                visit(SurfaceId{chunk.instance, std::min(h, g) / 3}, std::min(h, g));
+            } else {
+                visit(SurfaceId{chunk.instance, t}, h);
+            }
         }
     }
 }

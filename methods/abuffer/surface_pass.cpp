@@ -66,7 +66,7 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
 
-    segments.push_back(find_fine_lines(frame_, screen_, region, fine_parts, threads_));
+    segments.push_back(find_fine_lines(frame_, screen_, kernels_, region, fine_parts, threads_));
     if (contours_ != nullptr) contours_->move(segments.back());
     stats.lines_s += watch.lap();
 }
