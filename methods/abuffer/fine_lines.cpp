@@ -56,6 +56,15 @@ class BlockClipper {
 
     void set_triangles(std::span<const HidingTriangle> triangles) {
         given_ = triangles;
+        bounds_.resize(triangles.size());
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const HidingTriangle& t = triangles[i];
+            bounds_.x0[i] = t.x0;
+            bounds_.y0[i] = t.y0;
+            bounds_.x1[i] = t.x1;
+            bounds_.y1[i] = t.y1;
+            bounds_.nearest[i] = t.nearest;
+        }
         places_.assign(triangles.size(), {});
         set_up_.clear();
     }
@@ -95,6 +104,15 @@ class BlockClipper {
     struct Interval {
         double begin, end;
     };
+    /// What most triangles are left out by; an array each, for a loop that needs no gathering.
+    struct Bounds {
+        std::vector<std::int32_t> x0, y0, x1, y1, is_beside;
+        std::vector<float> nearest;
+        void resize(std::size_t count) {
+            for (auto* v : {&x0, &y0, &x1, &y1, &is_beside}) v->resize(count);
+            nearest.resize(count);
+        }
+    };
     struct Place {
         std::uint32_t first = 0, count = 0;
     };
@@ -104,10 +122,18 @@ class BlockClipper {
     void for_triangles(const LayerLine& line, double begin, double end, double least, const Use& use) {
         const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
         const glm::ivec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
+        const std::int32_t* const x0 = bounds_.x0.data();
+        const std::int32_t* const y0 = bounds_.y0.data();
+        const std::int32_t* const x1 = bounds_.x1.data();
+        const std::int32_t* const y1 = bounds_.y1.data();
+        const float* const nearest = bounds_.nearest.data();
+        std::int32_t* const is_beside = bounds_.is_beside.data();
+        const auto limit = static_cast<float>(std::max(least, -1e30));
         for (std::size_t i = 0; i < given_.size(); ++i) {
-            const HidingTriangle& t = given_[i];
-            if (t.x0 > high.x || t.x1 < low.x || t.y0 > high.y || t.y1 < low.y) continue;
-            if (!(static_cast<double>(t.nearest) > least)) continue;
+            is_beside[i] = (x0[i] <= high.x) & (x1[i] >= low.x) & (y0[i] <= high.y) & (y1[i] >= low.y) & (nearest[i] >= limit);
+        }
+        for (std::size_t i = 0; i < given_.size(); ++i) {
+            if (is_beside[i] == 0) continue;
             if (places_[i].count == 0) set_up(i);
             for (std::uint32_t k = 0; k < places_[i].count; ++k) {
                 if (!use(set_up_[places_[i].first + k])) return;
@@ -218,6 +244,7 @@ class BlockClipper {
     const ScreenSurfaces& screen_;
     const LineCriteria& criteria_;
     std::span<const HidingTriangle> given_;
+    Bounds bounds_;
     std::vector<Place> places_;              // of given triangles in set_up_
     std::vector<LayerTriangle> set_up_;
     std::vector<Interval> hidden_;
