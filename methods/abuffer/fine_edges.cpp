@@ -23,23 +23,35 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
     const int per_tile = tiles.tile_px() / kMergeBlockPx;
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
         const ScreenMesh mesh = screen.mesh(chunks[c].instance);
-        for_possible_lines(screen, chunks[c], [&](SurfaceId s, HalfEdge h) {
-            if (mesh.partners[mesh.partners[h]] != h) return;
-            const std::uint32_t* const t = mesh.corners + 3 * std::size_t{s.triangle};
-            const ScreenVertex &a = mesh.vertices[t[h % 3]], &b = mesh.vertices[t[(h + 1) % 3]];
-            if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) return;
-            if (a.x == b.x && a.y == b.y) return;
+        // First all edges, then their vertices, which take longer to come from memory.
+        std::vector<HalfEdge> edges;
+        for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
+            if (mesh.partners[mesh.partners[h]] == h) edges.push_back(h);
+        });
+        const auto vertex = [&](std::size_t i, HalfEdge k) -> const ScreenVertex& {
+            const HalfEdge h = edges[i];
+            return mesh.vertices[mesh.corners[h - h % 3 + (h + k) % 3]];
+        };
+        constexpr std::size_t kAhead = 16;
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            if (i + kAhead < edges.size()) {
+                __builtin_prefetch(&vertex(i + kAhead, 0));
+                __builtin_prefetch(&vertex(i + kAhead, 1));
+            }
+            const ScreenVertex &a = vertex(i, 0), &b = vertex(i, 1);
+            if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) continue;
+            if (a.x == b.x && a.y == b.y) continue;
             const auto [x0, x1] = std::minmax(a.x, b.x);
             const auto [y0, y1] = std::minmax(a.y, b.y);
             const int left = std::max(blocks.at(x0) - first_x, 0), right = std::min(blocks.at(x1) - first_x, columns - 1);
             const int top = std::max(blocks.at(y0) - first_y, 0), bottom = std::min(blocks.at(y1) - first_y, rows - 1);
-            if (left > right || top > bottom) return;
+            if (left > right || top > bottom) continue;
             for (int y = top / per_tile; y <= bottom / per_tile; ++y) {
                 for (int x = left / per_tile; x <= right / per_tile; ++x) {
-                    records[c].push_back({static_cast<std::uint32_t>(y * tiles.columns() + x), {s.instance, h}});
+                    records[c].push_back({static_cast<std::uint32_t>(y * tiles.columns() + x), {chunks[c].instance, edges[i]}});
                 }
             }
-        });
+        }
     });
     lists_ = TileLists<FineEdge>(records, tiles.count());
 }

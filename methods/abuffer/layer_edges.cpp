@@ -124,9 +124,12 @@ class LayerEdgeFinder::Rules {
     int side_at(std::uint32_t instance, HalfEdge h, std::uint32_t a, std::uint32_t b) const {
         const Mesh& mesh = *surfaces_.instances[instance].mesh;
         std::uint32_t p = start_of(mesh, h), q = end_of(mesh, h);
-        const glm::dvec3 along = surfaces_.view_position(instance, b) - surfaces_.view_position(instance, a);
-        const glm::dvec3 own = surfaces_.view_position(instance, q) - surfaces_.view_position(instance, p);
-        if (p == b || q == a || (p != a && q != b && glm::dot(along, own) < 0)) std::swap(p, q);
+        const auto runs_against = [&] {
+            const glm::dvec3 along = surfaces_.view_position(instance, b) - surfaces_.view_position(instance, a);
+            const glm::dvec3 own = surfaces_.view_position(instance, q) - surfaces_.view_position(instance, p);
+            return glm::dot(along, own) < 0;
+        };
+        if (p == b || q == a || (p != a && q != b && runs_against())) std::swap(p, q);
         return side(instance, p, q, apex_of(mesh, h));
     }
 
