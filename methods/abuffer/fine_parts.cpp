@@ -12,6 +12,8 @@ namespace {
 
 /// What is left beside a line that was found is looked at if it is as long as this.
 constexpr double kShortestRestSubpixels = 16;
+/// The same at a vertex: lines that meet there are to do so.
+constexpr double kShortestTipSubpixels = 4;
 /// Ends of lines are as exact as this.
 constexpr double kSlackSubpixels = 1;
 /// Something is clearly in front if it is nearer by this many pixels' widths.
@@ -62,7 +64,13 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
                 const std::uint32_t block = static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
                 find_undrawn(edge, begin, end, pieces_of(drawn, key, block));
                 open_.clear();
-                for (const Interval& i : undrawn_) find_open(samples, edge, owners, {x << shift, y << shift}, i);
+                for (const Interval& i : undrawn_) {
+                    if (is_tip(samples, edge, i)) {
+                        open_.push_back(i);
+                    } else {
+                        find_open(samples, edge, owners, {x << shift, y << shift}, i);
+                    }
+                }
                 for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
             }
         }
@@ -214,9 +222,11 @@ std::span<const LineSegment> FineParts::pieces_of(std::span<const LineSegment> d
 void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces) {
     undrawn_.assign(1, {begin, end});
     if (pieces.empty()) return;
+    if (!takes_rests_) return undrawn_.clear();
     const glm::dvec2 along = edge.to - edge.from;
     const double square = glm::dot(along, along);
     const double slack = kSlackSubpixels / std::sqrt(square), shortest = kShortestRestSubpixels / std::sqrt(square);
+    const double shortest_tip = kShortestTipSubpixels / std::sqrt(square);
     for (const LineSegment& s : pieces) {
         const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;
         const double q = glm::dot(s.to * 256.0 - edge.from, along) / square;
@@ -229,7 +239,16 @@ void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
             if (piece.end < whole.end) undrawn_.push_back({piece.end, whole.end});
         }
     }
-    std::erase_if(undrawn_, [&](const Interval& i) { return !(i.end - i.begin >= shortest); });
+    std::erase_if(undrawn_, [&](const Interval& i) {
+        return !(i.end - i.begin >= (i.begin == 0 || i.end == 1 ? shortest_tip : shortest));
+    });
+}
+
+/// Whether a line was found but for its last bit to a vertex, which lies between samples.
+bool FineParts::is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part) {
+    if ((part.begin == 0) == (part.end == 1)) return false;
+    const double longest = 1.5 * kSubpixelsPerPixel / samples.samples_per_pixel;
+    return (part.end - part.begin) * glm::distance(edge.from, edge.to) <= longest;
 }
 
 }  // namespace burin

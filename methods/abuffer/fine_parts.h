@@ -31,7 +31,10 @@ struct EdgeOnScreen {
 /// something that is clearly in front, either. Buffers are used again from tile to tile.
 class FineParts {
   public:
-    FineParts(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels) {}
+    /// `takes_rests`: also what is left of edges beside pieces of lines that were found. Strokes on one side
+    /// are cut off by the pieces around them, which then overlap.
+    FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
+        : screen_(screen), kernels_(kernels), takes_rests_(takes_rests) {}
 
     /// `drawn`: the lines found in the tile, as merge_segments() leaves them.
     void find(const SampleTile& samples, std::span<const FineEdge> edges, std::span<const LineSegment> drawn,
@@ -55,11 +58,13 @@ class FineParts {
     bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
     static std::span<const LineSegment> pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
                                                   std::uint32_t block);
+    static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
     void find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces);
     double level(double nearness) const;
 
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
+    bool takes_rests_;
     std::vector<float> farthest_;  // per block of kBlockSamples^2 samples
     std::vector<Interval> undrawn_, open_;
 };
