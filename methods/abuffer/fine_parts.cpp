@@ -43,11 +43,13 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
     const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
     for (const FineEdge& e : edges) {
         const EdgeOnScreen edge(screen_, e);
-        const Owners owners = owners_of(e);
         const glm::dvec2 low = glm::min(edge.from, edge.to), high = glm::max(edge.from, edge.to);
         const int x0 = blocks.at(static_cast<int>(low.x)), x1 = blocks.at(static_cast<int>(high.x));
         const int y0 = blocks.at(static_cast<int>(low.y)), y1 = blocks.at(static_cast<int>(high.y));
-        const HalfEdge partner = screen_.mesh(e.instance).partners[e.half_edge];
+        const bool is_in_one = x0 == x1 && y0 == y1;
+        if (is_in_one && is_behind_blocks(samples, edge, 0, 1)) continue;
+        const Owners owners = owners_of(e);
+        const HalfEdge partner = screen_.surfaces().instances[e.instance].mesh->next_on_edge[e.half_edge];
         const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
         for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
             for (int x = std::max(x0, first_x); x <= std::min(x1, last_x); ++x) {
@@ -55,12 +57,11 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
                 LayerLine line;
                 line.from = edge.from;
                 line.to = edge.to;
-                if ((x0 != x1 || y0 != y1) &&
-                    !clip_to_rect(line, {blocks.begin(x), blocks.begin(y)}, {blocks.begin(x + 1), blocks.begin(y + 1)},
-                                  begin, end)) {
-                    continue;
+                if (!is_in_one) {
+                    const glm::dvec2 from(blocks.begin(x), blocks.begin(y)), to(blocks.begin(x + 1), blocks.begin(y + 1));
+                    if (!clip_to_rect(line, from, to, begin, end)) continue;
+                    if (is_behind_blocks(samples, edge, begin, end)) continue;
                 }
-                if (is_behind_blocks(samples, edge, begin, end)) continue;
                 const std::uint32_t block = static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
                 find_undrawn(edge, begin, end, pieces_of(drawn, key, block));
                 open_.clear();
@@ -104,10 +105,11 @@ double FineParts::level(double nearness) const {
 
 /// The triangles at an edge, and whether each of them shows where the edge is a line.
 FineParts::Owners FineParts::owners_of(FineEdge edge) const {
-    const ScreenMesh mesh = screen_.mesh(edge.instance);
-    const std::uint32_t t = edge.half_edge / 3, u = mesh.partners[edge.half_edge] / 3;
-    const bool is_fold = mesh.facing[t] != mesh.facing[u];
-    return {{mesh.first_number + t, mesh.first_number + u}, !is_fold};
+    const HalfEdge partner = screen_.surfaces().instances[edge.instance].mesh->next_on_edge[edge.half_edge];
+    const std::uint32_t a = screen_.number_of({edge.instance, edge.half_edge / 3});
+    const std::uint32_t b = screen_.number_of({edge.instance, partner / 3});
+    const bool is_fold = screen_.facing(a) != screen_.facing(b);
+    return {{a, b}, !is_fold};
 }
 
 /// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.
@@ -169,23 +171,21 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
     const std::size_t i = samples.index(square.x, square.y);
     const std::size_t corners[4] = {i, i + 1, i + static_cast<std::size_t>(samples.stride),
                                     i + static_cast<std::size_t>(samples.stride) + 1};
-    bool sees[2] = {false, false};
-    float farthest = std::numeric_limits<float>::infinity();
-    for (const std::size_t c : corners) {
-        for (int k = 0; k < 2; ++k) sees[k] = sees[k] || samples.ids[c] >> 1 == owners.numbers[k];
-        farthest = std::min(farthest, samples.nearness[c]);
-    }
-    if (owners.needs_both ? sees[0] && sees[1] : sees[0] || sees[1]) return false;
+    std::uint32_t numbers[4];
+    for (std::size_t k = 0; k < 4; ++k) numbers[k] = samples.ids[corners[k]] >> 1;
+    const auto sees = [&](std::uint32_t n) { return numbers[0] == n || numbers[1] == n || numbers[2] == n || numbers[3] == n; };
+    const auto [a, b] = owners.numbers;
+    if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) return false;
+    const float farthest = std::min(std::min(samples.nearness[corners[0]], samples.nearness[corners[1]]),
+                                    std::min(samples.nearness[corners[2]], samples.nearness[corners[3]]));
     const double nearness = edge.nearness_at(t);
     const double gap = static_cast<double>(farthest) - nearness, clearly = level(nearness);
     if (!(gap > clearly)) return true;
     // Samples lie on steep surfaces beside the edge, or on something else.
     if (gap > kFarInFront * clearly) return false;
     for (int k = 0; k < 4; ++k) {
-        const std::uint32_t id = samples.ids[corners[k]];
-        bool is_known = false;
-        for (int j = 0; j < k; ++j) is_known = is_known || samples.ids[corners[j]] >> 1 == id >> 1;
-        if (!is_known && !is_in_front(id >> 1, edge.at(t), nearness)) return true;
+        const bool is_known = std::find(numbers, numbers + k, numbers[k]) != numbers + k;
+        if (!is_known && !is_in_front(numbers[k], edge.at(t), nearness)) return true;
     }
     return false;
 }

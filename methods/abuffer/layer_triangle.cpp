@@ -118,6 +118,10 @@ double line_slack(const SurfaceSet& surfaces, const LayerLine& line) {
 }
 
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& t, double& begin, double& end) {
+    if (!clip_where_positive(t.nearness_at(line.from) - line.nearness_from - slack,
+                             t.nearness_at(line.to) - line.nearness_to - slack, begin, end)) {
+        return false;
+    }
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;
         const double dx = t.x[next] - t.x[k], dy = t.y[next] - t.y[k];
@@ -126,8 +130,7 @@ bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle&
         if (at_0 == 0 && at_1 == 0 && !t.owns_edge[k]) return false;
         if (!clip_where_positive(at_0, at_1, begin, end)) return false;
     }
-    return clip_where_positive(t.nearness_at(line.from) - line.nearness_from - slack,
-                               t.nearness_at(line.to) - line.nearness_to - slack, begin, end);
+    return true;
 }
 
 }  // namespace burin
