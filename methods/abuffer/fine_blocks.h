@@ -29,8 +29,8 @@ struct HidingTriangle {
 /// a block and are nearer, be they seen at a sample or not.
 class FineBlocks {
   public:
-    FineBlocks(const ScreenSurfaces& screen, const TileKernels& kernels, int samples_per_pixel, PixelRect region,
-               const std::vector<FineCandidate>& candidates, int threads);
+    FineBlocks(const ScreenSurfaces& screen, const TileKernels& kernels, int samples_per_pixel,
+               PixelRect region, const std::vector<FineCandidate>& candidates, int threads);
 
     std::size_t count() const { return count_; }
     /// Numbers of candidates.
@@ -41,10 +41,12 @@ class FineBlocks {
     using Records = std::vector<TileLists<HidingTriangle>::Record>;
 
     std::size_t place(int x, int y) const {  // with the border of a BlockMap
-        return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(columns_ + 2) + static_cast<std::size_t>(x + 1);
+        return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(columns_ + 2) +
+               static_cast<std::size_t>(x + 1);
     }
     void sort_candidates(const std::vector<FineCandidate>& candidates);
-    void sort_triangles(const TriangleChunk& chunk, std::vector<std::uint32_t>& found, Records& records) const;
+    void sort_triangles(const TriangleChunk& chunk, std::vector<std::uint32_t>& found,
+                        Records& records) const;
     HidingTriangle triangle(SurfaceId s) const;
 
     const ScreenSurfaces& screen_;

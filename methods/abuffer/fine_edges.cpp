@@ -13,7 +13,8 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 
 }  // namespace
 
-FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int samples_per_pixel, int threads) {
+FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int samples_per_pixel,
+                     int threads) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     std::vector<std::vector<TileLists<FineEdge>::Record>> records(chunks.size());
     const SampleBlocks blocks(samples_per_pixel);
@@ -43,12 +44,15 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
             if (a.x == b.x && a.y == b.y) continue;
             const auto [x0, x1] = std::minmax(a.x, b.x);
             const auto [y0, y1] = std::minmax(a.y, b.y);
-            const int left = std::max(blocks.at(x0) - first_x, 0), right = std::min(blocks.at(x1) - first_x, columns - 1);
-            const int top = std::max(blocks.at(y0) - first_y, 0), bottom = std::min(blocks.at(y1) - first_y, rows - 1);
+            const int left = std::max(blocks.at(x0) - first_x, 0),
+                      right = std::min(blocks.at(x1) - first_x, columns - 1);
+            const int top = std::max(blocks.at(y0) - first_y, 0),
+                      bottom = std::min(blocks.at(y1) - first_y, rows - 1);
             if (left > right || top > bottom) continue;
             for (int y = top / per_tile; y <= bottom / per_tile; ++y) {
                 for (int x = left / per_tile; x <= right / per_tile; ++x) {
-                    records[c].push_back({static_cast<std::uint32_t>(y * tiles.columns() + x), {chunks[c].instance, edges[i]}});
+                    records[c].push_back({static_cast<std::uint32_t>(y * tiles.columns() + x),
+                                          {chunks[c].instance, edges[i]}});
                 }
             }
         }

@@ -18,7 +18,9 @@ struct SampleBlocks {
 
     static constexpr int kShift = 11;  // log2 of a block's width in 1/256 pixel
     int at(std::int32_t subpixel) const { return (subpixel - half_pitch) >> kShift; }
-    double begin(int block) const { return static_cast<double>((std::int64_t{block} << kShift) + half_pitch); }
+    double begin(int block) const {
+        return static_cast<double>((std::int64_t{block} << kShift) + half_pitch);
+    }
 
     std::int32_t half_pitch;
 };

@@ -23,7 +23,7 @@ constexpr double kFar = 1e300;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
-                                       const std::vector<std::vector<FinePart>>& parts, int threads) {
+                                           const std::vector<std::vector<FinePart>>& parts, int threads) {
     std::vector<const FinePart*> all;
     for (const auto& list : parts) {
         for (const FinePart& part : list) all.push_back(&part);
@@ -40,7 +40,8 @@ std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfa
             LayerLine& line = lines.front();
             const ScreenMesh mesh = screen.mesh(all[i]->edge.instance);
             const HalfEdge h = all[i]->edge.half_edge;
-            if (mesh.partners[h] == h) line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
+            if (mesh.partners[h] == h)
+                line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
             found[chunk].push_back({*all[i], line});
         }
     });
@@ -52,7 +53,8 @@ std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfa
 /// Finds what is visible in one block after the other. Buffers are used again.
 class BlockClipper {
   public:
-    BlockClipper(const ScreenSurfaces& screen, const LineCriteria& criteria) : screen_(screen), criteria_(criteria) {}
+    BlockClipper(const ScreenSurfaces& screen, const LineCriteria& criteria)
+        : screen_(screen), criteria_(criteria) {}
 
     void set_triangles(std::span<const HidingTriangle> triangles) {
         given_ = triangles;
@@ -77,20 +79,24 @@ class BlockClipper {
         const bool is_border = line.owners[0] == line.owners[1];
         hidden_.clear();
         bool is_hidden = false;
-        for_triangles(line, begin, end, std::min(line.nearness_from, line.nearness_to), [&](const LayerTriangle& t) {
-            double from = begin, to = end;
-            if (lies_on(line, t)) return true;
-            // A mesh hides its own edges exactly; patches that are not stitched are snapped apart, and other
-            // objects may touch.
-            const bool is_own_mesh = t.instance == candidate.part.edge.instance;
-            const double level = !is_own_mesh ? slack + t.slack : is_border ? rounding + t.slack : rounding;
-            if (!clip_where_hidden(line, level, t, from, to)) return true;
-            is_hidden = from <= begin && to >= end;
-            hidden_.push_back({from, to});
-            return !is_hidden;
-        });
+        for_triangles(line, begin, end, std::min(line.nearness_from, line.nearness_to),
+                      [&](const LayerTriangle& t) {
+                          double from = begin, to = end;
+                          if (lies_on(line, t)) return true;
+                          // A mesh hides its own edges exactly; patches that are not stitched are snapped
+                          // apart, and other objects may touch.
+                          const bool is_own_mesh = t.instance == candidate.part.edge.instance;
+                          const double level = !is_own_mesh ? slack + t.slack
+                                               : is_border  ? rounding + t.slack
+                                                            : rounding;
+                          if (!clip_where_hidden(line, level, t, from, to)) return true;
+                          is_hidden = from <= begin && to >= end;
+                          hidden_.push_back({from, to});
+                          return !is_hidden;
+                      });
         if (is_hidden) return;
-        std::sort(hidden_.begin(), hidden_.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+        std::sort(hidden_.begin(), hidden_.end(),
+                  [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         double reached = begin;
         for (const Interval& h : hidden_) {
@@ -117,7 +123,8 @@ class BlockClipper {
         std::uint32_t first = 0, count = 0;
     };
 
-    /// Calls use(triangle) for those beside a part of a line that are nearer than `least`, until it says false.
+    /// Calls use(triangle) for those beside a part of a line that are nearer than `least`, until it says
+    /// false.
     template <typename Use>
     void for_triangles(const LayerLine& line, double begin, double end, double least, const Use& use) {
         const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
@@ -130,7 +137,8 @@ class BlockClipper {
         std::int32_t* const is_beside = bounds_.is_beside.data();
         const auto limit = static_cast<float>(std::max(least, -1e30));
         for (std::size_t i = 0; i < given_.size(); ++i) {
-            is_beside[i] = (x0[i] <= high.x) & (x1[i] >= low.x) & (y0[i] <= high.y) & (y1[i] >= low.y) & (nearest[i] >= limit);
+            is_beside[i] = (x0[i] <= high.x) & (x1[i] >= low.x) & (y0[i] <= high.y) & (y1[i] >= low.y) &
+                           (nearest[i] >= limit);
         }
         for (std::size_t i = 0; i < given_.size(); ++i) {
             if (is_beside[i] == 0) continue;
@@ -157,12 +165,16 @@ class BlockClipper {
     void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
                   std::vector<LineSegment>& segments) {
         if (candidate.line.classes.has(LineClass::silhouette)) {
-            while (end - begin > shortest && !is_wide(candidate, begin)) begin = std::min(end, begin + step_of(candidate));
-            while (end - begin > shortest && !is_wide(candidate, end)) end = std::max(begin, end - step_of(candidate));
+            while (end - begin > shortest && !is_wide(candidate, begin))
+                begin = std::min(end, begin + step_of(candidate));
+            while (end - begin > shortest && !is_wide(candidate, end))
+                end = std::max(begin, end - step_of(candidate));
         }
         if (end - begin > shortest) add(candidate, begin, end, segments);
     }
-    static double step_of(const FineCandidate& candidate) { return kWidthStepPx / candidate.line.length_px(); }
+    static double step_of(const FineCandidate& candidate) {
+        return kWidthStepPx / candidate.line.length_px();
+    }
 
     /// Whether both surfaces at a contour go on for more than a negligible fold.
     bool is_wide(const FineCandidate& candidate, double t) const {
@@ -201,8 +213,10 @@ class BlockClipper {
         s.block = static_cast<std::uint32_t>(candidate.part.block_y & 0xFFFF) << 16 |
                   static_cast<std::uint32_t>(candidate.part.block_x & 0xFFFF);
         const double zero = screen_.surfaces().farthest_nearness;
-        s.nearness_from = static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * begin);
-        s.nearness_to = static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * end);
+        s.nearness_from =
+            static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * begin);
+        s.nearness_to =
+            static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * end);
         s.occludes = occludes;
         s.front_on_left = is_owner_on_left(candidate);
         segments.push_back(s);
@@ -245,25 +259,29 @@ class BlockClipper {
     const LineCriteria& criteria_;
     std::span<const HidingTriangle> given_;
     Bounds bounds_;
-    std::vector<Place> places_;              // of given triangles in set_up_
+    std::vector<Place> places_;  // of given triangles in set_up_
     std::vector<LayerTriangle> set_up_;
     std::vector<Interval> hidden_;
 };
 
 }  // namespace
 
-std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
-                                         PixelRect region, const std::vector<std::vector<FinePart>>& parts, int threads) {
+std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurfaces& screen,
+                                         const TileKernels& kernels, PixelRect region,
+                                         const std::vector<std::vector<FinePart>>& parts, int threads) {
     std::vector<LineSegment> segments;
     const std::vector<FineCandidate> candidates = find_candidates(frame, screen, region, parts, threads);
     if (candidates.empty()) return segments;
-    const FineBlocks blocks(screen, kernels, frame.scene->abuffer.samples_per_pixel, region, candidates, threads);
-    std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads), BlockClipper(screen, frame.criteria));
+    const FineBlocks blocks(screen, kernels, frame.scene->abuffer.samples_per_pixel, region, candidates,
+                            threads);
+    std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads),
+                                       BlockClipper(screen, frame.criteria));
     std::vector<std::vector<LineSegment>> found(blocks.count());
     parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {
         BlockClipper& clipper = clippers[static_cast<std::size_t>(worker)];
         clipper.set_triangles(blocks.triangles(block));
-        for (const std::uint32_t i : blocks.candidates(block)) clipper.add_visible(candidates[i], found[block]);
+        for (const std::uint32_t i : blocks.candidates(block))
+            clipper.add_visible(candidates[i], found[block]);
     });
     for (const auto& list : found) segments.insert(segments.end(), list.begin(), list.end());
     return segments;

@@ -33,13 +33,14 @@ EdgeOnScreen::EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge) {
     nearness_to = static_cast<double>(b.nearness);
 }
 
-void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges, std::span<const LineSegment> drawn,
-                     std::vector<FinePart>& parts) {
+void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
+                     std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
     if (edges.empty()) return;
     find_farthest(samples);
     const SampleBlocks blocks(samples.samples_per_pixel);
     const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
-    const int first_x = samples.first_column >> shift, last_x = (samples.first_column + samples.columns - 2) >> shift;
+    const int first_x = samples.first_column >> shift,
+              last_x = (samples.first_column + samples.columns - 2) >> shift;
     const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
     for (const FineEdge& e : edges) {
         const EdgeOnScreen edge(screen_, e);
@@ -58,11 +59,13 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
                 line.from = edge.from;
                 line.to = edge.to;
                 if (!is_in_one) {
-                    const glm::dvec2 from(blocks.begin(x), blocks.begin(y)), to(blocks.begin(x + 1), blocks.begin(y + 1));
+                    const glm::dvec2 from(blocks.begin(x), blocks.begin(y)),
+                        to(blocks.begin(x + 1), blocks.begin(y + 1));
                     if (!clip_to_rect(line, from, to, begin, end)) continue;
                     if (is_behind_blocks(samples, edge, begin, end)) continue;
                 }
-                const std::uint32_t block = static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
+                const std::uint32_t block =
+                    static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
                 find_undrawn(edge, begin, end, pieces_of(drawn, key, block));
                 open_.clear();
                 for (const Interval& i : undrawn_) {
@@ -113,7 +116,8 @@ FineParts::Owners FineParts::owners_of(FineEdge edge) const {
 }
 
 /// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.
-bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const {
+bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin,
+                                 double end) const {
     const double per_sample = samples.samples_per_pixel / 256.0;
     const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
     const glm::dvec2 low = glm::floor(glm::min(edge.at(begin), edge.at(end)) * per_sample - first);
@@ -126,7 +130,8 @@ bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& 
     const double limit = nearest + kFarInFront * level(nearest);
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
-            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.stride / kBlockSamples);
+            const auto i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.stride / kBlockSamples);
             if (!(static_cast<double>(farthest_[i + static_cast<std::size_t>(x)]) > limit)) return false;
         }
     }
@@ -135,8 +140,8 @@ bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& 
 
 /// Goes along an edge from square to square of four samples, in a block whose upper left sample is given.
 /// All places are on the picture's grid of samples: equal in all tiles.
-void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, glm::ivec2 block,
-                          Interval part) {
+void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
+                          glm::ivec2 block, Interval part) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const int last = kMergeBlockPx * samples.samples_per_pixel - 1;
     const double per_sample = samples.samples_per_pixel / 256.0;
@@ -173,7 +178,9 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
                                     i + static_cast<std::size_t>(samples.stride) + 1};
     std::uint32_t numbers[4];
     for (std::size_t k = 0; k < 4; ++k) numbers[k] = samples.ids[corners[k]] >> 1;
-    const auto sees = [&](std::uint32_t n) { return numbers[0] == n || numbers[1] == n || numbers[2] == n || numbers[3] == n; };
+    const auto sees = [&](std::uint32_t n) {
+        return numbers[0] == n || numbers[1] == n || numbers[2] == n || numbers[3] == n;
+    };
     const auto [a, b] = owners.numbers;
     if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) return false;
     const float farthest = std::min(std::min(samples.nearness[corners[0]], samples.nearness[corners[1]]),
@@ -203,7 +210,8 @@ bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double ne
         const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
                      qc = static_cast<double>(c.nearness) - qa;
         const double px = subpixel.x - a.x, py = subpixel.y - a.y;
-        at = qa + ((px * (c.y - a.y) - py * (c.x - a.x)) * qb + ((b.x - a.x) * py - (b.y - a.y) * px) * qc) / area;
+        at = qa +
+             ((px * (c.y - a.y) - py * (c.x - a.x)) * qb + ((b.x - a.x) * py - (b.y - a.y) * px) * qc) / area;
     }
     return at > nearness + level(nearness);
 }
@@ -211,7 +219,9 @@ bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double ne
 /// The pieces of a line in a block.
 std::span<const LineSegment> FineParts::pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
                                                   std::uint32_t block) {
-    const auto is_before = [&](const LineSegment& s) { return s.line_key != key ? s.line_key < key : s.block < block; };
+    const auto is_before = [&](const LineSegment& s) {
+        return s.line_key != key ? s.line_key < key : s.block < block;
+    };
     const auto first = std::partition_point(drawn.begin(), drawn.end(), is_before);
     auto last = first;
     while (last != drawn.end() && last->line_key == key && last->block == block) ++last;
@@ -219,13 +229,15 @@ std::span<const LineSegment> FineParts::pieces_of(std::span<const LineSegment> d
 }
 
 /// What is left of an edge where pieces of its line were found.
-void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces) {
+void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
+                             std::span<const LineSegment> pieces) {
     undrawn_.assign(1, {begin, end});
     if (pieces.empty()) return;
     if (!takes_rests_) return undrawn_.clear();
     const glm::dvec2 along = edge.to - edge.from;
     const double square = glm::dot(along, along);
-    const double slack = kSlackSubpixels / std::sqrt(square), shortest = kShortestRestSubpixels / std::sqrt(square);
+    const double slack = kSlackSubpixels / std::sqrt(square),
+                 shortest = kShortestRestSubpixels / std::sqrt(square);
     const double shortest_tip = kShortestTipSubpixels / std::sqrt(square);
     for (const LineSegment& s : pieces) {
         const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;

@@ -50,16 +50,18 @@ class FineParts {
     };
     void find_farthest(const SampleTile& samples);
     Owners owners_of(FineEdge edge) const;
-    bool is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const;
-    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, glm::ivec2 block,
-                   Interval part);
+    bool is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin,
+                          double end) const;
+    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
+                   glm::ivec2 block, Interval part);
     bool is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
                  const Owners& owners) const;
     bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
     static std::span<const LineSegment> pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
                                                   std::uint32_t block);
     static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
-    void find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces);
+    void find_undrawn(const EdgeOnScreen& edge, double begin, double end,
+                      std::span<const LineSegment> pieces);
     double level(double nearness) const;
 
     const ScreenSurfaces& screen_;

@@ -181,7 +181,8 @@ class LayerEdgeFinder::Rules {
         std::array<std::uint32_t, 2> owners{number, number};
         if (const auto partner = seam_partner(s, h)) {
             const double own = length_of(mesh, h), other = length_of(mesh, *partner);
-            if (!has_both_of_seam_ && classes.empty() && (own < other || (own == other && *partner < h))) return;  // drawn as the partner
+            const bool is_drawn_as_partner = own < other || (own == other && *partner < h);
+            if (!has_both_of_seam_ && classes.empty() && is_drawn_as_partner) return;
             const SurfaceId beyond = triangle_of(s, *partner);
             owners[1] = screen_.number_of(beyond);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
@@ -293,7 +294,8 @@ class LayerEdgeFinder::Rules {
     glm::dvec2 low_, high_;
 };
 
-LayerEdgeFinder::LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region, bool has_both_of_seam)
+LayerEdgeFinder::LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                                 bool has_both_of_seam)
     : rules_(std::make_unique<const Rules>(frame, screen, region, has_both_of_seam)) {}
 
 LayerEdgeFinder::~LayerEdgeFinder() = default;

@@ -50,7 +50,8 @@ void for_possible_lines(const ScreenSurfaces& screen, const TriangleChunk& chunk
 class LayerEdgeFinder {
   public:
     /// `has_both_of_seam`: where two borders run along each other, both are found, not the longer one only.
-    LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region, bool has_both_of_seam = false);
+    LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                    bool has_both_of_seam = false);
     ~LayerEdgeFinder();
 
     /// Adds an edge of triangle `s` if it is a line and touches the region.

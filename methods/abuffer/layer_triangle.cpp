@@ -9,7 +9,9 @@ namespace {
 /// A surface is in front of a line if it is nearer by this part of a pixel's width.
 constexpr double kLevelPx = 1.0 / 16;
 
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for
 /// triangles without area.
@@ -57,7 +59,8 @@ LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uin
     triangle.instance = s.instance;
     triangle.vertices = screen.surfaces().mesh_of(s).triangles[s.triangle];
     const ScreenVertex* const v = screen.vertices(s.instance);
-    const ScreenVertex &a = v[triangle.vertices[0]], &b = v[triangle.vertices[1]], &c = v[triangle.vertices[2]];
+    const ScreenVertex &a = v[triangle.vertices[0]], &b = v[triangle.vertices[1]],
+                       &c = v[triangle.vertices[2]];
     const double per_area = 1.0 / static_cast<double>(doubled_area(a, b, c));
     const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
                  qc = static_cast<double>(c.nearness) - qa;
@@ -69,7 +72,8 @@ LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uin
     return triangle;
 }
 
-std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
+std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s,
+                                                   std::uint32_t number) {
     std::vector<LayerTriangle> parts;
     const SurfaceSet& surfaces = screen.surfaces();
     const ScreenPolygon polygon = surfaces.screen_polygon(s);
@@ -117,7 +121,8 @@ double line_slack(const SurfaceSet& surfaces, const LayerLine& line) {
            std::abs(line.nearness_to - line.nearness_from) / glm::distance(line.from, line.to);
 }
 
-bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& t, double& begin, double& end) {
+bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& t, double& begin,
+                       double& end) {
     if (!clip_where_positive(t.nearness_at(line.from) - line.nearness_from - slack,
                              t.nearness_at(line.to) - line.nearness_to - slack, begin, end)) {
         return false;

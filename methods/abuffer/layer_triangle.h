@@ -12,7 +12,7 @@ namespace burin {
 
 /// A triangle on the screen as something that hides lines.
 struct LayerTriangle {
-    std::array<double, 3> x, y;  ///< corners in 1/256 pixel, clockwise as seen
+    std::array<double, 3> x, y;     ///< corners in 1/256 pixel, clockwise as seen
     std::array<bool, 3> owns_edge;  ///< whether points on the edge after a corner belong to it
     double nearness, per_x, per_y;  ///< at corner 0, and change per 1/256 pixel
     double slack;                   ///< what snapping may do to nearness
@@ -41,7 +41,8 @@ bool clip_to_rect(const LayerLine& line, glm::dvec2 low, glm::dvec2 high, double
 /// A triangle whose corners are all on the screen.
 LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
 /// What the near plane and the guard band leave of any other one.
-std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
+std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s,
+                                                   std::uint32_t number);
 
 /// Whether a line is an edge of a triangle, which cannot hide it then.
 bool lies_on(const LayerLine& line, const LayerTriangle& triangle);
@@ -53,6 +54,7 @@ double level_slack(const SurfaceSet& surfaces, double nearness);
 double line_slack(const SurfaceSet& surfaces, const LayerLine& line);
 
 /// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`.
-bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin, double& end);
+bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin,
+                       double& end);
 
 }  // namespace burin

@@ -29,7 +29,8 @@ Drawing truth(Scene scene, const Camera& camera, int size, int samples = 16) {
 double largest_error(const Drawing& a, const Drawing& b) {
     double largest = 0;
     for (int y = 0; y < a.height(); ++y) {
-        for (int x = 0; x < a.width(); ++x) largest = std::max(largest, std::abs(a.line(x, y) - b.line(x, y)));
+        for (int x = 0; x < a.width(); ++x)
+            largest = std::max(largest, std::abs(a.line(x, y) - b.line(x, y)));
     }
     return largest;
 }
@@ -56,12 +57,14 @@ constexpr int kSize = 44;
 PolygonSoup placed(PolygonSoup soup, double angle_deg, double depth = 0) {
     const double a = glm::radians(angle_deg);
     return transformed(std::move(soup), [=](glm::dvec3 p) {
-        return glm::dvec3(22.13 + std::cos(a) * p.x - std::sin(a) * p.y, 21.86 + std::sin(a) * p.x + std::cos(a) * p.y,
-                          p.z + depth);
+        return glm::dvec3(22.13 + std::cos(a) * p.x - std::sin(a) * p.y,
+                          21.86 + std::sin(a) * p.x + std::cos(a) * p.y, p.z + depth);
     });
 }
 
-PolygonSoup wall() { return placed(make_box({100, 100, 1}), 0, -30); }
+PolygonSoup wall() {
+    return placed(make_box({100, 100, 1}), 0, -30);
+}
 
 /// A prism along x whose cross section is a closed polygon (y, z), counterclockwise from +x.
 PolygonSoup prism(const std::vector<glm::dvec2>& section, double half_length) {
@@ -90,7 +93,8 @@ TEST(FineLines, ARodThinnerThanASampleHasNoDropouts) {
             const Scene scene = scene_of({placed(make_box({30, width, width}), angle), wall()});
             const Camera camera = pixel_camera(kSize, kSize);
             const Drawing drawn = draw(scene, camera, kSize);
-            EXPECT_LT(largest_error(drawn, truth(scene, camera, kSize)), 0.15) << angle << " deg, " << width << " px";
+            EXPECT_LT(largest_error(drawn, truth(scene, camera, kSize)), 0.15)
+                << angle << " deg, " << width << " px";
             const double a = glm::radians(angle);
             const glm::dvec2 middle(22.13, kSize - 21.86), along(std::cos(a), -std::sin(a));
             EXPECT_EQ(drawn.drawn_share(middle - 14.0 * along, middle + 14.0 * along, 0), 1.0) << angle;
@@ -101,7 +105,8 @@ TEST(FineLines, ARodThinnerThanASampleHasNoDropouts) {
 TEST(FineLines, BothEdgesOfANarrowChamferAreDrawn) {
     for (const double angle : kAngles_deg) {
         const double c = 0.1;
-        const Scene scene = scene_of({placed(prism({{-10, -6}, {10, -6}, {10, -5.5}, {0, 5}, {-c, 5}, {-c - 10, -5.5}}, 14), angle)});
+        const Scene scene = scene_of(
+            {placed(prism({{-10, -6}, {10, -6}, {10, -5.5}, {0, 5}, {-c, 5}, {-c - 10, -5.5}}, 14), angle)});
         const Camera camera = pixel_camera(kSize, kSize);
         const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize);
         EXPECT_LT(largest_error(drawn, expected), 0.15) << angle;
@@ -115,8 +120,8 @@ TEST(FineLines, AStepLowerThanASampleIsDrawn) {
         const auto moved = [](glm::dvec3 size, glm::dvec3 by) {
             return transformed(make_box(size), [=](glm::dvec3 p) { return p + by; });
         };
-        const Scene scene = scene_of({placed(make_box({28, 16, 5}), angle),
-                                      placed(moved({14, 16, 5}, {0, 0.15, -5}), angle), wall()});
+        const Scene scene = scene_of(
+            {placed(make_box({28, 16, 5}), angle), placed(moved({14, 16, 5}, {0, 0.15, -5}), angle), wall()});
         const Camera camera = pixel_camera(kSize, kSize);
         EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.15) << angle;
     }
@@ -135,7 +140,9 @@ TEST(FineLines, AcuteTipsAreNotCutShort) {
 TEST(FineLines, BothSidesOfANarrowGapAreDrawn) {
     for (const double angle : kAngles_deg) {
         const auto half = [&](double side) {
-            return placed(transformed(make_box({28, 12, 5}), [=](glm::dvec3 p) { return p + glm::dvec3(0, side * 6.075, 0); }), angle);
+            return placed(transformed(make_box({28, 12, 5}),
+                                      [=](glm::dvec3 p) { return p + glm::dvec3(0, side * 6.075, 0); }),
+                          angle);
         };
         const Scene scene = scene_of({half(1), half(-1), wall()});
         const Camera camera = pixel_camera(kSize, kSize);
@@ -202,7 +209,8 @@ TEST(FineLines, ThreadsTilesAndCropsChangeNothing) {
     EXPECT_TRUE(same_bits(whole, render(all, 3, 128)));
     EXPECT_TRUE(same_bits(whole, render(all, 2, 32)));
     EXPECT_TRUE(same_bits(whole, render(all, 2, 32, 24 << 20)));
-    for (const PixelRect crop : {PixelRect{37, 21, 84, 80}, PixelRect{51, 50, 52, 51}, PixelRect{0, 63, 110, 71}}) {
+    for (const PixelRect crop :
+         {PixelRect{37, 21, 84, 80}, PixelRect{51, 50, 52, 51}, PixelRect{0, 63, 110, 71}}) {
         const Image part = render(crop, 2, 64);
         for (const Channel& channel : part.channels()) {
             const Channel& full = *whole.find(channel.name);
