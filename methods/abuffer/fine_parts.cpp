@@ -21,6 +21,11 @@ constexpr double kClearlyInFrontPx = 2;
 /// No surface beside an edge is so steep that a sample on it is in front by so many times that.
 constexpr double kFarInFront = 8;
 
+int floor_to_int(double v) {
+    const int toward_zero = static_cast<int>(v);
+    return toward_zero - (v < toward_zero ? 1 : 0);
+}
+
 }  // namespace
 
 EdgeOnScreen::EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge) {
@@ -120,12 +125,13 @@ bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& 
                                  double end) const {
     const double per_sample = samples.samples_per_pixel / 256.0;
     const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
-    const glm::dvec2 low = glm::floor(glm::min(edge.at(begin), edge.at(end)) * per_sample - first);
-    const glm::dvec2 high = glm::floor(glm::max(edge.at(begin), edge.at(end)) * per_sample - first) + 1.0;
-    const int x0 = static_cast<int>(std::max(low.x, 0.0)) >> kBlockShift;
-    const int y0 = static_cast<int>(std::max(low.y, 0.0)) >> kBlockShift;
-    const int x1 = static_cast<int>(std::min(high.x, samples.columns - 1.0)) >> kBlockShift;
-    const int y1 = static_cast<int>(std::min(high.y, samples.rows - 1.0)) >> kBlockShift;
+    const glm::dvec2 a = edge.at(begin) * per_sample - first, b = edge.at(end) * per_sample - first;
+    const auto block_from = [](double sample) { return static_cast<int>(std::max(sample, 0.0)) >> kBlockShift; };
+    const auto block_to = [](double sample, int count) {
+        return std::min(static_cast<int>(std::max(sample, 0.0)) + 1, count - 1) >> kBlockShift;
+    };
+    const int x0 = block_from(std::min(a.x, b.x)), x1 = block_to(std::max(a.x, b.x), samples.columns);
+    const int y0 = block_from(std::min(a.y, b.y)), y1 = block_to(std::max(a.y, b.y), samples.rows);
     const double nearest = std::max(edge.nearness_at(begin), edge.nearness_at(end));
     const double limit = nearest + kFarInFront * level(nearest);
     for (int y = y0; y <= y1; ++y) {
@@ -157,7 +163,8 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
         const int axis = next[0] < next[1] ? 0 : 1;
         const double to = std::min(next[axis], part.end);
         const double middle = 0.5 * (t + to);
-        const glm::ivec2 at(glm::floor(origin + along * middle));
+        const glm::dvec2 place = origin + along * middle;
+        const glm::ivec2 at(floor_to_int(place.x), floor_to_int(place.y));
         const glm::ivec2 square = glm::clamp(at, block, block + last);
         if (to > t && is_open(samples, square, edge, middle, owners)) {
             if (!open_.empty() && open_.back().end == t) {
