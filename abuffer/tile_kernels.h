@@ -56,6 +56,14 @@ struct ScreenTransform {
     double view_to_world[3][3];  ///< columns
 };
 
+/// Square blocks of a picture, with a border of one block all around it, row by row.
+struct BlockMap {
+    const float* farthest;         ///< the least nearness of what is to be hidden; infinity: nothing
+    std::int32_t x, y;             ///< of the first block within the border, in 1/256 pixel
+    std::int32_t shift;            ///< log2 of a block's width in 1/256 pixel
+    std::int32_t columns, rows;    ///< without the border
+};
+
 /// What all pixels of a triangle have in common.
 struct TriangleLook {
     double normal[3];       ///< unit length, in view space, towards the eye
@@ -130,6 +138,11 @@ struct TileKernels {
                          std::int32_t* begin, std::int32_t* end);
     /// How many bits are set in 16 numbers, without those of `hidden`.
     int (*count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
+    /// Lists the triangles [begin, end) of a mesh that may touch a block of the map in front of what is to be
+    /// hidden there; large ones and those that are not all on the screen, too. Returns their number. The list
+    /// needs room for end - begin + 8.
+    std::size_t (*find_hiding)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const BlockMap& map,
+                               std::uint32_t* triangles);
 };
 
 /// By how many columns the samples in the rows of a StrokeMask lie further right. Rows take turns, in the

@@ -20,33 +20,28 @@ struct ScreenPoint {
     double nearness = 0;
 };
 
-class EdgeFinder {
+}  // namespace
+
+class LayerEdgeFinder::Rules {
   public:
-    EdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region)
+    Rules(const Frame& frame, const ScreenSurfaces& screen, PixelRect region, bool has_both_of_seam)
         : surfaces_(frame.surfaces),
           criteria_(frame.criteria),
           fade_(frame.scene->lines.crease_fade()),
           screen_(screen),
+          has_both_of_seam_(has_both_of_seam),
           low_(glm::dvec2(region.x0, region.y0) * 256.0),
           high_(glm::dvec2(region.x1, region.y1) * 256.0) {}
 
-    void visit(SurfaceId s, std::vector<LayerLine>& lines) const {
+    void visit(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
-        const std::uint32_t number = screen_.number_of(s), first = number - s.triangle;
-        const auto own = screen_.facing(number);
-        const bool is_solid = own == clockwise || own == counterclockwise;
-        const std::uint8_t* const table = screen_.sharp_edges(s.instance);
-        const unsigned sharp = table == nullptr ? 7u : table[s.triangle];
-        for (unsigned k = 0; k < 3; ++k) {
-            const HalfEdge h = 3 * s.triangle + k, g = mesh.next_on_edge[h];
-            if ((sharp >> k & 1) == 0 && is_solid && screen_.facing(first + g / 3) == own) continue;
-            if (g == h) {
-                visit_border(s, h, lines);
-            } else if (mesh.next_on_edge[g] == h) {
-                if (h < g) visit_pair(s, h, g, lines);
-            } else {
-                visit_ring(s, h, lines);
-            }
+        const HalfEdge g = mesh.next_on_edge[h];
+        if (g == h) {
+            visit_border(s, h, lines);
+        } else if (mesh.next_on_edge[g] == h) {
+            visit_pair(s, h, g, lines);
+        } else {
+            visit_ring(s, h, lines);
         }
     }
 
@@ -129,9 +124,12 @@ class EdgeFinder {
     int side_at(std::uint32_t instance, HalfEdge h, std::uint32_t a, std::uint32_t b) const {
         const Mesh& mesh = *surfaces_.instances[instance].mesh;
         std::uint32_t p = start_of(mesh, h), q = end_of(mesh, h);
-        const glm::dvec3 along = surfaces_.view_position(instance, b) - surfaces_.view_position(instance, a);
-        const glm::dvec3 own = surfaces_.view_position(instance, q) - surfaces_.view_position(instance, p);
-        if (p == b || q == a || (p != a && q != b && glm::dot(along, own) < 0)) std::swap(p, q);
+        const auto runs_against = [&] {
+            const glm::dvec3 along = surfaces_.view_position(instance, b) - surfaces_.view_position(instance, a);
+            const glm::dvec3 own = surfaces_.view_position(instance, q) - surfaces_.view_position(instance, p);
+            return glm::dot(along, own) < 0;
+        };
+        if (p == b || q == a || (p != a && q != b && runs_against())) std::swap(p, q);
         return side(instance, p, q, apex_of(mesh, h));
     }
 
@@ -183,7 +181,8 @@ class EdgeFinder {
         std::array<std::uint32_t, 2> owners{number, number};
         if (const auto partner = seam_partner(s, h)) {
             const double own = length_of(mesh, h), other = length_of(mesh, *partner);
-            if (classes.empty() && (own < other || (own == other && *partner < h))) return;  // drawn as the partner
+            const bool is_drawn_as_partner = own < other || (own == other && *partner < h);
+            if (!has_both_of_seam_ && classes.empty() && is_drawn_as_partner) return;
             const SurfaceId beyond = triangle_of(s, *partner);
             owners[1] = screen_.number_of(beyond);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
@@ -278,6 +277,7 @@ class EdgeFinder {
         line.nearness_to = (*ends)[1].nearness;
         line.owners = owners;
         line.has_more_owners = has_more;
+        line.classes = classes;
         line.drawn_as = *classes.first();
         line.opacity = opacity;
         line.line_key = std::uint64_t{s.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
@@ -290,20 +290,25 @@ class EdgeFinder {
     const LineCriteria& criteria_;
     CreaseFade fade_;
     const ScreenSurfaces& screen_;
+    bool has_both_of_seam_;
     glm::dvec2 low_, high_;
 };
 
-}  // namespace
+LayerEdgeFinder::LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                                 bool has_both_of_seam)
+    : rules_(std::make_unique<const Rules>(frame, screen, region, has_both_of_seam)) {}
+
+LayerEdgeFinder::~LayerEdgeFinder() = default;
+
+void LayerEdgeFinder::find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const { rules_->visit(s, h, lines); }
 
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                         int threads) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
-    const EdgeFinder finder(frame, screen, region);
+    const LayerEdgeFinder finder(frame, screen, region);
     std::vector<std::vector<LayerLine>> found(chunks.size());
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
-        for (std::uint32_t t = chunks[c].begin; t < chunks[c].end; ++t) {
-            finder.visit({chunks[c].instance, t}, found[c]);
-        }
+        for_possible_lines(screen, chunks[c], [&](SurfaceId s, HalfEdge h) { finder.find(s, h, found[c]); });
     });
     std::vector<LayerLine> lines;
     for (const auto& list : found) lines.insert(lines.end(), list.begin(), list.end());

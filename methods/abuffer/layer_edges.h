@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "image/image.h"
@@ -9,9 +11,58 @@
 
 namespace burin {
 
-/// All edges of the instances shown that are lines in this view, be they seen or not, as far as they
-/// touch `region`: contours, borders that are no seams, and edges with another class asked for. The facing
-/// of all triangles must be known.
+/// Calls visit(triangle, half-edge) for the edges of some triangles that may be lines in this view: that
+/// are sharp, or whose triangles do not face one way. Edges of two triangles come once, as the smaller of
+/// their half-edges. The facing of all triangles must be known.
+template <typename Visit>
+void for_possible_lines(const ScreenSurfaces& screen, const TriangleChunk& chunk, const Visit& visit) {
+    const ScreenMesh mesh = screen.mesh(chunk.instance);
+    // A contour is found from the side that comes first here, so that half of a surface without sharp edges
+    // need not be read.
+    static_assert(edge_on == 0 && clockwise == 1 && counterclockwise == 2 && off_screen == 3);
+    constexpr std::uint8_t kRank[4] = {0, 2, 1, 0};
+    for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
+        const std::uint8_t own = mesh.facing[t];
+        const unsigned rank = kRank[own];
+        const unsigned sharp = rank == 0 || mesh.sharp == nullptr ? 7u : mesh.sharp[t];
+        if (sharp == 0 && rank == 2) continue;
+        const HalfEdge* const partner = mesh.partners + 3 * std::size_t{t};
+        if (sharp == 0 && mesh.facing[partner[0] / 3] == own && mesh.facing[partner[1] / 3] == own &&
+            mesh.facing[partner[2] / 3] == own) {
+            continue;
+        }
+        for (unsigned k = 0; k < 3; ++k) {
+            const HalfEdge h = 3 * t + k, g = partner[k];
+            const std::uint8_t other = mesh.facing[g / 3];
+            if ((sharp >> k & 1) == 0 && other == own) continue;
+            if (g != h && mesh.partners[g] == h) {
+                if (rank != kRank[other] ? rank > kRank[other] : g < h) continue;
+                visit(SurfaceId{chunk.instance, std::min(h, g) / 3}, std::min(h, g));
+            } else {
+                visit(SurfaceId{chunk.instance, t}, h);
+            }
+        }
+    }
+}
+
+/// Tells which edges are lines in this view: contours, borders that are no seams, and edges with another
+/// class asked for.
+class LayerEdgeFinder {
+  public:
+    /// `has_both_of_seam`: where two borders run along each other, both are found, not the longer one only.
+    LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                    bool has_both_of_seam = false);
+    ~LayerEdgeFinder();
+
+    /// Adds an edge of triangle `s` if it is a line and touches the region.
+    void find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const;
+
+  private:
+    class Rules;
+    std::unique_ptr<const Rules> rules_;
+};
+
+/// All lines among the edges of the instances shown, be they seen or not.
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                         int threads);
 

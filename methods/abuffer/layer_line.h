@@ -22,6 +22,7 @@ struct LayerLine {
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;
     std::uint64_t line_key = ~std::uint64_t{0};  ///< of an edge: LineCrossing::line_key
+    LineClassSet classes;  ///< all that apply, among those asked for
     LineClass drawn_as = LineClass::silhouette;
     std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades
     /// Lines that meet at an end have equal nodes there. For edges: instance and vertex.

@@ -11,43 +11,8 @@ namespace {
 constexpr double kTrianglesPerCell = 12;
 /// Shorter parts of lines belong to the part before. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
-/// A surface is in front of a line if it is nearer by this part of a pixel's width.
-constexpr double kLevelPx = 1.0 / 16;
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
-
-/// The part of [begin, end] in which a value that runs from `at_0` at 0 to `at_1` at 1 is positive.
-/// False if there is none.
-bool clip(double at_0, double at_1, double& begin, double& end) {
-    if (at_0 >= 0 && at_1 >= 0) return begin < end;
-    if (at_0 < 0 && at_1 < 0) return false;
-    const double t = at_0 / (at_0 - at_1);
-    if (at_0 < 0) {
-        begin = std::max(begin, t);
-    } else {
-        end = std::min(end, t);
-    }
-    return begin < end;
-}
-
-/// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for
-/// triangles without area.
-bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
-    glm::dvec2 p[3] = {corners[0], corners[1], corners[2]};
-    const double area = cross(p[1] - p[0], p[2] - p[0]);
-    if (area < 0) {
-        std::swap(p[1], p[2]);
-        std::swap(triangle.vertices[1], triangle.vertices[2]);
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        const glm::dvec2 along = p[(k + 1) % 3] - p[k];
-        triangle.x[k] = p[k].x;
-        triangle.y[k] = p[k].y;
-        triangle.owns_edge[k] = along.y < 0 || (along.y == 0 && along.x > 0);
-    }
-    triangle.slack = std::abs(triangle.per_x) + std::abs(triangle.per_y);
-    return area != 0;
-}
 
 /// Names the place where an edge of one triangle passes through another one.
 std::uint64_t node_of(const LayerTriangle& edge_owner, std::size_t edge, const LayerTriangle& other) {
@@ -60,14 +25,6 @@ std::uint64_t node_of(const LayerTriangle& edge_owner, std::size_t edge, const L
     const auto [a, b] = std::minmax(edge_owner.vertices[edge], edge_owner.vertices[(edge + 1) % 3]);
     const std::uint64_t h = mix(mix(edge_owner.instance, std::uint64_t{a} << 32 | b), other.number);
     return h | std::uint64_t{1} << 63;
-}
-
-/// The part of a line within a rectangle.
-bool clip_to(const LayerLine& line, glm::dvec2 low, glm::dvec2 high, double& begin, double& end) {
-    return clip(line.from.x - low.x, line.to.x - low.x, begin, end) &&
-           clip(high.x - line.from.x, high.x - line.to.x, begin, end) &&
-           clip(line.from.y - low.y, line.to.y - low.y, begin, end) &&
-           clip(high.y - line.from.y, high.y - line.to.y, begin, end);
 }
 
 }  // namespace
@@ -157,49 +114,26 @@ double LayerTile::transmission_of(SurfaceId s) const {
 }
 
 void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
-    LayerTriangle triangle;
-    triangle.number = number;
-    triangle.instance = s.instance;
-    triangle.vertices = frame_.surfaces.mesh_of(s).triangles[s.triangle];
-    triangle.transmission = transmission_of(s);
-    const ScreenPolygon polygon = frame_.surfaces.screen_polygon(s);
     const DepthPlane plane = frame_.surfaces.plane(s);
     const double zero = frame_.surfaces.farthest_nearness;
-    const auto corner = [&](int i) {
-        const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
-        return glm::dvec2(p.x, p.y);
-    };
-    triangle.per_x = plane.per_x / kSubpixelsPerPixel;
-    triangle.per_y = plane.per_y / kSubpixelsPerPixel;
-    triangle.nearness = plane.extended_to(corner(0) / 256.0) - zero;
-    for (int i = 2; i < polygon.count; ++i) {
-        const glm::dvec2 p[3] = {corner(0), corner(i - 1), corner(i)};
-        if (!set_corners(triangle, p)) continue;
+    for (LayerTriangle& triangle : clipped_layer_triangles(screen_, s, number)) {
+        triangle.transmission = transmission_of(s);
+        const auto& x = triangle.x;
+        const auto& y = triangle.y;
         triangles_.push_back(triangle);
-        add_bounds(number, s.instance, triangle.vertices, glm::vec2(glm::min(p[0], glm::min(p[1], p[2]))),
-                   glm::vec2(glm::max(p[0], glm::max(p[1], p[2]))), static_cast<float>(plane.lowest - zero),
-                   static_cast<float>(plane.highest - zero), static_cast<std::uint32_t>(triangles_.size() - 1));
+        add_bounds(number, s.instance, triangle.vertices,
+                   glm::vec2(std::min({x[0], x[1], x[2]}), std::min({y[0], y[1], y[2]})),
+                   glm::vec2(std::max({x[0], x[1], x[2]}), std::max({y[0], y[1], y[2]})),
+                   static_cast<float>(plane.lowest - zero), static_cast<float>(plane.highest - zero),
+                   static_cast<std::uint32_t>(triangles_.size() - 1));
     }
 }
 
 const LayerTriangle& LayerTile::triangle(std::uint32_t i) {
     if (set_up_[i] != kNotSetUp) return triangles_[set_up_[i]];
     const SurfaceId s = screen_.surface_of(numbers_[i]);
-    LayerTriangle triangle;
-    triangle.number = numbers_[i];
-    triangle.instance = s.instance;
-    triangle.vertices = frame_.surfaces.mesh_of(s).triangles[s.triangle];
+    LayerTriangle triangle = layer_triangle(screen_, s, numbers_[i]);
     triangle.transmission = transmission_of(s);
-    const ScreenVertex* const v = screen_.vertices(s.instance);
-    const ScreenVertex &a = v[triangle.vertices[0]], &b = v[triangle.vertices[1]], &c = v[triangle.vertices[2]];
-    const double per_area = 1.0 / static_cast<double>(doubled_area(a, b, c));
-    const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
-                 qc = static_cast<double>(c.nearness) - qa;
-    triangle.nearness = qa;
-    triangle.per_x = (qb * (c.y - a.y) - qc * (b.y - a.y)) * per_area;
-    triangle.per_y = (qc * (b.x - a.x) - qb * (c.x - a.x)) * per_area;
-    const glm::dvec2 corners[3] = {{a.x, a.y}, {b.x, b.y}, {c.x, c.y}};
-    set_corners(triangle, corners);
     set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(triangle);
     return triangles_.back();
@@ -241,55 +175,20 @@ void LayerTile::sort_into_cells() {
     fragment_count_ += cell_triangles_.size();
 }
 
-double LayerTile::level_slack(double nearness) const {
-    const Projection& p = frame_.surfaces.projection;
-    if (p.orthographic) return kLevelPx / p.focal_px + frame_.surfaces.coordinate_error;
-    // A step in distance d is a step of d / distance^2 in nearness.
-    const double absolute = nearness + frame_.surfaces.farthest_nearness;
-    return absolute * (kLevelPx / p.focal_px + frame_.surfaces.coordinate_error * absolute);
-}
-
-bool LayerTile::is_owner(const LayerLine& line, const LayerTriangle& triangle) const {
-    if (triangle.number == line.owners[0] || triangle.number == line.owners[1]) return true;
-    if (!line.has_more_owners) return false;
-    int common = 0;
-    for (const std::uint64_t node : line.nodes) {
-        for (const std::uint32_t v : triangle.vertices) {
-            common += node == (std::uint64_t{triangle.instance} << 32 | v);
-        }
-    }
-    return common == 2;
-}
-
 /// Notes where in [begin, end] a triangle is in front of a line.
 void LayerTile::hide(const LayerLine& line, std::uint32_t i, double begin, double end) {
     if (static_cast<double>(bounds_.high[i]) <= std::min(line.nearness_from, line.nearness_to)) return;
     const LayerTriangle& t = triangle(i);
-    if (is_owner(line, t)) return;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t next = k == 2 ? 0 : k + 1;
-        const double dx = t.x[next] - t.x[k], dy = t.y[next] - t.y[k];
-        const double at_0 = dx * (line.from.y - t.y[k]) - dy * (line.from.x - t.x[k]);
-        const double at_1 = dx * (line.to.y - t.y[k]) - dy * (line.to.x - t.x[k]);
-        if (at_0 == 0 && at_1 == 0 && !t.owns_edge[k]) return;
-        if (!clip(at_0, at_1, begin, end)) return;
-    }
-    const double slack = line_slack_ + t.slack;
-    if (!clip(t.nearness_at(line.from) - line.nearness_from - slack,
-              t.nearness_at(line.to) - line.nearness_to - slack, begin, end)) {
-        return;
-    }
+    if (lies_on(line, t) || !clip_where_hidden(line, line_slack_ + t.slack, t, begin, end)) return;
     intervals_.push_back({begin, end, t.transmission});
 }
 
 void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces) {
     const glm::dvec2 corner = glm::dvec2(rect_.x0, rect_.y0) * 256.0;
     double begin = 0, end = 1;
-    if (!clip_to(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
+    if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
     intervals_.clear();
-    const double length = glm::distance(line.from, line.to);
-    line_slack_ = level_slack(std::max(line.nearness_from, line.nearness_to)) +
-                  std::abs(line.nearness_to - line.nearness_from) / length;
+    line_slack_ = line_slack(frame_.surfaces, line);
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
     const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
     const int last_row = row_at(static_cast<float>(std::max(a.y, b.y)));
@@ -300,7 +199,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
         for (int column = first_column; column <= last_column; ++column) {
             double from = begin, to = end;
             const glm::dvec2 low = corner + glm::dvec2(column, row) * size;
-            if (!clip_to(line, low, low + size, from, to)) continue;
+            if (!clip_to_rect(line, low, low + size, from, to)) continue;
             for (const std::uint32_t i : cell(column, row)) hide(line, i, from, to);
         }
     }
@@ -420,7 +319,7 @@ void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::v
             low = std::min(low, gap);
             high = std::max(high, gap);
         }
-        const double slack = plane.slack + corners.slack + level_slack(std::max(plane.nearness, corners.nearness));
+        const double slack = plane.slack + corners.slack + level_slack(frame_.surfaces, std::max(plane.nearness, corners.nearness));
         return low < -slack && high > slack;
     };
     if (!reaches_through(a, b) || !reaches_through(b, a)) return;
@@ -470,6 +369,7 @@ void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::v
     const LineClassSet classes =
         (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;
     if (classes.empty()) return;
+    line.classes = classes;
     line.drawn_as = *classes.first();
     lines.push_back(line);
 }

@@ -5,22 +5,10 @@
 
 #include "methods/abuffer/layer_bins.h"
 #include "methods/abuffer/layer_line.h"
+#include "methods/abuffer/layer_triangle.h"
 #include "render/frame.h"
 
 namespace burin {
-
-/// A triangle on the screen as something that hides lines.
-struct LayerTriangle {
-    std::array<double, 3> x, y;  ///< corners in 1/256 pixel, clockwise as seen
-    std::array<bool, 3> owns_edge;  ///< whether points on the edge after a corner belong to it
-    double nearness, per_x, per_y;  ///< at corner 0, and change per 1/256 pixel
-    double slack;                   ///< what snapping may do to nearness
-    double transmission;            ///< 0 = opaque
-    std::uint32_t number, instance;
-    std::array<std::uint32_t, 3> vertices;
-
-    double nearness_at(glm::dvec2 p) const { return nearness + per_x * (p.x - x[0]) + per_y * (p.y - y[0]); }
-};
 
 /// All layers of surfaces in one tile, found by place: the tile is cut into square cells, and each has
 /// a list of the triangles that touch it. Buffers are used again from tile to tile.
@@ -70,13 +58,11 @@ class LayerTile {
         const auto i = static_cast<std::size_t>(row * columns_ + column);
         return {cell_triangles_.data() + cell_end_[i], cell_end_[i + 1] - cell_end_[i]};
     }
-    bool is_owner(const LayerLine& line, const LayerTriangle& triangle) const;
     void hide(const LayerLine& line, std::uint32_t i, double begin, double end);
     void find_in_cell(int column, int row, std::vector<LayerLine>& lines);
     void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                std::vector<LayerPiece>& pieces);
     void intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const;
-    double level_slack(double nearness) const;
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "methods/abuffer/fine_lines.h"
 #include "methods/abuffer/line_tile.h"
 #include "methods/abuffer/pixel_fill.h"
 
@@ -21,11 +22,15 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     Stopwatch watch;
     const int per_pixel = frame_.scene->abuffer.samples_per_pixel;
     const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples);
+    const FineEdges fine_edges(screen_, PixelTiles(region, tile_samples / per_pixel), per_pixel, threads_);
     stats.prepare_s += watch.lap();
 
     const auto workers = static_cast<std::size_t>(threads_);
     std::vector<std::unique_ptr<LineTile>> tiles(workers);
     std::vector<std::unique_ptr<PixelFiller>> fillers(workers);
+    const bool has_both_sides = frame_.scene->lines.style.side == StrokeSide::both;
+    std::vector<FineParts> fine(workers, FineParts(screen_, kernels_, has_both_sides));
+    std::vector<std::vector<FinePart>> fine_parts(bins.tile_count());
     std::vector<WorkerTimes> times(workers);
     const std::size_t before = segments.size();
     segments.resize(before + bins.tile_count());
@@ -40,6 +45,7 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
             tiles[w]->draw(index);
             times[w].raster += lap.lap();
             tiles[w]->find_lines(segments[before + index]);
+            fine[w].find(tiles[w]->samples(), fine_edges.in(index), segments[before + index], fine_parts[index]);
             if (contours_ != nullptr) contours_->move(segments[before + index]);
             times[w].lines += lap.lap();
             fillers[w]->fill(*tiles[w], film);
@@ -60,6 +66,10 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     stats.raster_s += sum.raster * scale;
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
+
+    segments.push_back(find_fine_lines(frame_, screen_, kernels_, region, fine_parts, threads_));
+    if (contours_ != nullptr) contours_->move(segments.back());
+    stats.lines_s += watch.lap();
 }
 
 }  // namespace burin

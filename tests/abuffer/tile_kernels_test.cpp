@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 #include "abuffer/sample_tile.h"
@@ -207,6 +208,59 @@ TEST(TileKernels, CullingLosesNoSample) {
 
 /// StrokeMask's samples in a row of pixels that are closer than the radius, with the distance to
 /// the segment itself.
+/// No triangle in front of anything in a block is left out, and none is listed for nothing unless it is large.
+TEST(TileKernels, HidingTrianglesAreAllFound) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        Triangles triangles(seed, 4, -40, 24);
+        triangles.vertices[7].x = ScreenVertex::kOffScreen;
+        Random random(1000 + seed);
+        constexpr int kColumns = 7, kRows = 5, kShift = 10;
+        constexpr float kNothing = std::numeric_limits<float>::infinity();
+        std::vector<float> farthest((kColumns + 2) * (kRows + 2), kNothing);
+        const auto place = [&](int x, int y) { return static_cast<std::size_t>((y + 1) * (kColumns + 2) + x + 1); };
+        for (int y = 0; y < kRows; ++y) {
+            for (int x = 0; x < kColumns; ++x) {
+                if (random.integer(0, 2) == 0) farthest[place(x, y)] = static_cast<float>(random.integer(0, 40)) * 0.125f;
+            }
+        }
+        const BlockMap map{farthest.data(), -2000, 1700, kShift, kColumns, kRows};
+        std::vector<std::uint32_t> expected(triangles.count() + 8);
+        const std::size_t count = baseline_kernels().find_hiding(triangles.mesh, 0, triangles.count(), map, expected.data());
+        expected.resize(count);
+        if (avx2_kernels() != nullptr) {
+            std::vector<std::uint32_t> found(triangles.count() + 8);
+            found.resize(avx2_kernels()->find_hiding(triangles.mesh, 0, triangles.count(), map, found.data()));
+            EXPECT_EQ(found, expected);
+        }
+        for (std::uint32_t t = 0; t < triangles.count(); ++t) {
+            const bool is_listed = std::find(expected.begin(), expected.end(), t) != expected.end();
+            const ScreenVertex v[3] = {triangles.corner(t, 0), triangles.corner(t, 1), triangles.corner(t, 2)};
+            const auto [x0, x1] = std::minmax({v[0].x, v[1].x, v[2].x});
+            const auto [y0, y1] = std::minmax({v[0].y, v[1].y, v[2].y});
+            const float nearest = std::max({v[0].nearness, v[1].nearness, v[2].nearness});
+            if (x0 == ScreenVertex::kOffScreen) {
+                EXPECT_TRUE(is_listed);
+                continue;
+            }
+            bool hides = false;
+            for (int y = 0; y < kRows; ++y) {
+                for (int x = 0; x < kColumns; ++x) {
+                    const int left = map.x + (x << kShift), top = map.y + (y << kShift), size = 1 << kShift;
+                    const bool touches = x1 >= left && x0 < left + size && y1 >= top && y0 < top + size;
+                    hides = hides || (touches && nearest > farthest[place(x, y)]);
+                }
+            }
+            const bool is_large = ((x1 - map.x) >> kShift) - ((x0 - map.x) >> kShift) > 1 ||
+                                  ((y1 - map.y) >> kShift) - ((y0 - map.y) >> kShift) > 1;
+            if (hides) {
+                EXPECT_TRUE(is_listed) << "seed " << seed << " triangle " << t;
+            } else if (!is_large) {
+                EXPECT_FALSE(is_listed) << "seed " << seed << " triangle " << t;
+            }
+        }
+    }
+}
+
 TEST(TileKernels, StrokesCoverWhatIsNear) {
     Random random(7);
     for (int trial = 0; trial < 400; ++trial) {

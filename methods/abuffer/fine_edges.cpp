@@ -1,0 +1,63 @@
+#include "methods/abuffer/fine_edges.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "lines/line_segment.h"
+#include "methods/abuffer/layer_edges.h"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kChunkTriangles = 1 << 14;
+
+}  // namespace
+
+FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int samples_per_pixel,
+                     int threads) {
+    const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
+    std::vector<std::vector<TileLists<FineEdge>::Record>> records(chunks.size());
+    const SampleBlocks blocks(samples_per_pixel);
+    const PixelRect region = tiles.rect();  // of whole blocks, as are its tiles
+    const int first_x = region.x0 / kMergeBlockPx, first_y = region.y0 / kMergeBlockPx;
+    const int columns = region.width() / kMergeBlockPx, rows = region.height() / kMergeBlockPx;
+    const int per_tile = tiles.tile_px() / kMergeBlockPx;
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+        const ScreenMesh mesh = screen.mesh(chunks[c].instance);
+        // First all edges, then their vertices, which take longer to come from memory.
+        std::vector<HalfEdge> edges;
+        for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
+            if (mesh.partners[mesh.partners[h]] == h) edges.push_back(h);
+        });
+        const auto vertex = [&](std::size_t i, HalfEdge k) -> const ScreenVertex& {
+            const HalfEdge h = edges[i];
+            return mesh.vertices[mesh.corners[h - h % 3 + (h + k) % 3]];
+        };
+        constexpr std::size_t kAhead = 16;
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            if (i + kAhead < edges.size()) {
+                __builtin_prefetch(&vertex(i + kAhead, 0));
+                __builtin_prefetch(&vertex(i + kAhead, 1));
+            }
+            const ScreenVertex &a = vertex(i, 0), &b = vertex(i, 1);
+            if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) continue;
+            if (a.x == b.x && a.y == b.y) continue;
+            const auto [x0, x1] = std::minmax(a.x, b.x);
+            const auto [y0, y1] = std::minmax(a.y, b.y);
+            const int left = std::max(blocks.at(x0) - first_x, 0),
+                      right = std::min(blocks.at(x1) - first_x, columns - 1);
+            const int top = std::max(blocks.at(y0) - first_y, 0),
+                      bottom = std::min(blocks.at(y1) - first_y, rows - 1);
+            if (left > right || top > bottom) continue;
+            for (int y = top / per_tile; y <= bottom / per_tile; ++y) {
+                for (int x = left / per_tile; x <= right / per_tile; ++x) {
+                    records[c].push_back({static_cast<std::uint32_t>(y * tiles.columns() + x),
+                                          {chunks[c].instance, edges[i]}});
+                }
+            }
+        }
+    });
+    lists_ = TileLists<FineEdge>(records, tiles.count());
+}
+
+}  // namespace burin

@@ -1,0 +1,290 @@
+#include "methods/abuffer/fine_lines.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/parallel.h"
+#include "methods/abuffer/fine_blocks.h"
+#include "methods/abuffer/fold_width.h"
+#include "methods/abuffer/layer_edges.h"
+#include "methods/abuffer/layer_triangle.h"
+
+namespace burin {
+namespace {
+
+constexpr std::size_t kChunkParts = 256;
+/// Shorter parts of lines are not worth a stroke. Pixels.
+constexpr double kShortestPiecePx = 1.0 / 32;
+/// Folds that turn back by less are no contours (docs/conventions.md). 1/64 pixel.
+constexpr double kNegligibleFoldSubpixels = 4;
+/// How exactly the place is found where a fold begins. Pixels.
+constexpr double kWidthStepPx = 1.0 / 32;
+constexpr double kFar = 1e300;
+/// What rounding does to nearness, as part of what counts as level.
+constexpr double kRounding = 1.0 / 64;
+std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                                           const std::vector<std::vector<FinePart>>& parts, int threads) {
+    std::vector<const FinePart*> all;
+    for (const auto& list : parts) {
+        for (const FinePart& part : list) all.push_back(&part);
+    }
+    constexpr bool kHasBothOfSeam = true;
+    const LayerEdgeFinder finder(frame, screen, region, kHasBothOfSeam);
+    std::vector<std::vector<FineCandidate>> found((all.size() + kChunkParts - 1) / kChunkParts);
+    parallel_for(found.size(), threads, [&](std::size_t chunk, int) {
+        std::vector<LayerLine> lines;
+        for (std::size_t i = chunk * kChunkParts; i < std::min(all.size(), (chunk + 1) * kChunkParts); ++i) {
+            lines.clear();
+            finder.find({all[i]->edge.instance, all[i]->edge.half_edge / 3}, all[i]->edge.half_edge, lines);
+            if (lines.empty()) continue;
+            LayerLine& line = lines.front();
+            const ScreenMesh mesh = screen.mesh(all[i]->edge.instance);
+            const HalfEdge h = all[i]->edge.half_edge;
+            if (mesh.partners[h] == h)
+                line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
+            found[chunk].push_back({*all[i], line});
+        }
+    });
+    std::vector<FineCandidate> candidates;
+    for (const auto& list : found) candidates.insert(candidates.end(), list.begin(), list.end());
+    return candidates;
+}
+
+/// Finds what is visible in one block after the other. Buffers are used again.
+class BlockClipper {
+  public:
+    BlockClipper(const ScreenSurfaces& screen, const LineCriteria& criteria)
+        : screen_(screen), criteria_(criteria) {}
+
+    void set_triangles(std::span<const HidingTriangle> triangles) {
+        given_ = triangles;
+        bounds_.resize(triangles.size());
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const HidingTriangle& t = triangles[i];
+            bounds_.x0[i] = t.x0;
+            bounds_.y0[i] = t.y0;
+            bounds_.x1[i] = t.x1;
+            bounds_.y1[i] = t.y1;
+            bounds_.nearest[i] = t.nearest;
+        }
+        places_.assign(triangles.size(), {});
+        set_up_.clear();
+    }
+
+    void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
+        const LayerLine& line = candidate.line;
+        const double begin = candidate.part.begin, end = candidate.part.end;
+        const double slack = line_slack(screen_.surfaces(), line);
+        const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_from);
+        const bool is_border = line.owners[0] == line.owners[1];
+        hidden_.clear();
+        bool is_hidden = false;
+        for_triangles(line, begin, end, std::min(line.nearness_from, line.nearness_to),
+                      [&](const LayerTriangle& t) {
+                          double from = begin, to = end;
+                          if (lies_on(line, t)) return true;
+                          // A mesh hides its own edges exactly; patches that are not stitched are snapped
+                          // apart, and other objects may touch.
+                          const bool is_own_mesh = t.instance == candidate.part.edge.instance;
+                          const double level = !is_own_mesh ? slack + t.slack
+                                               : is_border  ? rounding + t.slack
+                                                            : rounding;
+                          if (!clip_where_hidden(line, level, t, from, to)) return true;
+                          is_hidden = from <= begin && to >= end;
+                          hidden_.push_back({from, to});
+                          return !is_hidden;
+                      });
+        if (is_hidden) return;
+        std::sort(hidden_.begin(), hidden_.end(),
+                  [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+        const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
+        double reached = begin;
+        for (const Interval& h : hidden_) {
+            add_wide(candidate, reached, h.begin, shortest, segments);
+            reached = std::max(reached, h.end);
+        }
+        add_wide(candidate, reached, end, shortest, segments);
+    }
+
+  private:
+    struct Interval {
+        double begin, end;
+    };
+    /// What most triangles are left out by; an array each, for a loop that needs no gathering.
+    struct Bounds {
+        std::vector<std::int32_t> x0, y0, x1, y1, is_beside;
+        std::vector<float> nearest;
+        void resize(std::size_t count) {
+            for (auto* v : {&x0, &y0, &x1, &y1, &is_beside}) v->resize(count);
+            nearest.resize(count);
+        }
+    };
+    struct Place {
+        std::uint32_t first = 0, count = 0;
+    };
+
+    /// Calls use(triangle) for those beside a part of a line that are nearer than `least`, until it says
+    /// false.
+    template <typename Use>
+    void for_triangles(const LayerLine& line, double begin, double end, double least, const Use& use) {
+        const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+        const glm::ivec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
+        const std::int32_t* const x0 = bounds_.x0.data();
+        const std::int32_t* const y0 = bounds_.y0.data();
+        const std::int32_t* const x1 = bounds_.x1.data();
+        const std::int32_t* const y1 = bounds_.y1.data();
+        const float* const nearest = bounds_.nearest.data();
+        std::int32_t* const is_beside = bounds_.is_beside.data();
+        const auto limit = static_cast<float>(std::max(least, -1e30));
+        for (std::size_t i = 0; i < given_.size(); ++i) {
+            is_beside[i] = (x0[i] <= high.x) & (x1[i] >= low.x) & (y0[i] <= high.y) & (y1[i] >= low.y) &
+                           (nearest[i] >= limit);
+        }
+        for (std::size_t i = 0; i < given_.size(); ++i) {
+            if (is_beside[i] == 0) continue;
+            if (places_[i].count == 0) set_up(i);
+            for (std::uint32_t k = 0; k < places_[i].count; ++k) {
+                if (!use(set_up_[places_[i].first + k])) return;
+            }
+        }
+    }
+
+    void set_up(std::size_t i) {
+        const SurfaceId s = screen_.surface_of(given_[i].number);
+        places_[i].first = static_cast<std::uint32_t>(set_up_.size());
+        if (given_[i].is_clipped) {
+            const auto parts = clipped_layer_triangles(screen_, s, given_[i].number);
+            set_up_.insert(set_up_.end(), parts.begin(), parts.end());
+        } else {
+            set_up_.push_back(layer_triangle(screen_, s, given_[i].number));
+        }
+        places_[i].count = static_cast<std::uint32_t>(set_up_.size()) - places_[i].first;
+    }
+
+    /// Adds what is no negligible fold.
+    void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
+                  std::vector<LineSegment>& segments) {
+        if (candidate.line.classes.has(LineClass::silhouette)) {
+            while (end - begin > shortest && !is_wide(candidate, begin))
+                begin = std::min(end, begin + step_of(candidate));
+            while (end - begin > shortest && !is_wide(candidate, end))
+                end = std::max(begin, end - step_of(candidate));
+        }
+        if (end - begin > shortest) add(candidate, begin, end, segments);
+    }
+    static double step_of(const FineCandidate& candidate) {
+        return kWidthStepPx / candidate.line.length_px();
+    }
+
+    /// Whether both surfaces at a contour go on for more than a negligible fold.
+    bool is_wide(const FineCandidate& candidate, double t) const {
+        const glm::dvec2 at = glm::mix(candidate.line.from, candidate.line.to, t);
+        const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
+        const HalfEdge h = candidate.part.edge.half_edge, partner = mesh.partners[h];
+        const double nearness = glm::mix(candidate.line.nearness_from, candidate.line.nearness_to, t);
+        const double level = 32 * level_slack(screen_.surfaces(), nearness);
+        // Along rows and columns, as samples would see it.
+        for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
+            const auto goes_on = [&](HalfEdge side) {
+                return is_surface_wide(mesh, side, at, nearness, way, kNegligibleFoldSubpixels, level);
+            };
+            if (goes_on(h) && (partner == h || goes_on(partner))) return true;
+        }
+        return false;
+    }
+
+    void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
+        const LayerLine& line = candidate.line;
+        LineClassSet classes = line.classes;
+        bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
+        if (classes.has(LineClass::border)) {
+            if (const auto contact = contact_behind(line, 0.5 * (begin + end))) {
+                classes = (classes & LineClass::mark) | (*contact & criteria_.classes);
+                occludes = false;
+                if (classes.empty()) return;
+            }
+        }
+        LineSegment s;
+        s.from = glm::mix(line.from, line.to, begin) / 256.0;
+        s.to = glm::mix(line.from, line.to, end) / 256.0;
+        s.drawn_as = *classes.first();
+        s.opacity = line.opacity;
+        s.line_key = line.line_key;
+        s.block = static_cast<std::uint32_t>(candidate.part.block_y & 0xFFFF) << 16 |
+                  static_cast<std::uint32_t>(candidate.part.block_x & 0xFFFF);
+        const double zero = screen_.surfaces().farthest_nearness;
+        s.nearness_from =
+            static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * begin);
+        s.nearness_to =
+            static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * end);
+        s.occludes = occludes;
+        s.front_on_left = is_owner_on_left(candidate);
+        segments.push_back(s);
+    }
+
+    /// A surface that ends in contact with another one has no border there, but the classes of a contact.
+    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t) {
+        const glm::dvec2 at = glm::mix(line.from, line.to, t);
+        const double nearness = glm::mix(line.nearness_from, line.nearness_to, t);
+        std::optional<LayerTriangle> behind;
+        double nearest = -kFar;
+        for_triangles(line, t, t, -kFar, [&](const LayerTriangle& triangle) {
+            const double other = triangle.nearness_at(at);
+            if (lies_on(line, triangle) || !triangle.covers(at) || other <= nearest) return true;
+            behind = triangle;
+            nearest = other;
+            return true;
+        });
+        if (!behind) return std::nullopt;
+        const SurfaceSet& surfaces = screen_.surfaces();
+        const Projection& p = surfaces.projection;
+        const SurfaceId own = screen_.surface_of(line.owners[0]), other = screen_.surface_of(behind->number);
+        const double distance = distance_of(p, surfaces.farthest_nearness + nearness);
+        const double gap = distance_of(p, surfaces.farthest_nearness + nearest) - distance;
+        if (gap > depth_tolerance(surfaces, distance, surfaces.plane(other))) return std::nullopt;
+        return contact_classes(surfaces, own, other, at / 256.0, criteria_);
+    }
+
+    /// Of the way from the line's beginning to its end.
+    bool is_owner_on_left(const FineCandidate& candidate) const {
+        const HalfEdge h = candidate.part.edge.half_edge;
+        const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
+        const ScreenVertex& apex = mesh.vertices[mesh.corners[h - h % 3 + (h + 2) % 3]];
+        const glm::dvec2 along = candidate.line.to - candidate.line.from;
+        const glm::dvec2 across = glm::dvec2(apex.x, apex.y) - candidate.line.from;
+        return along.x * across.y - along.y * across.x < 0;  // y runs down
+    }
+
+    const ScreenSurfaces& screen_;
+    const LineCriteria& criteria_;
+    std::span<const HidingTriangle> given_;
+    Bounds bounds_;
+    std::vector<Place> places_;  // of given triangles in set_up_
+    std::vector<LayerTriangle> set_up_;
+    std::vector<Interval> hidden_;
+};
+
+}  // namespace
+
+std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurfaces& screen,
+                                         const TileKernels& kernels, PixelRect region,
+                                         const std::vector<std::vector<FinePart>>& parts, int threads) {
+    std::vector<LineSegment> segments;
+    const std::vector<FineCandidate> candidates = find_candidates(frame, screen, region, parts, threads);
+    if (candidates.empty()) return segments;
+    const FineBlocks blocks(screen, kernels, frame.scene->abuffer.samples_per_pixel, region, candidates,
+                            threads);
+    std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads),
+                                       BlockClipper(screen, frame.criteria));
+    std::vector<std::vector<LineSegment>> found(blocks.count());
+    parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {
+        BlockClipper& clipper = clippers[static_cast<std::size_t>(worker)];
+        clipper.set_triangles(blocks.triangles(block));
+        for (const std::uint32_t i : blocks.candidates(block))
+            clipper.add_visible(candidates[i], found[block]);
+    });
+    for (const auto& list : found) segments.insert(segments.end(), list.begin(), list.end());
+    return segments;
+}
+
+}  // namespace burin

@@ -1,0 +1,273 @@
+#include "methods/abuffer/fine_parts.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "methods/abuffer/layer_triangle.h"
+
+namespace burin {
+namespace {
+
+/// What is left beside a line that was found is looked at if it is as long as this.
+constexpr double kShortestRestSubpixels = 16;
+/// The same at a vertex: lines that meet there are to do so.
+constexpr double kShortestTipSubpixels = 4;
+/// Ends of lines are as exact as this.
+constexpr double kSlackSubpixels = 1;
+/// Something is clearly in front if it is nearer by this many pixels' widths.
+constexpr double kClearlyInFrontPx = 2;
+/// No surface beside an edge is so steep that a sample on it is in front by so many times that.
+constexpr double kFarInFront = 8;
+
+int floor_to_int(double v) {
+    const int toward_zero = static_cast<int>(v);
+    return toward_zero - (v < toward_zero ? 1 : 0);
+}
+
+}  // namespace
+
+EdgeOnScreen::EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge) {
+    const auto& t = screen.surfaces().instances[edge.instance].mesh->triangles[edge.half_edge / 3];
+    const auto [low, high] = std::minmax(t[edge.half_edge % 3], t[(edge.half_edge + 1) % 3]);
+    const ScreenVertex &a = screen.vertices(edge.instance)[low], &b = screen.vertices(edge.instance)[high];
+    from = {a.x, a.y};
+    to = {b.x, b.y};
+    nearness_from = static_cast<double>(a.nearness);
+    nearness_to = static_cast<double>(b.nearness);
+}
+
+void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
+                     std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
+    if (edges.empty()) return;
+    find_farthest(samples);
+    const SampleBlocks blocks(samples.samples_per_pixel);
+    const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
+    const int first_x = samples.first_column >> shift,
+              last_x = (samples.first_column + samples.columns - 2) >> shift;
+    const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
+    for (const FineEdge& e : edges) {
+        const EdgeOnScreen edge(screen_, e);
+        const glm::dvec2 low = glm::min(edge.from, edge.to), high = glm::max(edge.from, edge.to);
+        const int x0 = blocks.at(static_cast<int>(low.x)), x1 = blocks.at(static_cast<int>(high.x));
+        const int y0 = blocks.at(static_cast<int>(low.y)), y1 = blocks.at(static_cast<int>(high.y));
+        const bool is_in_one = x0 == x1 && y0 == y1;
+        if (is_in_one && is_behind_blocks(samples, edge, 0, 1)) continue;
+        const Owners owners = owners_of(e);
+        const HalfEdge partner = screen_.surfaces().instances[e.instance].mesh->next_on_edge[e.half_edge];
+        const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
+        for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
+            for (int x = std::max(x0, first_x); x <= std::min(x1, last_x); ++x) {
+                double begin = 0, end = 1;
+                LayerLine line;
+                line.from = edge.from;
+                line.to = edge.to;
+                if (!is_in_one) {
+                    const glm::dvec2 from(blocks.begin(x), blocks.begin(y)),
+                        to(blocks.begin(x + 1), blocks.begin(y + 1));
+                    if (!clip_to_rect(line, from, to, begin, end)) continue;
+                    if (is_behind_blocks(samples, edge, begin, end)) continue;
+                }
+                const std::uint32_t block =
+                    static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
+                find_undrawn(edge, begin, end, pieces_of(drawn, key, block));
+                open_.clear();
+                for (const Interval& i : undrawn_) {
+                    if (is_tip(samples, edge, i)) {
+                        open_.push_back(i);
+                    } else {
+                        find_open(samples, edge, owners, {x << shift, y << shift}, i);
+                    }
+                }
+                for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
+            }
+        }
+    }
+}
+
+void FineParts::find_farthest(const SampleTile& samples) {
+    farthest_.resize(samples.nearness.size() / kBlockSamples);
+    // The kernel only reads.
+    const SampleView view{const_cast<float*>(samples.nearness.data()),
+                          const_cast<std::uint32_t*>(samples.ids.data()),
+                          samples.first_column,
+                          samples.first_row,
+                          samples.columns,
+                          samples.rows,
+                          samples.stride,
+                          samples.samples_per_pixel,
+                          0,
+                          0,
+                          nullptr,
+                          nullptr,
+                          0};
+    kernels_.find_farthest(view, farthest_.data());
+}
+
+double FineParts::level(double nearness) const {
+    const Projection& p = screen_.surfaces().projection;
+    const double part = kClearlyInFrontPx / p.focal_px;
+    return p.orthographic ? part : part * (nearness + screen_.surfaces().farthest_nearness);
+}
+
+/// The triangles at an edge, and whether each of them shows where the edge is a line.
+FineParts::Owners FineParts::owners_of(FineEdge edge) const {
+    const HalfEdge partner = screen_.surfaces().instances[edge.instance].mesh->next_on_edge[edge.half_edge];
+    const std::uint32_t a = screen_.number_of({edge.instance, edge.half_edge / 3});
+    const std::uint32_t b = screen_.number_of({edge.instance, partner / 3});
+    const bool is_fold = screen_.facing(a) != screen_.facing(b);
+    return {{a, b}, !is_fold};
+}
+
+/// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.
+bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin,
+                                 double end) const {
+    const double per_sample = samples.samples_per_pixel / 256.0;
+    const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
+    const glm::dvec2 a = edge.at(begin) * per_sample - first, b = edge.at(end) * per_sample - first;
+    const auto block_from = [](double sample) { return static_cast<int>(std::max(sample, 0.0)) >> kBlockShift; };
+    const auto block_to = [](double sample, int count) {
+        return std::min(static_cast<int>(std::max(sample, 0.0)) + 1, count - 1) >> kBlockShift;
+    };
+    const int x0 = block_from(std::min(a.x, b.x)), x1 = block_to(std::max(a.x, b.x), samples.columns);
+    const int y0 = block_from(std::min(a.y, b.y)), y1 = block_to(std::max(a.y, b.y), samples.rows);
+    const double nearest = std::max(edge.nearness_at(begin), edge.nearness_at(end));
+    const double limit = nearest + kFarInFront * level(nearest);
+    for (int y = y0; y <= y1; ++y) {
+        for (int x = x0; x <= x1; ++x) {
+            const auto i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.stride / kBlockSamples);
+            if (!(static_cast<double>(farthest_[i + static_cast<std::size_t>(x)]) > limit)) return false;
+        }
+    }
+    return true;
+}
+
+/// Goes along an edge from square to square of four samples, in a block whose upper left sample is given.
+/// All places are on the picture's grid of samples: equal in all tiles.
+void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
+                          glm::ivec2 block, Interval part) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const int last = kMergeBlockPx * samples.samples_per_pixel - 1;
+    const double per_sample = samples.samples_per_pixel / 256.0;
+    const glm::dvec2 origin = edge.from * per_sample - 0.5, along = (edge.to - edge.from) * per_sample;
+    const glm::dvec2 start = origin + along * part.begin;
+    double next[2], step[2];
+    for (int k = 0; k < 2; ++k) {
+        const double border = along[k] > 0 ? std::floor(start[k]) + 1 : std::ceil(start[k]) - 1;
+        next[k] = along[k] == 0 ? kNever : (border - origin[k]) / along[k];
+        step[k] = along[k] == 0 ? kNever : 1 / std::abs(along[k]);
+    }
+    for (double t = part.begin; t < part.end;) {
+        const int axis = next[0] < next[1] ? 0 : 1;
+        const double to = std::min(next[axis], part.end);
+        const double middle = 0.5 * (t + to);
+        const glm::dvec2 place = origin + along * middle;
+        const glm::ivec2 at(floor_to_int(place.x), floor_to_int(place.y));
+        const glm::ivec2 square = glm::clamp(at, block, block + last);
+        if (to > t && is_open(samples, square, edge, middle, owners)) {
+            if (!open_.empty() && open_.back().end == t) {
+                open_.back().end = to;
+            } else {
+                open_.push_back({t, to});
+            }
+        }
+        t = std::max(t, to);
+        next[axis] += step[axis];
+    }
+}
+
+bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
+                        const Owners& owners) const {
+    const std::size_t i = samples.index(square.x, square.y);
+    const std::size_t corners[4] = {i, i + 1, i + static_cast<std::size_t>(samples.stride),
+                                    i + static_cast<std::size_t>(samples.stride) + 1};
+    std::uint32_t numbers[4];
+    for (std::size_t k = 0; k < 4; ++k) numbers[k] = samples.ids[corners[k]] >> 1;
+    const auto sees = [&](std::uint32_t n) {
+        return numbers[0] == n || numbers[1] == n || numbers[2] == n || numbers[3] == n;
+    };
+    const auto [a, b] = owners.numbers;
+    if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) return false;
+    const float farthest = std::min(std::min(samples.nearness[corners[0]], samples.nearness[corners[1]]),
+                                    std::min(samples.nearness[corners[2]], samples.nearness[corners[3]]));
+    const double nearness = edge.nearness_at(t);
+    const double gap = static_cast<double>(farthest) - nearness, clearly = level(nearness);
+    if (!(gap > clearly)) return true;
+    // Samples lie on steep surfaces beside the edge, or on something else.
+    if (gap > kFarInFront * clearly) return false;
+    for (int k = 0; k < 4; ++k) {
+        const bool is_known = std::find(numbers, numbers + k, numbers[k]) != numbers + k;
+        if (!is_known && !is_in_front(numbers[k], edge.at(t), nearness)) return true;
+    }
+    return false;
+}
+
+/// Whether the plane of a triangle beside a place is clearly in front there.
+bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const {
+    const SurfaceId s = screen_.surface_of(number);
+    double at = 0;
+    if (screen_.facing(number) == off_screen) {
+        at = screen_.surfaces().plane(s).extended_to(subpixel / 256.0) - screen_.surfaces().farthest_nearness;
+    } else {
+        const ScreenTriangle t = screen_.triangle(s);
+        const ScreenVertex &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
+        const auto area = static_cast<double>(doubled_area(a, b, c));
+        const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
+                     qc = static_cast<double>(c.nearness) - qa;
+        const double px = subpixel.x - a.x, py = subpixel.y - a.y;
+        at = qa +
+             ((px * (c.y - a.y) - py * (c.x - a.x)) * qb + ((b.x - a.x) * py - (b.y - a.y) * px) * qc) / area;
+    }
+    return at > nearness + level(nearness);
+}
+
+/// The pieces of a line in a block.
+std::span<const LineSegment> FineParts::pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
+                                                  std::uint32_t block) {
+    const auto is_before = [&](const LineSegment& s) {
+        return s.line_key != key ? s.line_key < key : s.block < block;
+    };
+    const auto first = std::partition_point(drawn.begin(), drawn.end(), is_before);
+    auto last = first;
+    while (last != drawn.end() && last->line_key == key && last->block == block) ++last;
+    return {first, last};
+}
+
+/// What is left of an edge where pieces of its line were found.
+void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
+                             std::span<const LineSegment> pieces) {
+    undrawn_.assign(1, {begin, end});
+    if (pieces.empty()) return;
+    if (!takes_rests_) return undrawn_.clear();
+    const glm::dvec2 along = edge.to - edge.from;
+    const double square = glm::dot(along, along);
+    const double slack = kSlackSubpixels / std::sqrt(square),
+                 shortest = kShortestRestSubpixels / std::sqrt(square);
+    const double shortest_tip = kShortestTipSubpixels / std::sqrt(square);
+    for (const LineSegment& s : pieces) {
+        const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;
+        const double q = glm::dot(s.to * 256.0 - edge.from, along) / square;
+        const Interval piece{std::min(p, q) - slack, std::max(p, q) + slack};
+        const std::size_t count = undrawn_.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            const Interval whole = undrawn_[i];
+            if (piece.end <= whole.begin || piece.begin >= whole.end) continue;
+            undrawn_[i].end = piece.begin;  // may be empty now
+            if (piece.end < whole.end) undrawn_.push_back({piece.end, whole.end});
+        }
+    }
+    std::erase_if(undrawn_, [&](const Interval& i) {
+        return !(i.end - i.begin >= (i.begin == 0 || i.end == 1 ? shortest_tip : shortest));
+    });
+}
+
+/// Whether a line was found but for its last bit to a vertex, which lies between samples.
+bool FineParts::is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part) {
+    if ((part.begin == 0) == (part.end == 1)) return false;
+    const double longest = 1.5 * kSubpixelsPerPixel / samples.samples_per_pixel;
+    return (part.end - part.begin) * glm::distance(edge.from, edge.to) <= longest;
+}
+
+}  // namespace burin

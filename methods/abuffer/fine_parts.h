@@ -1,0 +1,74 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "abuffer/sample_tile.h"
+#include "lines/line_segment.h"
+#include "methods/abuffer/fine_edges.h"
+
+namespace burin {
+
+/// A part of an edge within one block that may be a line though the samples do not tell.
+struct FinePart {
+    FineEdge edge;
+    std::int32_t block_x, block_y;
+    double begin, end;  ///< shares of the way from the edge's vertex with the smaller number to the other
+};
+
+/// An edge between its vertices, that with the smaller number first, on the screen in 1/256 pixel.
+struct EdgeOnScreen {
+    EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge);
+    glm::dvec2 at(double t) const { return from + (to - from) * t; }
+    double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
+
+    glm::dvec2 from, to;
+    double nearness_from, nearness_to;
+};
+
+/// Finds where along edges the samples of a tile do not tell whether there is a line: no line of the edge
+/// was found there, the samples beside it do not see the edge's own triangles, and they do not see
+/// something that is clearly in front, either. Buffers are used again from tile to tile.
+class FineParts {
+  public:
+    /// `takes_rests`: also what is left of edges beside pieces of lines that were found. Strokes on one side
+    /// are cut off by the pieces around them, which then overlap.
+    FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
+        : screen_(screen), kernels_(kernels), takes_rests_(takes_rests) {}
+
+    /// `drawn`: the lines found in the tile, as merge_segments() leaves them.
+    void find(const SampleTile& samples, std::span<const FineEdge> edges, std::span<const LineSegment> drawn,
+              std::vector<FinePart>& parts);
+
+  private:
+    struct Owners {
+        std::uint32_t numbers[2];
+        bool needs_both;  // the line runs between two polygons that are seen
+    };
+    struct Interval {
+        double begin, end;
+    };
+    void find_farthest(const SampleTile& samples);
+    Owners owners_of(FineEdge edge) const;
+    bool is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin,
+                          double end) const;
+    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
+                   glm::ivec2 block, Interval part);
+    bool is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
+                 const Owners& owners) const;
+    bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
+    static std::span<const LineSegment> pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
+                                                  std::uint32_t block);
+    static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
+    void find_undrawn(const EdgeOnScreen& edge, double begin, double end,
+                      std::span<const LineSegment> pieces);
+    double level(double nearness) const;
+
+    const ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
+    bool takes_rests_;
+    std::vector<float> farthest_;  // per block of kBlockSamples^2 samples
+    std::vector<Interval> undrawn_, open_;
+};
+
+}  // namespace burin

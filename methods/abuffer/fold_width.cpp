@@ -1,0 +1,50 @@
+#include "methods/abuffer/fold_width.h"
+
+#include <cmath>
+
+namespace burin {
+namespace {
+
+double nearness_at(const ScreenMesh& mesh, std::uint32_t triangle, glm::dvec2 at) {
+    const std::uint32_t* const t = mesh.corners + 3 * std::size_t{triangle};
+    const ScreenVertex &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const auto area = static_cast<double>(doubled_area(a, b, c));
+    const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
+                 qc = static_cast<double>(c.nearness) - qa;
+    const double x = at.x - a.x, y = at.y - a.y;
+    return qa + ((x * (c.y - a.y) - y * (c.x - a.x)) * qb + ((b.x - a.x) * y - (b.y - a.y) * x) * qc) / area;
+}
+
+}  // namespace
+
+bool is_surface_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness,
+                     glm::dvec2 way, double least, double level) {
+    const auto corner = [&](HalfEdge h, std::uint32_t k) {
+        const ScreenVertex& v = mesh.vertices[mesh.corners[h - h % 3 + (h + k) % 3]];
+        return glm::dvec2(v.x, v.y);
+    };
+    const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
+    const glm::dvec2 along = corner(half_edge, 1) - corner(half_edge, 0);
+    if ((cross(along, way) < 0) != (cross(along, corner(half_edge, 2) - corner(half_edge, 0)) < 0))
+        way = -way;
+    constexpr int kMaxTriangles = 16;
+    HalfEdge entry = half_edge;
+    for (int step = 0; step < kMaxTriangles; ++step) {
+        // Out by one of the two other edges: the one whose ends lie on either side of the way.
+        const bool is_first =
+            (cross(way, corner(entry, 2) - at) < 0) == (cross(way, corner(entry, 0) - at) < 0);
+        const std::uint32_t k = is_first ? 1 : 2;
+        const glm::dvec2 a = corner(entry, k), edge = corner(entry, (k + 1) % 3) - a;
+        const double area = cross(way, edge);
+        if (area == 0) return false;
+        const double reached = cross(a - at, edge) / area;
+        if (reached >= least) return true;
+        if (reached < 0) return std::abs(nearness_at(mesh, entry / 3, at) - nearness) > level;  // back again
+        const HalfEdge exit = entry - entry % 3 + (entry + k) % 3, partner = mesh.partners[exit];
+        if (partner == exit || mesh.partners[partner] != exit) return false;
+        entry = partner;
+    }
+    return false;
+}
+
+}  // namespace burin

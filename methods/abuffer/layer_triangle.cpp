@@ -1,0 +1,141 @@
+#include "methods/abuffer/layer_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin {
+namespace {
+
+/// A surface is in front of a line if it is nearer by this part of a pixel's width.
+constexpr double kLevelPx = 1.0 / 16;
+
+double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for
+/// triangles without area.
+bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
+    glm::dvec2 p[3] = {corners[0], corners[1], corners[2]};
+    const double area = cross(p[1] - p[0], p[2] - p[0]);
+    if (area < 0) {
+        std::swap(p[1], p[2]);
+        std::swap(triangle.vertices[1], triangle.vertices[2]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec2 along = p[(k + 1) % 3] - p[k];
+        triangle.x[k] = p[k].x;
+        triangle.y[k] = p[k].y;
+        triangle.owns_edge[k] = along.y < 0 || (along.y == 0 && along.x > 0);
+    }
+    triangle.slack = std::abs(triangle.per_x) + std::abs(triangle.per_y);
+    return area != 0;
+}
+
+}  // namespace
+
+bool clip_where_positive(double at_0, double at_1, double& begin, double& end) {
+    if (at_0 >= 0 && at_1 >= 0) return begin < end;
+    if (at_0 < 0 && at_1 < 0) return false;
+    const double t = at_0 / (at_0 - at_1);
+    if (at_0 < 0) {
+        begin = std::max(begin, t);
+    } else {
+        end = std::min(end, t);
+    }
+    return begin < end;
+}
+
+bool clip_to_rect(const LayerLine& line, glm::dvec2 low, glm::dvec2 high, double& begin, double& end) {
+    return clip_where_positive(line.from.x - low.x, line.to.x - low.x, begin, end) &&
+           clip_where_positive(high.x - line.from.x, high.x - line.to.x, begin, end) &&
+           clip_where_positive(line.from.y - low.y, line.to.y - low.y, begin, end) &&
+           clip_where_positive(high.y - line.from.y, high.y - line.to.y, begin, end);
+}
+
+LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
+    LayerTriangle triangle;
+    triangle.number = number;
+    triangle.instance = s.instance;
+    triangle.vertices = screen.surfaces().mesh_of(s).triangles[s.triangle];
+    const ScreenVertex* const v = screen.vertices(s.instance);
+    const ScreenVertex &a = v[triangle.vertices[0]], &b = v[triangle.vertices[1]],
+                       &c = v[triangle.vertices[2]];
+    const double per_area = 1.0 / static_cast<double>(doubled_area(a, b, c));
+    const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
+                 qc = static_cast<double>(c.nearness) - qa;
+    triangle.nearness = qa;
+    triangle.per_x = (qb * (c.y - a.y) - qc * (b.y - a.y)) * per_area;
+    triangle.per_y = (qc * (b.x - a.x) - qb * (c.x - a.x)) * per_area;
+    const glm::dvec2 corners[3] = {{a.x, a.y}, {b.x, b.y}, {c.x, c.y}};
+    set_corners(triangle, corners);
+    return triangle;
+}
+
+std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s,
+                                                   std::uint32_t number) {
+    std::vector<LayerTriangle> parts;
+    const SurfaceSet& surfaces = screen.surfaces();
+    const ScreenPolygon polygon = surfaces.screen_polygon(s);
+    const DepthPlane plane = surfaces.plane(s);
+    const auto corner = [&](int i) {
+        const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+        return glm::dvec2(p.x, p.y);
+    };
+    LayerTriangle triangle;
+    triangle.number = number;
+    triangle.instance = s.instance;
+    triangle.per_x = plane.per_x / kSubpixelsPerPixel;
+    triangle.per_y = plane.per_y / kSubpixelsPerPixel;
+    triangle.nearness = plane.extended_to(corner(0) / 256.0) - surfaces.farthest_nearness;
+    for (int i = 2; i < polygon.count; ++i) {
+        triangle.vertices = surfaces.mesh_of(s).triangles[s.triangle];
+        const glm::dvec2 p[3] = {corner(0), corner(i - 1), corner(i)};
+        if (set_corners(triangle, p)) parts.push_back(triangle);
+    }
+    return parts;
+}
+
+bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {
+    if (triangle.number == line.owners[0] || triangle.number == line.owners[1]) return true;
+    if (!line.has_more_owners) return false;
+    int common = 0;
+    for (const std::uint64_t node : line.nodes) {
+        for (const std::uint32_t v : triangle.vertices) {
+            common += node == (std::uint64_t{triangle.instance} << 32 | v);
+        }
+    }
+    return common == 2;
+}
+
+double level_slack(const SurfaceSet& surfaces, double nearness) {
+    const Projection& p = surfaces.projection;
+    if (p.orthographic) return kLevelPx / p.focal_px + surfaces.coordinate_error;
+    // A step in distance d is a step of d / distance^2 in nearness.
+    const double absolute = nearness + surfaces.farthest_nearness;
+    return absolute * (kLevelPx / p.focal_px + surfaces.coordinate_error * absolute);
+}
+
+double line_slack(const SurfaceSet& surfaces, const LayerLine& line) {
+    return level_slack(surfaces, std::max(line.nearness_from, line.nearness_to)) +
+           std::abs(line.nearness_to - line.nearness_from) / glm::distance(line.from, line.to);
+}
+
+bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& t, double& begin,
+                       double& end) {
+    if (!clip_where_positive(t.nearness_at(line.from) - line.nearness_from - slack,
+                             t.nearness_at(line.to) - line.nearness_to - slack, begin, end)) {
+        return false;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = k == 2 ? 0 : k + 1;
+        const double dx = t.x[next] - t.x[k], dy = t.y[next] - t.y[k];
+        const double at_0 = dx * (line.from.y - t.y[k]) - dy * (line.from.x - t.x[k]);
+        const double at_1 = dx * (line.to.y - t.y[k]) - dy * (line.to.x - t.x[k]);
+        if (at_0 == 0 && at_1 == 0 && !t.owns_edge[k]) return false;
+        if (!clip_where_positive(at_0, at_1, begin, end)) return false;
+    }
+    return true;
+}
+
+}  // namespace burin

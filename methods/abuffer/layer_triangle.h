@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "methods/abuffer/layer_line.h"
+#include "methods/abuffer/screen_surfaces.h"
+
+namespace burin {
+
+/// A triangle on the screen as something that hides lines.
+struct LayerTriangle {
+    std::array<double, 3> x, y;     ///< corners in 1/256 pixel, clockwise as seen
+    std::array<bool, 3> owns_edge;  ///< whether points on the edge after a corner belong to it
+    double nearness, per_x, per_y;  ///< at corner 0, and change per 1/256 pixel
+    double slack;                   ///< what snapping may do to nearness
+    double transmission = 0;        ///< 0 = opaque
+    std::uint32_t number, instance;
+    std::array<std::uint32_t, 3> vertices;
+
+    bool covers(glm::dvec2 p) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t n = k == 2 ? 0 : k + 1;
+            const double side = (x[n] - x[k]) * (p.y - y[k]) - (y[n] - y[k]) * (p.x - x[k]);
+            if (side < 0 || (side == 0 && !owns_edge[k])) return false;
+        }
+        return true;
+    }
+    double nearness_at(glm::dvec2 p) const { return nearness + per_x * (p.x - x[0]) + per_y * (p.y - y[0]); }
+};
+
+/// The part of [begin, end] in which a value that runs from `at_0` at 0 to `at_1` at 1 is positive.
+/// False if there is none.
+bool clip_where_positive(double at_0, double at_1, double& begin, double& end);
+
+/// Keeps the part of [begin, end] of a line that is within a rectangle, in 1/256 pixel.
+bool clip_to_rect(const LayerLine& line, glm::dvec2 low, glm::dvec2 high, double& begin, double& end);
+
+/// A triangle whose corners are all on the screen.
+LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
+/// What the near plane and the guard band leave of any other one.
+std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s,
+                                                   std::uint32_t number);
+
+/// Whether a line is an edge of a triangle, which cannot hide it then.
+bool lies_on(const LayerLine& line, const LayerTriangle& triangle);
+
+/// How much nearer something is, at a nearness less farthest_nearness, that is in front and not level: 1/16
+/// of a pixel's width.
+double level_slack(const SurfaceSet& surfaces, double nearness);
+/// The same for a line, with what snapping does to it.
+double line_slack(const SurfaceSet& surfaces, const LayerLine& line);
+
+/// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`.
+bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin,
+                       double& end);
+
+}  // namespace burin

@@ -1,0 +1,228 @@
+// Features that samples miss: thinner than a sample, or several to a sample.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "mesh/shapes.h"
+#include "methods/abuffer/abuffer.h"
+#include "methods/reference.h"
+#include "tests/support/drawing.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+Drawing draw(const Scene& scene, const Camera& camera, int size, RenderFunction render = render_abuffer) {
+    return Drawing(scene, camera, size, size, {0, 0, size, size}, 2, render);
+}
+
+Drawing truth(Scene scene, const Camera& camera, int size, int samples = 16) {
+    scene.reference.samples = samples;
+    return draw(scene, camera, size, render_reference);
+}
+
+double largest_error(const Drawing& a, const Drawing& b) {
+    double largest = 0;
+    for (int y = 0; y < a.height(); ++y) {
+        for (int x = 0; x < a.width(); ++x)
+            largest = std::max(largest, std::abs(a.line(x, y) - b.line(x, y)));
+    }
+    return largest;
+}
+
+/// Lines where none is within a pixel.
+int count_false(const Drawing& drawn, const Drawing& truth) {
+    int count = 0;
+    for (int y = 0; y < drawn.height(); ++y) {
+        for (int x = 0; x < drawn.width(); ++x) {
+            double near = 0;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, drawn.height() - 1); ++v) {
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, drawn.width() - 1); ++u) {
+                    near = std::max(near, truth.line(u, v));
+                }
+            }
+            if (drawn.line(x, y) > 0.25 && near == 0) ++count;
+        }
+    }
+    return count;
+}
+
+/// In a picture of kSize pixels whose units are pixels: turned around the middle, and moved a little.
+constexpr int kSize = 44;
+PolygonSoup placed(PolygonSoup soup, double angle_deg, double depth = 0) {
+    const double a = glm::radians(angle_deg);
+    return transformed(std::move(soup), [=](glm::dvec3 p) {
+        return glm::dvec3(22.13 + std::cos(a) * p.x - std::sin(a) * p.y,
+                          21.86 + std::sin(a) * p.x + std::cos(a) * p.y, p.z + depth);
+    });
+}
+
+PolygonSoup wall() {
+    return placed(make_box({100, 100, 1}), 0, -30);
+}
+
+/// A prism along x whose cross section is a closed polygon (y, z), counterclockwise from +x.
+PolygonSoup prism(const std::vector<glm::dvec2>& section, double half_length) {
+    PolygonSoup soup;
+    const auto n = static_cast<std::uint32_t>(section.size());
+    for (const double x : {-half_length, half_length}) {
+        for (const glm::dvec2& p : section) soup.positions.push_back({x, p.x, p.y});
+    }
+    std::vector<std::uint32_t> front, back;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        soup.add_polygon(std::vector<std::uint32_t>{i, j, n + j, n + i});
+        front.push_back(n + i);
+        back.push_back(n - 1 - i);
+    }
+    soup.add_polygon(front);
+    soup.add_polygon(back);
+    return soup;
+}
+
+const double kAngles_deg[] = {0, 3, 17, 45, 62, 90};
+
+TEST(FineLines, ARodThinnerThanASampleHasNoDropouts) {
+    for (const double angle : kAngles_deg) {
+        for (const double width : {0.2, 0.1}) {
+            const Scene scene = scene_of({placed(make_box({30, width, width}), angle), wall()});
+            const Camera camera = pixel_camera(kSize, kSize);
+            const Drawing drawn = draw(scene, camera, kSize);
+            EXPECT_LT(largest_error(drawn, truth(scene, camera, kSize)), 0.15)
+                << angle << " deg, " << width << " px";
+            const double a = glm::radians(angle);
+            const glm::dvec2 middle(22.13, kSize - 21.86), along(std::cos(a), -std::sin(a));
+            EXPECT_EQ(drawn.drawn_share(middle - 14.0 * along, middle + 14.0 * along, 0), 1.0) << angle;
+        }
+    }
+}
+
+TEST(FineLines, BothEdgesOfANarrowChamferAreDrawn) {
+    for (const double angle : kAngles_deg) {
+        const double c = 0.1;
+        const Scene scene = scene_of(
+            {placed(prism({{-10, -6}, {10, -6}, {10, -5.5}, {0, 5}, {-c, 5}, {-c - 10, -5.5}}, 14), angle)});
+        const Camera camera = pixel_camera(kSize, kSize);
+        const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize);
+        EXPECT_LT(largest_error(drawn, expected), 0.15) << angle;
+        EXPECT_NEAR(drawn.sum("lines.A") / expected.sum("lines.A"), 1, 0.01) << angle;
+    }
+}
+
+TEST(FineLines, AStepLowerThanASampleIsDrawn) {
+    for (const double angle : kAngles_deg) {
+        // Half of the plate behind the box reaches beyond it by 0.15 pixels, in front of a wall.
+        const auto moved = [](glm::dvec3 size, glm::dvec3 by) {
+            return transformed(make_box(size), [=](glm::dvec3 p) { return p + by; });
+        };
+        const Scene scene = scene_of(
+            {placed(make_box({28, 16, 5}), angle), placed(moved({14, 16, 5}, {0, 0.15, -5}), angle), wall()});
+        const Camera camera = pixel_camera(kSize, kSize);
+        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.15) << angle;
+    }
+}
+
+TEST(FineLines, AcuteTipsAreNotCutShort) {
+    for (const double angle : kAngles_deg) {
+        PolygonSoup needle = soup_of({{-10, -2, 0}, {10, 0, 0}, {-10, 2, 0}, {-10, 0, -2}},
+                                     {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}});
+        const Scene tip = scene_of({placed(needle, angle), wall()});
+        const Camera camera = pixel_camera(kSize, kSize);
+        EXPECT_LT(largest_error(draw(tip, camera, kSize), truth(tip, camera, kSize, 32)), 0.15) << angle;
+    }
+}
+
+TEST(FineLines, BothSidesOfANarrowGapAreDrawn) {
+    for (const double angle : kAngles_deg) {
+        const auto half = [&](double side) {
+            return placed(transformed(make_box({28, 12, 5}),
+                                      [=](glm::dvec3 p) { return p + glm::dvec3(0, side * 6.075, 0); }),
+                          angle);
+        };
+        const Scene scene = scene_of({half(1), half(-1), wall()});
+        const Camera camera = pixel_camera(kSize, kSize);
+        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.2) << angle;
+    }
+}
+
+/// A rough ball with several triangles to a pixel, slivers around it, and rods thinner than a sample.
+Scene rough_scene(std::uint64_t seed, int segments) {
+    Random random(seed);
+    PolygonSoup ball = make_torus(0.8, 0.45, segments, segments / 2);
+    for (glm::dvec3& p : ball.positions) p += 0.012 * random.direction();
+    PolygonSoup slivers;
+    for (std::uint32_t i = 0; i < 60; ++i) {
+        const glm::dvec3 center = random.in_box(1.2), along = random.direction() * 0.5;
+        slivers.positions.push_back(center - along);
+        slivers.positions.push_back(center + along);
+        slivers.positions.push_back(center + along + 0.03 * random.direction());
+        slivers.add_polygon(std::vector<std::uint32_t>{3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    std::vector<PolygonSoup> objects{ball, slivers};
+    for (int i = 0; i < 6; ++i) {
+        const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), random.real(0, 3), random.direction());
+        const glm::dvec3 at = random.in_box(0.8);
+        objects.push_back(transformed(make_box({1.4, 0.008, 0.008}), [=](glm::dvec3 p) {
+            return glm::dvec3(turn * glm::dvec4(p, 1.0)) + at;
+        }));
+    }
+    return scene_of(std::move(objects));
+}
+
+const glm::dvec3 kEye(2.3, 1.7, 4.1);
+
+TEST(FineLines, NothingHiddenAppears) {
+    constexpr int kPicture = 60;
+    for (std::uint64_t seed = 0; seed < 2; ++seed) {
+        const Scene scene = rough_scene(seed, 60 + 40 * static_cast<int>(seed));
+        const Camera camera = perspective_camera(kEye, {0, 0, 0});
+        const Drawing drawn = draw(scene, camera, kPicture), expected = truth(scene, camera, kPicture, 32);
+        EXPECT_EQ(count_false(drawn, expected), 0) << "seed " << seed;
+        EXPECT_LE(count_false(expected, drawn), 1) << "seed " << seed;
+        // The tips of slivers are thinner than the truth's samples, too.
+        EXPECT_NEAR(drawn.sum("lines.A") / expected.sum("lines.A"), 1, 0.03) << "seed " << seed;
+    }
+}
+
+TEST(FineLines, ThreadsTilesAndCropsChangeNothing) {
+    constexpr int kPicture = 110;
+    const Scene scene = rough_scene(7, 90);
+    const Camera camera = perspective_camera(kEye, {0, 0, 0});
+    const auto render = [&](PixelRect crop, int threads, int tile_samples, std::uint64_t memory_bytes = 0) {
+        const Frame frame = make_frame(scene, camera, kPicture, kPicture, crop);
+        Film film({0, 0, kPicture, kPicture}, crop, LayerSet{true, true, true, true, true, true, true, true},
+                  frame.criteria.classes);
+        RunOptions options;
+        options.threads = threads;
+        options.tile_samples = tile_samples;
+        options.memory_bytes = memory_bytes;
+        render_abuffer(frame, options, film);
+        return film.image();
+    };
+    const PixelRect all{0, 0, kPicture, kPicture};
+    const Image whole = render(all, 1, 128);
+    EXPECT_TRUE(same_bits(whole, render(all, 3, 128)));
+    EXPECT_TRUE(same_bits(whole, render(all, 2, 32)));
+    EXPECT_TRUE(same_bits(whole, render(all, 2, 32, 24 << 20)));
+    for (const PixelRect crop :
+         {PixelRect{37, 21, 84, 80}, PixelRect{51, 50, 52, 51}, PixelRect{0, 63, 110, 71}}) {
+        const Image part = render(crop, 2, 64);
+        for (const Channel& channel : part.channels()) {
+            const Channel& full = *whole.find(channel.name);
+            for (int y = 0; y < crop.height(); ++y) {
+                for (int x = 0; x < crop.width(); ++x) {
+                    ASSERT_EQ(part.value(channel, x, y), whole.value(full, x + crop.x0, y + crop.y0))
+                        << channel.name << " " << x << "," << y;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace burin
