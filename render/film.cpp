@@ -118,6 +118,14 @@ void Film::put_row(int x0, int x1, int y, const SurfaceRow& row) {
     }
 }
 
+void Film::prefetch(int x, int y) const {
+    const std::size_t i = index_of(x, y);
+    for (std::size_t c = 0; c < 4; ++c) {
+        if (planes_.lines[c] != nullptr) __builtin_prefetch(planes_.lines[c] + i, 1);
+        if (planes_.beauty[c] != nullptr) __builtin_prefetch(planes_.beauty[c] + i, 1);
+    }
+}
+
 void Film::draw_over(int x, int y, const LinePixel& lines) {
     const std::size_t i = index_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {

@@ -65,6 +65,8 @@ class Film {
     void put_row(int x0, int x1, int y, const SurfaceRow& row);
     /// Puts the background into pixels [x0, x1) of a row.
     void put_background(int x0, int x1, int y);
+    /// Has the memory fetched that draw_over() will change of a pixel and of those to its right, up to 32 pixels in all.
+    void prefetch(int x, int y) const;
     /// Draws lines over a pixel that was put without any.
     void draw_over(int x, int y, const LinePixel& lines);
     /// As colours are kept: half precision holds 0..1 well, what is beyond its range becomes its largest

@@ -6,17 +6,16 @@
 namespace burin {
 
 bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
-    if (pair.first == kNoSurface || pair.second == kNoSurface) return false;
-    const SurfaceId start = screen_.surface_of(pair.first);
+    const SurfaceId start = pair.surfaces[0];
+    if (start.instance != pair.surfaces[1].instance || start.is_background()) return false;
     const ScreenMesh& mesh = screen_.mesh(start.instance);
-    const std::uint32_t goal = pair.second - mesh.first_number;  // wraps where it lies in another instance
-    if (mesh.sharp == nullptr || goal >= screen_.triangle_count(start.instance)) return false;
+    const std::uint32_t goal = pair.surfaces[1].triangle;
     const std::uint8_t facing = mesh.facing[start.triangle];
-    if (mesh.facing[goal] != facing || (facing != clockwise && facing != counterclockwise)) return false;
+    if (mesh.sharp == nullptr || mesh.facing[goal] != facing || (facing != clockwise && facing != counterclockwise)) {
+        return false;
+    }
     const std::int32_t across = pair.down ? pair.x : pair.y;
-    // Where corners run clockwise, a walk to the right leaves across the edge that goes down; a walk
-    // down, across the one that goes left.
-    const bool from_side = (facing == clockwise) == pair.down;
+    const bool from_side = exit_begins_beyond(facing, pair.down);
     std::uint32_t t = start.triangle;
     constexpr int kMaxTriangles = 6;
     for (int step = 0; step < kMaxTriangles; ++step) {
@@ -29,12 +28,9 @@ bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
             const ScreenVertex& p = mesh.vertices[corners[k]];
             side[k] = (pair.down ? p.x : p.y) > across;
         }
-        const std::uint32_t k = side[0] == from_side && side[1] != from_side   ? 0
-                                : side[1] == from_side && side[2] != from_side ? 1
-                                                                               : 2;
-        const std::uint32_t n = k == 2 ? 0 : k + 1;
+        const std::uint32_t k = exit_edge(side, from_side);
         // An edge that is not sharp has one partner.
-        if (side[k] != from_side || side[n] == from_side || (mesh.sharp[t] >> k & 1) != 0) return false;
+        if (k > 2 || (mesh.sharp[t] >> k & 1) != 0) return false;
         t = mesh.partners[3 * static_cast<std::size_t>(t) + k] / 3;
         if (mesh.facing[t] != facing) return false;
     }
@@ -54,47 +50,39 @@ double FastDecision::nearness_at(SurfaceId s, glm::dvec2 subpixel) const {
     return surfaces_.farthest_nearness + qa + std::clamp(q, std::min({0.0, qb, qc}), std::max({0.0, qb, qc}));
 }
 
-double FastDecision::distance(SurfaceId s, glm::dvec2 subpixel) const {
-    return distance_of(surfaces_.projection, nearness_at(s, subpixel));
-}
-
-bool FastDecision::look_behind(const NeighbourSamples& pair, int i, const FastWalk (&walks)[2], End& end) {
-    const FastWalk& w = walks[i];
+FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i) const {
+    const FastWalk& w = walks_[i];
     const auto place = [&](int from, double fraction) { return pair.place(from == 0 ? fraction : 1 - fraction); };
     const glm::dvec2 at = place(i, w.fraction);
-    const std::uint32_t numbers[2] = {pair.first, pair.second};
-    const SurfaceId own{screen_.surface_of(numbers[i]).instance, w.triangle};
-    const SurfaceId other = screen_.surface_of(numbers[1 - i]);
-    const FastWalk& whole = walks[1 - i];
-    // What goes on to the other sample in one triangle goes on to the end as well.
-    const bool is_one = whole.end == FastWalk::arrived && whole.triangle == other.triangle;
-    const FastWalk to_end = is_one ? whole : walker_.walk(pair, i == 0, 1 - w.fraction);
-    if (to_end.end == FastWalk::unsure) return false;
-    end.behind = {other.instance, to_end.triangle};
-    const double here = distance(own, at);
+    const FastWalk::Stop stop = walks_[1 - i].stop_at(1 - w.fraction);
+    const SurfaceId own{pair.surfaces[i].instance, w.triangle};
+    const Projection& p = surfaces_.projection;
+    End end;
+    end.nearness = nearness_at(own, at);
+    end.behind = {pair.surfaces[1 - i].instance, stop.triangle};
+    const double here = distance_of(p, end.nearness);
     const DepthPlane behind = walker_.plane(end.behind);
     end.tolerance = depth_tolerance(surfaces_, here, behind);
-    if (to_end.end == FastWalk::arrived) {
-        end.gap = distance(end.behind, at) - here;
-        return true;
+    if (stop.has_arrived) {
+        end.gap = distance_of(p, behind.nearness(at / double{kSubpixelsPerPixel})) - here;
+        return end;
     }
     // It ends as well: extend the planes, and take the smaller gap.
-    const Projection& p = surfaces_.projection;
-    const glm::dvec2 other_end = place(1 - i, to_end.fraction);
+    const glm::dvec2 other_end = place(1 - i, stop.fraction);
     const auto extended = [&](const DepthPlane& plane, glm::dvec2 subpixel) {
         return distance_of(p, plane.extended_to(subpixel / double{kSubpixelsPerPixel}));
     };
     const double gap_here = extended(behind, at) - here;
-    const double gap_there = distance(end.behind, other_end) - extended(walker_.plane(own), other_end);
+    const double gap_there = distance_of(p, nearness_at(end.behind, other_end)) - extended(walker_.plane(own), other_end);
     end.gap = std::abs(gap_here) <= std::abs(gap_there) ? gap_here : gap_there;
-    return true;
+    return end;
 }
 
 /// `touched`: what it is in contact with, else nullptr.
 LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk,
                                           const End* touched) const {
     LineDecision decision;
-    const std::uint32_t instance = screen_.surface_of(i == 0 ? pair.first : pair.second).instance;
+    const std::uint32_t instance = pair.surfaces[i].instance;
     const HalfEdge h = walk.half_edge;
     const SurfaceId own{instance, walk.triangle};
     decision.edge = {{instance, h / 3}, h};
@@ -126,20 +114,18 @@ LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, c
 
 bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness) {
     decision = LineDecision{};
-    const std::uint32_t numbers[2] = {pair.first, pair.second};
-    const auto take_nearness = [&](int i, const FastWalk& w) {
-        const SurfaceId s{screen_.surface_of(numbers[i]).instance, w.triangle};
-        nearness = nearness_at(s, pair.place(decision.fraction));
+    const auto nearness_of = [&](int i, const FastWalk& w) {
+        return nearness_at({pair.surfaces[i].instance, w.triangle}, pair.place(decision.fraction));
     };
-    FastWalk walks[2];
     for (const int i : {0, 1}) {
-        if (numbers[i] == kNoSurface) continue;
-        const std::uint32_t other = numbers[1 - i];
-        FastWalk& w = walks[i] = walker_.walk(pair, i == 1, 1.0);
+        if (pair.surfaces[i].is_background()) continue;
+        const SurfaceId other = pair.surfaces[1 - i];
+        FastWalk& w = walks_[i];
+        walker_.walk(pair, i == 1, w);
         if (w.end == FastWalk::unsure) return false;
         if (w.end == FastWalk::arrived) {
-            if (other == kNoSurface) return false;
-            if (screen_.number_of({screen_.surface_of(numbers[i]).instance, w.triangle}) != other) continue;
+            if (other.is_background()) return false;
+            if (SurfaceId{pair.surfaces[i].instance, w.triangle} != other) continue;
             decision.classes = w.crossed;
             decision.crease_cosine = w.crease_cosine;
             decision.reason = w.crossed.empty() ? LineReason::smooth : LineReason::feature_edge;
@@ -147,27 +133,27 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
             decision.edge = w.crossed_edge;
             decision.front = i;
             decision.fraction = i == 0 ? w.crossed_fraction : 1 - w.crossed_fraction;
-            take_nearness(i, w);
+            nearness = nearness_of(i, w);
             return true;
         }
-        if (other == kNoSurface) {
+        if (other.is_background()) {
             decision = end_of_surface(pair, i, w, nullptr);
-            take_nearness(i, w);
+            nearness = nearness_of(i, w);
             return true;
         }
     }
     End ends[2];
     bool in_front[2] = {false, false};
     for (const int i : {0, 1}) {
-        if (!walks[i].is_end_of_surface()) continue;
-        if (!look_behind(pair, i, walks, ends[i])) return false;
+        if (!walks_[i].is_end_of_surface()) continue;
+        ends[i] = look_behind(pair, i);
         in_front[i] = ends[i].gap >= -ends[i].tolerance;
     }
     if (!in_front[0] && !in_front[1]) return false;  // the surfaces pass through each other
     const bool both = in_front[0] && in_front[1];
     const int i = (both ? std::abs(ends[0].gap) <= std::abs(ends[1].gap) : in_front[0]) ? 0 : 1;
-    decision = end_of_surface(pair, i, walks[i], ends[i].gap <= ends[i].tolerance ? &ends[i] : nullptr);
-    take_nearness(i, walks[i]);
+    decision = end_of_surface(pair, i, walks_[i], ends[i].gap <= ends[i].tolerance ? &ends[i] : nullptr);
+    nearness = ends[i].nearness;
     return true;
 }
 

@@ -12,8 +12,6 @@ class FastDecision {
     FastDecision(const ScreenSurfaces& screen, const LineCriteria& criteria)
         : screen_(screen), surfaces_(screen.surfaces()), criteria_(criteria), walker_(screen, criteria) {}
 
-    static constexpr std::uint32_t kNoSurface = 0xFFFFFFFFu;
-
     /// Whether only triangles that face as the first one, and edges that are no lines, lie between. This
     /// settles most pairs.
     bool is_smooth(const NeighbourSamples& pair) const;
@@ -28,18 +26,18 @@ class FastDecision {
     struct End {
         double gap;              // how much farther the other one is there
         double tolerance;
+        double nearness;         // of the surface that ends
         SurfaceId behind;        // the other one's triangle
     };
-    /// False where the other one's walk is unsure.
-    bool look_behind(const NeighbourSamples& pair, int i, const FastWalk (&walks)[2], End& end);
+    End look_behind(const NeighbourSamples& pair, int i) const;
     LineDecision end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched) const;
-    double distance(SurfaceId s, glm::dvec2 subpixel) const;
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
 
     const ScreenSurfaces& screen_;
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
     FastWalker walker_;
+    FastWalk walks_[2];  // from either sample
 };
 
 }  // namespace burin

@@ -2,25 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace burin {
 namespace {
 
-constexpr int kMaxSteps = 24;
 /// surface_walk.cpp's.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
 constexpr double kWidestCrackPx = 1;
 
-/// A triangle, and where the walk leaves it.
-struct Place {
-    std::uint32_t triangle = 0;
-    HalfEdge exit = kNoHalfEdge;
-    double fraction = -1e300;
-};
+}  // namespace
 
 /// The line that is walked along, and the triangle looked at. `u` runs along the line, `v` across.
-class Way {
+class FastWalker::Way {
   public:
     Way(const ScreenMesh& mesh, const NeighbourSamples& pair, bool backwards)
         : mesh_(mesh),
@@ -32,14 +25,15 @@ class Way {
     /// False where it reaches off the screen.
     bool look_at(std::uint32_t triangle) {
         const std::uint32_t* const corners = mesh_.corners + 3 * static_cast<std::size_t>(triangle);
+        bool is_on = true;
         for (std::size_t k = 0; k < 3; ++k) {
             const ScreenVertex& p = mesh_.vertices[corners[k]];
-            if (p.x == ScreenVertex::kOffScreen) return false;
+            is_on &= p.x != ScreenVertex::kOffScreen;
             u_[k] = down_ ? p.y : p.x;
             v_[k] = down_ ? p.x : p.y;
             side_[k] = v_[k] > across_;  // samples on a vertex lie a trifle further right and down
         }
-        return true;
+        return is_on;
     }
     bool crosses(std::uint32_t k) const { return side_[k] != side_[next(k)]; }
     /// Where edge k crosses the line.
@@ -50,27 +44,33 @@ class Way {
     }
     /// The same along the edge: 0 = at corner k.
     double along_edge(std::uint32_t k) const { return static_cast<double>(across_ - v_[k]) / (v_[next(k)] - v_[k]); }
-    /// Where a triangle is left that was entered over its edge `entry`.
-    Place left_from(std::uint32_t triangle, std::uint32_t entry) const {
-        const std::uint32_t n = next(entry), apex = next(n);
-        const std::uint32_t k = side_[apex] == side_[entry] ? n : apex;
-        return {triangle, 3 * triangle + k, fraction(k)};
+    /// Through the triangle that is entered over half-edge `entry`.
+    FastWalk::Step step_from(HalfEdge entry, double entered) const {
+        const std::uint32_t t = entry / 3, k = entry - 3 * t, n = next(k), apex = next(n);
+        const std::uint32_t exit = side_[apex] == side_[k] ? n : apex;
+        return {t, 3 * t + exit, entered, fraction(exit)};
     }
-    /// Where the triangle is left in which the walk begins.
-    Place left_at_first(std::uint32_t triangle) const {
-        Place place{triangle};
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            if (!crosses(k)) continue;
-            const double at = fraction(k);
-            if (at > place.fraction) place = {triangle, 3 * triangle + k, at};
+    /// Through the triangle in which the walk begins.
+    FastWalk::Step first_step(std::uint32_t t) const {
+        constexpr double kBefore = -1e300;
+        FastWalk::Step step{t, kNoHalfEdge, kBefore, kBefore};
+        const std::uint8_t facing = mesh_.facing[t];
+        if (facing == clockwise || facing == counterclockwise) {
+            const std::uint32_t k = exit_edge(side_, exit_begins_beyond(facing, down_) != (per_unit_ < 0));
+            if (k < 3) step = {t, 3 * t + k, kBefore, fraction(k)};
+            return step;
         }
-        return place;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            if (crosses(k) && fraction(k) > step.left) step = {t, 3 * t + k, kBefore, fraction(k)};
+        }
+        return step;
     }
     /// In 1/256 pixel.
     glm::dvec2 at(double fraction_of_way) const {
         const double along = origin_ + fraction_of_way / per_unit_;
         return down_ ? glm::dvec2(across_, along) : glm::dvec2(along, across_);
     }
+    double length_px() const { return std::abs(1 / per_unit_) / kSubpixelsPerPixel; }
 
   private:
     static std::uint32_t next(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
@@ -83,101 +83,117 @@ class Way {
     bool side_[3] = {};
 };
 
-}  // namespace
+FastWalk::Stop FastWalk::stop_at(double goal) const {
+    const Step* step = steps;
+    while (step != steps + step_count && step->left < goal) ++step;
+    if (step == steps + step_count) return {false, triangle, fraction};
+    // A goal in the gap of a seam is where the step before ends.
+    if (step != steps && step->entered >= goal) return {false, step[-1].triangle, step[-1].left};
+    return {true, step->triangle, goal};
+}
 
-FastWalk FastWalker::walk(const NeighbourSamples& pair, bool backwards, double goal) {
-    FastWalk result;
-    const SurfaceId start = screen_.surface_of(backwards ? pair.second : pair.first);
+void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& result) {
+    const SurfaceId start = pair.surfaces[backwards ? 1 : 0];
     const std::uint32_t instance = start.instance;
     const ScreenMesh& mesh = screen_.mesh(instance);
     Way way(mesh, pair, backwards);
-    if (!way.look_at(start.triangle)) return result;
-    Place current = way.left_at_first(start.triangle);
-    if (current.exit == kNoHalfEdge) return result;
-    const double pitch_px = static_cast<double>(pair.pitch) / kSubpixelsPerPixel;
-    const double negligible_fold = kNegligibleFoldPx / pitch_px;
-    Place farthest = current;  // the walk may turn back by a trifle
+    result.end = FastWalk::unsure;
+    result.crossed = {};
+    result.crease_cosine = 1;
+    result.step_count = 0;
+    if (!way.look_at(start.triangle)) return;
+    const FastWalk::Step* current = &(result.steps[0] = way.first_step(start.triangle));
+    if (current->exit == kNoHalfEdge) return;
+    const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
+    const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
     std::uint32_t last_solid = start.triangle;
     bool over_slivers = false;
-
-    const auto ended = [&](FastWalk::End end, const Place& at) {
+    const auto end_at = [&result](FastWalk::End end, const FastWalk::Step& at) {
         result.end = end;
         result.triangle = at.triangle;
         result.half_edge = at.exit;
-        result.fraction = at.fraction;
-        return result;
+        result.fraction = at.left;
     };
-    const auto note = [&](LineClassSet classes, HalfEdge edge, std::uint32_t triangle, double fraction) {
-        const LineClassSet wanted = classes & criteria_.classes;
-        if (!wanted.empty() && result.crossed.empty()) {
-            result.crossed_edge = {{instance, triangle}, edge};
-            result.crossed_fraction = fraction;
+    for (result.step_count = 1; result.step_count < FastWalk::kMaxSteps; ++result.step_count) {
+        if (current->left >= 1) {
+            if (over_slivers) note_contact(instance, last_solid, current->triangle, way.at(1), 1, result);
+            return end_at(FastWalk::arrived, *current);
         }
-        result.crossed |= wanted;
-    };
-    const auto note_contact = [&](std::uint32_t with, double fraction) {
-        note(contact_classes(surfaces_, {instance, last_solid}, {instance, with},
-                             way.at(fraction) / double{kSubpixelsPerPixel}, criteria_, &result.crease_cosine),
-             kNoHalfEdge, last_solid, fraction);
-    };
-    for (int step = 0; step < kMaxSteps; ++step) {
-        if (current.fraction >= goal) {
-            if (over_slivers) note_contact(current.triangle, goal);
-            result.end = FastWalk::arrived;
-            result.triangle = current.triangle;
-            return result;
-        }
-        HalfEdge entry = mesh.partners[current.exit];
-        const bool over_seam = entry == current.exit;
+        FastWalk::Step& next = result.steps[result.step_count];
+        const HalfEdge entry = mesh.partners[current->exit];
+        const bool over_seam = entry == current->exit;
         if (over_seam) {
-            const auto seam = seam_beyond(instance, current.exit, way.along_edge(current.exit % 3));
-            if (!seam) return ended(FastWalk::border, current);
-            entry = *seam;
-        } else if (mesh.partners[entry] != current.exit) {
-            return result;
-        }
-        if (!way.look_at(entry / 3)) return result;
-        Place next;
-        if (over_seam) {
-            if (!way.crosses(entry % 3)) return ended(FastWalk::border, current);
-            const double entered = way.fraction(entry % 3);
-            if (std::abs(entered - current.fraction) * pitch_px > kWidestCrackPx ||
-                !is_level({instance, current.triangle}, {instance, entry / 3}, way.at(current.fraction))) {
-                return ended(FastWalk::border, current);
-            }
-            next = way.left_from(entry / 3, entry % 3);
-            if (next.fraction > entered && entered >= goal) {
+            Way beyond(mesh, pair, backwards);
+            const FastWalk::End end = step_over_seam(way, instance, *current, beyond, next);
+            if (end == FastWalk::unsure) return;
+            if (end != FastWalk::arrived) {
                 result.beyond = next.triangle;
-                return ended(FastWalk::crack, current);
+                return end_at(end, *current);
             }
+            way.look_at(next.triangle);
         } else {
-            next = way.left_from(entry / 3, entry % 3);
+            if (mesh.partners[entry] != current->exit || !way.look_at(entry / 3)) return;
+            next = way.step_from(entry, current->left);
         }
-        const bool unfolds = current.fraction < farthest.fraction && next.fraction >= farthest.fraction;
-        if (next.fraction < farthest.fraction - negligible_fold ||
-            (unfolds && !is_level({instance, farthest.triangle}, {instance, next.triangle}, way.at(farthest.fraction)))) {
-            return ended(FastWalk::fold, farthest);
+        const bool unfolds = current->left < farthest->left && next.left >= farthest->left;
+        if (next.left < farthest->left - negligible_fold ||
+            (unfolds && !is_level({instance, farthest->triangle}, {instance, next.triangle}, way.at(farthest->left)))) {
+            return end_at(FastWalk::fold, *farthest);
         }
-        const HalfEdge edge = current.exit;
-        const bool is_sharp = mesh.sharp == nullptr || (mesh.sharp[current.triangle] >> edge % 3 & 1) != 0;
-        const bool sliver =
-            !is_surely_solid(mesh, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
+        const bool sliver = !is_surely_solid(mesh, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
         if (sliver) {
             over_slivers = true;
-            const Mesh& own = *surfaces_.instances[instance].mesh;
-            if (own.is_marked(edge)) note(LineClass::mark, edge, current.triangle, current.fraction);
+            const bool is_mark = surfaces_.instances[instance].mesh->is_marked(current->exit);
+            if (is_mark) note(LineClass::mark, {{instance, current->triangle}, current->exit}, current->left, result);
         } else if (over_slivers || over_seam) {
-            note_contact(next.triangle, current.fraction);
+            note_contact(instance, last_solid, next.triangle, way.at(current->left), current->left, result);
             over_slivers = false;
-        } else if (is_sharp) {
-            note(edge_classes(surfaces_, {{instance, current.triangle}, edge}, criteria_, &result.crease_cosine), edge,
-                 current.triangle, current.fraction);
+        } else if (mesh.sharp == nullptr || (mesh.sharp[current->triangle] >> current->exit % 3 & 1) != 0) {
+            note_edge(instance, *current, result);
         }
         if (!sliver) last_solid = next.triangle;
-        current = next;
-        if (next.fraction >= farthest.fraction) farthest = next;
+        current = &next;
+        if (next.left >= farthest->left) farthest = current;
     }
-    return result;
+}
+
+/// From a border to another patch of the mesh. `arrived`: it goes on with the step `next`.
+FastWalk::End FastWalker::step_over_seam(const Way& way, std::uint32_t instance, const FastWalk::Step& from, Way& beyond,
+                                         FastWalk::Step& next) {
+    const auto entry = seam_beyond(instance, from.exit, way.along_edge(from.exit % 3));
+    if (!entry) return FastWalk::border;
+    if (!beyond.look_at(*entry / 3)) return FastWalk::unsure;
+    if (!beyond.crosses(*entry % 3)) return FastWalk::border;
+    const double entered = beyond.fraction(*entry % 3);
+    if (std::abs(entered - from.left) * way.length_px() > kWidestCrackPx ||
+        !is_level({instance, from.triangle}, {instance, *entry / 3}, way.at(from.left))) {
+        return FastWalk::border;
+    }
+    next = beyond.step_from(*entry, entered);
+    const bool is_forward = next.left > entered;
+    if (!is_forward) next.entered = from.left;
+    return is_forward && entered >= 1 ? FastWalk::crack : FastWalk::arrived;
+}
+
+void FastWalker::note(LineClassSet classes, SurfaceEdge edge, double fraction, FastWalk& result) const {
+    const LineClassSet wanted = classes & criteria_.classes;
+    if (!wanted.empty() && result.crossed.empty()) {
+        result.crossed_edge = edge;
+        result.crossed_fraction = fraction;
+    }
+    result.crossed |= wanted;
+}
+
+void FastWalker::note_edge(std::uint32_t instance, const FastWalk::Step& left, FastWalk& result) const {
+    const SurfaceEdge edge{{instance, left.triangle}, left.exit};
+    note(edge_classes(surfaces_, edge, criteria_, &result.crease_cosine), edge, left.left, result);
+}
+
+void FastWalker::note_contact(std::uint32_t instance, std::uint32_t a, std::uint32_t b, glm::dvec2 subpixel,
+                              double fraction, FastWalk& result) const {
+    const SurfaceId on{instance, a}, to{instance, b};
+    const glm::dvec2 at = subpixel / double{kSubpixelsPerPixel};
+    note(contact_classes(surfaces_, on, to, at, criteria_, &result.crease_cosine), {on, kNoHalfEdge}, fraction, result);
 }
 
 /// The edge of another patch of the mesh that runs along a border at a place, `along` 0..1 on the screen.

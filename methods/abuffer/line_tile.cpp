@@ -50,11 +50,6 @@ SampleView LineTile::view() {
             static_cast<std::uint32_t>(contests_.size())};
 }
 
-SurfaceId LineTile::surface_at(std::size_t sample) const {
-    const std::uint32_t id = samples_.ids[sample];
-    return id == SampleTile::kBackground ? kBackground : screen_.surface_of(id >> 1);
-}
-
 void LineTile::draw(std::size_t tile) {
     rect_ = bins_.tile(tile);
     if (contests_.empty()) contests_.resize(1 << 14);
@@ -173,19 +168,15 @@ glm::dvec2 LineTile::position(int column, int row) const {
     return {(samples_.first_column + column + 0.5) / s + kTrifleX, (samples_.first_row + row + 0.5) / s + kTrifleY};
 }
 
-/// Whether there is a line between two samples that only FastDecision::decide() or decide_line() can tell of.
+/// Whether there is a line between two samples that are not known to lie on one smooth surface.
 bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing) {
     LineDecision decision;
     const glm::dvec2 a = position(pair.column, pair.row);
     const glm::dvec2 b = position(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));
     if (!fast_.decide(neighbours, decision, crossing.nearness)) {
-        const auto surface = [this](std::uint32_t number) {
-            return number == FastDecision::kNoSurface ? kBackground : screen_.surface_of(number);
-        };
-        const VisiblePoint points[2] = {{a, surface(neighbours.first)}, {b, surface(neighbours.second)}};
-        decision = decide_line(frame_.surfaces, points[0], points[1], frame_.criteria);
+        decision = decide_line(frame_.surfaces, {a, neighbours.surfaces[0]}, {b, neighbours.surfaces[1]}, frame_.criteria);
         if (!decision.classes.empty()) {
-            const DepthPlane plane = frame_.surfaces.plane(points[decision.front].surface);
+            const DepthPlane plane = frame_.surfaces.plane(neighbours.surfaces[decision.front]);
             crossing.nearness = plane.nearness(glm::mix(a, b, decision.fraction));
         }
     }
@@ -210,7 +201,8 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
         }
     } else {
         // The background is beside a surface where no edge of it is found: views too narrow for numbers.
-        const auto [low, high] = std::minmax({neighbours.first, neighbours.second});
+        const auto number = [this](SurfaceId id) { return id.is_background() ? ~0u : screen_.number_of(id); };
+        const auto [low, high] = std::minmax({number(neighbours.surfaces[0]), number(neighbours.surfaces[1])});
         crossing.line_key = std::uint64_t{1} << 63 | std::uint64_t{low} << 32 | high;
     }
     return true;
@@ -223,17 +215,13 @@ void LineTile::find_crossings() {
     const std::int32_t pitch = kSubpixelsPerPixel / per_pixel_;
     const std::int32_t origin_x = samples_.first_column * pitch + pitch / 2;
     const std::int32_t origin_y = samples_.first_row * pitch + pitch / 2;
-    const auto number = [this](std::size_t sample) {
-        const std::uint32_t id = samples_.ids[sample];
-        return id == SampleTile::kBackground ? FastDecision::kNoSurface : id >> 1;
-    };
     crossings_.clear();
     crossing_places_.clear();
     for (std::size_t i = 0; i < count; ++i) {
         const SamplePair pair = pairs_[i];
         const std::size_t at = pair.row * stride + pair.column;
         const NeighbourSamples neighbours{origin_x + pair.column * pitch, origin_y + pair.row * pitch, pitch, pair.down,
-                                          number(at), number(at + (pair.down ? stride : 1))};
+                                          {surface_at(at), surface_at(at + (pair.down ? stride : 1))}};
         if (fast_.is_smooth(neighbours)) continue;
         if (!decide(pair, neighbours, crossings_.emplace_back())) {
             crossings_.pop_back();

@@ -26,7 +26,10 @@ class LineTile {
 
     const SampleTile& samples() const { return samples_; }
     PixelRect rect() const { return rect_; }
-    SurfaceId surface_at(std::size_t sample) const;
+    SurfaceId surface_at(std::size_t sample) const {
+        const std::uint32_t id = samples_.ids[sample];
+        return id == SampleTile::kBackground ? kBackground : screen_.surface_of(id >> 1);
+    }
     std::uint64_t sample_tests() const { return drawn_; }
 
   private:

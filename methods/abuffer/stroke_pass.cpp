@@ -88,17 +88,22 @@ class StrokePrinter {
     /// Each pixel sees its own square.
     void print(std::span<const LineSegment* const> segments, PixelRect rect, Film& film) {
         strokes_.draw(segments, rect);
+        touched_.clear();
         for (int row = 0; row < rect.height(); ++row) {
+            const std::size_t before = touched_.size();
             for (int column = 0; column < rect.width(); ++column) {
-                if (!strokes_.is_touched(column, row)) continue;
-                Coverages coverages{};
-                strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
-                    const int fresh = kernels_.count_bits(mask.rows.data(), taken.rows.data());
-                    coverages[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(fresh) /
-                                                              (StrokeMask::kRows * StrokeMask::kColumns);
-                });
-                film.draw_over(rect.x0 + column, rect.y0 + row, colored(coverages));
+                if (strokes_.is_touched(column, row)) touched_.push_back({column, row});
             }
+            if (touched_.size() > before) film.prefetch(rect.x0 + touched_[before].column, rect.y0 + row);
+        }
+        for (const auto [column, row] : touched_) {
+            Coverages coverages{};
+            strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
+                const int fresh = kernels_.count_bits(mask.rows.data(), taken.rows.data());
+                coverages[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(fresh) /
+                                                          (StrokeMask::kRows * StrokeMask::kColumns);
+            });
+            film.draw_over(rect.x0 + column, rect.y0 + row, colored(coverages));
         }
     }
 
@@ -149,6 +154,10 @@ class StrokePrinter {
     const LineStyle& style_;
     const TileKernels& kernels_;
     VisibleStrokes strokes_;
+    struct Pixel {
+        int column, row;
+    };
+    std::vector<Pixel> touched_;
     std::vector<Coverages> filtered_;
 };
 

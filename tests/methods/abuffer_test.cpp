@@ -107,10 +107,8 @@ Comparison compare_decisions(const Scene& scene, int samples) {
         const std::size_t a = s.index(column, row), b = s.index(column + (down ? 0 : 1), row + (down ? 1 : 0));
         if (s.ids[a] >> 1 == s.ids[b] >> 1) return;
         ++result.asked;
-        const auto number = [&](std::size_t i) {
-            return s.ids[i] == SampleTile::kBackground ? FastDecision::kNoSurface : s.ids[i] >> 1;
-        };
-        const NeighbourSamples pair{column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down, number(a), number(b)};
+        const NeighbourSamples pair{column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down,
+                                    {tile.surface_at(a), tile.surface_at(b)}};
         LineDecision decision;
         double nearness = 0;
         if (!fast.is_smooth(pair) && !fast.decide(pair, decision, nearness)) return;
