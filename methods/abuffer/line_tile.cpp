@@ -152,11 +152,12 @@ void LineTile::draw_large(const LargePolygon& large, bool plain) {
     plane.id |= plain ? 1u : 0u;
     const int first = std::max(scan.first_row(), samples_.first_row);
     const int end = std::min(scan.end_row(), samples_.first_row + samples_.rows);
+    const SampleView tile = view();
     for (int row = first; row < end; ++row) {
         const SampleSpan span = scan.span(row);
         const int from = std::max(span.begin - samples_.first_column, 0);
         const int to = std::min(span.end - samples_.first_column, samples_.columns);
-        if (from < to) kernels_.draw_span(view(), row - samples_.first_row, from, to, plane);
+        if (from < to) kernels_.draw_span(tile, row - samples_.first_row, from, to, plane);
     }
 }
 
@@ -253,6 +254,8 @@ void LineTile::find_lines(std::vector<LineSegment>& segments) {
 void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
     const double s = per_pixel_;
+    const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
+    const auto block_of = [block_shift](int sample) { return static_cast<std::uint32_t>(sample >> block_shift) & 0xFFFFu; };
     // Each cell is traced when its first crossing is met, in the order left, upper, lower, right side.
     const auto trace = [&](int column, int row, const SamplePair& from) {
         if (column < 0 || row < 0 || column + 1 >= samples_.columns || row + 1 >= samples_.rows) return;
@@ -268,10 +271,6 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
         std::size_t fresh = segments.size();
         trace_cell({found.data(), count}, low, low + 1.0 / s, segments);
-        const auto block_of = [this](int sample) {
-            const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
-            return static_cast<std::uint32_t>(sample >> shift) & 0xFFFFu;
-        };
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
         for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };

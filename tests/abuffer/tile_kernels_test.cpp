@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -305,6 +306,46 @@ TEST(TileKernels, CoveredSamplesAreCounted) {
                 }
                 EXPECT_EQ(counts[x], expected) << kernels->name;
             }
+        }
+    }
+}
+
+TEST(TileKernels, FindPairsOfSurfacesThatAreNotPlainOrNotLevel) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Random random(seed);
+        SampleTile tile;
+        tile.reset(0, 0, random.integer(1, 40), random.integer(1, 20), 4);
+        const int surfaces = random.integer(2, 12);
+        for (std::size_t i = 0; i < tile.ids.size(); ++i) {  // the padding as well
+            const int surface = random.integer(0, surfaces);
+            if (surface == 0) continue;
+            tile.ids[i] = static_cast<std::uint32_t>(2 * surface) | static_cast<std::uint32_t>(random.integer(0, 3) > 0);
+            tile.nearness[i] = static_cast<float>(random.integer(0, 8));
+        }
+        SampleView view = view_of(tile);
+        view.level = 0.5f;
+        view.level_per_nearness = 0.25f;
+        const auto is_pair = [&](std::size_t a, std::size_t b) {
+            if (tile.ids[a] >> 1 == tile.ids[b] >> 1) return false;
+            const float low = std::min(tile.nearness[a], tile.nearness[b]), high = std::max(tile.nearness[a], tile.nearness[b]);
+            return (tile.ids[a] & tile.ids[b] & 1) == 0 || !(high - low <= 0.25f * high + 0.5f);
+        };
+        std::vector<std::array<int, 3>> expected;
+        for (int row = 0; row < tile.rows; ++row) {
+            for (int column = 0; column < tile.columns; ++column) {
+                const std::size_t at = tile.index(column, row);
+                if (column + 1 < tile.columns && is_pair(at, at + 1)) expected.push_back({row, column, 0});
+                const std::size_t below = at + static_cast<std::size_t>(tile.stride);
+                if (row + 1 < tile.rows && is_pair(at, below)) expected.push_back({row, column, 1});
+            }
+        }
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<SamplePair> pairs(2 * tile.ids.size());
+            pairs.resize(kernels->find_pairs(view, pairs.data()));
+            std::vector<std::array<int, 3>> found;
+            for (const SamplePair& p : pairs) found.push_back({p.row, p.column, p.down});
+            std::sort(found.begin(), found.end());
+            EXPECT_EQ(found, expected) << kernels->name << ", seed " << seed;
         }
     }
 }

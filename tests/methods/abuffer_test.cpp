@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lines/merge_segments.h"
 #include "mesh/shapes.h"
@@ -137,6 +138,71 @@ Comparison compare_decisions(const Scene& scene, int samples) {
         }
     }
     return result;
+}
+
+/// A drum as CAD programs hand it out: its wall and its ends are patches with steps of their own, not stitched. The
+/// ends are fans of triangles that are slivers around the middle.
+Scene drum(int wall_steps, int end_steps) {
+    PolygonSoup soup = soup_of({}, {});
+    const auto on_circle = [](int i, int steps, double z) {
+        const double angle = 2 * std::numbers::pi * i / steps;
+        return glm::dvec3(std::cos(angle), std::sin(angle), z);
+    };
+    const auto number = [&] { return static_cast<std::uint32_t>(soup.positions.size()); };
+    const std::uint32_t wall = number();
+    for (int i = 0; i < wall_steps; ++i) {
+        for (const double z : {-0.7, 0.7}) soup.positions.push_back(on_circle(i, wall_steps, z));
+    }
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(wall_steps); ++i) {
+        const std::uint32_t v = wall + 2 * i, w = wall + 2 * ((i + 1) % static_cast<std::uint32_t>(wall_steps));
+        soup.add_polygon(std::vector<std::uint32_t>{v, w, w + 1, v + 1});
+    }
+    for (const double z : {-0.7, 0.7}) {
+        const std::uint32_t middle = number();
+        soup.positions.emplace_back(0.0, 0.0, z);
+        for (int i = 0; i < end_steps; ++i) soup.positions.push_back(on_circle(i, end_steps, z));
+        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(end_steps); ++i) {
+            const std::uint32_t a = middle + 1 + i, b = middle + 1 + (i + 1) % static_cast<std::uint32_t>(end_steps);
+            soup.add_polygon(z < 0 ? std::vector<std::uint32_t>{middle, b, a} : std::vector<std::uint32_t>{middle, a, b});
+        }
+    }
+    std::vector<PolygonSoup> objects;
+    objects.push_back(std::move(soup));
+    return scene_of(std::move(objects));
+}
+
+TEST(Abuffer, FastDecisionsFollowSeamsAndSlivers) {
+    Comparison sum;
+    for (const auto& [wall_steps, end_steps] : {std::pair{40, 61}, {97, 64}, {50, 4000}}) {
+        for (const int samples : {2, 4}) {
+            const Comparison c = compare_decisions(drum(wall_steps, end_steps), samples);
+            sum.asked += c.asked;
+            sum.answered += c.answered;
+            sum.other_class += c.other_class;
+            sum.other_place += c.other_place;
+        }
+    }
+    RecordProperty("asked", sum.asked);
+    RecordProperty("answered", sum.answered);
+    EXPECT_GT(sum.answered, 0.98 * sum.asked);
+    EXPECT_LE(sum.other_class + sum.other_place, 0.002 * sum.answered)
+        << sum.other_class << " of other classes, " << sum.other_place << " elsewhere, of " << sum.answered;
+}
+
+TEST(Abuffer, SliversAreKnownToBeThin) {
+    const Scene scene = drum(50, 4000);
+    const Frame frame = make_frame(scene, perspective_camera(kEye, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+    const Mesh& mesh = scene.meshes.at(0);
+    const std::vector<std::uint8_t> table = find_sharp_edges(mesh, frame.criteria);
+    int slivers = 0, thin = 0;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        thin += (table[t] & kThinTriangle) != 0;
+        if (!is_sliver(frame.surfaces, {0, t})) continue;
+        ++slivers;
+        EXPECT_NE(table[t] & kThinTriangle, 0) << t;
+    }
+    EXPECT_GT(slivers, 1000);
+    EXPECT_LE(thin, 8000);  // not the wall
 }
 
 TEST(Abuffer, FastDecisionsAreThoseOfTheSlowWay) {
