@@ -11,7 +11,7 @@ namespace burin {
 ///  2. Per tile, the nearest surface at every sample of the image's grid is found: the resolved
 ///     extended masks of Patel (2000), each sample stored once instead of once per mask.
 ///  3. Neighbouring samples with different surfaces ask decide_line(); where it finds a line, it also
-///     says where the line crosses between them. CellTracer joins the crossings to pieces of lines.
+///     says where the line crosses between them. trace_cell() joins the crossings to pieces of lines.
 ///  4. Pixels are filled from their samples; then strokes are drawn over them.
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film);
 

@@ -73,7 +73,8 @@ FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i)
         return distance_of(p, plane.extended_to(subpixel / double{kSubpixelsPerPixel}));
     };
     const double gap_here = extended(behind, at) - here;
-    const double gap_there = distance_of(p, nearness_at(end.behind, other_end)) - extended(walker_.plane(own), other_end);
+    const double gap_there =
+        distance_of(p, nearness_at(end.behind, other_end)) - extended(walker_.plane(own), other_end);
     end.gap = std::abs(gap_here) <= std::abs(gap_there) ? gap_here : gap_there;
     return end;
 }

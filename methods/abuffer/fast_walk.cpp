@@ -158,8 +158,8 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
 }
 
 /// From a border to another patch of the mesh. `arrived`: it goes on with the step `next`.
-FastWalk::End FastWalker::step_over_seam(const Way& way, std::uint32_t instance, const FastWalk::Step& from, Way& beyond,
-                                         FastWalk::Step& next) {
+FastWalk::End FastWalker::step_over_seam(const Way& way, std::uint32_t instance, const FastWalk::Step& from,
+                                         Way& beyond, FastWalk::Step& next) {
     const auto entry = seam_beyond(instance, from.exit, way.along_edge(from.exit % 3));
     if (!entry) return FastWalk::border;
     if (!beyond.look_at(*entry / 3)) return FastWalk::unsure;

@@ -175,7 +175,8 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
     const glm::dvec2 a = position(pair.column, pair.row);
     const glm::dvec2 b = position(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));
     if (!fast_.decide(neighbours, decision, crossing.nearness)) {
-        decision = decide_line(frame_.surfaces, {a, neighbours.surfaces[0]}, {b, neighbours.surfaces[1]}, frame_.criteria);
+        const VisiblePoint points[2] = {{a, neighbours.surfaces[0]}, {b, neighbours.surfaces[1]}};
+        decision = decide_line(frame_.surfaces, points[0], points[1], frame_.criteria);
         if (!decision.classes.empty()) {
             const DepthPlane plane = frame_.surfaces.plane(neighbours.surfaces[decision.front]);
             crossing.nearness = plane.nearness(glm::mix(a, b, decision.fraction));
@@ -255,7 +256,9 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
     const double s = per_pixel_;
     const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
-    const auto block_of = [block_shift](int sample) { return static_cast<std::uint32_t>(sample >> block_shift) & 0xFFFFu; };
+    const auto block_of = [block_shift](int sample) {
+        return static_cast<std::uint32_t>(sample >> block_shift) & 0xFFFFu;
+    };
     // Each cell is traced when its first crossing is met, in the order left, upper, lower, right side.
     const auto trace = [&](int column, int row, const SamplePair& from) {
         if (column < 0 || row < 0 || column + 1 >= samples_.columns || row + 1 >= samples_.rows) return;
@@ -266,7 +269,7 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         for (const std::uint32_t side : sides) {
             if (side != 0) found[count++] = &crossings_[side - 1];
         }
-        const std::uint32_t own = (from.down ? down_ : right_)[static_cast<std::size_t>(from.row) * stride + from.column];
+        const std::uint32_t own = (from.down ? down_ : right_)[from.row * stride + from.column];
         if (found[0] != &crossings_[own - 1]) return;  // another crossing traces this cell
         const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
         std::size_t fresh = segments.size();
