@@ -25,12 +25,8 @@ void for_possible_lines(const ScreenSurfaces& screen, const TriangleChunk& chunk
         const std::uint8_t own = mesh.facing[t];
         const unsigned rank = kRank[own];
         const unsigned sharp = rank == 0 || mesh.sharp == nullptr ? 7u : mesh.sharp[t];
-        if (sharp == 0 && rank == 2) continue;
+        if (mesh.plain[t] != 0 || (sharp == 0 && rank == 2)) continue;
         const HalfEdge* const partner = mesh.partners + 3 * std::size_t{t};
-        if (sharp == 0 && mesh.facing[partner[0] / 3] == own && mesh.facing[partner[1] / 3] == own &&
-            mesh.facing[partner[2] / 3] == own) {
-            continue;
-        }
         for (unsigned k = 0; k < 3; ++k) {
             const HalfEdge h = 3 * t + k, g = partner[k];
             const std::uint8_t other = mesh.facing[g / 3];
