@@ -201,7 +201,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
             }
         }
         if (from == nullptr) {
-            p += 1 + (misses++ >> 5);  // in noise, ever larger steps
+            p += std::min<std::ptrdiff_t>(end - p, 1 + (misses++ >> 5));  // in noise, ever larger steps
             continue;
         }
         misses = 0;

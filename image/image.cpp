@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/huge_pages.h"
 #include "image/half.h"
 
 namespace burin {
@@ -12,7 +11,6 @@ Channel& Image::add(std::string name, PixelType type) {
     Channel channel;
     channel.name = std::move(name);
     channel.type = type;
-    reserve_large(channel.bytes, pixel_count() * size_of(type));
     channel.bytes.resize(pixel_count() * size_of(type));
     channels_.push_back(std::move(channel));
     return channels_.back();

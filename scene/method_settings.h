@@ -17,6 +17,10 @@ namespace burin {
 /// What only the method `abuffer` looks at.
 struct AbufferSettings {
     int samples_per_pixel = 4;  ///< 2, 4 or 8 along each axis: where masks decide
+    /// Whether lines that samples miss are drawn from the mesh's edges. Not given: but for the preview with
+    /// 2 samples.
+    std::optional<bool> fine_lines;
+    bool draws_fine_lines() const { return fine_lines.value_or(samples_per_pixel > 2); }
 };
 
 /// What only the method `patel` looks at.

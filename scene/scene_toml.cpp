@@ -303,6 +303,7 @@ class SceneReader {
         const int samples = t.integer("samples", 2, 8).value_or(4);
         if (samples != 2 && samples != 4 && samples != 8) t.fail("samples", "must be 2, 4 or 8");
         scene_.abuffer.samples_per_pixel = samples;
+        scene_.abuffer.fine_lines = t.boolean("fine_lines");
         t.finish();
     }
 

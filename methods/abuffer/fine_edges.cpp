@@ -27,7 +27,9 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
         // First all edges, then their vertices, which take longer to come from memory.
         std::vector<HalfEdge> edges;
         for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
-            if (mesh.partners[mesh.partners[h]] == h) edges.push_back(h);
+            const HalfEdge g = mesh.partners[h];
+            const bool is_cut = mesh.facing[h / 3] == off_screen || mesh.facing[g / 3] == off_screen;
+            if (mesh.partners[g] == h && !is_cut) edges.push_back(h);
         });
         const auto vertex = [&](std::size_t i, HalfEdge k) -> const ScreenVertex& {
             const HalfEdge h = edges[i];

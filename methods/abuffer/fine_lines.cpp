@@ -22,6 +22,7 @@ constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
+
 std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                            const std::vector<std::vector<FinePart>>& parts, int threads) {
     std::vector<const FinePart*> all;
@@ -29,7 +30,9 @@ std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfa
         for (const FinePart& part : list) all.push_back(&part);
     }
     constexpr bool kHasBothOfSeam = true;
-    const LayerEdgeFinder finder(frame, screen, region, kHasBothOfSeam);
+    // The last blocks reach half a sample beyond the region (SampleBlocks).
+    const PixelRect reach{region.x0, region.y0, region.x1 + 1, region.y1 + 1};
+    const LayerEdgeFinder finder(frame, screen, reach, kHasBothOfSeam);
     std::vector<std::vector<FineCandidate>> found((all.size() + kChunkParts - 1) / kChunkParts);
     parallel_for(found.size(), threads, [&](std::size_t chunk, int) {
         std::vector<LayerLine> lines;

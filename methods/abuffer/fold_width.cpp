@@ -30,6 +30,7 @@ bool is_surface_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, 
     constexpr int kMaxTriangles = 16;
     HalfEdge entry = half_edge;
     for (int step = 0; step < kMaxTriangles; ++step) {
+        if (mesh.facing[entry / 3] == off_screen) return true;  // cut: it has no corners to go by
         // Out by one of the two other edges: the one whose ends lie on either side of the way.
         const bool is_first =
             (cross(way, corner(entry, 2) - at) < 0) == (cross(way, corner(entry, 0) - at) < 0);

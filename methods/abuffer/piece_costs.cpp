@@ -85,7 +85,11 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
             }
             // The samples in the box; a tile also gets those next to its right and lower border.
             const glm::dvec2 first = glm::ceil(box.low / sample_px_ - 0.5), last = glm::floor(box.high / sample_px_ - 0.5);
-            if (!is_large && (first.x > last.x || first.y > last.y)) continue;
+            if (!is_large && (first.x > last.x || first.y > last.y)) {  // no sample, but its edges may be lines
+                visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_,
+                               [&](std::uint32_t tile) { ++tally.visible_touches[row_of(visible_, tile)]; });
+                continue;
+            }
             const ScreenTriangle t = screen.triangle(s);
             const int side = !is_large && doubled_area(t.corners[0], t.corners[1], t.corners[2]) > 0 ? 1 : 0;
             std::uint32_t last_row = ~0u;

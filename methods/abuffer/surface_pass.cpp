@@ -1,6 +1,7 @@
 #include "methods/abuffer/surface_pass.h"
 
 #include <memory>
+#include <optional>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -22,7 +23,9 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     Stopwatch watch;
     const int per_pixel = frame_.scene->abuffer.samples_per_pixel;
     const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples);
-    const FineEdges fine_edges(screen_, PixelTiles(region, tile_samples / per_pixel), per_pixel, threads_);
+    const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
+    std::optional<FineEdges> fine_edges;
+    if (has_fine) fine_edges.emplace(screen_, PixelTiles(region, tile_samples / per_pixel), per_pixel, threads_);
     stats.prepare_s += watch.lap();
 
     const auto workers = static_cast<std::size_t>(threads_);
@@ -41,11 +44,17 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
         Stopwatch lap;
         if (bins.is_empty(index)) {
             fillers[w]->clear(bins.empty_tiles_from(index), film);
+            if (has_fine && !fine_edges->in(index).empty()) {  // it may have what is smaller than a sample
+                tiles[w]->draw(index);
+                fine[w].find(tiles[w]->samples(), fine_edges->in(index), {}, fine_parts[index]);
+            }
         } else {
             tiles[w]->draw(index);
             times[w].raster += lap.lap();
             tiles[w]->find_lines(segments[before + index]);
-            fine[w].find(tiles[w]->samples(), fine_edges.in(index), segments[before + index], fine_parts[index]);
+            if (has_fine) {
+                fine[w].find(tiles[w]->samples(), fine_edges->in(index), segments[before + index], fine_parts[index]);
+            }
             if (contours_ != nullptr) contours_->move(segments[before + index]);
             times[w].lines += lap.lap();
             fillers[w]->fill(*tiles[w], film);
@@ -67,6 +76,7 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
 
+    if (!has_fine) return;
     segments.push_back(find_fine_lines(frame_, screen_, kernels_, region, fine_parts, threads_));
     if (contours_ != nullptr) contours_->move(segments.back());
     stats.lines_s += watch.lap();

@@ -206,6 +206,39 @@ TEST(TileKernels, CullingLosesNoSample) {
     }
 }
 
+TEST(TileKernels, PlainTrianglesHaveNoLines) {
+    Random random(11);
+    const Facing facings[] = {edge_on, clockwise, counterclockwise, off_screen};
+    for (const TileKernels* kernels : all_kernels()) {
+        constexpr std::uint32_t kCount = 999;
+        std::vector<std::uint8_t> facing(kCount), sharp(kCount), plain(kCount, 7);
+        std::vector<std::uint32_t> partners(3 * kCount);
+        for (std::uint32_t t = 0; t < kCount; ++t) {
+            // Mostly one way and smooth, or none would be plain.
+            facing[t] = facings[random.integer(0, 9) == 0 ? random.integer(0, 3) : t < kCount / 2 ? 1 : 2];
+            sharp[t] = random.integer(0, 4) == 0 ? 2 : 0;
+            const int half = t < kCount / 2 ? 0 : static_cast<int>(kCount / 2 + 1);
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                partners[3 * t + k] = static_cast<std::uint32_t>(3 * (half + random.integer(0, 490)) + random.integer(0, 2));
+            }
+        }
+        ScreenMesh mesh;
+        mesh.facing = facing.data();
+        mesh.sharp = sharp.data();
+        mesh.partners = partners.data();
+        kernels->find_plain(mesh, 3, kCount - 4, plain.data());
+        int count = 0;
+        for (std::uint32_t t = 0; t < kCount; ++t) {
+            bool expected = (facing[t] == clockwise || facing[t] == counterclockwise) && sharp[t] == 0;
+            for (std::uint32_t k = 0; k < 3; ++k) expected = expected && facing[partners[3 * t + k] / 3] == facing[t];
+            const bool is_asked = t >= 3 && t < kCount - 4;
+            ASSERT_EQ(plain[t], is_asked ? (expected ? 1 : 0) : 7) << kernels->name << " triangle " << t;
+            count += expected ? 1 : 0;
+        }
+        EXPECT_GT(count, 100);
+    }
+}
+
 /// StrokeMask's samples in a row of pixels that are closer than the radius, with the distance to
 /// the segment itself.
 /// No triangle in front of anything in a block is left out, and none is listed for nothing unless it is large.

@@ -42,6 +42,24 @@ Scene heap_of_instances(std::uint64_t seed) {
     }
     scene.lines.classes = LineClassSet::all();
     scene.abuffer.samples_per_pixel = 2;
+    scene.abuffer.fine_lines = true;
+    return scene;
+}
+
+/// Instances about as large as a sample, and smaller: some lie between the samples where pieces meet.
+Scene dust(std::uint64_t seed) {
+    Random random(seed);
+    Scene scene = scene_of({make_torus(0.04, 0.015, 7, 5)});
+    const SceneObject grain = scene.objects[0];
+    for (int i = 0; i < 1500; ++i) {
+        SceneObject instance = grain;
+        const double size = random.real(0.05, 1);
+        instance.to_world = glm::translate(glm::dmat4(1.0), random.in_box(1) * glm::dvec3(1.5, 3.5, 1)) *
+                            glm::rotate(glm::dmat4(1.0), random.real(0, 3), random.direction()) *
+                            glm::scale(glm::dmat4(1.0), glm::dvec3(size));
+        scene.objects.push_back(instance);
+    }
+    scene.lines.classes = LineClassSet::all();
     return scene;
 }
 
@@ -110,6 +128,20 @@ TEST(Memory, ACapChangesNothing) {
                     << "style " << static_cast<int>(style) << ", threads " << threads << ", " << more << " MB more";
             }
         }
+    }
+}
+
+TEST(Memory, NothingIsLostBetweenTheSamplesOfPieces) {
+    for (const int samples : {2, 4}) {
+        Scene scene = dust(5);
+        scene.abuffer.samples_per_pixel = samples;
+        scene.abuffer.fine_lines = true;
+        const Image whole = draw(scene);
+        RunOptions options;
+        options.threads = 1;
+        options.tile_samples = kTileSamples;
+        options.memory_bytes = least_memory(scene, 1);
+        EXPECT_TRUE(same_bits(whole, draw(scene, options))) << samples << " samples";
     }
 }
 
