@@ -20,6 +20,9 @@ constexpr double kNegligibleFoldSubpixels = 4;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
+/// Pairs of an edge and a triangle in one block: of more, as with hundreds of triangles to a pixel, lines are left to
+/// the samples, for time would grow with the square.
+constexpr std::size_t kMostLooks = std::size_t{1} << 19;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 
@@ -281,6 +284,7 @@ std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurface
                                        BlockClipper(screen, frame.criteria));
     std::vector<std::vector<LineSegment>> found(blocks.count());
     parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {
+        if (blocks.candidates(block).size() * blocks.triangles(block).size() > kMostLooks) return;
         BlockClipper& clipper = clippers[static_cast<std::size_t>(worker)];
         clipper.set_triangles(blocks.triangles(block));
         for (const std::uint32_t i : blocks.candidates(block))
