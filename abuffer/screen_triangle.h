@@ -22,6 +22,21 @@ struct ScreenTriangle {
     ScreenVertex corners[3];
 };
 
+/// Twice the area in (1/256 pixel)^2; positive if the corners run clockwise as seen on the screen.
+inline std::int64_t doubled_area(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
+    return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+}
+
+/// Nearness of a triangle's plane, extended to a place in 1/256 pixel. The triangle must have an area.
+inline double extended_nearness(const ScreenTriangle& t, double x, double y) {
+    const ScreenVertex &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
+    const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
+                 qc = static_cast<double>(c.nearness) - qa;
+    const double px = x - a.x, py = y - a.y;
+    return qa + ((px * (c.y - a.y) - py * (c.x - a.x)) * qb + ((b.x - a.x) * py - (b.y - a.y) * px) * qc) /
+                    static_cast<double>(doubled_area(a, b, c));
+}
+
 /// The triangles of one instance of a mesh on the screen.
 struct ScreenMesh {
     const ScreenVertex* vertices = nullptr;
@@ -35,10 +50,5 @@ struct ScreenMesh {
 
 /// Which way a triangle is wound on the screen.
 enum Facing : std::uint8_t { edge_on, clockwise, counterclockwise, off_screen };
-
-/// Twice the area in (1/256 pixel)^2; positive if the corners run clockwise as seen on the screen.
-inline std::int64_t doubled_area(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
-    return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
-}
 
 }  // namespace burin

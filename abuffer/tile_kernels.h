@@ -116,8 +116,8 @@ struct TileKernels {
                               const TileTriangle* triangles, std::size_t count);
     /// The least nearness in every block of kBlockSamples x kBlockSamples samples, row by row, with
     /// stride / kBlockSamples blocks to a row; then in every block and the next one to the right; in every block
-    /// and the one below; in every two by two. `farthest` has room for kFarthestTables floats for
-    /// every kBlockSamples samples of the tile.
+    /// and the one below; in every two by two. There are farthest_count()
+    /// numbers.
     void (*find_farthest)(const SampleView& tile, float* farthest);
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
@@ -153,7 +153,10 @@ constexpr double kStrokeRowShift[16] = {-15.0 / 32, 1.0 / 32, -7.0 / 32, 9.0 / 3
 
 constexpr std::int32_t kBlockShift = 3;
 constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
-constexpr std::size_t kFarthestTables = 4;
+/// How many numbers find_farthest() writes: four tables.
+constexpr std::size_t farthest_count(const SampleView& tile) {
+    return 4 * static_cast<std::size_t>((tile.stride >> kBlockShift) * ((tile.rows + kBlockSamples - 1) >> kBlockShift));
+}
 /// A tile's key for triangles wound one way: twice its number, and 1 for clockwise ones.
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
 /// Too large for draw_small(), or not all on the screen.

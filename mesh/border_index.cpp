@@ -29,6 +29,20 @@ bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderInd
     return std::abs(glm::dot(along, way)) > 0.9 * length * glm::length(way);
 }
 
+/// The segment nearest to a point so far, the first one of several, and how near others must be.
+struct Nearest {
+    double reach;
+    std::optional<HalfEdge> partner;
+
+    void offer(const BorderIndex::Segment& other, const glm::dvec3& at) {
+        const double distance = distance_to_segment(at, glm::dvec3(other.a), glm::dvec3(other.b));
+        if (distance < reach || (distance == reach && partner && other.half_edge < *partner)) {
+            reach = distance;
+            partner = other.half_edge;
+        }
+    }
+};
+
 double distance_to_box(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high) {
     const glm::dvec3 outside = glm::max(glm::dvec3(low) - p, p - glm::dvec3(high));
     return glm::length(glm::max(outside, glm::dvec3(0.0)));
@@ -80,55 +94,11 @@ const BorderIndex::Segment* BorderIndex::find(HalfEdge half_edge) const {
     return own == segments_.end() || own->half_edge != half_edge ? nullptr : &*own;
 }
 
-std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
-    const Segment* const own = find(half_edge);
-    if (own == nullptr) return std::nullopt;
-    const glm::dvec3 along = direction_of(*own);
+template <typename MayBeNear, typename Visit>
+void BorderIndex::search(const Segment& own, const MayBeNear& may_be_near, const Visit& visit) const {
+    const glm::dvec3 along = direction_of(own);
     const double length = glm::length(along);
-    double reach = kReachPart * length;
-    std::optional<HalfEdge> partner;
     std::uint32_t stack[64];  // halving 2^32 segments takes 32 levels
-    int top = 0;
-    stack[top++] = 0;
-    while (top > 0) {
-        const Node& node = nodes_[stack[--top]];
-        // The margin keeps rounding from hiding an equally near one.
-        if (distance_to_box(at, node.low, node.high) > reach * (1 + 1e-12)) continue;
-        if (node.count == 0) {
-            stack[top++] = node.first;
-            stack[top++] = node.first + 1;
-            continue;
-        }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Segment& other = segments_[order_[i]];
-            if (other.polygon == own->polygon || !are_nearly_parallel(along, length, other)) continue;
-            const double distance = distance_to_segment(at, glm::dvec3(other.a), glm::dvec3(other.b));
-            const bool is_better =
-                distance < reach || (distance == reach && partner && other.half_edge < *partner);
-            if (is_better) {
-                reach = distance;
-                partner = other.half_edge;
-            }
-        }
-    }
-    return partner;
-}
-
-void BorderIndex::find_candidates(HalfEdge half_edge, SeamCandidates& candidates) const {
-    candidates.segments_.clear();
-    const Segment* const own = find(half_edge);
-    if (own == nullptr) return;
-    const glm::dvec3 along = direction_of(*own);
-    const double length = glm::length(along);
-    candidates.reach_ = kReachPart * length;
-    const double margin = candidates.reach_ * (1 + 1e-6);
-    const glm::dvec3 low = glm::dvec3(glm::min(own->a, own->b)) - margin;
-    const glm::dvec3 high = glm::dvec3(glm::max(own->a, own->b)) + margin;
-    const auto may_be_near = [&](const glm::vec3& other_low, const glm::vec3& other_high) {
-        return glm::all(glm::lessThanEqual(glm::dvec3(other_low), high)) &&
-               glm::all(glm::lessThanEqual(low, glm::dvec3(other_high)));
-    };
-    std::uint32_t stack[64];
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
@@ -141,26 +111,45 @@ void BorderIndex::find_candidates(HalfEdge half_edge, SeamCandidates& candidates
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const Segment& other = segments_[order_[i]];
-            if (other.polygon == own->polygon || !are_nearly_parallel(along, length, other) ||
-                !may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b))) {
-                continue;
-            }
-            candidates.segments_.push_back(other);
+            if (other.polygon != own.polygon && are_nearly_parallel(along, length, other)) visit(other);
         }
     }
 }
 
+std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
+    const Segment* const own = find(half_edge);
+    if (own == nullptr) return std::nullopt;
+    Nearest nearest{kReachPart * glm::length(direction_of(*own)), {}};
+    // The margin keeps rounding from hiding an equally near one.
+    search(*own,
+           [&](const glm::vec3& low, const glm::vec3& high) {
+               return distance_to_box(at, low, high) <= nearest.reach * (1 + 1e-12);
+           },
+           [&](const Segment& other) { nearest.offer(other, at); });
+    return nearest.partner;
+}
+
+void BorderIndex::find_candidates(HalfEdge half_edge, SeamCandidates& candidates) const {
+    candidates.segments_.clear();
+    const Segment* const own = find(half_edge);
+    if (own == nullptr) return;
+    candidates.reach_ = kReachPart * glm::length(direction_of(*own));
+    const double margin = candidates.reach_ * (1 + 1e-6);
+    const glm::dvec3 low = glm::dvec3(glm::min(own->a, own->b)) - margin;
+    const glm::dvec3 high = glm::dvec3(glm::max(own->a, own->b)) + margin;
+    const auto may_be_near = [&](const glm::vec3& other_low, const glm::vec3& other_high) {
+        return glm::all(glm::lessThanEqual(glm::dvec3(other_low), high)) &&
+               glm::all(glm::lessThanEqual(low, glm::dvec3(other_high)));
+    };
+    search(*own, may_be_near, [&](const Segment& other) {
+        if (may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b))) candidates.segments_.push_back(other);
+    });
+}
+
 std::optional<HalfEdge> BorderIndex::SeamCandidates::nearest(const glm::dvec3& at) const {
-    double reach = reach_;
-    std::optional<HalfEdge> partner;
-    for (const Segment& other : segments_) {
-        const double distance = distance_to_segment(at, glm::dvec3(other.a), glm::dvec3(other.b));
-        if (distance < reach || (distance == reach && partner && other.half_edge < *partner)) {
-            reach = distance;
-            partner = other.half_edge;
-        }
-    }
-    return partner;
+    Nearest nearest{reach_, {}};
+    for (const Segment& other : segments_) nearest.offer(other, at);
+    return nearest.partner;
 }
 
 }  // namespace burin

@@ -53,6 +53,10 @@ class BorderIndex {
         std::uint32_t first = 0, count = 0;
     };
     const Segment* find(HalfEdge half_edge) const;
+    /// Calls visit(segment) for those of other polygons that are nearly parallel to `own`, in boxes that
+    /// may_be_near(low, high).
+    template <typename MayBeNear, typename Visit>
+    void search(const Segment& own, const MayBeNear& may_be_near, const Visit& visit) const;
     void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 
     std::vector<Segment> segments_;  // by half-edge

@@ -87,7 +87,6 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
 }
 
 void FineParts::find_farthest(const SampleTile& samples) {
-    farthest_.resize(samples.nearness.size() / kBlockSamples);
     // The kernel only reads.
     const SampleView view{const_cast<float*>(samples.nearness.data()),
                           const_cast<std::uint32_t*>(samples.ids.data()),
@@ -102,6 +101,7 @@ void FineParts::find_farthest(const SampleTile& samples) {
                           nullptr,
                           nullptr,
                           0};
+    farthest_.resize(farthest_count(view));
     kernels_.find_farthest(view, farthest_.data());
 }
 
@@ -207,19 +207,10 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
 /// Whether the plane of a triangle beside a place is clearly in front there.
 bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const {
     const SurfaceId s = screen_.surface_of(number);
-    double at = 0;
-    if (screen_.facing(number) == off_screen) {
-        at = screen_.surfaces().plane(s).extended_to(subpixel / 256.0) - screen_.surfaces().farthest_nearness;
-    } else {
-        const ScreenTriangle t = screen_.triangle(s);
-        const ScreenVertex &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
-        const auto area = static_cast<double>(doubled_area(a, b, c));
-        const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
-                     qc = static_cast<double>(c.nearness) - qa;
-        const double px = subpixel.x - a.x, py = subpixel.y - a.y;
-        at = qa +
-             ((px * (c.y - a.y) - py * (c.x - a.x)) * qb + ((b.x - a.x) * py - (b.y - a.y) * px) * qc) / area;
-    }
+    const double at =
+        screen_.facing(number) == off_screen
+            ? screen_.surfaces().plane(s).extended_to(subpixel / 256.0) - screen_.surfaces().farthest_nearness
+            : extended_nearness(screen_.triangle(s), subpixel.x, subpixel.y);
     return at > nearness + level(nearness);
 }
 

@@ -7,12 +7,7 @@ namespace {
 
 double nearness_at(const ScreenMesh& mesh, std::uint32_t triangle, glm::dvec2 at) {
     const std::uint32_t* const t = mesh.corners + 3 * std::size_t{triangle};
-    const ScreenVertex &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const auto area = static_cast<double>(doubled_area(a, b, c));
-    const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
-                 qc = static_cast<double>(c.nearness) - qa;
-    const double x = at.x - a.x, y = at.y - a.y;
-    return qa + ((x * (c.y - a.y) - y * (c.x - a.x)) * qb + ((b.x - a.x) * y - (b.y - a.y) * x) * qc) / area;
+    return extended_nearness({{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}}, at.x, at.y);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ void LineTile::draw_all(std::size_t tile) {
     constexpr std::size_t kWorthALook = 256;  // triangles
     std::size_t since_look = bins_.large_in(tile).empty() ? 0 : kWorthALook;
     bool has_look = false;
-    farthest_.resize(kFarthestTables * samples_.nearness.size() / kBlockSamples);
+    farthest_.resize(farthest_count(view()));
     for (const PlacedRun& placed : runs_) {
         const TriangleRun& run = *placed.run;
         if (since_look >= kWorthALook) {

@@ -136,7 +136,7 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
             for (const bool with_look : {false, true}) {
                 SampleTile tile;
                 tile.reset(37, -20, 129, 97, per_pixel);
-                std::vector<float> farthest(kFarthestTables * tile.nearness.size() / kBlockSamples);
+                std::vector<float> farthest(farthest_count(view_of(tile)));
                 std::size_t drawn = 0;
                 for (std::size_t first = 0; first < drawable.size(); first += 50) {
                     kernels->find_farthest(view_of(tile), farthest.data());

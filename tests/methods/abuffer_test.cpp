@@ -92,7 +92,22 @@ TEST(Abuffer, TheOrderOfTrianglesChangesOnlyTheirNumbers) {
 /// All decisions of a picture, both ways.
 struct Comparison {
     int asked = 0, answered = 0, other_class = 0, other_place = 0;
+    void operator+=(const Comparison& c) {
+        asked += c.asked;
+        answered += c.answered;
+        other_class += c.other_class;
+        other_place += c.other_place;
+    }
 };
+
+/// Most are ordinary. Those that differ lie within rounding errors of a vertex or a tolerance.
+void expect_agreement(const Comparison& sum, double least_answered) {
+    testing::Test::RecordProperty("asked", sum.asked);
+    testing::Test::RecordProperty("answered", sum.answered);
+    EXPECT_GT(sum.answered, least_answered * sum.asked);
+    EXPECT_LE(sum.other_class + sum.other_place, 0.002 * sum.answered)
+        << sum.other_class << " of other classes, " << sum.other_place << " elsewhere, of " << sum.answered;
+}
 
 Comparison compare_decisions(const Scene& scene, int samples) {
     const Frame frame =
@@ -175,18 +190,10 @@ TEST(Abuffer, FastDecisionsFollowSeams) {
     Comparison sum;
     for (const auto& [wall_steps, end_steps] : {std::pair{40, 61}, {97, 64}, {50, 400}}) {
         for (const int samples : {2, 4}) {
-            const Comparison c = compare_decisions(drum(wall_steps, end_steps), samples);
-            sum.asked += c.asked;
-            sum.answered += c.answered;
-            sum.other_class += c.other_class;
-            sum.other_place += c.other_place;
+            sum += compare_decisions(drum(wall_steps, end_steps), samples);
         }
     }
-    RecordProperty("asked", sum.asked);
-    RecordProperty("answered", sum.answered);
-    EXPECT_GT(sum.answered, 0.95 * sum.asked);
-    EXPECT_LE(sum.other_class + sum.other_place, 0.002 * sum.answered)
-        << sum.other_class << " of other classes, " << sum.other_place << " elsewhere, of " << sum.answered;
+    expect_agreement(sum, 0.95);
 }
 
 TEST(Abuffer, SliversAreKnownToBeThin) {
@@ -210,18 +217,9 @@ TEST(Abuffer, FastDecisionsAreThoseOfTheSlowWay) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         Scene scene = heap(seed);
         if (seed % 2 == 0) scene.lines.classes = kDefaultLineClasses;
-        const Comparison c = compare_decisions(scene, 2 << seed % 2);
-        sum.asked += c.asked;
-        sum.answered += c.answered;
-        sum.other_class += c.other_class;
-        sum.other_place += c.other_place;
+        sum += compare_decisions(scene, 2 << seed % 2);
     }
-    RecordProperty("asked", sum.asked);
-    RecordProperty("answered", sum.answered);
-    // Most are ordinary. Those that differ lie within rounding errors of a vertex or a tolerance.
-    EXPECT_GT(sum.answered, 0.7 * sum.asked);
-    EXPECT_LE(sum.other_class + sum.other_place, 0.002 * sum.answered)
-        << sum.other_class << " of other classes, " << sum.other_place << " elsewhere, of " << sum.answered;
+    expect_agreement(sum, 0.7);
 }
 
 TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
@@ -187,6 +188,28 @@ TEST(FineLines, NothingHiddenAppears) {
         // The tips of slivers are thinner than the truth's samples, too.
         EXPECT_NEAR(drawn.sum("lines.A") / expected.sum("lines.A"), 1, 0.03) << "seed " << seed;
     }
+}
+
+TEST(FineLines, ThePreviewLeavesThemOutUnlessAskedFor) {
+    Scene scene = scene_of({placed(make_box({30, 0.2, 0.2}), 17), wall()});
+    const Camera camera = pixel_camera(kSize, kSize);
+    const auto draw_with = [&](int samples, std::optional<bool> fine_lines) {
+        scene.abuffer.samples_per_pixel = samples;
+        scene.abuffer.fine_lines = fine_lines;
+        return draw(scene, camera, kSize);
+    };
+    EXPECT_EQ(largest_error(draw_with(2, {}), draw_with(2, false)), 0);
+    EXPECT_GT(largest_error(draw_with(2, {}), draw_with(2, true)), 0.3);
+    EXPECT_EQ(largest_error(draw_with(4, {}), draw_with(4, true)), 0);
+    EXPECT_GT(largest_error(draw_with(4, {}), draw_with(4, false)), 0.1);
+}
+
+TEST(FineLines, HundredsOfTrianglesToAPixelAreLeftToTheSamples) {
+    Scene scene = scene_of({make_torus(1, 0.5, 400, 200)});
+    const Camera camera = perspective_camera(kEye, {0, 0, 0});
+    const Drawing drawn = draw(scene, camera, 8);
+    scene.abuffer.fine_lines = false;
+    EXPECT_EQ(largest_error(drawn, draw(scene, camera, 8)), 0);
 }
 
 TEST(FineLines, ThreadsTilesAndCropsChangeNothing) {
