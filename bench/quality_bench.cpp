@@ -123,7 +123,7 @@ std::string measure_quality(const std::string& scenes, const std::vector<std::st
                crossing_view = view_of(crossing, kSize, kSize);
     JsonWriter json;
     json.begin_object();
-    json.key("samples_per_pixel").value(star.abuffer.samples_per_pixel);
+    json.key("samples_per_pixel").value(star.samples_per_pixel());
     json.key("pictures").begin_array();
     for (const double width_px : {1.0, 0.3, 3.0})
         measure_picture(json, "star", star, star_view, width_px, 64);

@@ -89,7 +89,7 @@ Scene load_input(const Arguments& a) {
     } else if (!a.background.empty()) {
         scene.picture.background = color_from_hex(a.background);
     }
-    if (a.samples_per_pixel) scene.abuffer.samples_per_pixel = *a.samples_per_pixel;
+    if (a.samples_per_pixel) scene.abuffer.samples = *a.samples_per_pixel;
     if (a.mask_bits) scene.patel.mask_bits = *a.mask_bits;
     if (a.gbuffer_operators) scene.gbuffer.operators = *a.gbuffer_operators;
     if (a.supersample) scene.gbuffer.supersample = *a.supersample;

@@ -300,9 +300,9 @@ class SceneReader {
     }
 
     void read_abuffer(TomlReader& t) {
-        const int samples = t.integer("samples", 2, 8).value_or(4);
-        if (samples != 2 && samples != 4 && samples != 8) t.fail("samples", "must be 2, 4 or 8");
-        scene_.abuffer.samples_per_pixel = samples;
+        const std::optional<int> samples = t.integer("samples", 2, 8);
+        if (samples && *samples != 2 && *samples != 4 && *samples != 8) t.fail("samples", "must be 2, 4 or 8");
+        scene_.abuffer.samples = samples;
         scene_.abuffer.fine_lines = t.boolean("fine_lines");
         t.finish();
     }

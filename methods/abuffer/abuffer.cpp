@@ -78,7 +78,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     stats.threads = resolve_thread_count(options.threads);
     stats.triangles = frame.surfaces.triangle_count();
     const LineSettings& lines = frame.scene->lines;
-    const int per_pixel = frame.scene->abuffer.samples_per_pixel;
+    const int per_pixel = frame.scene->samples_per_pixel();
     const int tile_samples = options.tile_samples > 0 ? options.tile_samples : TileGrid::kTileSamples;
     const TileKernels& kernels = best_kernels();
     const bool has_cap = options.memory_bytes > 0;

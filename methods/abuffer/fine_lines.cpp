@@ -278,7 +278,7 @@ std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurface
     std::vector<LineSegment> segments;
     const std::vector<FineCandidate> candidates = find_candidates(frame, screen, region, parts, threads);
     if (candidates.empty()) return segments;
-    const FineBlocks blocks(screen, kernels, frame.scene->abuffer.samples_per_pixel, region, candidates,
+    const FineBlocks blocks(screen, kernels, frame.scene->samples_per_pixel(), region, candidates,
                             threads);
     std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads),
                                        BlockClipper(screen, frame.criteria));

@@ -21,7 +21,7 @@ struct WorkerTimes {
 void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vector<LineSegment>>& segments, Film& film,
                        RenderStats& stats) {
     Stopwatch watch;
-    const int per_pixel = frame_.scene->abuffer.samples_per_pixel;
+    const int per_pixel = frame_.scene->samples_per_pixel();
     const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
     std::optional<FineEdges> fine_edges;

@@ -63,7 +63,7 @@ TEST(Abuffer, ThreadsChangeNothing) {
 TEST(Abuffer, ACropIsThatPartOfTheWhole) {
     for (const int samples : {2, 4, 8}) {
         Scene scene = heap(2);
-        scene.abuffer.samples_per_pixel = samples;
+        scene.abuffer.samples = samples;
         const Image whole = draw(scene);
         for (const PixelRect crop : {PixelRect{37, 21, 101, 80}, PixelRect{50, 40, 51, 41}}) {
             const Image part = draw(scene, crop);

@@ -39,10 +39,12 @@ Ink ink_of(double angle_deg, bool is_stitched, std::array<double, 2> interval_de
     scene.lines.crease_angle_deg = 0.5 * (interval_deg[0] + interval_deg[1]);
     scene.lines.crease_fade_deg = interval_deg[1] - interval_deg[0];
     scene.lines.style.width_px = 2;
+    scene.abuffer.samples = 4;  // where surfaces touch, ends are as exact as samples
     if (from_behind) {  // a wall between the hinge and the eye
         PolygonSoup wall = soup_of({{-2, -2, 1}, {2, -2, 1}, {2, 2, 1}, {-2, 2, 1}}, {{0, 1, 2, 3}});
         Scene walled = scene_of({hinge(angle_deg, is_stitched), wall});
         walled.lines = scene.lines;
+        walled.abuffer = scene.abuffer;
         walled.lines.style.hidden.style = HiddenStyle::solid;
         scene = std::move(walled);
     }

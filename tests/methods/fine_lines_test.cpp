@@ -193,11 +193,12 @@ TEST(FineLines, NothingHiddenAppears) {
 TEST(FineLines, ThePreviewLeavesThemOutUnlessAskedFor) {
     Scene scene = scene_of({placed(make_box({30, 0.2, 0.2}), 17), wall()});
     const Camera camera = pixel_camera(kSize, kSize);
-    const auto draw_with = [&](int samples, std::optional<bool> fine_lines) {
-        scene.abuffer.samples_per_pixel = samples;
+    const auto draw_with = [&](std::optional<int> samples, std::optional<bool> fine_lines) {
+        scene.abuffer.samples = samples;
         scene.abuffer.fine_lines = fine_lines;
         return draw(scene, camera, kSize);
     };
+    EXPECT_EQ(largest_error(draw_with({}, {}), draw_with(2, true)), 0);
     EXPECT_EQ(largest_error(draw_with(2, {}), draw_with(2, false)), 0);
     EXPECT_GT(largest_error(draw_with(2, {}), draw_with(2, true)), 0.3);
     EXPECT_EQ(largest_error(draw_with(4, {}), draw_with(4, true)), 0);
@@ -205,7 +206,7 @@ TEST(FineLines, ThePreviewLeavesThemOutUnlessAskedFor) {
 }
 
 TEST(FineLines, HundredsOfTrianglesToAPixelAreLeftToTheSamples) {
-    Scene scene = scene_of({make_torus(1, 0.5, 400, 200)});
+    Scene scene = scene_of({make_torus(1, 0.5, 640, 320)});
     const Camera camera = perspective_camera(kEye, {0, 0, 0});
     const Drawing drawn = draw(scene, camera, 8);
     scene.abuffer.fine_lines = false;

@@ -41,7 +41,7 @@ Scene heap_of_instances(std::uint64_t seed) {
         scene.objects.push_back(instance);
     }
     scene.lines.classes = LineClassSet::all();
-    scene.abuffer.samples_per_pixel = 2;
+    scene.abuffer.samples = 2;
     scene.abuffer.fine_lines = true;
     return scene;
 }
@@ -134,7 +134,7 @@ TEST(Memory, ACapChangesNothing) {
 TEST(Memory, NothingIsLostBetweenTheSamplesOfPieces) {
     for (const int samples : {2, 4}) {
         Scene scene = dust(5);
-        scene.abuffer.samples_per_pixel = samples;
+        scene.abuffer.samples = samples;
         scene.abuffer.fine_lines = true;
         const Image whole = draw(scene);
         RunOptions options;
@@ -219,7 +219,7 @@ TEST(Tiles, WholeTilesMayLieBesideThePicture) {
 TEST(Tiles, TheirSizeChangesNothing) {
     Scene scene = heap_of_instances(3);
     for (const int samples : {2, 4, 8}) {
-        scene.abuffer.samples_per_pixel = samples;
+        scene.abuffer.samples = samples;
         const Image best = draw(scene);
         for (int tile = 8 * samples; tile <= 128; tile *= 2) {
             RunOptions options;
