@@ -64,6 +64,16 @@ struct BlockMap {
     std::int32_t columns, rows;    ///< without the border
 };
 
+/// A rectangle on the screen in 1/256 pixel, borders included, and a range of nearness.
+struct ScreenBox {
+    float x0, y0, x1, y1, low, high;
+};
+
+/// Boxes, an array per number.
+struct BoxView {
+    const float *x0, *y0, *x1, *y1, *low, *high;
+};
+
 /// What all pixels of a triangle have in common.
 struct TriangleLook {
     double normal[3];       ///< unit length, in view space, towards the eye
@@ -143,6 +153,11 @@ struct TileKernels {
     /// needs room for end - begin + 8.
     std::size_t (*find_hiding)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const BlockMap& map,
                                std::uint32_t* triangles);
+    /// Lists those of the boxes [begin, end) that touch a box and have nearness in common with it, the ends of
+    /// the ranges aside, and begin at the given coordinates or behind them. Returns their number. Up to seven
+    /// numbers more are read of each array.
+    std::size_t (*find_touching)(const BoxView& boxes, std::size_t begin, std::size_t end, const ScreenBox& box,
+                                 float least_x0, float least_y0, std::uint32_t* found);
 };
 
 /// By how many columns the samples in the rows of a StrokeMask lie further right. Rows take turns, in the

@@ -122,7 +122,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     }
     if (!has_layers) return stats;
 
-    LayerPass layers(frame, screen, stats.threads, contours.get());
+    LayerPass layers(frame, screen, kernels, stats.threads, contours.get());
     const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
     const bool needs_all = LayerPass::needs_all_lines(frame);
     for (const std::vector<std::uint32_t>& group : plan.groups) {

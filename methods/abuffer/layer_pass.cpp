@@ -14,7 +14,7 @@
 namespace burin {
 namespace {
 
-constexpr int kTilePx = 32;
+constexpr int kTilePx = 64;
 /// In front of the number of a line that its tile has found.
 constexpr std::uint32_t kOfTile = 1u << 31;
 
@@ -85,9 +85,11 @@ bool LayerPass::needs_all_lines(const Frame& frame) {
     return frame.scene->lines.style.hidden.style == HiddenStyle::dashed || needs_all_visible_lines(frame);
 }
 
-LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads, const SmoothContours* contours)
+LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
+                     const SmoothContours* contours)
     : frame_(frame),
       screen_(screen),
+      kernels_(kernels),
       contours_(contours),
       threads_(threads),
       all_tiles_(tiles_of(frame)),
@@ -124,7 +126,7 @@ void LayerPass::find_pieces() {
     parallel_for(tiles_.count(), threads_, [&](std::size_t index, int worker) {
         if (bins_.triangles(index).empty()) return;
         auto& tile = tiles[static_cast<std::size_t>(worker)];
-        if (!tile) tile = std::make_unique<LayerTile>(frame_, screen_, bins_, tiles_);
+        if (!tile) tile = std::make_unique<LayerTile>(frame_, screen_, kernels_, bins_, tiles_);
         tile->fill(index);
         LayerTileResult& result = results_[before + index];
         for (const std::uint32_t i : lines_in.of(index)) tile->find_pieces(lines_[i], i, result.pieces);

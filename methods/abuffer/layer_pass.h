@@ -31,7 +31,7 @@ class LayerPass {
 
     /// The facing of all triangles must be known to `screen`.
     /// `contours`: nullptr where they follow the mesh.
-    LayerPass(const Frame& frame, const ScreenSurfaces& screen, int threads,
+    LayerPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
               const SmoothContours* contours = nullptr);
 
     /// All lines of a picture in one piece. The facing of all triangles must be known to `screen`.
@@ -70,6 +70,7 @@ class LayerPass {
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
     const SmoothContours* contours_;
     int threads_;
     PixelTiles all_tiles_, tiles_;

@@ -8,9 +8,10 @@ namespace burin {
 namespace {
 
 /// Cells are made so small that about so many triangles begin in one.
-constexpr double kTrianglesPerCell = 12;
+constexpr double kTrianglesPerCell = 40;
 /// Shorter parts of lines belong to the part before. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
+constexpr float kFar = 1e30f;
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -27,6 +28,13 @@ std::uint64_t node_of(const LayerTriangle& edge_owner, std::size_t edge, const L
     return h | std::uint64_t{1} << 63;
 }
 
+/// What lies around a part of a line, and is nearer than its farther end.
+ScreenBox box_of(const LayerLine& line, double begin, double end) {
+    const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+    const glm::vec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
+    return {low.x, low.y, high.x, high.y, static_cast<float>(std::min(line.nearness_from, line.nearness_to)), kFar};
+}
+
 }  // namespace
 
 bool has_transparent_surfaces(const Scene& scene) {
@@ -36,40 +44,22 @@ bool has_transparent_surfaces(const Scene& scene) {
     });
 }
 
-LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const PixelTiles& grid)
+LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
+                     const LayerBins& bins, const PixelTiles& grid)
     : frame_(frame),
       screen_(screen),
+      kernels_(kernels),
       bins_(bins),
       grid_(grid),
       has_transparent_(has_transparent_surfaces(*frame.scene)) {}
 
-void LayerTile::Bounds::resize(std::size_t count) {
-    if (count <= x0.size()) return;
-    for (auto* v : {&x0, &y0, &x1, &y1, &low, &high}) v->resize(count);
-    for (auto& v : vertex) v.resize(count);
-}
-
-void LayerTile::Bounds::copy(std::size_t to, const Bounds& other, std::size_t from) {
-    x0[to] = other.x0[from];
-    y0[to] = other.y0[from];
-    x1[to] = other.x1[from];
-    y1[to] = other.y1[from];
-    low[to] = other.low[from];
-    high[to] = other.high[from];
-    for (std::size_t k = 0; k < 3; ++k) vertex[k][to] = other.vertex[k][from];
-}
-
 void LayerTile::fill(std::size_t tile) {
     rect_ = grid_.tile(tile);
-    count_ = 0;
     triangles_.clear();
-    numbers_.clear();
-    set_up_.clear();
+    entries_.clear();
     SurfaceId s;
     std::uint32_t first = 0, end = 0;
-    const auto values = bins_.triangles(tile);
-    bounds_.resize(values.size());
-    for (const std::uint32_t value : values) {
+    for (const std::uint32_t value : bins_.triangles(tile)) {
         const std::uint32_t number = value & ~LayerBins::kClipped;
         if (number >= end) {
             s = screen_.surface_of(number);
@@ -86,27 +76,19 @@ void LayerTile::fill(std::size_t tile) {
         const ScreenVertex &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]];
         const auto lowest = [](auto p, auto q, auto r) { return std::min(std::min(p, q), r); };
         const auto highest = [](auto p, auto q, auto r) { return std::max(std::max(p, q), r); };
-        add_bounds(number, s.instance, v, glm::vec2(lowest(a.x, b.x, c.x), lowest(a.y, b.y, c.y)),
-                   glm::vec2(highest(a.x, b.x, c.x), highest(a.y, b.y, c.y)),
-                   lowest(a.nearness, b.nearness, c.nearness), highest(a.nearness, b.nearness, c.nearness), kNotSetUp);
+        add(number, s.instance, v,
+            {static_cast<float>(lowest(a.x, b.x, c.x)), static_cast<float>(lowest(a.y, b.y, c.y)),
+             static_cast<float>(highest(a.x, b.x, c.x)), static_cast<float>(highest(a.y, b.y, c.y)),
+             lowest(a.nearness, b.nearness, c.nearness), highest(a.nearness, b.nearness, c.nearness)},
+            kNotSetUp);
     }
     sort_into_cells();
 }
 
-void LayerTile::add_bounds(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
-                           glm::vec2 low, glm::vec2 high, float lowest, float highest, std::uint32_t set_up) {
-    bounds_.resize(count_ + 1);
-    bounds_.x0[count_] = low.x;
-    bounds_.y0[count_] = low.y;
-    bounds_.x1[count_] = high.x;
-    bounds_.y1[count_] = high.y;
-    bounds_.low[count_] = lowest;
-    bounds_.high[count_] = highest;
+void LayerTile::add(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
+                    const ScreenBox& box, std::uint32_t set_up) {
     const auto first = static_cast<std::uint32_t>(screen_.vertices(instance) - screen_.vertices(0));
-    for (std::size_t k = 0; k < 3; ++k) bounds_.vertex[k][count_] = first + vertices[k];
-    numbers_.push_back(number);
-    set_up_.push_back(set_up);
-    ++count_;
+    entries_.push_back({box, {first + vertices[0], first + vertices[1], first + vertices[2]}, number, set_up});
 }
 
 double LayerTile::transmission_of(SurfaceId s) const {
@@ -121,20 +103,21 @@ void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
         const auto& x = triangle.x;
         const auto& y = triangle.y;
         triangles_.push_back(triangle);
-        add_bounds(number, s.instance, triangle.vertices,
-                   glm::vec2(std::min({x[0], x[1], x[2]}), std::min({y[0], y[1], y[2]})),
-                   glm::vec2(std::max({x[0], x[1], x[2]}), std::max({y[0], y[1], y[2]})),
-                   static_cast<float>(plane.lowest - zero), static_cast<float>(plane.highest - zero),
-                   static_cast<std::uint32_t>(triangles_.size() - 1));
+        add(number, s.instance, triangle.vertices,
+            {static_cast<float>(std::min({x[0], x[1], x[2]})), static_cast<float>(std::min({y[0], y[1], y[2]})),
+             static_cast<float>(std::max({x[0], x[1], x[2]})), static_cast<float>(std::max({y[0], y[1], y[2]})),
+             static_cast<float>(plane.lowest - zero), static_cast<float>(plane.highest - zero)},
+            static_cast<std::uint32_t>(triangles_.size() - 1));
     }
 }
 
 const LayerTriangle& LayerTile::triangle(std::uint32_t i) {
-    if (set_up_[i] != kNotSetUp) return triangles_[set_up_[i]];
-    const SurfaceId s = screen_.surface_of(numbers_[i]);
-    LayerTriangle triangle = layer_triangle(screen_, s, numbers_[i]);
+    Entry& entry = entries_[i];
+    if (entry.set_up != kNotSetUp) return triangles_[entry.set_up];
+    const SurfaceId s = screen_.surface_of(entry.number);
+    LayerTriangle triangle = layer_triangle(screen_, s, entry.number);
     triangle.transmission = transmission_of(s);
-    set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
+    entry.set_up = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(triangle);
     return triangles_.back();
 }
@@ -150,34 +133,48 @@ int LayerTile::row_at(float y) const {
 
 void LayerTile::sort_into_cells() {
     const double area = static_cast<double>(rect_.width()) * rect_.height();
-    const double wanted = std::sqrt(area * kTrianglesPerCell / std::max(1.0, static_cast<double>(count_)));
+    const double wanted = std::sqrt(area * kTrianglesPerCell / std::max(1.0, static_cast<double>(entries_.size())));
     cell_px_ = 1;
     while (cell_px_ < 32 && 2 * cell_px_ <= wanted) cell_px_ *= 2;
     columns_ = (rect_.width() + cell_px_ - 1) / cell_px_;
     rows_ = (rect_.height() + cell_px_ - 1) / cell_px_;
     cell_end_.assign(static_cast<std::size_t>(columns_ * rows_) + 2, 0);
-    const auto for_cells = [&](std::size_t i, const auto& visit) {
-        const int first_column = column_at(bounds_.x0[i]), last_column = column_at(bounds_.x1[i]);
-        const int last_row = row_at(bounds_.y1[i]);
-        for (int row = row_at(bounds_.y0[i]); row <= last_row; ++row) {
+    const auto for_cells = [&](const ScreenBox& box, const auto& visit) {
+        const int first_column = column_at(box.x0), last_column = column_at(box.x1);
+        const int last_row = row_at(box.y1);
+        for (int row = row_at(box.y0); row <= last_row; ++row) {
             for (int column = first_column; column <= last_column; ++column) {
                 visit(static_cast<std::size_t>(row * columns_ + column));
             }
         }
     };
     // Counts are kept one place further, so that filling moves each list's end to its place.
-    for (std::size_t i = 0; i < count_; ++i) for_cells(i, [&](std::size_t c) { ++cell_end_[c + 2]; });
+    for (const Entry& e : entries_) for_cells(e.box, [&](std::size_t c) { ++cell_end_[c + 2]; });
     for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
     cell_triangles_.resize(cell_end_.back());
-    for (std::uint32_t i = 0; i < count_; ++i) {
-        for_cells(i, [&](std::size_t c) { cell_triangles_[cell_end_[c + 1]++] = i; });
+    cell_boxes_.resize(cell_end_.back());
+    cell_vertices_.resize(cell_end_.back());
+    if (touching_.size() < cell_end_.back()) touching_.resize(cell_end_.back());
+    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
+        for_cells(entries_[i].box, [&](std::size_t c) {
+            const std::size_t at = cell_end_[c + 1]++;
+            cell_triangles_[at] = i;
+            cell_boxes_.set(at, entries_[i].box);
+            cell_vertices_[at] = entries_[i].vertices;
+        });
     }
     fragment_count_ += cell_triangles_.size();
 }
 
+/// Places in cell_triangles_.
+std::span<const std::uint32_t> LayerTile::touching(std::size_t begin, std::size_t end, const ScreenBox& box,
+                                                   float least_x0, float least_y0) {
+    return {touching_.data(),
+            kernels_.find_touching(cell_boxes_.view(), begin, end, box, least_x0, least_y0, touching_.data())};
+}
+
 /// Notes where in [begin, end] a triangle is in front of a line.
 void LayerTile::hide(const LayerLine& line, std::uint32_t i, double begin, double end) {
-    if (static_cast<double>(bounds_.high[i]) <= std::min(line.nearness_from, line.nearness_to)) return;
     const LayerTriangle& t = triangle(i);
     if (lies_on(line, t) || !clip_where_hidden(line, line_slack_ + t.slack, t, begin, end)) return;
     intervals_.push_back({begin, end, t.transmission});
@@ -200,7 +197,10 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
             double from = begin, to = end;
             const glm::dvec2 low = corner + glm::dvec2(column, row) * size;
             if (!clip_to_rect(line, low, low + size, from, to)) continue;
-            for (const std::uint32_t i : cell(column, row)) hide(line, i, from, to);
+            const Cell c = cell(column, row);
+            for (const std::uint32_t i : touching(c.begin, c.end, box_of(line, from, to), -kFar, -kFar)) {
+                hide(line, cell_triangles_[i], from, to);
+            }
         }
     }
     if (!intervals_.empty()) sweep(line, line_number, begin, end, pieces);
@@ -260,50 +260,28 @@ void LayerTile::find_intersections(std::vector<LayerLine>& lines) {
 }
 
 void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines) {
-    const auto list = cell(column, row);
-    const std::size_t count = list.size();
-    of_cell_.resize(count);
-    if (may_meet_.size() < count) may_meet_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) of_cell_.copy(i, bounds_, list[i]);
     // Of all cells that both triangles touch, the one with the corner where their boxes begin to overlap
     // is responsible.
-    constexpr float kFar = 1e30f;
     const float pitch = static_cast<float>(cell_px_ * 256);
-    const float left = column == 0 ? -kFar : static_cast<float>(rect_.x0 * 256) + pitch * static_cast<float>(column);
-    const float top = row == 0 ? -kFar : static_cast<float>(rect_.y0 * 256) + pitch * static_cast<float>(row);
     const float x_origin = static_cast<float>(rect_.x0 * 256), y_origin = static_cast<float>(rect_.y0 * 256);
-    const float end_x = column + 1 == columns_ ? kFar : x_origin + pitch * static_cast<float>(column + 1);
-    const float end_y = row + 1 == rows_ ? kFar : y_origin + pitch * static_cast<float>(row + 1);
-    const float* const x0 = of_cell_.x0.data();
-    const float* const y0 = of_cell_.y0.data();
-    const float* const x1 = of_cell_.x1.data();
-    const float* const y1 = of_cell_.y1.data();
-    const float* const low = of_cell_.low.data();
-    const float* const high = of_cell_.high.data();
-    const std::uint32_t* const v0 = of_cell_.vertex[0].data();
-    const std::uint32_t* const v1 = of_cell_.vertex[1].data();
-    const std::uint32_t* const v2 = of_cell_.vertex[2].data();
-    std::int32_t* const may_meet = may_meet_.data();
-    for (std::size_t i = 0; i + 1 < count; ++i) {
-        const float ax0 = x0[i], ay0 = y0[i], ax1 = x1[i], ay1 = y1[i], alow = low[i], ahigh = high[i];
-        const std::uint32_t a0 = v0[i], a1 = v1[i], a2 = v2[i];
-        std::int32_t any = 0;
-        for (std::size_t j = i + 1; j < count; ++j) {
-            const float x = ax0 > x0[j] ? ax0 : x0[j], y = ay0 > y0[j] ? ay0 : y0[j];
-            const std::int32_t apart =
-                (x > ax1) | (x > x1[j]) | (y > ay1) | (y > y1[j]) | (alow >= high[j]) | (low[j] >= ahigh) |
-                (x < left) | (x >= end_x) | (y < top) | (y >= end_y) | (a0 == v0[j]) | (a0 == v1[j]) |
-                (a0 == v2[j]) | (a1 == v0[j]) | (a1 == v1[j]) | (a1 == v2[j]) | (a2 == v0[j]) | (a2 == v1[j]) |
-                (a2 == v2[j]);
-            may_meet[j] = 1 - apart;
-            any |= 1 - apart;
-        }
-        if (any == 0) continue;
-        for (std::size_t j = i + 1; j < count; ++j) {
-            if (may_meet[j] == 0) continue;
-            triangle(list[i]);  // both before either is looked at: setting up moves them
-            triangle(list[j]);
-            intersect(triangle(list[i]), triangle(list[j]), lines);
+    const float left = column == 0 ? -kFar : x_origin + pitch * static_cast<float>(column);
+    const float top = row == 0 ? -kFar : y_origin + pitch * static_cast<float>(row);
+    const auto from = [](float begin, float border) { return begin >= border ? -kFar : border; };
+    const auto have_vertex_in_common = [&](std::size_t i, std::size_t j) {
+        const auto& a = cell_vertices_[i];
+        const auto& b = cell_vertices_[j];
+        const auto is_in_b = [&b](std::uint32_t v) { return (v == b[0]) | (v == b[1]) | (v == b[2]); };
+        return (is_in_b(a[0]) | is_in_b(a[1]) | is_in_b(a[2])) != 0;
+    };
+    const Cell c = cell(column, row);
+    for (std::size_t i = c.begin; i + 1 < c.end; ++i) {
+        const ScreenBox box = cell_boxes_[i];
+        for (const std::uint32_t j : touching(i + 1, c.end, box, from(box.x0, left), from(box.y0, top))) {
+            if (have_vertex_in_common(i, j)) continue;
+            const std::uint32_t own = cell_triangles_[i], other = cell_triangles_[j];
+            triangle(own);  // both before either is looked at: setting up moves them
+            triangle(other);
+            intersect(triangle(own), triangle(other), lines);
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "abuffer/screen_boxes.h"
 #include "methods/abuffer/layer_bins.h"
 #include "methods/abuffer/layer_line.h"
 #include "methods/abuffer/layer_triangle.h"
@@ -14,7 +15,8 @@ namespace burin {
 /// a list of the triangles that touch it. Buffers are used again from tile to tile.
 class LayerTile {
   public:
-    LayerTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const PixelTiles& grid);
+    LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const LayerBins& bins,
+              const PixelTiles& grid);
 
     void fill(std::size_t tile);
 
@@ -36,28 +38,31 @@ class LayerTile {
         double at;
         int opaque;
     };
-    /// What finding triangles takes: bounds on the screen in 1/256 pixel and in nearness, and vertices,
-    /// which are numbered through over all instances. An array each, for loops that need no gathering.
-    struct Bounds {
-        std::vector<float> x0, y0, x1, y1, low, high;
-        std::array<std::vector<std::uint32_t>, 3> vertex;
-        void resize(std::size_t count);
-        void copy(std::size_t to, const Bounds& other, std::size_t from);
+    struct Entry {
+        ScreenBox box;
+        std::array<std::uint32_t, 3> vertices;  ///< numbered through over all instances
+        std::uint32_t number, set_up;           ///< set_up: in triangles_, or kNotSetUp
+    };
+    /// A cell's list: [begin, end) of cell_triangles_ and cell_boxes_.
+    struct Cell {
+        std::size_t begin, end;
     };
     static constexpr std::uint32_t kNotSetUp = 0xFFFFFFFFu;
 
     void add_clipped(SurfaceId s, std::uint32_t number);
-    void add_bounds(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
-                    glm::vec2 low, glm::vec2 high, float lowest, float highest, std::uint32_t set_up);
+    void add(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
+             const ScreenBox& box, std::uint32_t set_up);
     const LayerTriangle& triangle(std::uint32_t i);
     double transmission_of(SurfaceId s) const;
     void sort_into_cells();
     int column_at(float x) const;
     int row_at(float y) const;
-    std::span<const std::uint32_t> cell(int column, int row) const {
+    Cell cell(int column, int row) const {
         const auto i = static_cast<std::size_t>(row * columns_ + column);
-        return {cell_triangles_.data() + cell_end_[i], cell_end_[i + 1] - cell_end_[i]};
+        return {cell_end_[i], cell_end_[i + 1]};
     }
+    std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
+                                            float least_y0);
     void hide(const LayerLine& line, std::uint32_t i, double begin, double end);
     void find_in_cell(int column, int row, std::vector<LayerLine>& lines);
     void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
@@ -66,18 +71,19 @@ class LayerTile {
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
     const LayerBins& bins_;
     const PixelTiles& grid_;
     bool has_transparent_;
     PixelRect rect_;
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
     // Per triangle of the tile; what it takes to clip with one is set up when first needed.
-    std::size_t count_ = 0;
-    Bounds bounds_, of_cell_;
-    std::vector<std::uint32_t> numbers_, set_up_;
-    std::vector<std::int32_t> may_meet_;
+    std::vector<Entry> entries_;
     std::vector<LayerTriangle> triangles_;
-    std::vector<std::uint32_t> cell_end_, cell_triangles_;
+    std::vector<std::uint32_t> cell_end_, cell_triangles_;  // numbers of entries
+    ScreenBoxes cell_boxes_;                                // the same ones' boxes and vertices
+    std::vector<std::array<std::uint32_t, 3>> cell_vertices_;
+    std::vector<std::uint32_t> touching_;
     std::vector<Interval> intervals_;
     std::vector<Event> events_;
     double line_slack_ = 0;

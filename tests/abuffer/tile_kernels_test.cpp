@@ -12,6 +12,7 @@
 
 #include "abuffer/sample_tile.h"
 #include "abuffer/scan_convert.h"
+#include "abuffer/screen_boxes.h"
 #include "tests/support/random.h"
 
 namespace burin {
@@ -239,8 +240,6 @@ TEST(TileKernels, PlainTrianglesHaveNoLines) {
     }
 }
 
-/// StrokeMask's samples in a row of pixels that are closer than the radius, with the distance to
-/// the segment itself.
 /// No triangle in front of anything in a block is left out, and none is listed for nothing unless it is large.
 TEST(TileKernels, HidingTrianglesAreAllFound) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -292,6 +291,45 @@ TEST(TileKernels, HidingTrianglesAreAllFound) {
             }
         }
     }
+}
+
+TEST(TileKernels, BoxesThatTouchAreFound) {
+    Random random(5);
+    const auto box = [&] {
+        const auto number = [&](int low, int high) { return static_cast<float>(random.integer(low, high)); };
+        ScreenBox b{number(0, 12), number(0, 12), 0, 0, number(0, 4), 0};
+        b.x1 = b.x0 + number(0, 6);
+        b.y1 = b.y0 + number(0, 6);
+        b.high = b.low + number(0, 3);
+        return b;
+    };
+    std::size_t touching = 0;
+    for (std::size_t count = 0; count < 40; ++count) {
+        ScreenBoxes boxes;
+        boxes.resize(count);
+        for (std::size_t i = 0; i < count; ++i) boxes.set(i, box());
+        const ScreenBox own = box();
+        const auto least_x0 = static_cast<float>(random.integer(-5, 6)), least_y0 = static_cast<float>(random.integer(-5, 6));
+        for (std::size_t begin = 0; begin <= count; begin += 3) {
+            std::vector<std::uint32_t> expected;
+            for (std::size_t i = begin; i < count; ++i) {
+                const ScreenBox b = boxes[i];
+                const bool is_beside = b.x0 > own.x1 || b.x1 < own.x0 || b.y0 > own.y1 || b.y1 < own.y0;
+                const bool has_common = b.low < own.high && b.high > own.low;
+                if (!is_beside && has_common && b.x0 >= least_x0 && b.y0 >= least_y0) {
+                    expected.push_back(static_cast<std::uint32_t>(i));
+                }
+            }
+            touching += expected.size();
+            for (const TileKernels* kernels : {&baseline_kernels(), avx2_kernels()}) {
+                if (kernels == nullptr) continue;
+                std::vector<std::uint32_t> found(count);
+                found.resize(kernels->find_touching(boxes.view(), begin, count, own, least_x0, least_y0, found.data()));
+                EXPECT_EQ(found, expected) << kernels->name << ' ' << begin << " of " << count;
+            }
+        }
+    }
+    EXPECT_GT(touching, 100u);
 }
 
 TEST(TileKernels, StrokesCoverWhatIsNear) {

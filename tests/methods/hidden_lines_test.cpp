@@ -33,7 +33,7 @@ struct Layers {
         : frame(make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize})),
           screen(frame.surfaces, frame.criteria, best_kernels(), threads),
           bins(screen, frame.crop, 4, best_kernels(), threads),
-          pass(frame, screen, threads) {
+          pass(frame, screen, best_kernels(), threads) {
         pass.find();
     }
     /// Pixels of lines with so many opaque layers in front, of one class or of all.

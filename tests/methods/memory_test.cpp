@@ -77,13 +77,13 @@ Image draw(const Scene& scene, RunOptions options = {}, PixelRect crop = {0, 0, 
 constexpr int kTileSamples = 32;  // small tiles, to have many rows of them
 
 /// What a refusal names.
-std::uint64_t least_memory(const Scene& scene, int threads) {
+std::uint64_t least_memory(const Scene& scene, int threads, PixelRect crop = {0, 0, kWidth, kHeight}) {
     RunOptions options;
     options.threads = threads;
     options.memory_bytes = 1;
     options.tile_samples = kTileSamples;
     try {
-        draw(scene, options);
+        draw(scene, options, crop);
     } catch (const InputError& error) {
         const std::string words = error.what(), before = "at least ";
         const std::size_t at = words.find(before);
@@ -153,7 +153,7 @@ TEST(Memory, ACapChangesNothingBehindTransparentSurfacesAndInACrop) {
     RunOptions options;
     options.threads = 2;
     options.tile_samples = kTileSamples;
-    options.memory_bytes = least_memory(scene, 2);
+    options.memory_bytes = least_memory(scene, 2, crop);
     EXPECT_TRUE(same_bits(whole, draw(scene, options, crop)));
 }
 
