@@ -45,7 +45,8 @@ struct ScreenMesh {
     const std::uint8_t* sharp = nullptr;      ///< per triangle, 0: no edge is sharp
     const std::uint32_t* partners = nullptr;  ///< half-edges on the other side, three per triangle
     const std::uint8_t* facing = nullptr;     ///< Facing, per triangle
-    const std::uint8_t* plain = nullptr;      ///< per triangle, 1: plain (see SampleTile)
+    /// Per triangle, bit k: edge k may be a line. 0: the triangle is plain (see SampleTile).
+    const std::uint8_t* line_edges = nullptr;
 };
 
 /// Which way a triangle is wound on the screen.

@@ -115,9 +115,9 @@ struct TileKernels {
     /// blocks mean nothing) or kNotSmall. Returns their number. The lists need room for end - begin + 8.
     std::size_t (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
                         std::uint8_t* facing, TileTriangle* triangles, std::uint32_t* keys);
-    /// Once the facing of all triangles is known: sets what ScreenMesh calls plain for triangles [begin, end) of
-    /// a mesh (`plain`: that of the mesh's first one).
-    void (*find_plain)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint8_t* plain);
+    /// Once the facing of all triangles is known: sets ScreenMesh::line_edges for triangles [begin, end) of a
+    /// mesh (`line_edges`: that of the mesh's first one). Other bits of `sharp` are kept there.
+    void (*find_line_edges)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint8_t* line_edges);
     /// Draws triangles of a mesh into a tile: nearest wins, then the smaller id. They must be smaller than
     /// kLargestSmallTriangle in both directions.
     /// `farthest` (from find_farthest()) lets it leave out what is hidden; nullptr: nothing is known.

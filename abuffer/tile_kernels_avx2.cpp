@@ -8,7 +8,7 @@
 namespace burin {
 
 const TileKernels* avx2_kernels() {
-    static const TileKernels kernels{"avx2", project, cull, find_plain, draw_small, find_farthest, draw_span,
+    static const TileKernels kernels{"avx2", project, cull, find_line_edges, draw_small, find_farthest, draw_span,
                                      find_pairs, count_covered, look, stroke_spans, count_bits,
                                      find_hiding, find_touching};
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") ? &kernels : nullptr;

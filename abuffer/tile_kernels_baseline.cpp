@@ -5,7 +5,7 @@
 namespace burin {
 
 const TileKernels& baseline_kernels() {
-    static const TileKernels kernels{"baseline", project, cull, find_plain, draw_small, find_farthest, draw_span,
+    static const TileKernels kernels{"baseline", project, cull, find_line_edges, draw_small, find_farthest, draw_span,
                                      find_pairs, count_covered, look, stroke_spans, count_bits,
                                      find_hiding, find_touching};
     return kernels;

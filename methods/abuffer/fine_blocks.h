@@ -40,10 +40,19 @@ class FineBlocks {
   private:
     using Records = std::vector<TileLists<HidingTriangle>::Record>;
 
-    std::size_t place(int x, int y) const {  // with the border of a BlockMap
-        return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(columns_ + 2) +
+    /// A block is cut into so many cells along each side, for a triangle beside all candidates to be left out.
+    static constexpr int kCells = 2;
+    static constexpr int kCellShift = SampleBlocks::kShift - 1;
+
+    std::size_t block_at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+    }
+    std::size_t cell_at(int x, int y) const {  // with the border of a BlockMap
+        return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(kCells * columns_ + 2) +
                static_cast<std::size_t>(x + 1);
     }
+    int cell_of(std::int32_t subpixel) const { return (subpixel - grid_.half_pitch) >> kCellShift; }
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     void sort_candidates(const std::vector<FineCandidate>& candidates);
     void sort_triangles(const TriangleChunk& chunk, std::vector<std::uint32_t>& found,
                         Records& records) const;
@@ -54,8 +63,8 @@ class FineBlocks {
     SampleBlocks grid_;
     int first_x_, first_y_, columns_, rows_;
     std::size_t count_ = 0;
-    std::vector<std::uint32_t> index_;  // per place: the number of a block that has candidates
-    std::vector<float> farthest_;       // per place: see BlockMap
+    std::vector<std::uint32_t> index_;  // per block: its number, or kNone without candidates
+    std::vector<float> farthest_;       // per cell: see BlockMap
     TileLists<std::uint32_t> candidates_;
     TileLists<HidingTriangle> triangles_;
 };

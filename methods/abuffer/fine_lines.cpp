@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "abuffer/screen_boxes.h"
 #include "base/parallel.h"
 #include "methods/abuffer/fine_blocks.h"
 #include "methods/abuffer/fold_width.h"
@@ -20,6 +21,7 @@ constexpr double kNegligibleFoldSubpixels = 4;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
+constexpr float kFarNearness = 3e38f;
 /// Pairs of an edge and a triangle in one block: of more, as with hundreds of triangles to a pixel, lines are left to
 /// the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 19;
@@ -59,19 +61,17 @@ std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfa
 /// Finds what is visible in one block after the other. Buffers are used again.
 class BlockClipper {
   public:
-    BlockClipper(const ScreenSurfaces& screen, const LineCriteria& criteria)
-        : screen_(screen), criteria_(criteria) {}
+    BlockClipper(const ScreenSurfaces& screen, const TileKernels& kernels, const LineCriteria& criteria)
+        : screen_(screen), kernels_(kernels), criteria_(criteria) {}
 
     void set_triangles(std::span<const HidingTriangle> triangles) {
         given_ = triangles;
-        bounds_.resize(triangles.size());
+        boxes_.resize(triangles.size());
+        beside_.resize(triangles.size());
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const HidingTriangle& t = triangles[i];
-            bounds_.x0[i] = t.x0;
-            bounds_.y0[i] = t.y0;
-            bounds_.x1[i] = t.x1;
-            bounds_.y1[i] = t.y1;
-            bounds_.nearest[i] = t.nearest;
+            boxes_.set(i, {static_cast<float>(t.x0), static_cast<float>(t.y0), static_cast<float>(t.x1),
+                           static_cast<float>(t.y1), -kFarNearness, t.nearest});
         }
         places_.assign(triangles.size(), {});
         set_up_.clear();
@@ -116,15 +116,6 @@ class BlockClipper {
     struct Interval {
         double begin, end;
     };
-    /// What most triangles are left out by; an array each, for a loop that needs no gathering.
-    struct Bounds {
-        std::vector<std::int32_t> x0, y0, x1, y1, is_beside;
-        std::vector<float> nearest;
-        void resize(std::size_t count) {
-            for (auto* v : {&x0, &y0, &x1, &y1, &is_beside}) v->resize(count);
-            nearest.resize(count);
-        }
-    };
     struct Place {
         std::uint32_t first = 0, count = 0;
     };
@@ -134,20 +125,12 @@ class BlockClipper {
     template <typename Use>
     void for_triangles(const LayerLine& line, double begin, double end, double least, const Use& use) {
         const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
-        const glm::ivec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
-        const std::int32_t* const x0 = bounds_.x0.data();
-        const std::int32_t* const y0 = bounds_.y0.data();
-        const std::int32_t* const x1 = bounds_.x1.data();
-        const std::int32_t* const y1 = bounds_.y1.data();
-        const float* const nearest = bounds_.nearest.data();
-        std::int32_t* const is_beside = bounds_.is_beside.data();
-        const auto limit = static_cast<float>(std::max(least, -1e30));
-        for (std::size_t i = 0; i < given_.size(); ++i) {
-            is_beside[i] = (x0[i] <= high.x) & (x1[i] >= low.x) & (y0[i] <= high.y) & (y1[i] >= low.y) &
-                           (nearest[i] >= limit);
-        }
-        for (std::size_t i = 0; i < given_.size(); ++i) {
-            if (is_beside[i] == 0) continue;
+        const glm::vec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
+        const ScreenBox box{low.x, low.y, high.x, high.y, static_cast<float>(std::max(least, -1e30)), kFarNearness};
+        const std::size_t count =
+            kernels_.find_touching(boxes_.view(), 0, given_.size(), box, -kFarNearness, -kFarNearness, beside_.data());
+        for (std::size_t at = 0; at < count; ++at) {
+            const std::uint32_t i = beside_[at];
             if (places_[i].count == 0) set_up(i);
             for (std::uint32_t k = 0; k < places_[i].count; ++k) {
                 if (!use(set_up_[places_[i].first + k])) return;
@@ -262,9 +245,11 @@ class BlockClipper {
     }
 
     const ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
     const LineCriteria& criteria_;
     std::span<const HidingTriangle> given_;
-    Bounds bounds_;
+    ScreenBoxes boxes_;  // what most triangles are left out by
+    std::vector<std::uint32_t> beside_;
     std::vector<Place> places_;  // of given triangles in set_up_
     std::vector<LayerTriangle> set_up_;
     std::vector<Interval> hidden_;
@@ -281,7 +266,7 @@ std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurface
     const FineBlocks blocks(screen, kernels, frame.scene->samples_per_pixel(), region, candidates,
                             threads);
     std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads),
-                                       BlockClipper(screen, frame.criteria));
+                                       BlockClipper(screen, kernels, frame.criteria));
     std::vector<std::vector<LineSegment>> found(blocks.count());
     parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {
         if (blocks.candidates(block).size() * blocks.triangles(block).size() > kMostLooks) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <memory>
 #include <vector>
 
@@ -22,15 +23,14 @@ void for_possible_lines(const ScreenSurfaces& screen, const TriangleChunk& chunk
     static_assert(edge_on == 0 && clockwise == 1 && counterclockwise == 2 && off_screen == 3);
     constexpr std::uint8_t kRank[4] = {0, 2, 1, 0};
     for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
-        const std::uint8_t own = mesh.facing[t];
-        const unsigned rank = kRank[own];
-        const unsigned sharp = rank == 0 || mesh.sharp == nullptr ? 7u : mesh.sharp[t];
-        if (mesh.plain[t] != 0 || (sharp == 0 && rank == 2)) continue;
+        unsigned edges = mesh.line_edges[t] & 7u;
+        if (edges == 0) continue;
+        const unsigned rank = kRank[mesh.facing[t]];
+        if (rank == 2 && mesh.sharp != nullptr && mesh.sharp[t] == 0) continue;
         const HalfEdge* const partner = mesh.partners + 3 * std::size_t{t};
-        for (unsigned k = 0; k < 3; ++k) {
-            const HalfEdge h = 3 * t + k, g = partner[k];
+        for (; edges != 0; edges &= edges - 1) {
+            const HalfEdge h = 3 * t + static_cast<unsigned>(std::countr_zero(edges)), g = partner[h - 3 * t];
             const std::uint8_t other = mesh.facing[g / 3];
-            if ((sharp >> k & 1) == 0 && other == own) continue;
             if (g != h && mesh.partners[g] == h) {
                 if (rank != kRank[other] ? rank > kRank[other] : g < h) continue;
                 visit(SurfaceId{chunk.instance, std::min(h, g) / 3}, std::min(h, g));

@@ -45,7 +45,7 @@ std::uint64_t lasting_bytes(const Frame& frame, const PixelTiles& tiles, int thr
     std::uint64_t bytes = kBytesForTheRest + kBytesPerThread * static_cast<std::uint64_t>(threads);
     std::set<const Mesh*> meshes;
     for (const SurfaceInstance& i : frame.surfaces.instances) {
-        bytes += 2 * i.mesh->triangles.size();  // facing, and whether it is plain
+        bytes += 2 * i.mesh->triangles.size();  // facing, and which edges may be lines
         if (meshes.insert(i.mesh).second) bytes += i.mesh->triangles.size();  // edges that are sharp
     }
     return bytes + tiles.count() * 64;

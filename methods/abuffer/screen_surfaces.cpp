@@ -67,7 +67,7 @@ ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& c
     }
     instance_at_.push_back(triangle_count == 0 ? 0 : instance_with(first_triangle_, triangle_count - 1));
     facing_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
-    plain_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
+    line_edges_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
     for (const SurfaceInstance& instance : surfaces.instances) {
         transforms_.push_back(transform_of(surfaces, instance));
         sharp_.push_back(keeps_angles(instance.to_view) ? sharp_edges_of(instance) : nullptr);
@@ -129,16 +129,17 @@ ScreenMesh ScreenSurfaces::make_mesh(std::uint32_t instance) const {
     result.sharp = sharp_[instance];
     result.partners = mesh.next_on_edge.data();
     result.facing = facing_.get() + first_triangle_[instance];
-    result.plain = plain_.get() + first_triangle_[instance];
+    result.line_edges = line_edges_.get() + first_triangle_[instance];
     return result;
 }
 
-void ScreenSurfaces::find_plain(const TriangleChunk& chunk) {
-    std::uint8_t* const plain = plain_.get() + first_triangle_[chunk.instance];
+void ScreenSurfaces::find_line_edges(const TriangleChunk& chunk) {
+    constexpr std::uint8_t kAll = 7;
+    std::uint8_t* const line_edges = line_edges_.get() + first_triangle_[chunk.instance];
     if (sharp_[chunk.instance] == nullptr) {
-        std::fill(plain + chunk.begin, plain + chunk.end, std::uint8_t{0});
+        std::fill(line_edges + chunk.begin, line_edges + chunk.end, kAll);
     } else {
-        kernels_.find_plain(mesh(chunk.instance), chunk.begin, chunk.end, plain);
+        kernels_.find_line_edges(mesh(chunk.instance), chunk.begin, chunk.end, line_edges);
     }
 }
 

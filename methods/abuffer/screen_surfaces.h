@@ -66,9 +66,10 @@ class ScreenSurfaces {
     void set_facing(std::uint32_t number, Facing f) { facing_[number] = f; }
     /// Those of an instance.
     std::uint8_t* facings(std::uint32_t instance) { return facing_.get() + first_triangle_[instance]; }
-    /// Once the facing of all triangles of the instance is known: finds those of which no edge can be a line.
-    void find_plain(const TriangleChunk& chunk);
-    bool is_plain(std::uint32_t number) const { return plain_[number] != 0; }
+    /// Once the facing of all triangles of the instance is known: finds which edges may be lines.
+    void find_line_edges(const TriangleChunk& chunk);
+    /// No edge can be one.
+    bool is_plain(std::uint32_t number) const { return line_edges_[number] == 0; }
 
     const SurfaceSet& surfaces() const { return surfaces_; }
 
@@ -91,7 +92,7 @@ class ScreenSurfaces {
     std::vector<std::uint32_t> instance_at_;     // of the first number of each block of numbers, and of the last one
     std::vector<ScreenTransform> transforms_;  // per instance
     std::unique_ptr<ScreenVertex[]> vertices_;
-    std::unique_ptr<std::uint8_t[]> facing_, plain_;
+    std::unique_ptr<std::uint8_t[]> facing_, line_edges_;
     std::vector<const std::uint8_t*> sharp_;  // per instance
     std::vector<ScreenMesh> meshes_;          // per instance
     std::map<const Mesh*, std::vector<std::uint8_t>> made_here_;

@@ -262,7 +262,7 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
     parallel_for(chunks.size(), threads, [&](std::size_t c, int worker) {
         binner.bin(chunks[c], scratch[static_cast<std::size_t>(worker)], records[c]);
     });
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int) { surfaces.find_plain(chunks[c]); });
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int) { surfaces.find_line_edges(chunks[c]); });
 
     // Stable, chunk after chunk: the same for any number of threads.
     run_end_.assign(tile_count() + 1, 0);

@@ -27,7 +27,7 @@ struct TriangleRun {
 /// What of the instances that are shown touches each tile of a picture.
 class TriangleBins {
   public:
-    /// Finds the facing of all triangles on the way, and which ones are plain. Tiles cover `region`; a tile
+    /// Finds the facing of all triangles on the way, and which of their edges may be lines. Tiles cover `region`; a tile
     /// also gets what lies on the samples next to its right and lower border. `tile_samples`: a tile's width, a
     /// power of two.
     TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel, const TileKernels& kernels,

@@ -44,8 +44,8 @@ struct Triangles {
         mesh.corners = corners.data();
         mesh.first_number = 1000;
         mesh.facing = facing.data();
-        plain.assign(facing.size(), 0);
-        mesh.plain = plain.data();
+        line_edges.assign(facing.size(), 7);
+        mesh.line_edges = line_edges.data();
     }
     std::uint32_t count() const { return static_cast<std::uint32_t>(corners.size() / 3); }
     const ScreenVertex& corner(std::uint32_t t, std::uint32_t k) const { return vertices[corners[3 * t + k]]; }
@@ -53,7 +53,7 @@ struct Triangles {
 
     std::vector<ScreenVertex> vertices;
     std::vector<std::uint32_t> corners;
-    std::vector<std::uint8_t> facing, plain;
+    std::vector<std::uint8_t> facing, line_edges;
     ScreenMesh mesh;
 };
 
@@ -207,17 +207,17 @@ TEST(TileKernels, CullingLosesNoSample) {
     }
 }
 
-TEST(TileKernels, PlainTrianglesHaveNoLines) {
+TEST(TileKernels, EdgesThatMayBeLinesAreFound) {
     Random random(11);
     const Facing facings[] = {edge_on, clockwise, counterclockwise, off_screen};
     for (const TileKernels* kernels : all_kernels()) {
         constexpr std::uint32_t kCount = 999;
-        std::vector<std::uint8_t> facing(kCount), sharp(kCount), plain(kCount, 7);
+        std::vector<std::uint8_t> facing(kCount), sharp(kCount), found(kCount, 77);
         std::vector<std::uint32_t> partners(3 * kCount);
         for (std::uint32_t t = 0; t < kCount; ++t) {
             // Mostly one way and smooth, or none would be plain.
             facing[t] = facings[random.integer(0, 9) == 0 ? random.integer(0, 3) : t < kCount / 2 ? 1 : 2];
-            sharp[t] = random.integer(0, 4) == 0 ? 2 : 0;
+            sharp[t] = static_cast<std::uint8_t>(random.integer(0, 4) == 0 ? random.integer(0, 15) : 0);
             const int half = t < kCount / 2 ? 0 : static_cast<int>(kCount / 2 + 1);
             for (std::uint32_t k = 0; k < 3; ++k) {
                 partners[3 * t + k] = static_cast<std::uint32_t>(3 * (half + random.integer(0, 490)) + random.integer(0, 2));
@@ -227,16 +227,22 @@ TEST(TileKernels, PlainTrianglesHaveNoLines) {
         mesh.facing = facing.data();
         mesh.sharp = sharp.data();
         mesh.partners = partners.data();
-        kernels->find_plain(mesh, 3, kCount - 4, plain.data());
-        int count = 0;
+        kernels->find_line_edges(mesh, 3, kCount - 4, found.data());
+        int plain = 0, sharp_ones = 0;
         for (std::uint32_t t = 0; t < kCount; ++t) {
-            bool expected = (facing[t] == clockwise || facing[t] == counterclockwise) && sharp[t] == 0;
-            for (std::uint32_t k = 0; k < 3; ++k) expected = expected && facing[partners[3 * t + k] / 3] == facing[t];
+            const bool has_side = facing[t] == clockwise || facing[t] == counterclockwise;
+            unsigned expected = has_side ? sharp[t] & ~7u : 0;
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const bool turns = facing[partners[3 * t + k] / 3] != facing[t], is_sharp = (sharp[t] >> k & 1) != 0;
+                if (!has_side || turns || is_sharp) expected |= 1u << k;
+                sharp_ones += is_sharp ? 1 : 0;
+            }
             const bool is_asked = t >= 3 && t < kCount - 4;
-            ASSERT_EQ(plain[t], is_asked ? (expected ? 1 : 0) : 7) << kernels->name << " triangle " << t;
-            count += expected ? 1 : 0;
+            ASSERT_EQ(found[t], is_asked ? expected : 77) << kernels->name << " triangle " << t;
+            plain += expected == 0 ? 1 : 0;
         }
-        EXPECT_GT(count, 100);
+        EXPECT_GT(plain, 100);
+        EXPECT_GT(sharp_ones, 100);
     }
 }
 
