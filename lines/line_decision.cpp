@@ -39,8 +39,9 @@ class Decider {
             in_front[i] = gap[i] >= -tolerance_at_end(i);
         }
         if (in_front[0] && in_front[1]) return end_at(std::abs(gap[0]) <= std::abs(gap[1]) ? 0 : 1, gap);
-        if (in_front[0]) return end_at(0, gap);
-        if (in_front[1]) return end_at(1, gap);
+        for (const int i : {0, 1}) {
+            if (in_front[i]) return passes_through_before_end(i, gap[i]) ? overlap() : end_at(i, gap);
+        }
         // One ends behind the other: they change places before that.
         return overlap();
     }
@@ -78,10 +79,17 @@ class Decider {
             distance(to_end.surface, other_end) - extended_distance(walks_[i].surface, other_end);
         return std::abs(gap_here) <= std::abs(gap_there) ? gap_here : gap_there;
     }
-    double tolerance_at_end(int i) const {
+    double tolerance_at_end(int i, double pixels = 2) const {
         const glm::dvec2 end = place(i, walks_[i].fraction);
-        return depth_tolerance(surfaces_, distance(walks_[i].surface, end),
-                               surfaces_.plane(behind_[i]));
+        return depth_tolerance(surfaces_, distance(walks_[i].surface, end), surfaces_.plane(behind_[i]), pixels);
+    }
+
+    /// Whether point i's surface ends behind the other, though within the tolerance, and begins in front for certain.
+    bool passes_through_before_end(int i, double gap) const {
+        const double certainly = tolerance_at_end(i, kCertainlyApartPx);
+        if (!(gap < -certainly)) return false;
+        const glm::dvec2 at = points_[i].pixel;
+        return extended_distance(walks_[1 - i].surface, at) - distance(points_[i].surface, at) > certainly;
     }
 
     LineDecision with_fraction(LineDecision decision, int i, double fraction) const {
@@ -183,8 +191,36 @@ class Decider {
         decision.classes = LineClass::intersection | (contact & (LineClass::object | LineClass::material));
         decision.reason = LineReason::passes_through;
         const double total = std::abs(gap[0]) + std::abs(gap[1]);
-        if (std::isfinite(total) && total > 0) decision.fraction = std::abs(gap[0]) / total;
+        if (std::isfinite(total) && total > 0) decision.fraction = crossing_near(std::abs(gap[0]) / total);
         return decision;
+    }
+
+    /// Where the two surfaces pass through each other: on the facets that meet there, not on those seen at the
+    /// points.
+    double crossing_near(double fraction) const {
+        constexpr int kMostSteps = 8;
+        constexpr double kNear = 1.0 / 1024;
+        if (walks_[0].surface == points_[0].surface && walks_[1].surface == points_[1].surface) return fraction;
+        double low = 0, high = 1;
+        for (int step = 0; step < kMostSteps; ++step) {
+            const glm::dvec2 at = place(0, fraction);
+            const SurfaceWalk a = walk_surface(surfaces_, points_[0].surface, points_[0].pixel, at, criteria_);
+            const SurfaceWalk b = walk_surface(surfaces_, points_[1].surface, points_[1].pixel, at, criteria_);
+            if (a.end != WalkEnd::arrived || b.end != WalkEnd::arrived) {
+                if (a.end == b.end) break;
+                (a.end != WalkEnd::arrived ? high : low) = fraction;
+                fraction = 0.5 * (low + high);
+                continue;
+            }
+            const DepthPlane plane_a = surfaces_.plane(a.surface), plane_b = surfaces_.plane(b.surface);
+            const auto lead = [&](glm::dvec2 p) { return plane_a.extended_to(p) - plane_b.extended_to(p); };
+            (lead(at) > 0 ? low : high) = fraction;
+            const double first = lead(points_[0].pixel), last = lead(points_[1].pixel);
+            const double met = first > 0 && last < 0 ? first / (first - last) : -1;
+            if (std::abs(met - fraction) < kNear) return met;
+            fraction = met > low && met < high ? met : 0.5 * (low + high);
+        }
+        return fraction;
     }
 
     LineDecision unexplained(int front, double gap) const {

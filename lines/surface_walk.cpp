@@ -341,12 +341,12 @@ double distance_of(const Projection& projection, double nearness) {
     return projection.distance(nearness);
 }
 
-double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane) {
+double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane, double pixels) {
     const Projection& p = surfaces.projection;
     // d(distance)/dx = distance^2 d(nearness)/dx in perspective.
     const double per_nearness = p.orthographic ? 1.0 : distance * distance;
     const double slope = (std::abs(plane.per_x) + std::abs(plane.per_y)) * per_nearness;
-    return 2 * p.pixel_size(distance) + slope / kSubpixelsPerPixel;
+    return pixels * p.pixel_size(distance) + slope / kSubpixelsPerPixel;
 }
 
 }  // namespace burin

@@ -73,7 +73,10 @@ bool is_sliver(const SurfaceSet& surfaces, SurfaceId triangle);
 
 /// How far two surfaces must be apart in distance from the eye to be two: two pixels' width at that
 /// distance, and what the rounding of screen positions does to a steep plane.
-double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane);
+double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane, double pixels = 2);
+/// Two surfaces that are further apart than this many pixels' widths, in depth_tolerance(), are so for
+/// certain, not by rounding.
+constexpr double kCertainlyApartPx = 1.0 / 16;
 
 /// Distance from the eye of a nearness that may lie behind the horizon.
 double distance_of(const Projection& projection, double nearness);

@@ -63,6 +63,7 @@ FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i)
     const double here = distance_of(p, end.nearness);
     const DepthPlane behind = walker_.plane(end.behind);
     end.tolerance = depth_tolerance(surfaces_, here, behind);
+    end.certainly_apart = depth_tolerance(surfaces_, here, behind, kCertainlyApartPx);
     if (stop.has_arrived) {
         end.gap = distance_of(p, behind.nearness(at / double{kSubpixelsPerPixel})) - here;
         return end;
@@ -153,6 +154,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
     if (!in_front[0] && !in_front[1]) return false;  // the surfaces pass through each other
     const bool both = in_front[0] && in_front[1];
     const int i = (both ? std::abs(ends[0].gap) <= std::abs(ends[1].gap) : in_front[0]) ? 0 : 1;
+    if (!both && ends[i].gap < -ends[i].certainly_apart) return false;  // or they may do so before the end
     decision = end_of_surface(pair, i, walks_[i], ends[i].gap <= ends[i].tolerance ? &ends[i] : nullptr);
     nearness = ends[i].nearness;
     return true;

@@ -25,7 +25,7 @@ class FastDecision {
     /// How the surface that ends lies to the other one.
     struct End {
         double gap;              // how much farther the other one is there
-        double tolerance;
+        double tolerance, certainly_apart;  // depth_tolerance()
         double nearness;         // of the surface that ends
         SurfaceId behind;        // the other one's triangle
     };

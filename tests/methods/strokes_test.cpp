@@ -214,6 +214,23 @@ double psnr_db(const Drawing& a, const Drawing& b) {
     return -10 * std::log10(sum / count + 1e-12);
 }
 
+/// A bead around a cylinder turns away half a sample behind the line in which it goes into the cylinder.
+TEST(Strokes, SurfacesThatPassThroughEachOtherNearAFoldMeetThere) {
+    constexpr int kSize = 128;
+    const auto tilted = [](PolygonSoup soup) {
+        return transformed(std::move(soup), [](glm::dvec3 p) {
+            return glm::dvec3(64 + p.x, 64 + 0.8 * p.y - 0.6 * p.z, 0.6 * p.y + 0.8 * p.z);
+        });
+    };
+    for (const double bead : {4.0, 5.5, 7.0}) {
+        Scene scene = scene_of({tilted(make_cylinder(44, 38, 60, 96)), tilted(make_torus(43, bead, 96, 24))});
+        const Camera camera = pixel_camera(kSize, kSize);
+        const Drawing drawn = draw(scene, camera, kSize);
+        scene.reference.samples = 32;
+        EXPECT_GT(psnr_db(drawn, draw(scene, camera, kSize, render_reference)), 40) << "bead " << bead;
+    }
+}
+
 TEST(Strokes, OneSideIsWhatRaysSay) {
     constexpr int kSize = 96;
     const Scene scenes[] = {box_behind_plate(),
