@@ -1,6 +1,7 @@
 #include "abuffer/scan_convert.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 namespace burin {
@@ -8,6 +9,13 @@ namespace {
 
 std::int64_t ceil_divide(std::int64_t a, std::int64_t positive_b) {
     return a >= 0 ? (a + positive_b - 1) / positive_b : -(-a / positive_b);
+}
+/// The same, from about 1 / b: a division takes longer than all else.
+std::int64_t ceil_divide(std::int64_t a, std::int64_t positive_b, double per_b) {
+    auto quotient = static_cast<std::int64_t>(static_cast<double>(a) * per_b);
+    while (quotient * positive_b < a) ++quotient;
+    while ((quotient - 1) * positive_b >= a) --quotient;
+    return quotient;
 }
 
 // In units of 1 / (2 * 256 * s) pixel, sample number i lies at 512 i + 256.
@@ -36,7 +44,9 @@ ScanConverter::ScanConverter(const ScreenPolygon& polygon, int samples_per_pixel
         low_y = std::min(low_y, ay);
         high_y = std::max(high_y, ay);
         if (ay == by) continue;
-        edges_[static_cast<std::size_t>(edge_count_++)] = ay < by ? Edge{ax, ay, bx, by} : Edge{bx, by, ax, ay};
+        const double per_dy = 1.0 / static_cast<double>(kPitch * std::abs(by - ay));
+        edges_[static_cast<std::size_t>(edge_count_++)] =
+            ay < by ? Edge{ax, ay, bx, by, per_dy} : Edge{bx, by, ax, ay, per_dy};
     }
     first_row_ = first_sample_from(low_y);
     end_row_ = first_sample_from(high_y);
@@ -53,7 +63,7 @@ SampleSpan ScanConverter::span(int row) const {
         // The edge meets the row at x = x0 + (y - y0) (x1 - x0) / (y1 - y0).
         const std::int64_t dy = e.y1 - e.y0;
         const std::int64_t x_times_dy = (e.x0 - kHalfPitch) * dy + (y - e.y0) * (e.x1 - e.x0);
-        const int sample = static_cast<int>(ceil_divide(x_times_dy, kPitch * dy));
+        const int sample = static_cast<int>(ceil_divide(x_times_dy, kPitch * dy, e.per_dy));
         span.begin = std::min(span.begin, sample);
         span.end = std::max(span.end, sample);
     }

@@ -34,6 +34,7 @@ class ScanConverter {
   private:
     struct Edge {  // from its upper to its lower end, in units of 1 / (2 * 256 * s) pixel
         std::int64_t x0, y0, x1, y1;
+        double per_dy;  // about 1 / (kPitch (y1 - y0))
     };
     int edge_count_ = 0;
     std::array<Edge, ScreenPolygon::kMaxCorners> edges_;  // the others are horizontal

@@ -66,17 +66,14 @@ void LineTile::draw_all(std::size_t tile) {
     contest_count_ = 0;
     samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
                    rect_.height() * per_pixel_ + 1, per_pixel_);
-    for (const std::uint32_t i : bins_.large_in(tile)) {
-        const LargePolygon& large = bins_.large(i);
-        draw_large(large, screen_.is_plain(large.plane.id >> 1));
-    }
+    farthest_.resize(farthest_count(view()));
+    draw_large_ones(tile);
     order_runs(tile);
     // What is hidden by what was drawn so far need not be drawn. The picture does not depend on the
     // order, only the time does.
     constexpr std::size_t kWorthALook = 256;  // triangles
     std::size_t since_look = bins_.large_in(tile).empty() ? 0 : kWorthALook;
     bool has_look = false;
-    farthest_.resize(farthest_count(view()));
     for (const PlacedRun& placed : runs_) {
         const TriangleRun& run = *placed.run;
         if (since_look >= kWorthALook) {
@@ -145,19 +142,68 @@ void LineTile::order_runs(std::size_t tile) {
     });
 }
 
-void LineTile::draw_large(const LargePolygon& large, bool plain) {
+/// Near ones first.
+void LineTile::draw_large_ones(std::size_t tile) {
+    large_.clear();
+    for (const std::uint32_t i : bins_.large_in(tile)) {
+        large_.push_back({i, highest_in(bins_.large(i).plane, 0, samples_.columns, 0, samples_.rows)});
+    }
+    std::sort(large_.begin(), large_.end(), [](const PlacedPolygon& a, const PlacedPolygon& b) {
+        return a.highest != b.highest ? a.highest > b.highest : a.number < b.number;
+    });
+    constexpr std::size_t kWorthALook = 8;
+    for (std::size_t i = 0; i < large_.size(); ++i) {
+        if (i % kWorthALook == 0 && i > 0) kernels_.find_farthest(view(), farthest_.data());
+        const LargePolygon& large = bins_.large(large_[i].number);
+        draw_large(large, screen_.is_plain(large.plane.id >> 1), i >= kWorthALook);
+    }
+}
+
+/// The greatest nearness that draw_span() may find in a rectangle of samples: at one of its corners, for its
+/// roundings keep the order of numbers, too.
+float LineTile::highest_in(const SpanPlane& plane, int from, int to, int first_row, int end_row) const {
+    const std::int32_t pitch = kSubpixelsPerPixel / per_pixel_;
+    const auto nearness_at = [&](int column, int row) {
+        const auto x = static_cast<float>((samples_.first_column + column) * pitch + pitch / 2 - plane.x);
+        const auto y = static_cast<float>((samples_.first_row + row) * pitch + pitch / 2 - plane.y);
+        const float down = y * plane.per_y;
+        return x * plane.per_x + plane.nearness + down;
+    };
+    const int column = plane.per_x > 0 ? to - 1 : from, row = plane.per_y > 0 ? end_row - 1 : first_row;
+    return std::clamp(nearness_at(column, row), plane.low, plane.high);
+}
+
+/// In strips of blocks, without those at the strip's ends that hide the polygon; `has_look`: they are known.
+void LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
     ++drawn_;
     const ScanConverter scan(large.polygon, per_pixel_);
     SpanPlane plane = large.plane;
     plane.id |= plain ? 1u : 0u;
-    const int first = std::max(scan.first_row(), samples_.first_row);
-    const int end = std::min(scan.end_row(), samples_.first_row + samples_.rows);
     const SampleView tile = view();
-    for (int row = first; row < end; ++row) {
-        const SampleSpan span = scan.span(row);
-        const int from = std::max(span.begin - samples_.first_column, 0);
-        const int to = std::min(span.end - samples_.first_column, samples_.columns);
-        if (from < to) kernels_.draw_span(tile, row - samples_.first_row, from, to, plane);
+    const int left = std::max(scan.first_column() - samples_.first_column, 0);
+    const int right = std::min(scan.end_column() - samples_.first_column, samples_.columns);
+    const int top = std::max(scan.first_row() - samples_.first_row, 0);
+    const int bottom = std::min(scan.end_row() - samples_.first_row, samples_.rows);
+    if (left >= right) return;
+    const int blocks = samples_.stride >> kBlockShift;
+    for (int strip = top & -kBlockSamples; strip < bottom; strip += kBlockSamples) {
+        const int first_row = std::max(strip, top), end_row = std::min(strip + kBlockSamples, bottom);
+        int begin = left >> kBlockShift, end = ((right - 1) >> kBlockShift) + 1;
+        if (has_look) {
+            const float highest = highest_in(plane, left, right, first_row, end_row);
+            const float high = highest + (highest * tile.level_per_nearness + tile.level);
+            const float* const farthest = farthest_.data() + (strip >> kBlockShift) * blocks;
+            while (begin < end && high < farthest[begin]) ++begin;
+            while (begin < end && high < farthest[end - 1]) --end;
+        }
+        const int least = std::max(left, begin << kBlockShift), most = std::min(right, end << kBlockShift);
+        if (least >= most) continue;
+        for (int row = first_row; row < end_row; ++row) {
+            const SampleSpan span = scan.span(row + samples_.first_row);
+            const int from = std::max(span.begin - samples_.first_column, least);
+            const int to = std::min(span.end - samples_.first_column, most);
+            if (from < to) kernels_.draw_span(tile, row, from, to, plane);
+        }
     }
 }
 

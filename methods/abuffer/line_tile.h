@@ -38,7 +38,9 @@ class LineTile {
     void settle_contests();
     bool coincide(std::uint32_t loser, std::uint32_t winner, std::uint32_t sample);
     void order_runs(std::size_t tile);
-    void draw_large(const LargePolygon& large, bool plain);
+    void draw_large_ones(std::size_t tile);
+    void draw_large(const LargePolygon& large, bool plain, bool has_look);
+    float highest_in(const SpanPlane& plane, int from, int to, int first_row, int end_row) const;
     glm::dvec2 position(int column, int row) const;
     void find_crossings();
     bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing);
@@ -59,6 +61,11 @@ class LineTile {
         float nearness;  // of one of its triangles
     };
     std::vector<PlacedRun> runs_;  // in the order of drawing
+    struct PlacedPolygon {
+        std::uint32_t number;  // in bins_
+        float highest;         // its plane, in the tile
+    };
+    std::vector<PlacedPolygon> large_;  // in the order of drawing
     std::vector<float> farthest_;  // per block of samples
     std::vector<SamplePair> pairs_;
     std::vector<LineCrossing> crossings_;
