@@ -151,11 +151,17 @@ void LineTile::draw_large_ones(std::size_t tile) {
     std::sort(large_.begin(), large_.end(), [](const PlacedPolygon& a, const PlacedPolygon& b) {
         return a.highest != b.highest ? a.highest > b.highest : a.number < b.number;
     });
-    constexpr std::size_t kWorthALook = 8;
-    for (std::size_t i = 0; i < large_.size(); ++i) {
-        if (i % kWorthALook == 0 && i > 0) kernels_.find_farthest(view(), farthest_.data());
-        const LargePolygon& large = bins_.large(large_[i].number);
-        draw_large(large, screen_.is_plain(large.plane.id >> 1), i >= kWorthALook);
+    const int worth_a_look = samples_.columns * samples_.rows / 2;
+    int since_look = 0;
+    bool has_look = false;
+    for (const PlacedPolygon& placed : large_) {
+        if (since_look >= worth_a_look) {
+            kernels_.find_farthest(view(), farthest_.data());
+            since_look = 0;
+            has_look = true;
+        }
+        const LargePolygon& large = bins_.large(placed.number);
+        since_look += draw_large(large, screen_.is_plain(large.plane.id >> 1), has_look);
     }
 }
 
@@ -174,7 +180,8 @@ float LineTile::highest_in(const SpanPlane& plane, int from, int to, int first_r
 }
 
 /// In strips of blocks, without those at the strip's ends that hide the polygon; `has_look`: they are known.
-void LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
+/// Returns how many samples were drawn.
+int LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
     ++drawn_;
     const ScanConverter scan(large.polygon, per_pixel_);
     SpanPlane plane = large.plane;
@@ -184,7 +191,8 @@ void LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) 
     const int right = std::min(scan.end_column() - samples_.first_column, samples_.columns);
     const int top = std::max(scan.first_row() - samples_.first_row, 0);
     const int bottom = std::min(scan.end_row() - samples_.first_row, samples_.rows);
-    if (left >= right) return;
+    int drawn = 0;
+    if (left >= right) return drawn;
     const int blocks = samples_.stride >> kBlockShift;
     for (int strip = top & -kBlockSamples; strip < bottom; strip += kBlockSamples) {
         const int first_row = std::max(strip, top), end_row = std::min(strip + kBlockSamples, bottom);
@@ -202,9 +210,12 @@ void LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) 
             const SampleSpan span = scan.span(row + samples_.first_row);
             const int from = std::max(span.begin - samples_.first_column, least);
             const int to = std::min(span.end - samples_.first_column, most);
-            if (from < to) kernels_.draw_span(tile, row, from, to, plane);
+            if (from >= to) continue;
+            kernels_.draw_span(tile, row, from, to, plane);
+            drawn += to - from;
         }
     }
+    return drawn;
 }
 
 glm::dvec2 LineTile::position(int column, int row) const {

@@ -39,7 +39,7 @@ class LineTile {
     bool coincide(std::uint32_t loser, std::uint32_t winner, std::uint32_t sample);
     void order_runs(std::size_t tile);
     void draw_large_ones(std::size_t tile);
-    void draw_large(const LargePolygon& large, bool plain, bool has_look);
+    int draw_large(const LargePolygon& large, bool plain, bool has_look);
     float highest_in(const SpanPlane& plane, int from, int to, int first_row, int end_row) const;
     glm::dvec2 position(int column, int row) const;
     void find_crossings();
