@@ -168,7 +168,9 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--ortho", t.ortho, "orthographic view, full visible height in world units");
     app.add_option("--camera", t.camera, "a camera of the scene, by name");
     app.add_option("--mask", t.mask, "method patel: bits of the extended mask, 16, 64 or 256 (default 64)");
-    app.add_option("--samples", t.samples, "method abuffer: samples per pixel and axis at which masks decide, 2 (a preview), 4 or 8 (default: 2, and lines that they miss; 4 for strokes on one side)");
+    app.add_option("--samples", t.samples,
+                   "method abuffer: samples per pixel and axis at which masks decide, 2 (a preview), 4 or 8 "
+                   "(default: 2, and lines that they miss; 4 for strokes on one side)");
     app.add_option("--operator", t.operators,
                    "method gbuffer: operators, comma separated: first second profile internal sobel roberts id "
                    "normal decaudin hertzmann (default profile,internal,id)");

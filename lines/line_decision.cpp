@@ -201,17 +201,21 @@ class Decider {
         constexpr int kMostSteps = 8;
         constexpr double kNear = 1.0 / 1024;
         if (walks_[0].surface == points_[0].surface && walks_[1].surface == points_[1].surface) return fraction;
+        const double first_guess = fraction;
+        bool has_met = false;
         double low = 0, high = 1;
         for (int step = 0; step < kMostSteps; ++step) {
             const glm::dvec2 at = place(0, fraction);
             const SurfaceWalk a = walk_surface(surfaces_, points_[0].surface, points_[0].pixel, at, criteria_);
             const SurfaceWalk b = walk_surface(surfaces_, points_[1].surface, points_[1].pixel, at, criteria_);
-            if (a.end != WalkEnd::arrived || b.end != WalkEnd::arrived) {
-                if (a.end == b.end) break;
-                (a.end != WalkEnd::arrived ? high : low) = fraction;
+            const bool has_a = a.end == WalkEnd::arrived, has_b = b.end == WalkEnd::arrived;
+            if (!has_a && !has_b) break;
+            if (!has_a || !has_b) {  // beyond the end of one
+                (has_a ? low : high) = fraction;
                 fraction = 0.5 * (low + high);
                 continue;
             }
+            has_met = true;
             const DepthPlane plane_a = surfaces_.plane(a.surface), plane_b = surfaces_.plane(b.surface);
             const auto lead = [&](glm::dvec2 p) { return plane_a.extended_to(p) - plane_b.extended_to(p); };
             (lead(at) > 0 ? low : high) = fraction;
@@ -220,7 +224,7 @@ class Decider {
             if (std::abs(met - fraction) < kNear) return met;
             fraction = met > low && met < high ? met : 0.5 * (low + high);
         }
-        return fraction;
+        return has_met ? fraction : first_guess;
     }
 
     LineDecision unexplained(int front, double gap) const {

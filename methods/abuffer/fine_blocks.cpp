@@ -48,7 +48,7 @@ void FineBlocks::sort_candidates(const std::vector<FineCandidate>& candidates) {
         const int block_x = part.block_x - first_x_, block_y = part.block_y - first_y_;
         std::uint32_t& index = index_[block_at(block_x, block_y)];
         if (index == kNone) index = static_cast<std::uint32_t>(count_++);
-        double lowest = std::min(line.nearness_from, line.nearness_to);
+        double lowest = std::min(line.nearness_from, line.nearness_to) - line_slack(screen_.surfaces(), line);
         if (line.classes.has(LineClass::border))
             lowest -= kBehindBorder * level_slack(screen_.surfaces(), lowest);
         const glm::dvec2 a = glm::mix(line.from, line.to, part.begin), b = glm::mix(line.from, line.to, part.end);
@@ -86,8 +86,9 @@ void FineBlocks::sort_triangles(const TriangleChunk& chunk, std::vector<std::uin
         const int top = std::max(grid_.at(t.y0) - first_y_, 0),
                   bottom = std::min(grid_.at(t.y1) - first_y_, rows_ - 1);
         const auto hides_something = [&](int x, int y) {
-            const int x0 = std::max(cell_of(t.x0) - kCells * (first_x_ + x), 0), x1 = std::min(cell_of(t.x1) - kCells * (first_x_ + x), kCells - 1);
-            const int y0 = std::max(cell_of(t.y0) - kCells * (first_y_ + y), 0), y1 = std::min(cell_of(t.y1) - kCells * (first_y_ + y), kCells - 1);
+            const int origin_x = kCells * (first_x_ + x), origin_y = kCells * (first_y_ + y);
+            const int x0 = std::max(cell_of(t.x0) - origin_x, 0), x1 = std::min(cell_of(t.x1) - origin_x, kCells - 1);
+            const int y0 = std::max(cell_of(t.y0) - origin_y, 0), y1 = std::min(cell_of(t.y1) - origin_y, kCells - 1);
             for (int cell_y = y0; cell_y <= y1; ++cell_y) {
                 for (int cell_x = x0; cell_x <= x1; ++cell_x) {
                     if (t.nearest > farthest_[cell_at(kCells * x + cell_x, kCells * y + cell_y)]) return true;

@@ -25,6 +25,8 @@ constexpr float kFarNearness = 3e38f;
 /// Pairs of an edge and a triangle in one block: of more, as with hundreds of triangles to a pixel, lines are left to
 /// the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 19;
+/// So far from an edge its triangles are compared with others at its depth. 2 pixels.
+constexpr double kBesideSubpixels = 512;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 
@@ -85,16 +87,18 @@ class BlockClipper {
         const bool is_border = line.owners[0] == line.owners[1];
         hidden_.clear();
         bool is_hidden = false;
-        for_triangles(line, begin, end, std::min(line.nearness_from, line.nearness_to),
+        for_triangles(line, begin, end, std::min(line.nearness_from, line.nearness_to) - slack,
                       [&](const LayerTriangle& t) {
                           double from = begin, to = end;
                           if (lies_on(line, t)) return true;
                           // A mesh hides its own edges exactly; patches that are not stitched are snapped
                           // apart, and other objects may touch.
                           const bool is_own_mesh = t.instance == candidate.part.edge.instance;
-                          const double level = !is_own_mesh ? slack + t.slack
-                                               : is_border  ? rounding + t.slack
-                                                            : rounding;
+                          const double touching = slack + t.slack;
+                          const double level = is_seen_instead(candidate, t, touching) ? -touching
+                                               : !is_own_mesh                          ? touching
+                                               : is_border                             ? rounding + t.slack
+                                                                                       : rounding;
                           if (!clip_where_hidden(line, level, t, from, to)) return true;
                           is_hidden = from <= begin && to >= end;
                           hidden_.push_back({from, to});
@@ -116,6 +120,36 @@ class BlockClipper {
     struct Interval {
         double begin, end;
     };
+
+    bool have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const {
+        const auto& v = screen_.surfaces().mesh_of(s).triangles[s.triangle];
+        return std::find_first_of(v.begin(), v.end(), t.vertices.begin(), t.vertices.end()) != v.end();
+    }
+
+    /// Of surfaces at one depth the first one is seen. Whether that is `t`, and neither triangle at the edge: none
+    /// rises in front of it beside the edge, or comes before it.
+    bool is_seen_instead(const FineCandidate& candidate, const LayerTriangle& t, double level) const {
+        const LayerLine& line = candidate.line;
+        const auto gap_at = [&](double part) {
+            return std::abs(t.nearness_at(glm::mix(line.from, line.to, part)) -
+                            glm::mix(line.nearness_from, line.nearness_to, part));
+        };
+        const double begin = gap_at(candidate.part.begin), end = gap_at(candidate.part.end);
+        if (std::min(begin, end) > level) return false;
+        const glm::dvec2 at = glm::mix(line.from, line.to, begin < end ? candidate.part.begin : candidate.part.end);
+        for (const std::uint32_t owner : line.owners) {
+            const SurfaceId s = screen_.surface_of(owner);
+            if (s.instance == t.instance && have_vertex_in_common(s, t)) return false;
+            const ScreenTriangle own = screen_.triangle(s);
+            const ScreenVertex &a = own.corners[0], &b = own.corners[1], &c = own.corners[2];
+            if (doubled_area(a, b, c) == 0) continue;
+            const glm::dvec2 inward = (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y) + glm::dvec2(c.x, c.y)) / 3.0 - at;
+            const glm::dvec2 beside = at + inward * std::min(1.0, kBesideSubpixels / glm::length(inward));
+            const double gap = extended_nearness(own, beside.x, beside.y) - t.nearness_at(beside);
+            if (gap > level || (gap >= -level && owner < t.number)) return false;
+        }
+        return true;
+    }
     struct Place {
         std::uint32_t first = 0, count = 0;
     };

@@ -14,7 +14,7 @@
 namespace burin {
 namespace {
 
-constexpr int kTilePx = 64;
+constexpr int kTilePx = 32;
 /// In front of the number of a line that its tile has found.
 constexpr std::uint32_t kOfTile = 1u << 31;
 

@@ -154,7 +154,6 @@ void LayerTile::sort_into_cells() {
     cell_triangles_.resize(cell_end_.back());
     cell_boxes_.resize(cell_end_.back());
     cell_vertices_.resize(cell_end_.back());
-    if (touching_.size() < cell_end_.back()) touching_.resize(cell_end_.back());
     for (std::uint32_t i = 0; i < entries_.size(); ++i) {
         for_cells(entries_[i].box, [&](std::size_t c) {
             const std::size_t at = cell_end_[c + 1]++;
@@ -163,6 +162,11 @@ void LayerTile::sort_into_cells() {
             cell_vertices_[at] = entries_[i].vertices;
         });
     }
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i + 2 < cell_end_.size(); ++i) {
+        largest = std::max<std::size_t>(largest, cell_end_[i + 1] - cell_end_[i]);
+    }
+    if (touching_.size() < largest) touching_.resize(largest);
     fragment_count_ += cell_triangles_.size();
 }
 

@@ -176,7 +176,8 @@ float LineTile::highest_in(const SpanPlane& plane, int from, int to, int first_r
         return x * plane.per_x + plane.nearness + down;
     };
     const int column = plane.per_x > 0 ? to - 1 : from, row = plane.per_y > 0 ? end_row - 1 : first_row;
-    return std::clamp(nearness_at(column, row), plane.low, plane.high);
+    const float nearness = nearness_at(column, row);
+    return nearness < plane.high ? std::max(nearness, plane.low) : plane.high;  // not a number: the highest
 }
 
 /// In strips of blocks, without those at the strip's ends that hide the polygon; `has_look`: they are known.

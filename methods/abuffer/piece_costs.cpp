@@ -17,6 +17,7 @@ constexpr std::uint64_t kPerRun = 40;         // a chunk's list in a tile, as fo
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
+constexpr std::uint64_t kPerLayerInTile = 400;  // a triangle in a LayerTile and its cells, set up
 // Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.
 constexpr std::uint64_t kLinesPerVisible = 256, kLinesPerPixel = 32, kLinesPerLayer = 100;
 
@@ -31,6 +32,7 @@ struct Box {  // in pixels
 /// What one thread has counted.
 struct Tally {
     std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;  // per row
+    std::vector<std::uint64_t> layer_tile_touches;                               // per tile
     std::vector<std::uint32_t> last_chunk[2];  // per tile, wound either way: 1 + the last chunk with a run there
 };
 
@@ -58,7 +60,9 @@ PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int 
     : visible_(visible), layers_(layers), sample_px_(1.0 / samples_per_pixel), threads_(threads) {
     counts_.visible_bytes.assign(static_cast<std::size_t>(visible.rows().end), 0);
     counts_.visible_touches = counts_.visible_bytes;
-    if (layers != nullptr) counts_.layer_touches.assign(static_cast<std::size_t>(layers->rows().end), 0);
+    if (layers == nullptr) return;
+    counts_.layer_touches.assign(static_cast<std::size_t>(layers->rows().end), 0);
+    layer_tile_touches_.assign(layers->count(), 0);
 }
 
 void PieceCosts::add(const ScreenSurfaces& screen) {
@@ -73,6 +77,7 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
             tally.visible_bytes.assign(counts_.visible_bytes.size(), 0);
             tally.visible_touches = tally.visible_bytes;
             tally.layer_touches.assign(counts_.layer_touches.size(), 0);
+            tally.layer_tile_touches.assign(layer_tile_touches_.size(), 0);
             for (auto& last : tally.last_chunk) last.assign(visible_.count(), 0);
         }
         for (std::uint32_t triangle = chunks[c].begin; triangle < chunks[c].end; ++triangle) {
@@ -81,7 +86,10 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
             const bool is_large = find_box(screen, s, box);
             if (!(box.low.x <= box.high.x)) continue;
             if (layers_ != nullptr) {
-                layers_->visit(box.low, box.high, [&](std::uint32_t tile) { ++tally.layer_touches[row_of(*layers_, tile)]; });
+                layers_->visit(box.low, box.high, [&](std::uint32_t tile) {
+                    ++tally.layer_touches[row_of(*layers_, tile)];
+                    ++tally.layer_tile_touches[tile];
+                });
             }
             // The samples in the box; a tile also gets those next to its right and lower border.
             const glm::dvec2 first = glm::ceil(box.low / sample_px_ - 0.5), last = glm::floor(box.high / sample_px_ - 0.5);
@@ -113,6 +121,7 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
         add_to(counts_.visible_bytes, tally.visible_bytes);
         add_to(counts_.visible_touches, tally.visible_touches);
         add_to(counts_.layer_touches, tally.layer_touches);
+        add_to(layer_tile_touches_, tally.layer_tile_touches);
     }
 }
 
@@ -132,6 +141,11 @@ RowCosts PieceCosts::layers() const {
         costs.lines.push_back(kLinesPerLayer * touches);
     }
     return costs;
+}
+
+std::uint64_t PieceCosts::largest_layer_tile() const {
+    const auto largest = std::max_element(layer_tile_touches_.begin(), layer_tile_touches_.end());
+    return largest == layer_tile_touches_.end() ? 0 : kPerLayerInTile * *largest;
 }
 
 InstanceExtent PieceCosts::extent_of(const ScreenSurfaces& screen, std::uint32_t instance) {

@@ -30,6 +30,8 @@ class PieceCosts {
     /// Of visible surfaces, and of all layers; the latter are empty where there are none.
     RowCosts visible() const;
     RowCosts layers() const;
+    /// Of a LayerTile with the most triangles that there are in one: a thread has one.
+    std::uint64_t largest_layer_tile() const;
     static InstanceExtent extent_of(const ScreenSurfaces& screen, std::uint32_t instance);
 
   private:
@@ -40,6 +42,7 @@ class PieceCosts {
     struct Counts {  // per row
         std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;
     } counts_;
+    std::vector<std::uint64_t> layer_tile_touches_;  // per tile
 };
 
 }  // namespace burin

@@ -190,6 +190,40 @@ TEST(FineLines, NothingHiddenAppears) {
     }
 }
 
+/// A prism within a box ends exactly in the box's face, which is seen there as the first of the two; of one on top
+/// of the box, the foot is seen.
+TEST(FineLines, OfFlushFacesTheFirstIsSeen) {
+    const auto prism = [](double middle) {
+        PolygonSoup soup = make_cylinder(0.3, 0.3, 0.6, 6);
+        return transformed(std::move(soup), [=](glm::dvec3 p) { return p + glm::dvec3(0.05, middle, 0.02); });
+    };
+    const auto as_one_mesh = [](PolygonSoup a, const PolygonSoup& b) {
+        const auto first_vertex = static_cast<std::uint32_t>(a.positions.size());
+        const auto first_corner = static_cast<std::uint32_t>(a.corners.size());
+        a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+        for (const std::uint32_t c : b.corners) a.corners.push_back(first_vertex + c);
+        for (const std::uint32_t end : b.polygon_ends) a.polygon_ends.push_back(first_corner + end);
+        return a;
+    };
+    const Camera camera = perspective_camera({1.3, 2.6, 2.1}, {0, 0.4, 0});
+    for (const double middle : {0.2, 0.8}) {
+        const PolygonSoup box = make_box({1, 1, 1});
+        for (const Scene& scene : {scene_of({box, prism(middle)}), scene_of({as_one_mesh(box, prism(middle))})}) {
+            const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize);
+            EXPECT_EQ(count_false(drawn, expected), 0) << middle << ' ' << scene.objects.size();
+            EXPECT_EQ(count_false(expected, drawn), 0) << middle << ' ' << scene.objects.size();
+        }
+    }
+    // At exactly one depth all over.
+    const auto in_the_middle = [](glm::dvec3 size) {
+        return transformed(make_box(size), [](glm::dvec3 p) { return p + glm::dvec3(kSize / 2.0 + 0.13, kSize / 2.0 + 0.27, 30); });
+    };
+    const Scene scene = scene_of({in_the_middle({40, 40, 20}), in_the_middle({17, 11, 20})});
+    const Drawing drawn = draw(scene, pixel_camera(kSize, kSize), kSize);
+    EXPECT_GT(drawn.sum("lines.A"), 100);
+    EXPECT_EQ(count_false(drawn, truth(scene, pixel_camera(kSize, kSize), kSize)), 0);
+}
+
 TEST(FineLines, ThePreviewLeavesThemOutUnlessAskedFor) {
     Scene scene = scene_of({placed(make_box({30, 0.2, 0.2}), 17), wall()});
     const Camera camera = pixel_camera(kSize, kSize);
