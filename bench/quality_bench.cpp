@@ -16,6 +16,7 @@
 #include "compare/metrics_temporal.h"
 #include "compare/moving_frames.h"
 #include "compare/test_chart.h"
+#include "methods/abuffer/sampling.h"
 #include "methods/method_table.h"
 #include "scene/scene_description.h"
 
@@ -124,7 +125,7 @@ std::string measure_quality(const std::string& scenes, const std::vector<std::st
                crossing_view = view_of(crossing, kSize, kSize);
     JsonWriter json;
     json.begin_object();
-    json.key("samples_per_pixel").value(star.samples_per_pixel());
+    json.key("samples_per_pixel").value(samples_per_pixel_of(star));
     json.key("pictures").begin_array();
     for (const double width_px : {1.0, 0.3, 3.0})
         measure_picture(json, "star", star, star_view, width_px, 64);

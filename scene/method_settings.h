@@ -9,7 +9,6 @@
 
 #include "abuffer/halo_shape.h"
 #include "lines/line_class.h"
-#include "lines/mask_stroke.h"
 #include "scene/gbuffer_settings.h"
 #include "scene/wire_settings.h"
 
@@ -17,13 +16,10 @@ namespace burin {
 
 /// What only the method `abuffer` looks at.
 struct AbufferSettings {
-    /// 2, 4 or 8 along each axis: where masks decide. 2 asks for a preview. Not given: as many as lines
-    /// that samples miss leave worth their time (samples_per_pixel()).
+    /// 2, 4 or 8 along each axis: where masks decide. 2 asks for a preview. Not given: the method chooses.
     std::optional<int> samples;
     /// Whether lines that samples miss are drawn from the mesh's edges. Not given: but for the preview.
     std::optional<bool> fine_lines;
-    /// Strokes on one side are cut off by the strokes around them, so ends between samples stay open.
-    int samples_per_pixel(StrokeSide side) const { return samples.value_or(side == StrokeSide::both ? 2 : 4); }
     bool draws_fine_lines() const { return fine_lines.value_or(samples != 2); }
 };
 

@@ -77,9 +77,6 @@ struct Scene {
     ZBufferSettings zbuffer;
     WireSettings wire;
     std::uint64_t skipped_primitives = 0;
-
-    /// Of the method `abuffer`.
-    int samples_per_pixel() const { return abuffer.samples_per_pixel(lines.style.side); }
 };
 
 /// All vertices of all objects in world space, for fitting cameras.

@@ -9,6 +9,7 @@
 #include "methods/abuffer/layer_pass.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/picture_pieces.h"
+#include "methods/abuffer/sampling.h"
 #include "methods/abuffer/smooth_contours.h"
 #include "methods/abuffer/stroke_pass.h"
 #include "methods/abuffer/surface_pass.h"
@@ -78,7 +79,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     stats.threads = resolve_thread_count(options.threads);
     stats.triangles = frame.surfaces.triangle_count();
     const LineSettings& lines = frame.scene->lines;
-    const int per_pixel = frame.scene->samples_per_pixel();
+    const int per_pixel = samples_per_pixel_of(*frame.scene);
     const int tile_samples = options.tile_samples > 0 ? options.tile_samples : TileGrid::kTileSamples;
     const TileKernels& kernels = best_kernels();
     const bool has_cap = options.memory_bytes > 0;

@@ -9,6 +9,7 @@
 #include "methods/abuffer/fold_width.h"
 #include "methods/abuffer/layer_edges.h"
 #include "methods/abuffer/layer_triangle.h"
+#include "methods/abuffer/sampling.h"
 
 namespace burin {
 namespace {
@@ -297,7 +298,7 @@ std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurface
     std::vector<LineSegment> segments;
     const std::vector<FineCandidate> candidates = find_candidates(frame, screen, region, parts, threads);
     if (candidates.empty()) return segments;
-    const FineBlocks blocks(screen, kernels, frame.scene->samples_per_pixel(), region, candidates,
+    const FineBlocks blocks(screen, kernels, samples_per_pixel_of(*frame.scene), region, candidates,
                             threads);
     std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads),
                                        BlockClipper(screen, kernels, frame.criteria));

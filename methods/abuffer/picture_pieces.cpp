@@ -10,6 +10,7 @@
 #include "methods/abuffer/layer_pass.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/piece_costs.h"
+#include "methods/abuffer/sampling.h"
 
 namespace burin {
 namespace {
@@ -120,7 +121,7 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     Rows visible, layers;
     visible.of_instance.resize(instance_count);
     layers.of_instance.resize(instance_count);
-    PieceCosts costs(tiles, has_layers ? &layer_tiles : nullptr, frame.scene->samples_per_pixel(), threads);
+    PieceCosts costs(tiles, has_layers ? &layer_tiles : nullptr, samples_per_pixel_of(*frame.scene), threads);
     std::uint64_t least = 0;
     for (const std::vector<std::uint32_t>& group : plan.groups) {
         screen.show(group, threads);

@@ -5,6 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 
+#include "methods/abuffer/sampling.h"
 #include "shading/surface_shader.h"
 
 namespace burin {
@@ -16,7 +17,7 @@ glm::dvec3 vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels)
     : frame_(frame), screen_(screen), kernels_(kernels) {
-    const int per_pixel = frame.scene->samples_per_pixel();
+    const int per_pixel = samples_per_pixel_of(*frame.scene);
     const auto samples = static_cast<float>(per_pixel * per_pixel);
     for (int covered = 0; covered <= per_pixel * per_pixel; ++covered) {
         const glm::vec4 sum = glm::vec4(frame.scene->surfaces.paper_color, 1.0f) * static_cast<float>(covered);

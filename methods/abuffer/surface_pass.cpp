@@ -8,6 +8,7 @@
 #include "methods/abuffer/fine_lines.h"
 #include "methods/abuffer/line_tile.h"
 #include "methods/abuffer/pixel_fill.h"
+#include "methods/abuffer/sampling.h"
 
 namespace burin {
 namespace {
@@ -21,7 +22,7 @@ struct WorkerTimes {
 void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vector<LineSegment>>& segments, Film& film,
                        RenderStats& stats) {
     Stopwatch watch;
-    const int per_pixel = frame_.scene->samples_per_pixel();
+    const int per_pixel = samples_per_pixel_of(*frame_.scene);
     const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
     std::optional<FineEdges> fine_edges;

@@ -7,6 +7,7 @@
 #include "abuffer/scan_convert.h"
 #include "abuffer/tile_kernels.h"
 #include "base/parallel.h"
+#include "methods/abuffer/sampling.h"
 #include "shading/surface_shader.h"
 
 namespace burin {
@@ -40,7 +41,7 @@ class TransparentTile {
         const bool any = std::any_of(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return opacity(n) < 1; });
         if (!any) return;
         rect_ = grid_.tile(tile);
-        const int s = frame_.scene->samples_per_pixel();
+        const int s = samples_per_pixel_of(*frame_.scene);
         samples_.reset(rect_.x0 * s, rect_.y0 * s, rect_.width() * s, rect_.height() * s, s);
         layers_.clear();
         for (const std::uint32_t n : numbers) {

@@ -157,6 +157,20 @@ TEST(Memory, ACapChangesNothingBehindTransparentSurfacesAndInACrop) {
     EXPECT_TRUE(same_bits(whole, draw(scene, options, crop)));
 }
 
+/// With hidden lines every thread holds a tile with all its triangles, in any layer.
+TEST(Memory, TheFullestTileCountsForEveryThread) {
+    constexpr int kMore = 64;  // the least cap is rounded to megabytes
+    const auto mb_per_thread = [](int segments, HiddenStyle style) {
+        Scene scene = scene_of({make_torus(0.7, 0.3, segments, segments / 2)});
+        scene.lines.style.hidden.style = style;
+        return static_cast<double>((least_memory(scene, 1 + kMore) - least_memory(scene, 1)) >> 20) / kMore;
+    };
+    const double plain = mb_per_thread(200, HiddenStyle::none);
+    const double some = mb_per_thread(200, HiddenStyle::solid) - plain;
+    EXPECT_GT(some, 0.1);
+    EXPECT_GT(mb_per_thread(400, HiddenStyle::solid) - plain, 3 * some) << "four times as many triangles in a tile";
+}
+
 TEST(Memory, LinesThatOthersDependOnAreKeptToTheEnd) {
     Scene scene = heap_of_instances(4);
     const std::uint64_t plain = least_memory(scene, 1);

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace burin {
+
+/// At how many samples along each axis masks decide: what the scene asks for. If it does not, 2, which lines that
+/// samples miss make enough (docs/decisions/0007-two-samples.md); 4 for strokes on one side, which are cut off by
+/// the strokes around them, so that ends between samples stay open.
+inline int samples_per_pixel_of(const Scene& scene) {
+    return scene.abuffer.samples.value_or(scene.lines.style.side == StrokeSide::both ? 2 : 4);
+}
+
+}  // namespace burin
