@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-constexpr std::size_t kMaxDistance = 32768, kMaxLength = 258, kMinLength = 4;
+constexpr std::size_t kMaxDistance = 32768, kMaxLength = 258;
 constexpr std::uint32_t kEndOfBlock = 256;
 constexpr std::size_t kBlockSequences = 8192;  // one set of codes for as many
 
@@ -190,13 +190,13 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
         if (p - begin >= 2 && here == load_eight(p - 2)) {
             from = p - 2;
         } else {
-            const auto hash = static_cast<std::uint32_t>(here) * 0x9E3779B1u >> (32 - kHashBits);
+            // Of six bytes: shorter copies are found in noise, and coding them takes longer than it saves.
+            const auto hash = static_cast<std::uint32_t>((here << 16) * 0x9E3779B97F4A7C15u >> (64 - kHashBits));
             const std::uint32_t place = newest_[hash];
             newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;
             const std::uint8_t* const candidate = begin + place - 1;
             if (place != 0 && p - candidate <= static_cast<std::ptrdiff_t>(kMaxDistance) &&
-                static_cast<std::uint32_t>(load_eight(candidate)) ==
-                    static_cast<std::uint32_t>(here)) {
+                (load_eight(candidate) ^ here) << 16 == 0) {
                 from = candidate;
             }
         }
@@ -204,7 +204,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
             p += std::min<std::ptrdiff_t>(end - p, 1 + (misses++ >> 5));  // in noise, ever larger steps
             continue;
         }
-        misses = 0;
+        misses /= 2;
         const std::size_t distance = static_cast<std::size_t>(p - from);
         const std::uint8_t* const behind = p + common_length(p, from, end);
         while (p > literals && from > begin && p[-1] == from[-1]) --p, --from;
@@ -216,7 +216,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
 
 std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> bytes) {
     find_sequences(bytes);
-    // No literal takes more than 15 bits, no copy of four bytes or more takes more than 48, and no
+    // No literal takes more than 15 bits, no copy of six bytes or more takes more than 48, and no
     // block has more than 640 bytes of codes.
     out_.resize(2 * bytes.size() + 640 * (sequences_.size() / kBlockSequences + 1) + 64);
     BitWriter out(out_.data());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/huge_pages.h"
 #include "image/half.h"
 
 namespace burin {
@@ -11,6 +12,9 @@ Channel& Image::add(std::string name, PixelType type) {
     Channel channel;
     channel.name = std::move(name);
     channel.type = type;
+    // Huge pages for larger images take seconds that nothing can interrupt.
+    constexpr std::size_t kMostPixels = std::size_t{1} << 23;
+    if (pixel_count() <= kMostPixels) reserve_large(channel.bytes, pixel_count() * size_of(type));
     channel.bytes.resize(pixel_count() * size_of(type));
     channels_.push_back(std::move(channel));
     return channels_.back();

@@ -7,61 +7,60 @@
 namespace burin {
 namespace {
 
-std::vector<glm::vec3> unit_normals(const Mesh& mesh) {
-    std::vector<glm::vec3> normals(mesh.polygon_count);
-    const auto unit = [](const glm::dvec3& v) { return glm::vec3(v / std::max(glm::length(v), 1e-300)); };
-    if (!mesh.polygon_normals.empty()) {
-        for (std::size_t p = 0; p < normals.size(); ++p) normals[p] = unit(glm::dvec3(mesh.polygon_normals[p]));
-        return normals;
-    }
-    for (std::size_t t = 0; t < normals.size(); ++t) {
-        const auto& c = mesh.triangles[t];
-        const glm::dvec3 a(mesh.positions[c[0]]);
-        normals[t] = unit(glm::cross(glm::dvec3(mesh.positions[c[1]]) - a, glm::dvec3(mesh.positions[c[2]]) - a));
-    }
-    return normals;
+glm::vec3 scaled_to_one(const glm::dvec3& v, double square) {
+    return glm::vec3(v * (1 / std::max(std::sqrt(square), 1e-300)));
 }
 
-/// Whether a triangle is a sliver in its own proportions, or nearly.
-bool is_thin(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
-    const glm::dvec3 a(mesh.positions[t[0]]);
-    const glm::dvec3 ab = glm::dvec3(mesh.positions[t[1]]) - a, ac = glm::dvec3(mesh.positions[t[2]]) - a;
-    const glm::dvec3 bc = ac - ab, area = glm::cross(ab, ac);
-    const double longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-    constexpr double kPart = 1.001 * kSliverHeightPart;
-    return !(glm::dot(area, area) > kPart * kPart * longest2 * longest2);
+/// The polygons' normals, in single precision; with kThinTriangle where a triangle is a sliver in its own
+/// proportions, or nearly.
+std::vector<glm::vec3> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>& thin) {
+    std::vector<glm::vec3> normals(mesh.polygon_count);
+    const bool has_polygons = !mesh.polygon_normals.empty();
+    for (std::size_t p = 0; has_polygons && p < normals.size(); ++p) {
+        const glm::dvec3 normal(mesh.polygon_normals[p]);
+        normals[p] = scaled_to_one(normal, glm::dot(normal, normal));
+    }
+    for (std::size_t t = 0; t < thin.size(); ++t) {
+        const auto& corners = mesh.triangles[t];
+        const glm::dvec3 a(mesh.positions[corners[0]]);
+        const glm::dvec3 ab = glm::dvec3(mesh.positions[corners[1]]) - a;
+        const glm::dvec3 ac = glm::dvec3(mesh.positions[corners[2]]) - a;
+        const glm::dvec3 bc = ac - ab, area = glm::cross(ab, ac);
+        const double longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
+        const double area2 = glm::dot(area, area);
+        constexpr double kPart = 1.001 * kSliverHeightPart;
+        thin[t] = !(area2 > kPart * kPart * longest2 * longest2) ? kThinTriangle : 0;
+        if (!has_polygons) normals[t] = scaled_to_one(area, area2);
+    }
+    return normals;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria) {
-    const std::vector<glm::vec3> normals = unit_normals(mesh);
+    std::vector<std::uint8_t> sharp(mesh.triangles.size());
+    const std::vector<glm::vec3> normals = unit_normals(mesh, sharp);
     const bool by_polygon = criteria.classes.has(LineClass::polygon);
     const bool by_material = criteria.classes.has(LineClass::material) && !mesh.polygon_material.empty();
     const bool by_crease = criteria.classes.has(LineClass::crease);
     // Single precision normals: what is close to the angle counts as sharp and is looked at again.
     const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + 1e-5f;
-    std::vector<std::uint8_t> sharp(mesh.triangles.size(), 0);
-    const auto is_sharp = [&](HalfEdge h, HalfEdge g) {
-        const std::uint32_t t = h / 3, u = g / 3;
-        if (mesh.is_marked(h) || mesh.triangles[t][h % 3] == mesh.triangles[u][g % 3]) return true;
+    const auto is_sharp = [&](std::uint32_t t, HalfEdge h, std::uint32_t u, HalfEdge g) {
+        if (mesh.is_marked(h) || mesh.triangles[t][h - 3 * t] == mesh.triangles[u][g - 3 * u]) return true;
         const std::uint32_t p = mesh.polygon_of(t), q = mesh.polygon_of(u);
         if (p == q) return false;
         if (by_polygon || (by_material && mesh.polygon_material[p] != mesh.polygon_material[q])) return true;
         return by_crease && !(glm::dot(normals[p], normals[q]) > cos_crease);
     };
-    for (HalfEdge h = 0; h < mesh.next_on_edge.size(); ++h) {
-        const HalfEdge g = mesh.next_on_edge[h];
-        const auto bit = static_cast<std::uint8_t>(1u << h % 3);
-        if (g == h || mesh.next_on_edge[g] != h) {
-            sharp[h / 3] |= bit;
-        } else if (h < g && is_sharp(h, g)) {
-            sharp[h / 3] |= bit;
-            sharp[g / 3] |= static_cast<std::uint8_t>(1u << g % 3);
+    // Both half-edges of a pair find the same: guessing which of them comes first would take longer.
+    for (std::uint32_t t = 0; t < sharp.size(); ++t) {
+        unsigned edges = 0;
+        for (unsigned k = 0; k < 3; ++k) {
+            const HalfEdge h = 3 * t + k, g = mesh.next_on_edge[h];
+            const bool is_pair = (g != h) & (mesh.next_on_edge[g] == h);
+            edges |= (!is_pair || is_sharp(t, h, g / 3, g) ? 1u : 0u) << k;
         }
-    }
-    for (std::size_t t = 0; t < sharp.size(); ++t) {
-        if (is_thin(mesh, mesh.triangles[t])) sharp[t] |= kThinTriangle;
+        sharp[t] |= static_cast<std::uint8_t>(edges);
     }
     return sharp;
 }
