@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "base/interrupt.h"
 #include "image/half.h"
 #include "image/oiio_module.h"
+#include "image/png_writer.h"
 
 namespace burin {
 namespace {
@@ -44,9 +46,9 @@ Function* module_function(const char* name) {
     void* const symbol = module != nullptr ? dlsym(module, name) : nullptr;
     if (symbol == nullptr) {
         const char* const reason = dlerror();
-        throw InputError(std::string("cannot load burin_oiio.so, which writes PNG and TIFF: ") +
+        throw InputError(std::string("cannot load burin_oiio.so, which writes TIFF: ") +
                          (reason != nullptr ? reason : "not found") +
-                         "; keep it beside the burin program, or write EXR");
+                         "; keep it beside the burin program, or write EXR or PNG");
     }
     return reinterpret_cast<Function*>(symbol);
 }
@@ -86,10 +88,34 @@ struct DisplaySink {
     }
 };
 
+bool is_png(const std::string& path) {
+    std::string extension = fs::path(path).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension == ".png";
+}
+
 /// A library's message on one line.
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
+}
+
+/// Writes a row of a channel of the data window into component `c` of the pixels from `dx` on.
+void read_row(const Image& image, const Channel& channel, int dx, int y, int c, std::vector<glm::vec4>& row) {
+    if (y < 0 || y >= image.height()) return;
+    const int begin = std::max(0, -dx), end = std::min(image.width(), static_cast<int>(row.size()) - dx);
+    const auto first = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width());
+    const auto read = [&](const auto& value_at) {
+        for (int x = begin; x < end; ++x)
+            row[static_cast<std::size_t>(x + dx)][c] = value_at(first + static_cast<std::size_t>(x));
+    };
+    switch (channel.type) {
+        case PixelType::float16:
+            return read([half = channel.as<std::uint16_t>()](std::size_t i) { return float_from_half(half[i]); });
+        case PixelType::float32: return read([v = channel.as<float>()](std::size_t i) { return v[i]; });
+        case PixelType::uint32:
+            return read([v = channel.as<std::uint32_t>()](std::size_t i) { return static_cast<float>(v[i]); });
+    }
 }
 
 }  // namespace
@@ -114,34 +140,50 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
     result.pixels.resize(pixel_count * channels);
 
     const glm::vec3 paper = background.value_or(glm::vec3(0.0f));
-    const Channel* const rgba[4] = {image.find("R"), image.find("G"), image.find("B"),
-                                    image.find("A")};
+    const auto encode = [&](const glm::vec4& color, std::uint16_t* out) {
+        const float alpha = color.a;
+        for (int c = 0; c < 3; ++c) {
+            float linear = color[c] + (1 - alpha) * paper[c];
+            if (!background && alpha > 0) linear = color[c] / alpha;
+            out[c] = srgb_code_value(linear);
+        }
+        if (!background) out[3] = code_value(alpha);
+    };
+    const Channel* const rgba[4] = {image.find("R"), image.find("G"), image.find("B"), image.find("A")};
     const int dx = image.data().x0 - image.display().x0;
     const int dy = image.data().y0 - image.display().y0;
+    std::vector<glm::vec4> row(static_cast<std::size_t>(result.width));
     for (int y = 0; y < result.height; ++y) {
         throw_if_interrupted();
-        for (int x = 0; x < result.width; ++x) {
-            const std::size_t out = (static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) +
-                                     static_cast<std::size_t>(x)) * channels;
-            const int sx = x - dx, sy = y - dy;
-            const bool has_data = sx >= 0 && sy >= 0 && sx < image.width() && sy < image.height();
-            float color[4] = {0, 0, 0, 0};
-            for (int c = 0; c < 4 && has_data; ++c) {
-                color[c] = static_cast<float>(image.value(*rgba[c], sx, sy));
+        std::fill(row.begin(), row.end(), glm::vec4(0.0f));
+        for (int c = 0; c < 4; ++c) read_row(image, *rgba[c], dx, y - dy, c, row);
+        std::uint16_t* out = &result.pixels[static_cast<std::size_t>(y) * row.size() * channels];
+        for (std::size_t x = 0; x < row.size(); ++x, out += channels) {
+            // Most pixels are as the one before, and encoding takes long.
+            if (x > 0 && row[x] == row[x - 1]) {
+                std::copy(out - channels, out, out);
+            } else {
+                encode(row[x], out);
             }
-            const float alpha = color[3];
-            for (int c = 0; c < 3; ++c) {
-                float linear = color[c] + (1 - alpha) * paper[c];
-                if (!background && alpha > 0) linear = color[c] / alpha;
-                result.pixels[out + static_cast<std::size_t>(c)] = srgb_code_value(linear);
-            }
-            if (!background) result.pixels[out + 3] = code_value(alpha);
         }
     }
     return result;
 }
 
 void write_display_image(const std::string& path, const DisplayImage& image, int bits) {
+    if (is_png(path)) {
+        AtomicFile file(path);
+        try {
+            write_png(file, image, bits);
+        } catch (const InputError&) {
+            throw;
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const std::exception& error) {
+            throw InputError(path + ": cannot write: " + one_line(error.what()));
+        }
+        return file.commit();
+    }
     auto* const write = module_function<decltype(burin_oiio_write)>("burin_oiio_write");
     AtomicFile file(path);
     DisplaySink target{file, nullptr};
