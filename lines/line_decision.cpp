@@ -84,12 +84,12 @@ class Decider {
         return depth_tolerance(surfaces_, distance(walks_[i].surface, end), surfaces_.plane(behind_[i]), pixels);
     }
 
-    /// Whether point i's surface ends behind the other, though within the tolerance, and begins in front for certain.
+    /// Whether point i's surface ends behind the other for certain, though within the tolerance, and begins in front.
     bool passes_through_before_end(int i, double gap) const {
         const double certainly = tolerance_at_end(i, kCertainlyApartPx);
         if (!(gap < -certainly)) return false;
         const glm::dvec2 at = points_[i].pixel;
-        return extended_distance(walks_[1 - i].surface, at) - distance(points_[i].surface, at) > certainly;
+        return extended_distance(walks_[1 - i].surface, at) > distance(points_[i].surface, at);
     }
 
     LineDecision with_fraction(LineDecision decision, int i, double fraction) const {

@@ -18,6 +18,8 @@ constexpr double kShortestTipSubpixels = 4;
 constexpr double kSlackSubpixels = 1;
 /// Something is clearly in front if it is nearer by this many pixels' widths.
 constexpr double kClearlyInFrontPx = 2;
+/// And at one level by less than this part of that.
+constexpr double kLevelPart = 1.0 / 8;
 /// No surface beside an edge is so steep that a sample on it is in front by so many times that.
 constexpr double kFarInFront = 8;
 
@@ -189,11 +191,21 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
         return numbers[0] == n || numbers[1] == n || numbers[2] == n || numbers[3] == n;
     };
     const auto [a, b] = owners.numbers;
-    if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) return false;
+    const double nearness = edge.nearness_at(t), clearly = level(nearness);
+    if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) {
+        // Of two lines with a narrow gap between them the samples tell of one only. At contacts of surfaces they
+        // know whether there is a line at all.
+        bool has_other = false, has_level = false;
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (numbers[k] == a || numbers[k] == b) continue;
+            has_other = true;
+            has_level |= std::abs(static_cast<double>(samples.nearness[corners[k]]) - nearness) <= kLevelPart * clearly;
+        }
+        return !owners.needs_both && has_other && !has_level;
+    }
     const float farthest = std::min(std::min(samples.nearness[corners[0]], samples.nearness[corners[1]]),
                                     std::min(samples.nearness[corners[2]], samples.nearness[corners[3]]));
-    const double nearness = edge.nearness_at(t);
-    const double gap = static_cast<double>(farthest) - nearness, clearly = level(nearness);
+    const double gap = static_cast<double>(farthest) - nearness;
     if (!(gap > clearly)) return true;
     // Samples lie on steep surfaces beside the edge, or on something else.
     if (gap > kFarInFront * clearly) return false;

@@ -57,6 +57,7 @@ void LayerTile::fill(std::size_t tile) {
     rect_ = grid_.tile(tile);
     triangles_.clear();
     entries_.clear();
+    set_up_.clear();
     SurfaceId s;
     std::uint32_t first = 0, end = 0;
     for (const std::uint32_t value : bins_.triangles(tile)) {
@@ -88,7 +89,8 @@ void LayerTile::fill(std::size_t tile) {
 void LayerTile::add(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
                     const ScreenBox& box, std::uint32_t set_up) {
     const auto first = static_cast<std::uint32_t>(screen_.vertices(instance) - screen_.vertices(0));
-    entries_.push_back({box, {first + vertices[0], first + vertices[1], first + vertices[2]}, number, set_up});
+    entries_.push_back({box, {first + vertices[0], first + vertices[1], first + vertices[2]}, number});
+    set_up_.push_back(set_up);
 }
 
 double LayerTile::transmission_of(SurfaceId s) const {
@@ -112,12 +114,12 @@ void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
 }
 
 const LayerTriangle& LayerTile::triangle(std::uint32_t i) {
-    Entry& entry = entries_[i];
-    if (entry.set_up != kNotSetUp) return triangles_[entry.set_up];
-    const SurfaceId s = screen_.surface_of(entry.number);
-    LayerTriangle triangle = layer_triangle(screen_, s, entry.number);
+    if (set_up_[i] != kNotSetUp) return triangles_[set_up_[i]];
+    const std::uint32_t number = entries_[i].number;
+    const SurfaceId s = screen_.surface_of(number);
+    LayerTriangle triangle = layer_triangle(screen_, s, number);
     triangle.transmission = transmission_of(s);
-    entry.set_up = static_cast<std::uint32_t>(triangles_.size());
+    set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(triangle);
     return triangles_.back();
 }
@@ -283,11 +285,25 @@ void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines)
         for (const std::uint32_t j : touching(i + 1, c.end, box, from(box.x0, left), from(box.y0, top))) {
             if (have_vertex_in_common(i, j)) continue;
             const std::uint32_t own = cell_triangles_[i], other = cell_triangles_[j];
-            triangle(own);  // both before either is looked at: setting up moves them
-            triangle(other);
+            if (is_on_one_side(triangle(own), cell_vertices_[j])) continue;
+            triangle(other);  // before either is looked at: setting up moves them
             intersect(triangle(own), triangle(other), lines);
         }
     }
+}
+
+/// Whether the plane of a triangle does not reach through another one, which need not be set up for that.
+bool LayerTile::is_on_one_side(const LayerTriangle& plane, const std::array<std::uint32_t, 3>& vertices) const {
+    const ScreenVertex* const v = screen_.vertices(0);
+    double low = 0, high = 0;
+    for (const std::uint32_t vertex : vertices) {
+        const ScreenVertex& corner = v[vertex];
+        if (corner.x == ScreenVertex::kOffScreen) return false;
+        const double gap = plane.nearness_at({corner.x, corner.y}) - static_cast<double>(corner.nearness);
+        low = std::min(low, gap);
+        high = std::max(high, gap);
+    }
+    return low >= -plane.slack || high <= plane.slack;
 }
 
 void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {
@@ -305,10 +321,6 @@ void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::v
         return low < -slack && high > slack;
     };
     if (!reaches_through(a, b) || !reaches_through(b, a)) return;
-    if (frame_.surfaces.polygon_id(screen_.surface_of(a.number)) ==
-        frame_.surfaces.polygon_id(screen_.surface_of(b.number))) {
-        return;
-    }
 
     // Both planes meet where gap(p) = offset + slope.p = 0; from there, the part within both triangles.
     const glm::dvec2 slope(a.per_x - b.per_x, a.per_y - b.per_y);
@@ -318,11 +330,16 @@ void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::v
     const glm::dvec2 foot = origin - slope * ((a.nearness_at(origin) - b.nearness_at(origin)) / square);
     const glm::dvec2 along = glm::dvec2(-slope.y, slope.x) / std::sqrt(square);
     double begin = -1e300, end = 1e300;
-    std::uint64_t nodes[2] = {LayerLine::kNoNode, LayerLine::kNoNode};
+    struct Edge {
+        const LayerTriangle *owner = nullptr, *other = nullptr;
+        std::size_t corner = 0;
+        std::uint64_t node() const { return owner != nullptr ? node_of(*owner, corner, *other) : LayerLine::kNoNode; }
+    } first, last;  // between which the line runs
     for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
         for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = k == 2 ? 0 : k + 1;
             const glm::dvec2 p(own->x[k], own->y[k]);
-            const glm::dvec2 edge = glm::dvec2(own->x[(k + 1) % 3], own->y[(k + 1) % 3]) - p;
+            const glm::dvec2 edge = glm::dvec2(own->x[next], own->y[next]) - p;
             const double inside = cross(edge, foot - p), change = cross(edge, along);
             if (change == 0) {
                 if (inside < 0) return;
@@ -331,22 +348,23 @@ void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::v
             const double t = -inside / change;
             if (change > 0 && t > begin) {
                 begin = t;
-                nodes[0] = node_of(*own, k, *other);
+                first = {own, other, k};
             } else if (change < 0 && t < end) {
                 end = t;
-                nodes[1] = node_of(*own, k, *other);
+                last = {own, other, k};
             }
+            if (!(begin < end)) return;
         }
     }
-    if (!(begin < end)) return;
     LayerLine line;
     line.from = foot + along * begin;
     line.to = foot + along * end;
     line.nearness_from = a.nearness_at(line.from);
     line.nearness_to = a.nearness_at(line.to);
     line.owners = {a.number, b.number};
-    line.nodes = {nodes[0], nodes[1]};
+    line.nodes = {first.node(), last.node()};
     const SurfaceId sa = screen_.surface_of(a.number), sb = screen_.surface_of(b.number);
+    if (frame_.surfaces.polygon_id(sa) == frame_.surfaces.polygon_id(sb)) return;
     const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, 0.5 * (line.from + line.to) / 256.0, frame_.criteria);
     const LineClassSet classes =
         (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;

@@ -41,7 +41,7 @@ class LayerTile {
     struct Entry {
         ScreenBox box;
         std::array<std::uint32_t, 3> vertices;  ///< numbered through over all instances
-        std::uint32_t number, set_up;           ///< set_up: in triangles_, or kNotSetUp
+        std::uint32_t number;
     };
     /// A cell's list: [begin, end) of cell_triangles_ and cell_boxes_.
     struct Cell {
@@ -65,6 +65,7 @@ class LayerTile {
                                             float least_y0);
     void hide(const LayerLine& line, std::uint32_t i, double begin, double end);
     void find_in_cell(int column, int row, std::vector<LayerLine>& lines);
+    bool is_on_one_side(const LayerTriangle& plane, const std::array<std::uint32_t, 3>& vertices) const;
     void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                std::vector<LayerPiece>& pieces);
     void intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const;
@@ -79,6 +80,7 @@ class LayerTile {
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
     // Per triangle of the tile; what it takes to clip with one is set up when first needed.
     std::vector<Entry> entries_;
+    std::vector<std::uint32_t> set_up_;  // per entry: which of triangles_, or kNotSetUp
     std::vector<LayerTriangle> triangles_;
     std::vector<std::uint32_t> cell_end_, cell_triangles_;  // numbers of entries
     ScreenBoxes cell_boxes_;                                // the same ones' boxes and vertices
