@@ -52,7 +52,7 @@ glm::dvec2 along_edge(const LineCrossing& c) { return c.edge_ends[1] - c.edge_en
 
 }  // namespace
 
-void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
+void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high, bool has_bridges,
                 std::vector<LineSegment>& segments) {
     const glm::dvec2 center = 0.5 * (low + high);
     const auto join = [&](const LineCrossing& a, const LineCrossing& b) {
@@ -69,6 +69,11 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
                     return;
                 }
             }
+            const auto runs_through = [&](const LineCrossing& c) {
+                return has_edge(c) && !c.classes.empty() && !is_inside(c.edge_ends[0], low, high) &&
+                       !is_inside(c.edge_ends[1], low, high);
+            };
+            if (!has_bridges && (a.occludes || b.occludes) && runs_through(a) && runs_through(b)) return;
             // No corner: half of the way looks like one, half like the other.
             const glm::dvec2 middle = 0.5 * (a.pixel + b.pixel);
             add(a, a.pixel, middle, center, segments);

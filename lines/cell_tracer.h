@@ -15,8 +15,10 @@ namespace burin {
 /// these meet, if it lies in the cell. Where three or four come together, the nearest line goes through
 /// and the others end at it. A single one runs on to the end of its edge.
 ///
-/// `low` and `high` are the positions of the cell's upper left and lower right sample.
-void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high,
+/// `low` and `high` are the positions of the cell's upper left and lower right sample. `has_bridges`: two lines that
+/// run through the cell, of which one ends a surface, are joined though they do not meet. Else what is missing of
+/// them is expected to be found along their edges.
+void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high, bool has_bridges,
                 std::vector<LineSegment>& segments);
 
 }  // namespace burin

@@ -23,9 +23,12 @@ constexpr double kNegligibleFoldSubpixels = 4;
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
 constexpr float kFarNearness = 3e38f;
-/// Pairs of an edge and a triangle in one block: of more, as with hundreds of triangles to a pixel, lines are left to
+/// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many layers, lines are left to
 /// the samples, for time would grow with the square.
-constexpr std::size_t kMostLooks = std::size_t{1} << 19;
+constexpr std::size_t kMostLooks = std::size_t{1} << 22;
+/// A block is cut into so many cells along each side, at most, that about so many triangles are in one.
+constexpr int kMostCells = 32;
+constexpr std::size_t kTrianglesPerCell = 128;
 /// So far from an edge its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
 /// What rounding does to nearness, as part of what counts as level.
@@ -67,18 +70,36 @@ class BlockClipper {
     BlockClipper(const ScreenSurfaces& screen, const TileKernels& kernels, const LineCriteria& criteria)
         : screen_(screen), kernels_(kernels), criteria_(criteria) {}
 
-    void set_triangles(std::span<const HidingTriangle> triangles) {
+    /// `corner`: of the block, in 1/256 pixel.
+    void set_triangles(std::span<const HidingTriangle> triangles, glm::ivec2 corner) {
         given_ = triangles;
-        boxes_.resize(triangles.size());
-        beside_.resize(triangles.size());
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
+        corner_ = corner;
+        cells_ = 1;
+        const auto count_of_cells = [&] { return static_cast<std::size_t>(cells_ * cells_); };
+        while (cells_ < kMostCells && triangles.size() > kTrianglesPerCell * count_of_cells()) cells_ *= 2;
+        // Counts are kept one place further, so that filling moves each list's end to its place.
+        cell_end_.assign(count_of_cells() + 2, 0);
+        for (const HidingTriangle& t : triangles) {
+            for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) { ++cell_end_[cell + 2]; });
+        }
+        for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
+        in_cells_.resize(cell_end_.back());
+        boxes_.resize(cell_end_.back());
+        beside_.resize(cell_end_.back());
+        for (std::uint32_t i = 0; i < triangles.size(); ++i) {
             const HidingTriangle& t = triangles[i];
-            boxes_.set(i, {static_cast<float>(t.x0), static_cast<float>(t.y0), static_cast<float>(t.x1),
-                           static_cast<float>(t.y1), -kFarNearness, t.nearest});
+            for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
+                const std::size_t at = cell_end_[cell + 1]++;
+                in_cells_[at] = i;
+                boxes_.set(at, {static_cast<float>(t.x0), static_cast<float>(t.y0), static_cast<float>(t.x1),
+                                static_cast<float>(t.y1), -kFarNearness, t.nearest});
+            });
         }
         places_.assign(triangles.size(), {});
         set_up_.clear();
     }
+    /// How many triangles are in a cell, on average.
+    std::size_t triangles_per_cell() const { return in_cells_.size() / static_cast<std::size_t>(cells_ * cells_); }
 
     void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
         const LayerLine& line = candidate.line;
@@ -162,14 +183,29 @@ class BlockClipper {
         const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
         const glm::vec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
         const ScreenBox box{low.x, low.y, high.x, high.y, static_cast<float>(std::max(least, -1e30)), kFarNearness};
-        const std::size_t count =
-            kernels_.find_touching(boxes_.view(), 0, given_.size(), box, -kFarNearness, -kFarNearness, beside_.data());
-        for (std::size_t at = 0; at < count; ++at) {
-            const std::uint32_t i = beside_[at];
-            if (places_[i].count == 0) set_up(i);
-            for (std::uint32_t k = 0; k < places_[i].count; ++k) {
-                if (!use(set_up_[places_[i].first + k])) return;
+        bool goes_on = true;
+        for_cells(glm::ivec2(low), glm::ivec2(high), [&](std::size_t cell) {
+            const std::size_t count = kernels_.find_touching(boxes_.view(), cell_end_[cell], cell_end_[cell + 1], box,
+                                                             -kFarNearness, -kFarNearness, beside_.data());
+            for (std::size_t at = 0; at < count && goes_on; ++at) {
+                const std::uint32_t i = in_cells_[beside_[at]];
+                if (places_[i].count == 0) set_up(i);
+                for (std::uint32_t k = 0; k < places_[i].count && goes_on; ++k) {
+                    goes_on = use(set_up_[places_[i].first + k]);
+                }
             }
+        });
+    }
+
+    /// Calls visit(cell) for those that a box touches, in 1/256 pixel.
+    template <typename Visit>
+    void for_cells(glm::ivec2 low, glm::ivec2 high, const Visit& visit) const {
+        const int last = cells_ - 1, width = (1 << SampleBlocks::kShift) / cells_;
+        const auto cell_at = [&](int subpixel, int first) { return std::clamp((subpixel - first) / width, 0, last); };
+        const int x0 = cell_at(low.x, corner_.x), x1 = cell_at(high.x, corner_.x);
+        const int y0 = cell_at(low.y, corner_.y), y1 = cell_at(high.y, corner_.y);
+        for (int y = y0; y <= y1; ++y) {
+            for (int x = x0; x <= x1; ++x) visit(static_cast<std::size_t>(y * cells_ + x));
         }
     }
 
@@ -283,7 +319,10 @@ class BlockClipper {
     const TileKernels& kernels_;
     const LineCriteria& criteria_;
     std::span<const HidingTriangle> given_;
-    ScreenBoxes boxes_;  // what most triangles are left out by
+    glm::ivec2 corner_{0};
+    int cells_ = 1;  // along each side
+    std::vector<std::uint32_t> cell_end_, in_cells_;  // lists of given triangles, one per cell
+    ScreenBoxes boxes_;                               // what most of them are left out by
     std::vector<std::uint32_t> beside_;
     std::vector<Place> places_;  // of given triangles in set_up_
     std::vector<LayerTriangle> set_up_;
@@ -298,15 +337,18 @@ std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurface
     std::vector<LineSegment> segments;
     const std::vector<FineCandidate> candidates = find_candidates(frame, screen, region, parts, threads);
     if (candidates.empty()) return segments;
-    const FineBlocks blocks(screen, kernels, samples_per_pixel_of(*frame.scene), region, candidates,
-                            threads);
+    const int per_pixel = samples_per_pixel_of(*frame.scene);
+    const FineBlocks blocks(screen, kernels, per_pixel, region, candidates, threads);
+    const SampleBlocks grid(per_pixel);
     std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads),
                                        BlockClipper(screen, kernels, frame.criteria));
     std::vector<std::vector<LineSegment>> found(blocks.count());
     parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {
-        if (blocks.candidates(block).size() * blocks.triangles(block).size() > kMostLooks) return;
         BlockClipper& clipper = clippers[static_cast<std::size_t>(worker)];
-        clipper.set_triangles(blocks.triangles(block));
+        const FinePart& any = candidates[blocks.candidates(block).front()].part;
+        clipper.set_triangles(blocks.triangles(block),
+                              glm::ivec2(glm::dvec2(grid.begin(any.block_x), grid.begin(any.block_y))));
+        if (blocks.candidates(block).size() * clipper.triangles_per_cell() > kMostLooks) return;
         for (const std::uint32_t i : blocks.candidates(block))
             clipper.add_visible(candidates[i], found[block]);
     });

@@ -31,8 +31,7 @@ struct EdgeOnScreen {
 /// something that is clearly in front, either. Buffers are used again from tile to tile.
 class FineParts {
   public:
-    /// `takes_rests`: also what is left of edges beside pieces of lines that were found. Strokes on one side
-    /// are cut off by the pieces around them, which then overlap.
+    /// `takes_rests`: also what is left of edges beside pieces of lines that were found (completes_lines()).
     FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
         : screen_(screen), kernels_(kernels), takes_rests_(takes_rests) {}
 

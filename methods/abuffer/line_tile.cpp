@@ -7,6 +7,7 @@
 #include "abuffer/scan_convert.h"
 #include "lines/cell_tracer.h"
 #include "lines/merge_segments.h"
+#include "methods/abuffer/sampling.h"
 
 namespace burin {
 
@@ -313,6 +314,7 @@ void LineTile::find_lines(std::vector<LineSegment>& segments) {
 void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
     const double s = per_pixel_;
+    const bool has_bridges = !completes_lines(*frame_.scene);
     const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
     const auto block_of = [block_shift](int sample) {
         return static_cast<std::uint32_t>(sample >> block_shift) & 0xFFFFu;
@@ -331,7 +333,7 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         if (found[0] != &crossings_[own - 1]) return;  // another crossing traces this cell
         const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
         std::size_t fresh = segments.size();
-        trace_cell({found.data(), count}, low, low + 1.0 / s, segments);
+        trace_cell({found.data(), count}, low, low + 1.0 / s, has_bridges, segments);
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
         for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };

@@ -11,4 +11,10 @@ inline int samples_per_pixel_of(const Scene& scene) {
     return scene.abuffer.samples.value_or(scene.lines.style.side == StrokeSide::both ? 2 : 4);
 }
 
+/// Whether lines that samples found in part are completed from the mesh's edges. Strokes on one side are cut off by
+/// the pieces around them, which would then overlap.
+inline bool completes_lines(const Scene& scene) {
+    return scene.abuffer.draws_fine_lines() && scene.lines.style.side == StrokeSide::both;
+}
+
 }  // namespace burin

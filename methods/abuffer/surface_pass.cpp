@@ -32,8 +32,7 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     const auto workers = static_cast<std::size_t>(threads_);
     std::vector<std::unique_ptr<LineTile>> tiles(workers);
     std::vector<std::unique_ptr<PixelFiller>> fillers(workers);
-    const bool has_both_sides = frame_.scene->lines.style.side == StrokeSide::both;
-    std::vector<FineParts> fine(workers, FineParts(screen_, kernels_, has_both_sides));
+    std::vector<FineParts> fine(workers, FineParts(screen_, kernels_, completes_lines(*frame_.scene)));
     std::vector<std::vector<FinePart>> fine_parts(bins.tile_count());
     std::vector<WorkerTimes> times(workers);
     const std::size_t before = segments.size();

@@ -239,12 +239,17 @@ TEST(FineLines, ThePreviewLeavesThemOutUnlessAskedFor) {
     EXPECT_GT(largest_error(draw_with(4, {}), draw_with(4, false)), 0.1);
 }
 
-TEST(FineLines, HundredsOfTrianglesToAPixelAreLeftToTheSamples) {
-    Scene scene = scene_of({make_torus(1, 0.5, 640, 320)});
-    const Camera camera = perspective_camera(kEye, {0, 0, 0});
-    const Drawing drawn = draw(scene, camera, 8);
-    scene.abuffer.fine_lines = false;
-    EXPECT_EQ(largest_error(drawn, draw(scene, camera, 8)), 0);
+TEST(FineLines, HundredsOfTrianglesToAPixelAreLookedThrough) {
+    constexpr int kFewPixels = 16;
+    for (const glm::dvec3 eye : {kEye, glm::dvec3(4.3, 0.7, 1.1)}) {
+        Scene scene = scene_of({make_torus(1, 0.5, 640, 320)});
+        const Camera camera = perspective_camera(eye, {0, 0, 0});
+        const Drawing drawn = draw(scene, camera, kFewPixels), real = truth(scene, camera, kFewPixels, 32);
+        EXPECT_GT(real.sum("lines.A"), 20);
+        EXPECT_LT(largest_error(drawn, real), 0.1);
+        scene.abuffer.fine_lines = false;
+        EXPECT_GT(largest_error(draw(scene, camera, kFewPixels), real), 0.2);
+    }
 }
 
 TEST(FineLines, ThreadsTilesAndCropsChangeNothing) {
