@@ -38,7 +38,12 @@ class Decider {
             gap[i] = gap_behind_end(i);
             in_front[i] = gap[i] >= -tolerance_at_end(i);
         }
-        if (in_front[0] && in_front[1]) return end_at(std::abs(gap[0]) <= std::abs(gap[1]) ? 0 : 1, gap);
+        if (in_front[0] && in_front[1]) {
+            // In contact, or nearly: an end that is behind the other surface for certain is not seen.
+            const bool is_behind[2] = {is_certainly_behind(0, gap[0]), is_certainly_behind(1, gap[1])};
+            if (is_behind[0] != is_behind[1]) return end_at(is_behind[0] ? 1 : 0, gap);
+            return end_at(std::abs(gap[0]) <= std::abs(gap[1]) ? 0 : 1, gap);
+        }
         for (const int i : {0, 1}) {
             if (in_front[i]) return passes_through_before_end(i, gap[i]) ? overlap() : end_at(i, gap);
         }
@@ -84,10 +89,11 @@ class Decider {
         return depth_tolerance(surfaces_, distance(walks_[i].surface, end), surfaces_.plane(behind_[i]), pixels);
     }
 
-    /// Whether point i's surface ends behind the other for certain, though within the tolerance, and begins in front.
+    /// Whether point i's surface ends behind the other for certain, though within the tolerance.
+    bool is_certainly_behind(int i, double gap) const { return gap < -tolerance_at_end(i, kCertainlyApartPx); }
+    /// And begins in front.
     bool passes_through_before_end(int i, double gap) const {
-        const double certainly = tolerance_at_end(i, kCertainlyApartPx);
-        if (!(gap < -certainly)) return false;
+        if (!is_certainly_behind(i, gap)) return false;
         const glm::dvec2 at = points_[i].pixel;
         return extended_distance(walks_[1 - i].surface, at) > distance(points_[i].surface, at);
     }

@@ -152,9 +152,13 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
         in_front[i] = ends[i].gap >= -ends[i].tolerance;
     }
     if (!in_front[0] && !in_front[1]) return false;  // the surfaces pass through each other
-    const bool both = in_front[0] && in_front[1];
-    const int i = (both ? std::abs(ends[0].gap) <= std::abs(ends[1].gap) : in_front[0]) ? 0 : 1;
-    if (!both && ends[i].gap < -ends[i].certainly_apart) return false;  // or they may do so before the end
+    // An end that is behind the other surface for certain is not seen.
+    const auto is_behind = [&](int end) { return ends[end].gap < -ends[end].certainly_apart; };
+    int i = in_front[0] ? 0 : 1;
+    if (in_front[0] && in_front[1]) {
+        i = is_behind(0) != is_behind(1) ? (is_behind(0) ? 1 : 0) : std::abs(ends[0].gap) <= std::abs(ends[1].gap) ? 0 : 1;
+    }
+    if (is_behind(i)) return false;  // they may pass through each other before it
     decision = end_of_surface(pair, i, walks_[i], ends[i].gap <= ends[i].tolerance ? &ends[i] : nullptr);
     nearness = ends[i].nearness;
     return true;

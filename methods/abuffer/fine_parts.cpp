@@ -56,7 +56,7 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
         const int y0 = blocks.at(static_cast<int>(low.y)), y1 = blocks.at(static_cast<int>(high.y));
         const bool is_in_one = x0 == x1 && y0 == y1;
         if (is_in_one && is_behind_blocks(samples, edge, 0, 1)) continue;
-        const Owners owners = owners_of(e);
+        const Owners owners = owners_of(e, edge);
         const HalfEdge partner = screen_.surfaces().instances[e.instance].mesh->next_on_edge[e.half_edge];
         const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
         for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
@@ -114,12 +114,20 @@ double FineParts::level(double nearness) const {
 }
 
 /// The triangles at an edge, and whether each of them shows where the edge is a line.
-FineParts::Owners FineParts::owners_of(FineEdge edge) const {
-    const HalfEdge partner = screen_.surfaces().instances[edge.instance].mesh->next_on_edge[edge.half_edge];
-    const std::uint32_t a = screen_.number_of({edge.instance, edge.half_edge / 3});
+FineParts::Owners FineParts::owners_of(FineEdge edge, const EdgeOnScreen& on_screen) const {
+    const ScreenMesh mesh = screen_.mesh(edge.instance);
+    const HalfEdge h = edge.half_edge, partner = mesh.partners[h];
+    const std::uint32_t a = screen_.number_of({edge.instance, h / 3});
     const std::uint32_t b = screen_.number_of({edge.instance, partner / 3});
-    const bool is_fold = screen_.facing(a) != screen_.facing(b);
-    return {{a, b}, !is_fold};
+    Owners owners{{a, b}, screen_.facing(a) == screen_.facing(b), 0};
+    if (owners.needs_both && a != b) return owners;
+    const auto side_of = [&](HalfEdge g) {
+        const ScreenVertex& apex = mesh.vertices[mesh.corners[g - g % 3 + (g + 2) % 3]];
+        return on_screen.side_of({apex.x, apex.y});
+    };
+    owners.inner_side = side_of(h);
+    if (owners.inner_side == 0) owners.inner_side = side_of(partner);
+    return owners;
 }
 
 /// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.
@@ -193,15 +201,19 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
     const auto [a, b] = owners.numbers;
     const double nearness = edge.nearness_at(t), clearly = level(nearness);
     if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) {
+        if (owners.inner_side == 0) return false;
         // Of two lines with a narrow gap between them the samples tell of one only. At contacts of surfaces they
         // know whether there is a line at all.
-        bool has_other = false, has_level = false;
+        bool has_beyond = false;
         for (std::size_t k = 0; k < 4; ++k) {
-            if (numbers[k] == a || numbers[k] == b) continue;
-            has_other = true;
-            has_level |= std::abs(static_cast<double>(samples.nearness[corners[k]]) - nearness) <= kLevelPart * clearly;
+            const glm::dvec2 corner(square.x + static_cast<int>(k % 2), square.y + static_cast<int>(k / 2));
+            const glm::dvec2 at = (corner + 0.5) * (256.0 / samples.samples_per_pixel);
+            if (numbers[k] == a || numbers[k] == b || edge.side_of(at) * owners.inner_side > 0) continue;
+            has_beyond = true;
+            const double gap = static_cast<double>(samples.nearness[corners[k]]) - nearness;
+            if (std::abs(gap) <= kLevelPart * clearly) return false;
         }
-        return !owners.needs_both && has_other && !has_level;
+        return has_beyond;
     }
     const float farthest = std::min(std::min(samples.nearness[corners[0]], samples.nearness[corners[1]]),
                                     std::min(samples.nearness[corners[2]], samples.nearness[corners[3]]));

@@ -20,6 +20,10 @@ struct FinePart {
 struct EdgeOnScreen {
     EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge);
     glm::dvec2 at(double t) const { return from + (to - from) * t; }
+    /// Positive on one side of the edge, negative on the other. `p` in 1/256 pixel.
+    double side_of(glm::dvec2 p) const {
+        return (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
+    }
     double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
 
     glm::dvec2 from, to;
@@ -42,13 +46,14 @@ class FineParts {
   private:
     struct Owners {
         std::uint32_t numbers[2];
-        bool needs_both;  // the line runs between two polygons that are seen
+        bool needs_both;    // the line runs between two polygons that are seen
+        double inner_side;  // of an edge at which the surface ends or turns away: where it is. 0: it goes on
     };
     struct Interval {
         double begin, end;
     };
     void find_farthest(const SampleTile& samples);
-    Owners owners_of(FineEdge edge) const;
+    Owners owners_of(FineEdge edge, const EdgeOnScreen& on_screen) const;
     bool is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin,
                           double end) const;
     void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,

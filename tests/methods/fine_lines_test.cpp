@@ -240,15 +240,24 @@ TEST(FineLines, ThePreviewLeavesThemOutUnlessAskedFor) {
 }
 
 TEST(FineLines, HundredsOfTrianglesToAPixelAreLookedThrough) {
-    constexpr int kFewPixels = 16;
+    constexpr int kFewPixels = 40;
+    PolygonSoup bumpy = make_torus(0.8, 0.45, 500, 250);
+    for (glm::dvec3& p : bumpy.positions) p += 0.05 * glm::sin(21.0 * glm::dvec3(p.y, p.z, p.x));
+    Scene scene = scene_of({bumpy});
     for (const glm::dvec3 eye : {kEye, glm::dvec3(4.3, 0.7, 1.1)}) {
-        Scene scene = scene_of({make_torus(1, 0.5, 640, 320)});
         const Camera camera = perspective_camera(eye, {0, 0, 0});
-        const Drawing drawn = draw(scene, camera, kFewPixels), real = truth(scene, camera, kFewPixels, 32);
-        EXPECT_GT(real.sum("lines.A"), 20);
-        EXPECT_LT(largest_error(drawn, real), 0.1);
-        scene.abuffer.fine_lines = false;
-        EXPECT_GT(largest_error(draw(scene, camera, kFewPixels), real), 0.2);
+        const Drawing real = truth(scene, camera, kFewPixels, 32);
+        const auto error_with = [&](bool has_fine_lines) {
+            scene.abuffer.fine_lines = has_fine_lines;
+            const Drawing drawn = draw(scene, camera, kFewPixels);
+            double sum = 0;
+            for (int y = 0; y < kFewPixels; ++y) {
+                for (int x = 0; x < kFewPixels; ++x) sum += std::abs(drawn.line(x, y) - real.line(x, y));
+            }
+            return sum / real.sum("lines.A");
+        };
+        EXPECT_LT(error_with(true), 0.045);
+        EXPECT_GT(error_with(false), 0.06);
     }
 }
 
