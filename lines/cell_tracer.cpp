@@ -48,7 +48,7 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 c
 }
 
 bool has_edge(const LineCrossing& c) { return c.edge_ends[0] != c.edge_ends[1]; }
-glm::dvec2 along_edge(const LineCrossing& c) { return c.edge_ends[1] - c.edge_ends[0]; }
+bool has_direction(const LineCrossing& c) { return c.along != glm::dvec2(0.0); }
 
 }  // namespace
 
@@ -57,12 +57,12 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
     const glm::dvec2 center = 0.5 * (low + high);
     const auto join = [&](const LineCrossing& a, const LineCrossing& b) {
         if (a.line_key != b.line_key) {
-            if (has_edge(a) && has_edge(b)) {
+            if (has_direction(a) && has_direction(b)) {
                 std::optional<glm::dvec2> corner;
                 for (const glm::dvec2& p : a.edge_ends) {
-                    if (p == b.edge_ends[0] || p == b.edge_ends[1]) corner = p;
+                    if (has_edge(a) && (p == b.edge_ends[0] || p == b.edge_ends[1])) corner = p;
                 }
-                if (!corner) corner = meeting_point(a.pixel, along_edge(a), b.pixel, along_edge(b));
+                if (!corner) corner = meeting_point(a.pixel, a.along, b.pixel, b.along);
                 if (corner && is_inside(*corner, low, high)) {
                     add(a, a.pixel, *corner, center, segments);
                     add(b, *corner, b.pixel, center, segments);
@@ -88,8 +88,8 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
         const double length = glm::dot(along, along);
         const double t = length > 0 ? std::clamp(glm::dot(c.pixel - from, along) / length, 0.0, 1.0) : 0.0;
         glm::dvec2 end = from + along * t;
-        if (has_edge(c)) {
-            const auto met = meeting_point(c.pixel, along_edge(c), from, along);
+        if (has_direction(c)) {
+            const auto met = meeting_point(c.pixel, c.along, from, along);
             if (met && is_inside(*met, low, high)) end = *met;
         }
         add(c, c.pixel, end, center, segments);
@@ -103,8 +103,7 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
             for (const glm::dvec2& p : c.edge_ends) {
                 if (is_inside(p, low, high)) return add(c, c.pixel, p, center, segments);
             }
-            const glm::dvec2 along = along_edge(c);
-            add(c, c.pixel, c.pixel + along * (glm::dot(center - c.pixel, along) / glm::dot(along, along)),
+            add(c, c.pixel, c.pixel + c.along * (glm::dot(center - c.pixel, c.along) / glm::dot(c.along, c.along)),
                 center, segments);
             return;
         }

@@ -11,8 +11,8 @@ namespace burin {
 /// to pieces of lines: marching squares (Lorensen and Cline 1987, in the plane) whose crossings lie
 /// where the mesh says.
 ///
-/// Two crossings are joined; where they belong to two edges of the mesh, by way of the corner in which
-/// these meet, if it lies in the cell. Where three or four come together, the nearest line goes through
+/// Two crossings are joined; where they belong to two lines, by way of the corner in which these meet, if it lies in
+/// the cell. Where three or four come together, the nearest line goes through
 /// and the others end at it. A single one runs on to the end of its edge.
 ///
 /// `low` and `high` are the positions of the cell's upper left and lower right sample. `has_bridges`: two lines that

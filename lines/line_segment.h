@@ -13,6 +13,7 @@ struct LineCrossing {
     LineClassSet classes;   ///< all that apply, among those asked for; none: it only hides strokes
     /// Of the mesh's edge that the line is; equal: there is none (intersections), or it leaves the screen.
     glm::dvec2 edge_ends[2] = {glm::dvec2(0.0), glm::dvec2(0.0)};
+    glm::dvec2 along{0.0};  ///< which way the line runs, to and fro; 0: not known
     std::uint64_t line_key = 0;  ///< equal for two crossings of one mesh edge or one intersection
     double nearness = 0;    ///< of the front surface
     bool occludes = false;  ///< the front surface ends here, before another one or the background

@@ -259,8 +259,13 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
         if (from.x != ScreenVertex::kOffScreen && to.x != ScreenVertex::kOffScreen) {
             crossing.edge_ends[0] = glm::dvec2(from.x, from.y) / double{kSubpixelsPerPixel};
             crossing.edge_ends[1] = glm::dvec2(to.x, to.y) / double{kSubpixelsPerPixel};
+            crossing.along = crossing.edge_ends[1] - crossing.edge_ends[0];
         }
     } else {
+        if (decision.reason == LineReason::passes_through) {
+            const DepthPlane planes[2] = {frame_.surfaces.plane(neighbours.surfaces[0]), frame_.surfaces.plane(neighbours.surfaces[1])};
+            crossing.along = {planes[1].per_y - planes[0].per_y, planes[0].per_x - planes[1].per_x};
+        }
         // The background is beside a surface where no edge of it is found: views too narrow for numbers.
         const auto number = [this](SurfaceId id) { return id.is_background() ? ~0u : screen_.number_of(id); };
         const auto [low, high] = std::minmax({number(neighbours.surfaces[0]), number(neighbours.surfaces[1])});

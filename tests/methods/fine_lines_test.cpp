@@ -151,6 +151,33 @@ TEST(FineLines, BothSidesOfANarrowGapAreDrawn) {
     }
 }
 
+/// Where two edges cross at a small angle the gap between them gets narrower than any sample.
+TEST(FineLines, BothLinesOfASlenderCornerAreDrawn) {
+    for (const double depth : {-1.5, -6.0}) {
+        for (const double angle : {3.0, 21.0, 48.0}) {
+            for (const double between : {7.0, 12.0}) {
+                const Scene scene = scene_of({placed(make_box({36, 2.7, 1}), angle),
+                                              placed(make_box({36, 2.7, 1}), angle + between, depth), wall()});
+                const Camera camera = pixel_camera(kSize, kSize);
+                EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize, 32)), 0.08)
+                    << angle << " and " << angle + between << " deg, " << depth << " px";
+            }
+        }
+    }
+}
+
+TEST(FineLines, SheetsThatPassThroughEachOtherEndWhereTheyMeet) {
+    for (int i = 0; i < 12; ++i) {
+        const auto sheet = [&](double turn_deg, double tilt) {
+            return placed(transformed(make_plane(26, 26, 1, 1), [=](glm::dvec3 p) { return glm::dvec3(p.x, p.z, tilt * p.x); }),
+                          turn_deg + 29.3 * i);
+        };
+        const Scene scene = scene_of({sheet(0, 0.7), sheet(74, 0.9)});
+        const Camera camera = pixel_camera(kSize, kSize);
+        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize, 32)), 0.08) << i;
+    }
+}
+
 /// A rough ball with several triangles to a pixel, slivers around it, and rods thinner than a sample.
 Scene rough_scene(std::uint64_t seed, int segments) {
     Random random(seed);
