@@ -55,6 +55,10 @@ bool has_direction(const LineCrossing& c) { return c.along != glm::dvec2(0.0); }
 void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high, bool has_bridges,
                 std::vector<LineSegment>& segments) {
     const glm::dvec2 center = 0.5 * (low + high);
+    const auto runs_through = [&](const LineCrossing& c) {
+        return has_edge(c) && !c.classes.empty() && !is_inside(c.edge_ends[0], low, high) &&
+               !is_inside(c.edge_ends[1], low, high);
+    };
     const auto join = [&](const LineCrossing& a, const LineCrossing& b) {
         if (a.line_key != b.line_key) {
             if (has_direction(a) && has_direction(b)) {
@@ -69,10 +73,6 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
                     return;
                 }
             }
-            const auto runs_through = [&](const LineCrossing& c) {
-                return has_edge(c) && !c.classes.empty() && !is_inside(c.edge_ends[0], low, high) &&
-                       !is_inside(c.edge_ends[1], low, high);
-            };
             if (!has_bridges && (a.occludes || b.occludes) && runs_through(a) && runs_through(b)) return;
             // No corner: half of the way looks like one, half like the other.
             const glm::dvec2 middle = 0.5 * (a.pixel + b.pixel);
@@ -90,7 +90,9 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
         glm::dvec2 end = from + along * t;
         if (has_direction(c)) {
             const auto met = meeting_point(c.pixel, c.along, from, along);
-            if (met && is_inside(*met, low, high)) end = *met;
+            const bool is_met = met && is_inside(*met, low, high);
+            if (!is_met && !has_bridges && runs_through(c)) return;
+            if (is_met) end = *met;
         }
         add(c, c.pixel, end, center, segments);
     };

@@ -179,7 +179,7 @@ class Decider {
         for (const int i : {0, 1}) {
             // The other's surface reaches this point in front of what is visible there: it ends
             // within a rounding error before it.
-            if (gap[i] >= -apart) continue;
+            if (gap[i] >= -apart || ended(walks_[1 - i])) continue;
             LineDecision ends_here = unexplained(1 - i, -gap[i]);
             ends_here.fraction = i;
             return ends_here;

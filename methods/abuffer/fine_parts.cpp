@@ -14,6 +14,8 @@ namespace {
 constexpr double kShortestRestSubpixels = 16;
 /// The same at a vertex: lines that meet there are to do so.
 constexpr double kShortestTipSubpixels = 4;
+/// Pieces of a line are nearer to its edge than this.
+constexpr double kOffSubpixels = 8;
 /// Ends of lines are as exact as this.
 constexpr double kSlackSubpixels = 1;
 /// Something is clearly in front if it is nearer by this many pixels' widths.
@@ -261,7 +263,10 @@ void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
     const double slack = kSlackSubpixels / std::sqrt(square),
                  shortest = kShortestRestSubpixels / std::sqrt(square);
     const double shortest_tip = kShortestTipSubpixels / std::sqrt(square);
+    const double off_limit = kOffSubpixels * std::sqrt(square);
     for (const LineSegment& s : pieces) {
+        // A bridge to another line, which only begins at this one.
+        if (std::abs(edge.side_of(s.from * 256.0)) > off_limit || std::abs(edge.side_of(s.to * 256.0)) > off_limit) continue;
         const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;
         const double q = glm::dot(s.to * 256.0 - edge.from, along) / square;
         const Interval piece{std::min(p, q) - slack, std::max(p, q) + slack};
