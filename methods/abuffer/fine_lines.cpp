@@ -75,8 +75,12 @@ class BlockClipper {
         given_ = triangles;
         corner_ = corner;
         cells_ = 1;
+        cell_shift_ = SampleBlocks::kShift;
         const auto count_of_cells = [&] { return static_cast<std::size_t>(cells_ * cells_); };
-        while (cells_ < kMostCells && triangles.size() > kTrianglesPerCell * count_of_cells()) cells_ *= 2;
+        while (cells_ < kMostCells && triangles.size() > kTrianglesPerCell * count_of_cells()) {
+            cells_ *= 2;
+            --cell_shift_;
+        }
         // Counts are kept one place further, so that filling moves each list's end to its place.
         cell_end_.assign(count_of_cells() + 2, 0);
         for (const HidingTriangle& t : triangles) {
@@ -200,8 +204,10 @@ class BlockClipper {
     /// Calls visit(cell) for those that a box touches, in 1/256 pixel.
     template <typename Visit>
     void for_cells(glm::ivec2 low, glm::ivec2 high, const Visit& visit) const {
-        const int last = cells_ - 1, width = (1 << SampleBlocks::kShift) / cells_;
-        const auto cell_at = [&](int subpixel, int first) { return std::clamp((subpixel - first) / width, 0, last); };
+        const int last = cells_ - 1;
+        const auto cell_at = [&](int subpixel, int first) {
+            return std::clamp((subpixel - first) >> cell_shift_, 0, last);
+        };
         const int x0 = cell_at(low.x, corner_.x), x1 = cell_at(high.x, corner_.x);
         const int y0 = cell_at(low.y, corner_.y), y1 = cell_at(high.y, corner_.y);
         for (int y = y0; y <= y1; ++y) {
@@ -320,7 +326,7 @@ class BlockClipper {
     const LineCriteria& criteria_;
     std::span<const HidingTriangle> given_;
     glm::ivec2 corner_{0};
-    int cells_ = 1;  // along each side
+    int cells_ = 1, cell_shift_ = SampleBlocks::kShift;  // along each side, and log2 of a cell's width in 1/256 pixel
     std::vector<std::uint32_t> cell_end_, in_cells_;  // lists of given triangles, one per cell
     ScreenBoxes boxes_;                               // what most of them are left out by
     std::vector<std::uint32_t> beside_;
