@@ -67,7 +67,9 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
                     if (has_edge(a) && (p == b.edge_ends[0] || p == b.edge_ends[1])) corner = p;
                 }
                 if (!corner) corner = meeting_point(a.pixel, a.along, b.pixel, b.along);
-                if (corner && is_inside(*corner, low, high)) {
+                // The corner of an intersection may lie beyond a side whose samples do not see it.
+                const glm::dvec2 beyond = has_edge(a) == has_edge(b) ? glm::dvec2(0.0) : 0.25 * (high - low);
+                if (corner && is_inside(*corner, low - beyond, high + beyond)) {
                     add(a, a.pixel, *corner, center, segments);
                     add(b, *corner, b.pixel, center, segments);
                     return;
