@@ -29,6 +29,8 @@ constexpr std::size_t kMostLooks = std::size_t{1} << 22;
 /// A block is cut into so many cells along each side, at most, that about so many triangles are in one.
 constexpr int kMostCells = 32;
 constexpr std::size_t kTrianglesPerCell = 128;
+/// In so many cells a triangle may be, on average.
+constexpr std::size_t kMostPlaces = 4;
 /// So far from an edge its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
 /// What rounding does to nearness, as part of what counts as level.
@@ -82,9 +84,16 @@ class BlockClipper {
             --cell_shift_;
         }
         // Counts are kept one place further, so that filling moves each list's end to its place.
-        cell_end_.assign(count_of_cells() + 2, 0);
-        for (const HidingTriangle& t : triangles) {
-            for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) { ++cell_end_[cell + 2]; });
+        for (;; cells_ /= 2, ++cell_shift_) {
+            cell_end_.assign(count_of_cells() + 2, 0);
+            std::size_t count = 0;
+            for (const HidingTriangle& t : triangles) {
+                for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
+                    ++cell_end_[cell + 2];
+                    ++count;
+                });
+            }
+            if (cells_ == 1 || count <= kMostPlaces * triangles.size()) break;  // large ones would fill all cells
         }
         for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
         in_cells_.resize(cell_end_.back());

@@ -84,6 +84,7 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
                         find_open(samples, edge, owners, {x << shift, y << shift}, i);
                     }
                 }
+                if (!takes_rests_ && !open_.empty() && is_drawn_by_another(edge, drawn, block)) continue;
                 for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
             }
         }
@@ -203,7 +204,7 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
     const auto [a, b] = owners.numbers;
     const double nearness = edge.nearness_at(t), clearly = level(nearness);
     if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) {
-        if (owners.inner_side == 0) return false;
+        if (owners.inner_side == 0 || !takes_rests_) return false;
         // Of two lines with a narrow gap between them the samples tell of one only. At contacts of surfaces they
         // know whether there is a line at all.
         bool has_beyond = false;
@@ -250,6 +251,15 @@ std::span<const LineSegment> FineParts::pieces_of(std::span<const LineSegment> d
     auto last = first;
     while (last != drawn.end() && last->line_key == key && last->block == block) ++last;
     return {first, last};
+}
+
+/// Whether a line of another edge in the same place on the screen was found in the block.
+bool FineParts::is_drawn_by_another(const EdgeOnScreen& edge, std::span<const LineSegment> drawn, std::uint32_t block) {
+    const double limit = kOffSubpixels * glm::distance(edge.from, edge.to);
+    return std::any_of(drawn.begin(), drawn.end(), [&](const LineSegment& s) {
+        return s.block == block && std::abs(edge.side_of(s.from * 256.0)) <= limit &&
+               std::abs(edge.side_of(s.to * 256.0)) <= limit;
+    });
 }
 
 /// What is left of an edge where pieces of its line were found.

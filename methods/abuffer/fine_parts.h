@@ -64,6 +64,7 @@ class FineParts {
     static std::span<const LineSegment> pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
                                                   std::uint32_t block);
     static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
+    static bool is_drawn_by_another(const EdgeOnScreen& edge, std::span<const LineSegment> drawn, std::uint32_t block);
     void find_undrawn(const EdgeOnScreen& edge, double begin, double end,
                       std::span<const LineSegment> pieces);
     double level(double nearness) const;

@@ -250,6 +250,24 @@ TEST(Strokes, OneSideIsWhatRaysSay) {
     }
 }
 
+/// Seen along their axis, bodies have two edges in each place, which must not cut each other off.
+TEST(Strokes, EdgesInOnePlaceAreOneStroke) {
+    constexpr int kSize = 48;
+    const Camera camera = pixel_camera(kSize, kSize);
+    for (const double angle_deg : {0.0, 20.0, 71.0}) {
+        const double c = std::cos(glm::radians(angle_deg)), s = std::sin(glm::radians(angle_deg));
+        const auto upright = [=](glm::dvec3 p) { return glm::dvec3(24.1 + c * p.x + s * p.z, 23.8 + s * p.x - c * p.z, p.y); };
+        for (const PolygonSoup& body : {make_box({24, 4, 16}), make_cylinder(9, 9, 12, 48)}) {
+            for (const StrokeSide side : {StrokeSide::both, StrokeSide::inside, StrokeSide::outside}) {
+                Scene scene = scene_of({transformed(body, upright)});
+                scene.lines.style.side = side;
+                const Drawing drawn = draw(scene, camera, kSize), real = draw(scene, camera, kSize, render_reference);
+                EXPECT_GT(psnr_db(drawn, real), 35) << angle_deg << " deg, side " << static_cast<int>(side);
+            }
+        }
+    }
+}
+
 TEST(Strokes, CropsAndThreadsChangeNothingOfFiltersAndSides) {
     constexpr int kSize = 96;
     const Camera camera = pixel_camera(kSize, kSize);
