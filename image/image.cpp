@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "base/huge_pages.h"
+#include "base/interrupt.h"
 #include "image/half.h"
 
 namespace burin {
 
 Channel& Image::add(std::string name, PixelType type) {
+    throw_if_interrupted();  // the first touch of a large channel takes a while
     Channel channel;
     channel.name = std::move(name);
     channel.type = type;
