@@ -3,14 +3,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "base/atomic_file.h"
 #include "base/json_writer.h"
+#include "base/lower_extension.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "cli/job.h"
@@ -32,9 +31,7 @@ OutputOptions output_options(const Arguments& a) {
     if (options.path.empty()) {
         options.path = std::filesystem::path(a.input).stem().string() + ".png";
     }
-    std::string extension = std::filesystem::path(options.path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(options.path);
     if (extension == ".exr") {
         options.format = OutputFormat::exr;
     } else if (extension == ".png") {

@@ -1,10 +1,9 @@
 #include "cli/job.h"
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 
 #include "base/error.h"
+#include "base/lower_extension.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
@@ -12,12 +11,7 @@
 namespace burin {
 namespace {
 
-bool is_scene_file(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".toml";
-}
+bool is_scene_file(const std::string& path) { return lower_extension(path) == ".toml"; }
 
 SceneDescription describe_input(const Arguments& a) {
     if (is_scene_file(a.input)) return read_scene_file(a.input, a.overrides);

@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/lower_extension.h"
 #include "image/half.h"
 #include "image/oiio_module.h"
 #include "image/png_writer.h"
@@ -87,12 +87,6 @@ struct DisplaySink {
         return static_cast<DisplaySink*>(context)->guarded([] { throw_if_interrupted(); });
     }
 };
-
-bool is_png(const std::string& path) {
-    std::string extension = fs::path(path).extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension == ".png";
-}
 
 /// A library's message on one line.
 std::string one_line(std::string text) {
@@ -171,7 +165,7 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
 }
 
 void write_display_image(const std::string& path, const DisplayImage& image, int bits) {
-    if (is_png(path)) {
+    if (lower_extension(path) == ".png") {
         AtomicFile file(path);
         try {
             write_png(file, image, bits);

@@ -1,24 +1,16 @@
 #include "mesh/model.h"
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <new>
 #include <utility>
 
 #include "base/error.h"
+#include "base/lower_extension.h"
 #include "mesh/gltf.h"
 #include "mesh/readers.h"
 
 namespace burin {
 namespace {
-
-std::string lower_extension(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 /// build_meshes, with the file in the message of an error.
 std::vector<Mesh> build_meshes_of(const std::string& path, const PolygonSoup& soup,

@@ -156,7 +156,9 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
     const auto is_behind = [&](int end) { return ends[end].gap < -ends[end].certainly_apart; };
     int i = in_front[0] ? 0 : 1;
     if (in_front[0] && in_front[1]) {
-        i = is_behind(0) != is_behind(1) ? (is_behind(0) ? 1 : 0) : std::abs(ends[0].gap) <= std::abs(ends[1].gap) ? 0 : 1;
+        const bool has_hidden_end = is_behind(0) != is_behind(1);
+        const bool takes_first = has_hidden_end ? !is_behind(0) : std::abs(ends[0].gap) <= std::abs(ends[1].gap);
+        i = takes_first ? 0 : 1;
     }
     if (is_behind(i)) return false;  // they may pass through each other before it
     decision = end_of_surface(pair, i, walks_[i], ends[i].gap <= ends[i].tolerance ? &ends[i] : nullptr);

@@ -30,6 +30,12 @@ int floor_to_int(double v) {
     return toward_zero - (v < toward_zero ? 1 : 0);
 }
 
+/// Whether a piece lies on the line that goes through an edge.
+bool runs_along(const EdgeOnScreen& edge, const LineSegment& piece) {
+    const double limit = kOffSubpixels * glm::distance(edge.from, edge.to);
+    return std::abs(edge.side_of(piece.from * 256.0)) <= limit && std::abs(edge.side_of(piece.to * 256.0)) <= limit;
+}
+
 }  // namespace
 
 EdgeOnScreen::EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge) {
@@ -255,11 +261,8 @@ std::span<const LineSegment> FineParts::pieces_of(std::span<const LineSegment> d
 
 /// Whether a line of another edge in the same place on the screen was found in the block.
 bool FineParts::is_drawn_by_another(const EdgeOnScreen& edge, std::span<const LineSegment> drawn, std::uint32_t block) {
-    const double limit = kOffSubpixels * glm::distance(edge.from, edge.to);
-    return std::any_of(drawn.begin(), drawn.end(), [&](const LineSegment& s) {
-        return s.block == block && std::abs(edge.side_of(s.from * 256.0)) <= limit &&
-               std::abs(edge.side_of(s.to * 256.0)) <= limit;
-    });
+    return std::any_of(drawn.begin(), drawn.end(),
+                       [&](const LineSegment& s) { return s.block == block && runs_along(edge, s); });
 }
 
 /// What is left of an edge where pieces of its line were found.
@@ -273,10 +276,9 @@ void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
     const double slack = kSlackSubpixels / std::sqrt(square),
                  shortest = kShortestRestSubpixels / std::sqrt(square);
     const double shortest_tip = kShortestTipSubpixels / std::sqrt(square);
-    const double off_limit = kOffSubpixels * std::sqrt(square);
     for (const LineSegment& s : pieces) {
         // A bridge to another line, which only begins at this one.
-        if (std::abs(edge.side_of(s.from * 256.0)) > off_limit || std::abs(edge.side_of(s.to * 256.0)) > off_limit) continue;
+        if (!runs_along(edge, s)) continue;
         const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;
         const double q = glm::dot(s.to * 256.0 - edge.from, along) / square;
         const Interval piece{std::min(p, q) - slack, std::max(p, q) + slack};

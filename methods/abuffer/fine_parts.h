@@ -31,11 +31,12 @@ struct EdgeOnScreen {
 };
 
 /// Finds where along edges the samples of a tile do not tell whether there is a line: no line of the edge
-/// was found there, the samples beside it do not see the edge's own triangles, and they do not see
-/// something that is clearly in front, either. Buffers are used again from tile to tile.
+/// was found there, and the samples beside it see neither the edge's own triangles with what settles it, nor
+/// something that is clearly in front. Buffers are used again from tile to tile.
 class FineParts {
   public:
-    /// `takes_rests`: also what is left of edges beside pieces of lines that were found (completes_lines()).
+    /// `takes_rests`: also what is left of edges beside pieces of lines that were found, and lines beside
+    /// others with a gap between them narrower than a sample (completes_lines()).
     FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
         : screen_(screen), kernels_(kernels), takes_rests_(takes_rests) {}
 

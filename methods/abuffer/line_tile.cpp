@@ -263,8 +263,9 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
         }
     } else {
         if (decision.reason == LineReason::passes_through) {
-            const DepthPlane planes[2] = {frame_.surfaces.plane(neighbours.surfaces[0]), frame_.surfaces.plane(neighbours.surfaces[1])};
-            crossing.along = {planes[1].per_y - planes[0].per_y, planes[0].per_x - planes[1].per_x};
+            const DepthPlane p = frame_.surfaces.plane(neighbours.surfaces[0]);
+            const DepthPlane q = frame_.surfaces.plane(neighbours.surfaces[1]);
+            crossing.along = {q.per_y - p.per_y, p.per_x - q.per_x};
         }
         // The background is beside a surface where no edge of it is found: views too narrow for numbers.
         const auto number = [this](SurfaceId id) { return id.is_background() ? ~0u : screen_.number_of(id); };
