@@ -8,6 +8,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/heap.h"
 #include "base/interrupt.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -32,6 +33,7 @@ void print_error(const char* prefix, const char* message) {
 }
 
 void run(const burin::Arguments& arguments) {
+    if (arguments.memory_bytes == 0) burin::keep_freed_memory();
     switch (arguments.command) {
         case burin::Command::render: return run_render(arguments);
         case burin::Command::info: return run_info(arguments);

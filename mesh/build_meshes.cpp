@@ -155,7 +155,7 @@ Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
 
 }  // namespace
 
-std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& options) {
+std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
     const glm::dvec3 origin = choose_origin(soup);
     std::vector<glm::vec3> positions;
     reserve_large(positions, soup.positions.size());
@@ -163,7 +163,7 @@ std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& optio
         positions.push_back(glm::vec3(p - origin) + 0.0f);  // + 0 turns -0 into 0
     }
     throw_if_interrupted();
-    const std::vector<std::uint32_t> welded = weld_vertices(positions);
+    std::vector<std::uint32_t> welded = weld_vertices(positions);
     std::vector<Mesh> meshes;
     const auto empty_mesh = [&](std::size_t object) {
         Mesh mesh;
@@ -173,7 +173,12 @@ std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& optio
     };
     if (has_only_triangles(soup)) {
         Mesh mesh = empty_mesh(0);
+        // What is done with makes room: fresh memory costs more than the work on it.
+        soup.positions = {};
         collect_triangles(soup, positions, welded, mesh);
+        soup.corners = {};
+        positions = {};
+        welded = {};
         meshes.push_back(finish_triangles(options, std::move(mesh)));
         return meshes;
     }

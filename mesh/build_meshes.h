@@ -25,6 +25,6 @@ struct MeshOptions {
 ///
 /// Each object that has polygons in the soup gives a mesh of its name, in order; a mesh whose
 /// polygons were all dropped is empty.
-std::vector<Mesh> build_meshes(const PolygonSoup& soup, const MeshOptions& options);
+std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options);
 
 }  // namespace burin

@@ -55,9 +55,10 @@ class EdgeTable {
         const std::uint32_t key = other + 1;  // 0 = free
         Bucket& bucket = buckets_.get()[owner];
         const std::uint32_t is_known = slots_with(bucket.keys, key);
-        const std::uint32_t places = is_known != 0 ? is_known : slots_with(bucket.keys, 0);
+        // The slot of the edge, else the first one that is free.
+        const std::uint32_t places = is_known | slots_with(bucket.keys, 0) << kSlots;
         if (places == 0) return kFull;
-        const int slot = std::countr_zero(places);
+        const int slot = std::countr_zero(places) % static_cast<int>(kSlots);
         const HalfEdge newest = bucket.half_edges[slot];
         bucket.keys[slot] = key;
         bucket.half_edges[slot] = h;
@@ -142,20 +143,23 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
             table.prefetch(c, a);
         }
         const auto& [a, b, c] = triangles[t];
-        HalfEdge h = static_cast<HalfEdge>(3 * t);
+        const auto first = static_cast<HalfEdge>(3 * t);
+        next_on_edge.insert(next_on_edge.end(), {first, first + 1, first + 2});
+        HalfEdge h = first;
+        bool has_partners = true;  // at all three edges
         for (const auto& [u, v] : {std::pair{a, b}, {b, c}, {c, a}}) {
             const HalfEdge before = table.exchange(u, v, h);
-            next_on_edge.push_back(h);
             if (before == EdgeTable::kFull) {
                 left_over.push_back({std::min(u, v), std::max(u, v), h});
             } else {
                 // The newest one of a ring leads back to the oldest.
                 std::swap(next_on_edge[h], next_on_edge[before]);
             }
+            has_partners &= before != h;
             ++h;
         }
         // Twins share all three edges.
-        if (next_on_edge[h - 3] != h - 3) twins = twins || has_twin(triangles, next_on_edge, h - 3);
+        if (has_partners && next_on_edge[first] != first) twins = twins || has_twin(triangles, next_on_edge, first);
     }
     link_by_sorting(left_over, next_on_edge);
     for (const LeftOver& l : left_over) twins = twins || has_twin(triangles, next_on_edge, l.half_edge);

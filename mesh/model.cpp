@@ -13,10 +13,10 @@ namespace burin {
 namespace {
 
 /// build_meshes, with the file in the message of an error.
-std::vector<Mesh> build_meshes_of(const std::string& path, const PolygonSoup& soup,
+std::vector<Mesh> build_meshes_of(const std::string& path, PolygonSoup soup,
                                   const MeshOptions& options) {
     try {
-        return build_meshes(soup, options);
+        return build_meshes(std::move(soup), options);
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
@@ -24,11 +24,11 @@ std::vector<Mesh> build_meshes_of(const std::string& path, const PolygonSoup& so
 
 Model model_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     Model model;
-    model.meshes = build_meshes_of(path, soup, options);
+    model.materials = std::move(soup.materials);
+    model.meshes = build_meshes_of(path, std::move(soup), options);
     for (std::uint32_t i = 0; i < model.meshes.size(); ++i) {
         model.objects.push_back({model.meshes[i].name, i, glm::dmat4(1.0)});
     }
-    model.materials = std::move(soup.materials);
     return model;
 }
 
@@ -37,8 +37,7 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     constexpr std::uint32_t kNoMesh = 0xFFFFFFFFu;
     std::vector<std::uint32_t> mesh_number(scene.meshes.size(), kNoMesh);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        std::vector<Mesh> built = build_meshes_of(path, scene.meshes[i], options);
-        scene.meshes[i] = PolygonSoup();
+        std::vector<Mesh> built = build_meshes_of(path, std::move(scene.meshes[i]), options);
         if (built.empty()) continue;
         mesh_number[i] = static_cast<std::uint32_t>(model.meshes.size());
         model.meshes.push_back(std::move(built.front()));

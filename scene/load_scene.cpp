@@ -70,8 +70,8 @@ class SceneLoader {
         const MeshOptions options{object.subdivide, object.scheme, threads_};
         if (object.file.empty()) {
             Model model;
-            model.meshes = build_meshes(object.shape, options);
-            model.materials = object.shape.materials;
+            model.materials = std::move(object.shape.materials);
+            model.meshes = build_meshes(std::move(object.shape), options);
             model.objects.push_back({object.name, 0, glm::dmat4(1.0)});
             object.shape = PolygonSoup();
             shapes_.push_back(adopt(std::move(model)));

@@ -1,0 +1,28 @@
+#include "base/heap.h"
+
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "base/huge_pages.h"
+
+namespace burin {
+
+void keep_freed_memory() noexcept {
+#ifdef __GLIBC__
+    ::mallopt(M_MMAP_MAX, 0);
+    ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+    // The heap grows by this now, and does not shrink. None of it is backed by memory before it is written.
+    constexpr std::size_t kAtFirst = std::size_t{256} << 20;
+    void* const heap = std::malloc(kAtFirst);
+    if (heap == nullptr) return;
+    advise_huge_pages(heap, kAtFirst);
+    std::free(heap);
+#endif
+}
+
+}  // namespace burin

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace burin {
+
+/// For a program that soon needs much memory, again and again: what it frees stays with it, to be used again, and
+/// comes in huge pages. The first write to fresh memory costs more than most work on it. Not for programs that
+/// are to stay below a limit, for holes between what is in use are kept, too.
+void keep_freed_memory() noexcept;
+
+}  // namespace burin
