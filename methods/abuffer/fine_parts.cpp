@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "methods/abuffer/layer_triangle.h"
 
@@ -34,6 +35,16 @@ int floor_to_int(double v) {
 bool runs_along(const EdgeOnScreen& edge, const LineSegment& piece) {
     const double limit = kOffSubpixels * glm::distance(edge.from, edge.to);
     return std::abs(edge.side_of(piece.from * 256.0)) <= limit && std::abs(edge.side_of(piece.to * 256.0)) <= limit;
+}
+
+/// From where to where an edge runs between two heights, and a bit more. 1/256 pixel.
+std::pair<int, int> columns_beside(const EdgeOnScreen& edge, double top, double bottom) {
+    const glm::dvec2 way = edge.to - edge.from;
+    const auto x_at = [&](double y) {
+        return edge.from.x + way.x * std::clamp((y - edge.from.y) / way.y, 0.0, 1.0);
+    };
+    const double a = way.y == 0 ? edge.from.x : x_at(top), b = way.y == 0 ? edge.to.x : x_at(bottom);
+    return {floor_to_int(std::min(a, b)) - 1, floor_to_int(std::max(a, b)) + 2};
 }
 
 }  // namespace
@@ -67,32 +78,34 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
         const Owners owners = owners_of(e, edge);
         const HalfEdge partner = screen_.surfaces().instances[e.instance].mesh->next_on_edge[e.half_edge];
         const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
-        for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
-            for (int x = std::max(x0, first_x); x <= std::min(x1, last_x); ++x) {
-                double begin = 0, end = 1;
-                LayerLine line;
-                line.from = edge.from;
-                line.to = edge.to;
-                if (!is_in_one) {
-                    const glm::dvec2 from(blocks.begin(x), blocks.begin(y)),
-                        to(blocks.begin(x + 1), blocks.begin(y + 1));
-                    if (!clip_to_rect(line, from, to, begin, end)) continue;
-                    if (is_behind_blocks(samples, edge, begin, end)) continue;
-                }
-                const std::uint32_t block =
-                    static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
-                find_undrawn(edge, begin, end, pieces_of(drawn, key, block));
-                open_.clear();
-                for (const Interval& i : undrawn_) {
-                    if (is_tip(samples, edge, i)) {
-                        open_.push_back(i);
-                    } else {
-                        find_open(samples, edge, owners, {x << shift, y << shift}, i);
-                    }
-                }
-                if (!takes_rests_ && !open_.empty() && is_drawn_by_another(edge, drawn, block)) continue;
-                for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
+        LayerLine line;
+        line.from = edge.from;
+        line.to = edge.to;
+        const auto look_at = [&](int x, int y) {
+            double begin = 0, end = 1;
+            if (!is_in_one) {
+                const glm::dvec2 from(blocks.begin(x), blocks.begin(y)), to(blocks.begin(x + 1), blocks.begin(y + 1));
+                if (!clip_to_rect(line, from, to, begin, end)) return;
+                if (is_behind_blocks(samples, edge, begin, end)) return;
             }
+            const std::uint32_t block =
+                static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
+            find_undrawn(edge, begin, end, pieces_of(drawn, key, block));
+            open_.clear();
+            for (const Interval& i : undrawn_) {
+                if (is_tip(samples, edge, i)) {
+                    open_.push_back(i);
+                } else {
+                    find_open(samples, edge, owners, {x << shift, y << shift}, i);
+                }
+            }
+            if (!takes_rests_ && !open_.empty() && is_drawn_by_another(edge, drawn, block)) return;
+            for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
+        };
+        for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
+            const auto [left, right] = columns_beside(edge, blocks.begin(y), blocks.begin(y + 1));
+            const int from = std::max({x0, first_x, blocks.at(left)}), to = std::min({x1, last_x, blocks.at(right)});
+            for (int x = from; x <= to; ++x) look_at(x, y);
         }
     }
 }
