@@ -56,14 +56,6 @@ struct ScreenTransform {
     double view_to_world[3][3];  ///< columns
 };
 
-/// Square blocks of a picture, with a border of one block all around it, row by row.
-struct BlockMap {
-    const float* farthest;         ///< the least nearness of what is to be hidden; infinity: nothing
-    std::int32_t x, y;             ///< of the first block within the border, in 1/256 pixel
-    std::int32_t shift;            ///< log2 of a block's width in 1/256 pixel
-    std::int32_t columns, rows;    ///< without the border
-};
-
 /// A rectangle on the screen in 1/256 pixel, borders included, and a range of nearness.
 struct ScreenBox {
     float x0, y0, x1, y1, low, high;
@@ -92,15 +84,20 @@ struct TileGrid {
     std::int32_t columns;                  ///< of tiles
     std::int32_t pitch_shift;              ///< log2 of the distance of samples, in 1/256 pixel
     std::int32_t tile_shift;               ///< log2 of a tile's width in samples
+    bool keeps_thin;                       ///< whether triangles between samples, which touch none, are wanted
 };
 
 /// A small triangle in a tile, with what tells whether it can be seen there.
 struct TileTriangle {
     std::uint32_t triangle;  ///< number in its mesh
     float highest;           ///< nearness of its nearest corner
-    /// Blocks of kBlockSamples x kBlockSamples samples of the tile that it may touch.
+    /// Blocks of kBlockSamples x kBlockSamples samples of the tile that it may touch; if it lies between samples,
+    /// those of the samples on either side.
     std::uint8_t first_column, last_column, first_row, last_row;
 };
+
+/// What a tile lists separately. `thin` ones have no column or no row of samples in their box.
+enum TriangleKind : std::uint32_t { wound_counterclockwise, wound_clockwise, thin, kTriangleKinds };
 
 /// The inner loops of the production A-buffer. There is one set per instruction set; all give equal
 /// results to the bit, because they are the same source compiled twice and floating point is not
@@ -125,10 +122,16 @@ struct TileKernels {
     std::size_t (*draw_small)(const SampleView& tile, const float* farthest, const ScreenMesh& mesh,
                               const TileTriangle* triangles, std::size_t count);
     /// The least nearness in every block of kBlockSamples x kBlockSamples samples, row by row, with
-    /// stride / kBlockSamples blocks to a row; then in every block and the next one to the right; in every block
-    /// and the one below; in every two by two. There are farthest_count()
+    /// stride / kBlockSamples blocks to a row; then what combine_blocks() makes of it. There are farthest_count()
     /// numbers.
     void (*find_farthest)(const SampleView& tile, float* farthest);
+    /// Behind a table of numbers, one per block, row by row, writes three more: of every block and the next one
+    /// to the right, of every block and the one below, of every two by two, the least.
+    void (*combine_blocks)(std::int32_t columns, std::int32_t rows, float* least);
+    /// Lists the places of those triangles that may be nearer than the least number of the blocks they touch;
+    /// `least` as combine_blocks() leaves it. Returns how many.
+    std::size_t (*find_nearer)(const float* least, std::int32_t columns, std::int32_t rows,
+                               const TileTriangle* triangles, std::size_t count, std::uint32_t* found);
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
                       const SpanPlane& plane);
@@ -148,11 +151,6 @@ struct TileKernels {
                          std::int32_t* begin, std::int32_t* end);
     /// How many bits are set in 16 numbers, without those of `hidden`.
     int (*count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
-    /// Lists the triangles [begin, end) of a mesh that may touch a block of the map in front of what is to be
-    /// hidden there; large ones and those that are not all on the screen, too. Returns their number. The list
-    /// needs room for end - begin + 8.
-    std::size_t (*find_hiding)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const BlockMap& map,
-                               std::uint32_t* triangles);
     /// Lists those of the boxes [begin, end) that touch a box and have nearness in common with it, the ends of
     /// the ranges aside, and begin at the given coordinates or behind them. Returns their number. Up to seven
     /// numbers more are read of each array.
@@ -172,7 +170,8 @@ constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
 constexpr std::size_t farthest_count(const SampleView& tile) {
     return 4 * static_cast<std::size_t>((tile.stride >> kBlockShift) * ((tile.rows + kBlockSamples - 1) >> kBlockShift));
 }
-/// A tile's key for triangles wound one way: twice its number, and 1 for clockwise ones.
+/// A tile's key for triangles of one kind.
+constexpr std::uint32_t tile_key(std::uint32_t tile, TriangleKind kind) { return kTriangleKinds * tile + kind; }
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
 /// Too large for draw_small(), or not all on the screen.
 constexpr std::uint32_t kNotSmall = 0xFFFFFFFEu;

@@ -8,9 +8,9 @@
 namespace burin {
 
 const TileKernels* avx2_kernels() {
-    static const TileKernels kernels{"avx2", project, cull, find_line_edges, draw_small, find_farthest, draw_span,
+    static const TileKernels kernels{"avx2", project, cull, find_line_edges, draw_small, find_farthest, combine_blocks, find_nearer, draw_span,
                                      find_pairs, count_covered, look, stroke_spans, count_bits,
-                                     find_hiding, find_touching};
+                                     find_touching};
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") ? &kernels : nullptr;
 }
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/parallel.h"
 #include "methods/abuffer/layer_triangle.h"
 
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 /// A border asks what is behind it, too. As a multiple of level_slack(): 4 pixels' widths.
 constexpr double kBehindBorder = 64;
@@ -18,36 +16,44 @@ constexpr double kReach = 1;
 
 }  // namespace
 
-FineBlocks::FineBlocks(const ScreenSurfaces& screen, const TileKernels& kernels, int samples_per_pixel,
-                       PixelRect region, const std::vector<FineCandidate>& candidates, int threads)
-    : screen_(screen),
-      kernels_(kernels),
-      grid_(samples_per_pixel),
-      first_x_(region.x0 / kMergeBlockPx),
-      first_y_(region.y0 / kMergeBlockPx),
-      columns_(region.width() / kMergeBlockPx),
-      rows_(region.height() / kMergeBlockPx) {
+void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidates) {
+    rect_ = bins_.tile(tile);
+    first_x_ = rect_.x0 / kMergeBlockPx;
+    first_y_ = rect_.y0 / kMergeBlockPx;
+    columns_ = rect_.width() / kMergeBlockPx;
+    rows_ = rect_.height() / kMergeBlockPx;
+    count_ = 0;
     index_.assign(block_at(0, rows_), kNone);
-    farthest_.assign(cell_at(kCells * columns_, kCells * rows_) + 1, kNothing);
+    farthest_.assign(cell_at(0, kCells * rows_), kNothing);
+    const int samples = kSubpixelsPerPixel / (2 * grid_.half_pitch) * bins_.tile_px();
+    sample_blocks_ = (samples >> kBlockShift) + 1;  // a tile has one more column and row of samples
+    const auto block_count = static_cast<std::size_t>(sample_blocks_ * sample_blocks_);
+    least_.resize(4 * block_count);
+    std::fill_n(least_.begin(), block_count, kNothing);
     sort_candidates(candidates);
-    if (count_ == 0) return;
-    const std::vector<TriangleChunk> chunks = screen_.chunks_of_triangles(kChunkTriangles);
-    std::vector<Records> records(chunks.size());
-    std::vector<std::vector<std::uint32_t>> found(static_cast<std::size_t>(threads));
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int worker) {
-        sort_triangles(chunks[c], found[static_cast<std::size_t>(worker)], records[c]);
-    });
-    triangles_ = TileLists<HidingTriangle>(records, count_);
+    kernels_.combine_blocks(sample_blocks_, sample_blocks_, least_.data());
+    for (const TriangleRun& run : bins_.runs_in(tile)) add_small(run);
+    for (const TriangleRun& run : bins_.thin_runs_in(tile)) add_small(run);
+    for (const std::uint32_t i : bins_.large_in(tile)) add_large(bins_.large(i));
+    for (const std::uint32_t i : bins_.thin_large_in(tile)) add_large(bins_.large(i));
 }
 
-void FineBlocks::sort_candidates(const std::vector<FineCandidate>& candidates) {
-    std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
+void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
         const LayerLine& line = candidates[i].line;
         const FinePart& part = candidates[i].part;
         const int block_x = part.block_x - first_x_, block_y = part.block_y - first_y_;
         std::uint32_t& index = index_[block_at(block_x, block_y)];
-        if (index == kNone) index = static_cast<std::uint32_t>(count_++);
+        if (index == kNone) {
+            index = static_cast<std::uint32_t>(count_++);
+            if (candidates_.size() < count_) {
+                candidates_.resize(count_);
+                triangles_.resize(count_);
+            }
+            candidates_[index].clear();
+            triangles_[index].clear();
+        }
+        candidates_[index].push_back(i);
         double lowest = std::min(line.nearness_from, line.nearness_to) - line_slack(screen_.surfaces(), line);
         if (line.classes.has(LineClass::border))
             lowest -= kBehindBorder * level_slack(screen_.surfaces(), lowest);
@@ -65,69 +71,79 @@ void FineBlocks::sort_candidates(const std::vector<FineCandidate>& candidates) {
                 farthest = std::min(farthest, static_cast<float>(lowest));
             }
         }
-        records[0].push_back({index, i});
-    }
-    candidates_ = TileLists<std::uint32_t>(records, count_);
-}
-
-void FineBlocks::sort_triangles(const TriangleChunk& chunk, std::vector<std::uint32_t>& found,
-                                Records& records) const {
-    const ScreenMesh mesh = screen_.mesh(chunk.instance);
-    const auto origin = [&](int block) { return static_cast<std::int32_t>(grid_.begin(block)); };
-    const BlockMap map{farthest_.data(), origin(first_x_),   origin(first_y_),
-                       kCellShift,       kCells * columns_, kCells * rows_};
-    found.resize(kChunkTriangles + 8);
-    const std::size_t count = kernels_.find_hiding(mesh, chunk.begin, chunk.end, map, found.data());
-    for (std::size_t i = 0; i < count; ++i) {
-        if (mesh.facing[found[i]] == edge_on) continue;
-        const HidingTriangle t = triangle({chunk.instance, found[i]});
-        const int left = std::max(grid_.at(t.x0) - first_x_, 0),
-                  right = std::min(grid_.at(t.x1) - first_x_, columns_ - 1);
-        const int top = std::max(grid_.at(t.y0) - first_y_, 0),
-                  bottom = std::min(grid_.at(t.y1) - first_y_, rows_ - 1);
-        const auto hides_something = [&](int x, int y) {
-            const int origin_x = kCells * (first_x_ + x), origin_y = kCells * (first_y_ + y);
-            const int x0 = std::max(cell_of(t.x0) - origin_x, 0), x1 = std::min(cell_of(t.x1) - origin_x, kCells - 1);
-            const int y0 = std::max(cell_of(t.y0) - origin_y, 0), y1 = std::min(cell_of(t.y1) - origin_y, kCells - 1);
-            for (int cell_y = y0; cell_y <= y1; ++cell_y) {
-                for (int cell_x = x0; cell_x <= x1; ++cell_x) {
-                    if (t.nearest > farthest_[cell_at(kCells * x + cell_x, kCells * y + cell_y)]) return true;
-                }
-            }
-            return false;
-        };
-        for (int y = top; y <= bottom; ++y) {
-            for (int x = left; x <= right; ++x) {
-                const std::uint32_t index = index_[block_at(x, y)];
-                if (index != kNone && hides_something(x, y)) records.push_back({index, t});
-            }
-        }
+        note_least(low, high, static_cast<float>(lowest));
     }
 }
 
-HidingTriangle FineBlocks::triangle(SurfaceId s) const {
-    HidingTriangle t{screen_.number_of(s), false, 0, 0, -1, -1, 0};
-    const auto set = [&](auto x, auto y, bool is_first) {
-        t.x0 = is_first ? x : std::min(t.x0, x);
-        t.y0 = is_first ? y : std::min(t.y0, y);
-        t.x1 = is_first ? x : std::max(t.x1, x);
-        t.y1 = is_first ? y : std::max(t.y1, y);
+/// In all blocks of samples that a triangle may be listed in that touches the box, see TileTriangle.
+void FineBlocks::note_least(glm::ivec2 low, glm::ivec2 high, float lowest) {
+    const int pitch = 2 * grid_.half_pitch, per_pixel = kSubpixelsPerPixel / pitch;
+    const auto block = [&](int sample) { return std::clamp(sample >> kBlockShift, 0, sample_blocks_ - 1); };
+    const auto before = [&](int subpixel, int first_px) {
+        return static_cast<int>(std::floor(static_cast<double>(subpixel - grid_.half_pitch) / pitch)) - first_px * per_pixel;
     };
-    if (screen_.facing(t.number) == off_screen) {
-        t.is_clipped = true;
-        const ScreenPolygon polygon = screen_.surfaces().screen_polygon(s);
-        for (int i = 0; i < polygon.count; ++i) {
-            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
-            set(p.x, p.y, i == 0);
+    const auto behind = [&](int subpixel, int first_px) { return before(subpixel + pitch - 1, first_px); };
+    const int x0 = block(before(low.x, rect_.x0)), x1 = block(behind(high.x, rect_.x0));
+    const int y0 = block(before(low.y, rect_.y0)), y1 = block(behind(high.y, rect_.y0));
+    for (int y = y0; y <= y1; ++y) {
+        for (int x = x0; x <= x1; ++x) {
+            float& least = least_[static_cast<std::size_t>(y * sample_blocks_ + x)];
+            least = std::min(least, lowest);
         }
-        t.nearest = polygon.count == 0 ? -kNothing : kNothing;
-        return t;
     }
-    const ScreenTriangle triangle = screen_.triangle(s);
-    for (std::size_t k = 0; k < 3; ++k) set(triangle.corners[k].x, triangle.corners[k].y, k == 0);
-    t.nearest =
-        std::max({triangle.corners[0].nearness, triangle.corners[1].nearness, triangle.corners[2].nearness});
-    return t;
+}
+
+void FineBlocks::add_small(const TriangleRun& run) {
+    if (nearer_.size() < run.count) nearer_.resize(run.count);
+    const std::size_t count =
+        kernels_.find_nearer(least_.data(), sample_blocks_, sample_blocks_, run.triangles, run.count, nearer_.data());
+    const ScreenMesh& mesh = screen_.mesh(run.instance);
+    for (std::size_t i = 0; i < count; ++i) {
+        const TileTriangle& t = run.triangles[nearer_[i]];
+        const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t.triangle);
+        const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
+        sort_triangle({mesh.first_number + t.triangle, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
+                       std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), t.highest});
+    }
+}
+
+void FineBlocks::add_large(const LargePolygon& large) {
+    const ScreenPolygon& polygon = large.polygon;
+    HidingTriangle t{screen_.number_of(large.surface), false, 0, 0, -1, -1, large.plane.high};
+    t.is_clipped = screen_.facing(t.number) == off_screen;
+    if (t.is_clipped) t.nearest = kNothing;
+    t.x0 = t.x1 = polygon.corners[0].x;
+    t.y0 = t.y1 = polygon.corners[0].y;
+    for (int i = 1; i < polygon.count; ++i) {
+        const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+        t.x0 = std::min(t.x0, p.x);
+        t.y0 = std::min(t.y0, p.y);
+        t.x1 = std::max(t.x1, p.x);
+        t.y1 = std::max(t.y1, p.y);
+    }
+    sort_triangle(t);
+}
+
+void FineBlocks::sort_triangle(const HidingTriangle& t) {
+    const int left = std::max(grid_.at(t.x0) - first_x_, 0), right = std::min(grid_.at(t.x1) - first_x_, columns_ - 1);
+    const int top = std::max(grid_.at(t.y0) - first_y_, 0), bottom = std::min(grid_.at(t.y1) - first_y_, rows_ - 1);
+    const auto hides_something = [&](int x, int y) {
+        const int origin_x = kCells * (first_x_ + x), origin_y = kCells * (first_y_ + y);
+        const int x0 = std::max(cell_of(t.x0) - origin_x, 0), x1 = std::min(cell_of(t.x1) - origin_x, kCells - 1);
+        const int y0 = std::max(cell_of(t.y0) - origin_y, 0), y1 = std::min(cell_of(t.y1) - origin_y, kCells - 1);
+        for (int cell_y = y0; cell_y <= y1; ++cell_y) {
+            for (int cell_x = x0; cell_x <= x1; ++cell_x) {
+                if (t.nearest > farthest_[cell_at(kCells * x + cell_x, kCells * y + cell_y)]) return true;
+            }
+        }
+        return false;
+    };
+    for (int y = top; y <= bottom; ++y) {
+        for (int x = left; x <= right; ++x) {
+            const std::uint32_t index = index_[block_at(x, y)];
+            if (index != kNone && hides_something(x, y)) triangles_[index].push_back(t);
+        }
+    }
 }
 
 }  // namespace burin

@@ -4,10 +4,9 @@
 #include <vector>
 
 #include "abuffer/tile_kernels.h"
-#include "image/image.h"
 #include "methods/abuffer/fine_parts.h"
 #include "methods/abuffer/layer_line.h"
-#include "methods/abuffer/tile_lists.h"
+#include "methods/abuffer/triangle_bins.h"
 
 namespace burin {
 
@@ -25,21 +24,23 @@ struct HidingTriangle {
     float nearest;
 };
 
-/// The blocks of a region that have candidates, and the triangles that may hide them there: all that touch
-/// a block and are nearer, be they seen at a sample or not.
+/// The blocks of a tile that have candidates, and the triangles that may hide them there: all that touch
+/// a block and are nearer, be they seen at a sample or not. Buffers are used again from tile to tile.
 class FineBlocks {
   public:
-    FineBlocks(const ScreenSurfaces& screen, const TileKernels& kernels, int samples_per_pixel,
-               PixelRect region, const std::vector<FineCandidate>& candidates, int threads);
+    /// `bins` must have kept thin triangles.
+    FineBlocks(const ScreenSurfaces& screen, const TriangleBins& bins, const TileKernels& kernels, int samples_per_pixel)
+        : screen_(screen), bins_(bins), kernels_(kernels), grid_(samples_per_pixel) {}
+
+    void fill(std::size_t tile, std::span<const FineCandidate> candidates);
 
     std::size_t count() const { return count_; }
     /// Numbers of candidates.
-    std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_.of(block); }
-    std::span<const HidingTriangle> triangles(std::size_t block) const { return triangles_.of(block); }
+    std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_[block]; }
+    /// In no particular order.
+    std::span<const HidingTriangle> triangles(std::size_t block) const { return triangles_[block]; }
 
   private:
-    using Records = std::vector<TileLists<HidingTriangle>::Record>;
-
     /// A block is cut into so many cells along each side, for a triangle beside all candidates to be left out.
     static constexpr int kCells = 2;
     static constexpr int kCellShift = SampleBlocks::kShift - 1;
@@ -47,26 +48,32 @@ class FineBlocks {
     std::size_t block_at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
-    std::size_t cell_at(int x, int y) const {  // with the border of a BlockMap
-        return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(kCells * columns_ + 2) +
-               static_cast<std::size_t>(x + 1);
+    std::size_t cell_at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(kCells * columns_) + static_cast<std::size_t>(x);
     }
     int cell_of(std::int32_t subpixel) const { return (subpixel - grid_.half_pitch) >> kCellShift; }
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    void sort_candidates(const std::vector<FineCandidate>& candidates);
-    void sort_triangles(const TriangleChunk& chunk, std::vector<std::uint32_t>& found,
-                        Records& records) const;
-    HidingTriangle triangle(SurfaceId s) const;
+    void sort_candidates(std::span<const FineCandidate> candidates);
+    void note_least(glm::ivec2 low, glm::ivec2 high, float lowest);
+    void add_small(const TriangleRun& run);
+    void add_large(const LargePolygon& large);
+    void sort_triangle(const HidingTriangle& t);
 
     const ScreenSurfaces& screen_;
+    const TriangleBins& bins_;
     const TileKernels& kernels_;
     SampleBlocks grid_;
-    int first_x_, first_y_, columns_, rows_;
+    PixelRect rect_;
+    int first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;
     std::size_t count_ = 0;
     std::vector<std::uint32_t> index_;  // per block: its number, or kNone without candidates
-    std::vector<float> farthest_;       // per cell: see BlockMap
-    TileLists<std::uint32_t> candidates_;
-    TileLists<HidingTriangle> triangles_;
+    std::vector<float> farthest_;       // per cell: the least nearness of candidates there
+    // The same per block of kBlockSamples samples, as combine_blocks() leaves it.
+    int sample_blocks_ = 0;  // along each side
+    std::vector<float> least_;
+    std::vector<std::uint32_t> nearer_;
+    std::vector<std::vector<std::uint32_t>> candidates_;  // per block
+    std::vector<std::vector<HidingTriangle>> triangles_;
 };
 
 }  // namespace burin

@@ -4,17 +4,14 @@
 #include <optional>
 
 #include "abuffer/screen_boxes.h"
-#include "base/parallel.h"
-#include "methods/abuffer/fine_blocks.h"
 #include "methods/abuffer/fold_width.h"
-#include "methods/abuffer/layer_edges.h"
 #include "methods/abuffer/layer_triangle.h"
 #include "methods/abuffer/sampling.h"
 
 namespace burin {
 namespace {
 
-constexpr std::size_t kChunkParts = 256;
+constexpr bool kHasBothOfSeam = true;
 /// Shorter parts of lines are not worth a stroke. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
 /// Folds that turn back by less are no contours (docs/conventions.md). 1/64 pixel.
@@ -36,38 +33,10 @@ constexpr double kBesideSubpixels = 512;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 
-std::vector<FineCandidate> find_candidates(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
-                                           const std::vector<std::vector<FinePart>>& parts, int threads) {
-    std::vector<const FinePart*> all;
-    for (const auto& list : parts) {
-        for (const FinePart& part : list) all.push_back(&part);
-    }
-    constexpr bool kHasBothOfSeam = true;
-    // The last blocks reach half a sample beyond the region (SampleBlocks).
-    const PixelRect reach{region.x0, region.y0, region.x1 + 1, region.y1 + 1};
-    const LayerEdgeFinder finder(frame, screen, reach, kHasBothOfSeam);
-    std::vector<std::vector<FineCandidate>> found((all.size() + kChunkParts - 1) / kChunkParts);
-    parallel_for(found.size(), threads, [&](std::size_t chunk, int) {
-        std::vector<LayerLine> lines;
-        for (std::size_t i = chunk * kChunkParts; i < std::min(all.size(), (chunk + 1) * kChunkParts); ++i) {
-            lines.clear();
-            finder.find({all[i]->edge.instance, all[i]->edge.half_edge / 3}, all[i]->edge.half_edge, lines);
-            if (lines.empty()) continue;
-            LayerLine& line = lines.front();
-            const ScreenMesh mesh = screen.mesh(all[i]->edge.instance);
-            const HalfEdge h = all[i]->edge.half_edge;
-            if (mesh.partners[h] == h)
-                line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
-            found[chunk].push_back({*all[i], line});
-        }
-    });
-    std::vector<FineCandidate> candidates;
-    for (const auto& list : found) candidates.insert(candidates.end(), list.begin(), list.end());
-    return candidates;
-}
+}  // namespace
 
 /// Finds what is visible in one block after the other. Buffers are used again.
-class BlockClipper {
+class FineLines::BlockClipper {
   public:
     BlockClipper(const ScreenSurfaces& screen, const TileKernels& kernels, const LineCriteria& criteria)
         : screen_(screen), kernels_(kernels), criteria_(criteria) {}
@@ -305,7 +274,8 @@ class BlockClipper {
         double nearest = -kFar;
         for_triangles(line, t, t, -kFar, [&](const LayerTriangle& triangle) {
             const double other = triangle.nearness_at(at);
-            if (lies_on(line, triangle) || !triangle.covers(at) || other <= nearest) return true;
+            const bool is_nearest = other > nearest || (behind && other == nearest && triangle.number < behind->number);
+            if (lies_on(line, triangle) || !triangle.covers(at) || !is_nearest) return true;
             behind = triangle;
             nearest = other;
             return true;
@@ -344,31 +314,42 @@ class BlockClipper {
     std::vector<Interval> hidden_;
 };
 
-}  // namespace
+FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
+                     const TileKernels& kernels, PixelRect region)
+    : screen_(screen),
+      grid_(samples_per_pixel_of(*frame.scene)),
+      // The last blocks reach half a sample beyond the region (SampleBlocks).
+      finder_(frame, screen, {region.x0, region.y0, region.x1 + 1, region.y1 + 1}, kHasBothOfSeam),
+      blocks_(screen, bins, kernels, samples_per_pixel_of(*frame.scene)),
+      clipper_(std::make_unique<BlockClipper>(screen, kernels, frame.criteria)) {}
 
-std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurfaces& screen,
-                                         const TileKernels& kernels, PixelRect region,
-                                         const std::vector<std::vector<FinePart>>& parts, int threads) {
-    std::vector<LineSegment> segments;
-    const std::vector<FineCandidate> candidates = find_candidates(frame, screen, region, parts, threads);
-    if (candidates.empty()) return segments;
-    const int per_pixel = samples_per_pixel_of(*frame.scene);
-    const FineBlocks blocks(screen, kernels, per_pixel, region, candidates, threads);
-    const SampleBlocks grid(per_pixel);
-    std::vector<BlockClipper> clippers(static_cast<std::size_t>(threads),
-                                       BlockClipper(screen, kernels, frame.criteria));
-    std::vector<std::vector<LineSegment>> found(blocks.count());
-    parallel_for(blocks.count(), threads, [&](std::size_t block, int worker) {
-        BlockClipper& clipper = clippers[static_cast<std::size_t>(worker)];
-        const FinePart& any = candidates[blocks.candidates(block).front()].part;
-        clipper.set_triangles(blocks.triangles(block),
-                              glm::ivec2(glm::dvec2(grid.begin(any.block_x), grid.begin(any.block_y))));
-        if (blocks.candidates(block).size() * clipper.triangles_per_cell() > kMostLooks) return;
-        for (const std::uint32_t i : blocks.candidates(block))
-            clipper.add_visible(candidates[i], found[block]);
-    });
-    for (const auto& list : found) segments.insert(segments.end(), list.begin(), list.end());
-    return segments;
+FineLines::~FineLines() = default;
+
+void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vector<LineSegment>& segments) {
+    find_candidates(parts);
+    if (candidates_.empty()) return;
+    blocks_.fill(tile, candidates_);
+    for (std::size_t block = 0; block < blocks_.count(); ++block) {
+        const FinePart& any = candidates_[blocks_.candidates(block).front()].part;
+        clipper_->set_triangles(blocks_.triangles(block),
+                                glm::ivec2(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y))));
+        if (blocks_.candidates(block).size() * clipper_->triangles_per_cell() > kMostLooks) continue;
+        for (const std::uint32_t i : blocks_.candidates(block)) clipper_->add_visible(candidates_[i], segments);
+    }
+}
+
+void FineLines::find_candidates(std::span<const FinePart> parts) {
+    candidates_.clear();
+    for (const FinePart& part : parts) {
+        const HalfEdge h = part.edge.half_edge;
+        lines_.clear();
+        finder_.find({part.edge.instance, h / 3}, h, lines_);
+        if (lines_.empty()) continue;
+        LayerLine& line = lines_.front();
+        if (screen_.mesh(part.edge.instance).partners[h] == h)
+            line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
+        candidates_.push_back({part, line});
+    }
 }
 
 }  // namespace burin

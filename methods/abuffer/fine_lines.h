@@ -1,18 +1,40 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "lines/line_segment.h"
-#include "methods/abuffer/fine_parts.h"
+#include "methods/abuffer/fine_blocks.h"
+#include "methods/abuffer/layer_edges.h"
 #include "render/frame.h"
 
 namespace burin {
 
 /// The lines that samples miss: features thinner than a sample, and meshes with several triangles to a
-/// sample. Of `parts`, list by list, those that are lines are clipped against all triangles in front of
-/// them; what is visible is returned, in one order for any number of threads.
-std::vector<LineSegment> find_fine_lines(const Frame& frame, const ScreenSurfaces& screen,
-                                         const TileKernels& kernels, PixelRect region,
-                                         const std::vector<std::vector<FinePart>>& parts, int threads);
+/// sample. Of parts of edges, those that are lines are clipped against all triangles in front of them. Tile by
+/// tile; buffers are used again.
+class FineLines {
+  public:
+    /// `region`: of `bins`, which must have kept thin triangles.
+    FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, const TileKernels& kernels,
+              PixelRect region);
+    ~FineLines();
+
+    /// Adds what is visible of the parts that are lines, all of one tile.
+    void find(std::size_t tile, std::span<const FinePart> parts, std::vector<LineSegment>& segments);
+
+  private:
+    class BlockClipper;
+    void find_candidates(std::span<const FinePart> parts);
+
+    const ScreenSurfaces& screen_;
+    SampleBlocks grid_;
+    LayerEdgeFinder finder_;
+    FineBlocks blocks_;
+    std::unique_ptr<BlockClipper> clipper_;
+    std::vector<FineCandidate> candidates_;
+    std::vector<LayerLine> lines_;
+};
 
 }  // namespace burin

@@ -133,12 +133,12 @@ void LineTile::order_runs(std::size_t tile) {
     for (const TriangleRun& run : bins_.runs_in(tile)) {
         const ScreenTriangle t = screen_.triangle({run.instance, run.triangles[run.count / 2].triangle});
         runs_.push_back({&run, t.corners[0].nearness});
-        sum[run.is_clockwise] += static_cast<double>(t.corners[0].nearness) * run.count;
-        count[run.is_clockwise] += run.count;
+        sum[run.kind] += static_cast<double>(t.corners[0].nearness) * run.count;
+        count[run.kind] += run.count;
     }
-    const bool is_clockwise_near = sum[1] * count[0] > sum[0] * count[1];
+    const TriangleKind near_kind = sum[1] * count[0] > sum[0] * count[1] ? wound_clockwise : wound_counterclockwise;
     std::sort(runs_.begin(), runs_.end(), [&](const PlacedRun& a, const PlacedRun& b) {
-        const bool a_near = a.run->is_clockwise == is_clockwise_near, b_near = b.run->is_clockwise == is_clockwise_near;
+        const bool a_near = a.run->kind == near_kind, b_near = b.run->kind == near_kind;
         return a_near != b_near ? a_near : a.nearness > b.nearness;
     });
 }

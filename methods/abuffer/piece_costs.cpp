@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
 // Bytes. Lists that grow may have twice the room that they need.
 constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
-constexpr std::uint64_t kPerRun = 40;         // a chunk's list in a tile, as found and as sorted
+constexpr std::uint64_t kPerRun = 90;         // a chunk's list in a tile, as found and as sorted
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
@@ -33,7 +33,7 @@ struct Box {  // in pixels
 struct Tally {
     std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;  // per row
     std::vector<std::uint64_t> layer_tile_touches;                               // per tile
-    std::vector<std::uint32_t> last_chunk[2];  // per tile, wound either way: 1 + the last chunk with a run there
+    std::vector<std::uint32_t> last_chunk[kTriangleKinds];  // per tile: 1 + the last chunk with a run there
 };
 
 /// The box of a triangle, nothing to the right of nothing if it is not seen; whether it counts as large.
@@ -93,13 +93,10 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
             }
             // The samples in the box; a tile also gets those next to its right and lower border.
             const glm::dvec2 first = glm::ceil(box.low / sample_px_ - 0.5), last = glm::floor(box.high / sample_px_ - 0.5);
-            if (!is_large && (first.x > last.x || first.y > last.y)) {  // no sample, but its edges may be lines
-                visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_,
-                               [&](std::uint32_t tile) { ++tally.visible_touches[row_of(visible_, tile)]; });
-                continue;
-            }
+            const bool is_thin = first.x > last.x || first.y > last.y;
             const ScreenTriangle t = screen.triangle(s);
-            const int side = !is_large && doubled_area(t.corners[0], t.corners[1], t.corners[2]) > 0 ? 1 : 0;
+            const bool is_clockwise = !is_large && doubled_area(t.corners[0], t.corners[1], t.corners[2]) > 0;
+            const TriangleKind kind = is_thin ? thin : is_clockwise ? wound_clockwise : wound_counterclockwise;
             std::uint32_t last_row = ~0u;
             visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_, [&](std::uint32_t tile) {
                 const std::uint32_t row = row_of(visible_, tile);
@@ -108,7 +105,7 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
                 cost += is_large ? kPerLarge : kPerSmall;
                 if (is_large && row != last_row) cost += kPerPolygon;
                 last_row = row;
-                std::uint32_t& last_chunk = tally.last_chunk[side][tile];
+                std::uint32_t& last_chunk = tally.last_chunk[kind][tile];
                 if (!is_large && last_chunk != c + 1) cost += kPerRun;
                 if (!is_large) last_chunk = static_cast<std::uint32_t>(c + 1);
             });

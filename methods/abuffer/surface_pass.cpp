@@ -23,8 +23,8 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
                        RenderStats& stats) {
     Stopwatch watch;
     const int per_pixel = samples_per_pixel_of(*frame_.scene);
-    const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
+    const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples, has_fine);
     std::optional<FineEdges> fine_edges;
     if (has_fine) fine_edges.emplace(screen_, PixelTiles(region, tile_samples / per_pixel), per_pixel, threads_);
     stats.prepare_s += watch.lap();
@@ -32,8 +32,9 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     const auto workers = static_cast<std::size_t>(threads_);
     std::vector<std::unique_ptr<LineTile>> tiles(workers);
     std::vector<std::unique_ptr<PixelFiller>> fillers(workers);
-    std::vector<FineParts> fine(workers, FineParts(screen_, kernels_, completes_lines(*frame_.scene)));
-    std::vector<std::vector<FinePart>> fine_parts(bins.tile_count());
+    std::vector<FineParts> fine_parts(workers, FineParts(screen_, kernels_, completes_lines(*frame_.scene)));
+    std::vector<std::vector<FinePart>> parts(workers);
+    std::vector<std::unique_ptr<FineLines>> fine_lines(workers);
     std::vector<WorkerTimes> times(workers);
     const std::size_t before = segments.size();
     segments.resize(before + bins.tile_count());
@@ -41,24 +42,29 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
         const auto w = static_cast<std::size_t>(worker);
         if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame_, screen_, bins, per_pixel, kernels_);
         if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame_, screen_, kernels_);
+        if (has_fine && !fine_lines[w]) fine_lines[w] = std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region);
+        std::vector<LineSegment>& lines = segments[before + index];
+        const auto add_fine_lines = [&] {
+            parts[w].clear();
+            fine_parts[w].find(tiles[w]->samples(), fine_edges->in(index), lines, parts[w]);
+            fine_lines[w]->find(index, parts[w], lines);
+        };
         Stopwatch lap;
         if (bins.is_empty(index)) {
             fillers[w]->clear(bins.empty_tiles_from(index), film);
             if (has_fine && !fine_edges->in(index).empty()) {  // it may have what is smaller than a sample
                 tiles[w]->draw(index);
-                fine[w].find(tiles[w]->samples(), fine_edges->in(index), {}, fine_parts[index]);
+                add_fine_lines();
             }
         } else {
             tiles[w]->draw(index);
             times[w].raster += lap.lap();
-            tiles[w]->find_lines(segments[before + index]);
-            if (has_fine) {
-                fine[w].find(tiles[w]->samples(), fine_edges->in(index), segments[before + index], fine_parts[index]);
-            }
-            if (contours_ != nullptr) contours_->move(segments[before + index]);
+            tiles[w]->find_lines(lines);
+            if (has_fine) add_fine_lines();
             times[w].lines += lap.lap();
             fillers[w]->fill(*tiles[w], film);
         }
+        if (contours_ != nullptr) contours_->move(lines);
         times[w].shade += lap.lap();
         if (progress_ != nullptr) progress_->advance();
     });
@@ -75,11 +81,6 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     stats.raster_s += sum.raster * scale;
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
-
-    if (!has_fine) return;
-    segments.push_back(find_fine_lines(frame_, screen_, kernels_, region, fine_parts, threads_));
-    if (contours_ != nullptr) contours_->move(segments.back());
-    stats.lines_s += watch.lap();
 }
 
 }  // namespace burin

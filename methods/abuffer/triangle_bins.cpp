@@ -17,6 +17,8 @@ struct Box {  // in 1/256 pixel
 
 struct SampleBox {  // inclusive, relative to the grid
     std::int32_t column0, row0, column1, row1;
+    /// Between samples, the first one lies behind the last one.
+    bool is_thin() const { return column0 > column1 || row0 > row1; }
 };
 
 template <typename Corners>
@@ -32,16 +34,11 @@ Box box_of(const Corners& corners, int count) {
     return box;
 }
 
-/// What one chunk has in one tile, wound one way.
-struct TileRun {
-    std::uint32_t key, begin, count;
-};
-
 /// One chunk's triangles with the tiles they touch.
 struct Records {
-    std::vector<TileRun> runs;             // of `small`
     std::unique_ptr<TileTriangle[]> small;  // sorted by tile
-    std::vector<std::uint32_t> large_tiles, large;  // numbers into polygons
+    std::vector<TileLists<TriangleRun>::Record> runs, thin_runs;  // of `small`
+    std::vector<TileLists<std::uint32_t>::Record> large, thin_large;  // numbers into polygons
     std::vector<LargePolygon> polygons;
 };
 
@@ -78,7 +75,7 @@ class Binner {
         const std::size_t room = kChunkTriangles + 8;
         scratch.triangles.resize(room);
         scratch.keys.resize(room);
-        scratch.count.resize(2 * tile_count(), 0);
+        scratch.count.resize(kTriangleKinds * tile_count(), 0);
         const std::size_t found = kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_,
                                                 surfaces_.facings(chunk.instance), scratch.triangles.data(),
                                                 scratch.keys.data());
@@ -111,14 +108,17 @@ class Binner {
             }
         }
         for (const std::uint32_t key : scratch.more_keys) add(key);
+        std::uint32_t total = 0;
+        for (const std::uint32_t key : scratch.used) total += count[key];
+        records.small = std::make_unique_for_overwrite<TileTriangle[]>(total);
+        TileTriangle* const small = records.small.get();
         std::uint32_t begin = 0;
-        records.runs.reserve(scratch.used.size());
         for (const std::uint32_t key : scratch.used) {
-            records.runs.push_back({key, begin, count[key]});
+            const auto kind = static_cast<TriangleKind>(key % kTriangleKinds);
+            (kind == thin ? records.thin_runs : records.runs)
+                .push_back({key / kTriangleKinds, {instance, count[key], kind, small + begin}});
             begin += std::exchange(count[key], begin);
         }
-        records.small = std::make_unique_for_overwrite<TileTriangle[]>(begin);
-        TileTriangle* const small = records.small.get();
         for (std::size_t i = 0; i < found; ++i) {
             if (scratch.keys[i] < kNotSmall) small[count[scratch.keys[i]]++] = scratch.triangles[i];
         }
@@ -134,7 +134,8 @@ class Binner {
         const bool turned = surfaces_.facing(surfaces_.number_of({instance, found.triangle})) == clockwise;
         for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched, const SampleBox& samples) {
             scratch.more_triangles.push_back(in_tile(found, touched, samples));
-            scratch.more_keys.push_back(2 * touched + (turned ? 1 : 0));
+            const TriangleKind kind = samples.is_thin() ? thin : turned ? wound_clockwise : wound_counterclockwise;
+            scratch.more_keys.push_back(tile_key(touched, kind));
         });
     }
 
@@ -183,9 +184,8 @@ class Binner {
     void add_large(const LargePolygon& large, const Box& box, Records& records) const {
         const auto index = static_cast<std::uint32_t>(records.polygons.size());
         bool touches = false;
-        for_tiles(box, [&](std::uint32_t tile, const SampleBox&) {
-            records.large_tiles.push_back(tile);
-            records.large.push_back(index);
+        for_tiles(box, [&](std::uint32_t tile, const SampleBox& samples) {
+            (samples.is_thin() ? records.thin_large : records.large).push_back({tile, index});
             touches = true;
         });
         if (touches) records.polygons.push_back(large);
@@ -201,10 +201,12 @@ class Binner {
             const std::int32_t within = std::clamp(std::min(at, last) - first, 0, size);
             return static_cast<std::uint8_t>(within >> kBlockShift);
         };
-        t.first_column = block(samples.column0, first_column, grid_.width);
-        t.last_column = block(samples.column1, first_column, grid_.width);
-        t.first_row = block(samples.row0, first_row, grid_.height);
-        t.last_row = block(samples.row1, first_row, grid_.height);
+        const auto [column0, column1] = std::minmax(samples.column0, samples.column1);
+        const auto [row0, row1] = std::minmax(samples.row0, samples.row1);
+        t.first_column = block(column0, first_column, grid_.width);
+        t.last_column = block(column1, first_column, grid_.width);
+        t.first_row = block(row0, first_row, grid_.height);
+        t.last_row = block(row1, first_row, grid_.height);
         return t;
     }
 
@@ -215,18 +217,15 @@ class Binner {
         const std::int32_t half = (1 << grid_.pitch_shift) / 2;
         const auto first_from = [&](std::int32_t at) { return (at + half - 1) >> grid_.pitch_shift; };
         const auto last_before = [&](std::int32_t at) { return (at - half) >> grid_.pitch_shift; };
-        const std::int32_t column0 = first_from(box.x0) - grid_.first_column;
-        const std::int32_t column1 = last_before(box.x1) - grid_.first_column;
-        const std::int32_t row0 = first_from(box.y0) - grid_.first_row;
-        const std::int32_t row1 = last_before(box.y1) - grid_.first_row;
-        if (column0 > column1 || row0 > row1 || column1 < 0 || row1 < 0 || column0 > grid_.width ||
-            row0 > grid_.height) {
-            return;
-        }
+        const SampleBox samples{first_from(box.x0) - grid_.first_column, first_from(box.y0) - grid_.first_row,
+                                last_before(box.x1) - grid_.first_column, last_before(box.y1) - grid_.first_row};
+        const auto [column0, row0, column1, row1] = samples;
+        if (column1 < 0 || row1 < 0 || column0 > grid_.width || row0 > grid_.height) return;
+        if (samples.is_thin() && !grid_.keeps_thin) return;
         for (int row = std::max(row0 - 1, 0) >> grid_.tile_shift; row <= std::min(row1, grid_.height - 1) >> grid_.tile_shift; ++row) {
             for (int column = std::max(column0 - 1, 0) >> grid_.tile_shift;
                  column <= std::min(column1, grid_.width - 1) >> grid_.tile_shift; ++column) {
-                visit(static_cast<std::uint32_t>(row * grid_.columns + column), SampleBox{column0, row0, column1, row1});
+                visit(static_cast<std::uint32_t>(row * grid_.columns + column), samples);
             }
         }
     }
@@ -236,14 +235,10 @@ class Binner {
     const TileKernels& kernels_;
 };
 
-void make_ends_of_counts(std::vector<std::size_t>& end) {
-    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-}
-
 }  // namespace
 
 TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel,
-                           const TileKernels& kernels, int threads, int tile_samples)
+                           const TileKernels& kernels, int threads, int tile_samples, bool keeps_thin)
     : region_(region),
       tile_px_(tile_samples / samples_per_pixel),
       columns_((region.width() + tile_px_ - 1) / tile_px_),
@@ -254,7 +249,8 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
                         region.height() * samples_per_pixel,
                         columns_,
                         std::countr_zero(static_cast<unsigned>(kSubpixelsPerPixel / samples_per_pixel)),
-                        std::countr_zero(static_cast<unsigned>(tile_samples))};
+                        std::countr_zero(static_cast<unsigned>(tile_samples)),
+                        keeps_thin};
     const std::vector<TriangleChunk> chunks = surfaces.chunks_of_triangles(kChunkTriangles);
     std::vector<Records> records(chunks.size());
     std::vector<Scratch> scratch(static_cast<std::size_t>(threads));
@@ -265,31 +261,25 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) { surfaces.find_line_edges(chunks[c]); });
 
     // Stable, chunk after chunk: the same for any number of threads.
-    run_end_.assign(tile_count() + 1, 0);
-    large_end_.assign(tile_count() + 1, 0);
-    for (Records& r : records) {
-        for (const TileRun& run : r.runs) ++run_end_[run.key / 2 + 1];
-        for (const std::uint32_t tile : r.large_tiles) ++large_end_[tile + 1];
-    }
-    make_ends_of_counts(run_end_);
-    make_ends_of_counts(large_end_);
-    runs_.resize(run_end_.back());
-    large_sorted_.resize(large_end_.back());
-    std::vector<std::size_t> next_run = run_end_, next_large = large_end_;
+    std::vector<std::vector<TileLists<TriangleRun>::Record>> runs(chunks.size()), thin_runs(chunks.size());
+    std::vector<std::vector<TileLists<std::uint32_t>::Record>> large(chunks.size()), thin_large(chunks.size());
     triangles_.resize(chunks.size());
     for (std::size_t c = 0; c < chunks.size(); ++c) {
         Records& r = records[c];
         triangles_[c] = std::move(r.small);
-        for (const TileRun& run : r.runs) {
-            runs_[next_run[run.key / 2]++] = {chunks[c].instance, run.count, run.key % 2 == 1,
-                                              triangles_[c].get() + run.begin};
-        }
+        runs[c] = std::move(r.runs);
+        thin_runs[c] = std::move(r.thin_runs);
         const auto before = static_cast<std::uint32_t>(large_.size());
-        for (std::size_t i = 0; i < r.large.size(); ++i) {
-            large_sorted_[next_large[r.large_tiles[i]]++] = before + r.large[i];
-        }
+        for (auto& record : r.large) record.value += before;
+        for (auto& record : r.thin_large) record.value += before;
+        large[c] = std::move(r.large);
+        thin_large[c] = std::move(r.thin_large);
         large_.insert(large_.end(), r.polygons.begin(), r.polygons.end());
     }
+    runs_ = {runs, tile_count()};
+    thin_runs_ = {thin_runs, tile_count()};
+    large_in_ = {large, tile_count()};
+    thin_large_in_ = {thin_large, tile_count()};
 }
 
 PixelRect TriangleBins::tile(std::size_t index) const {

@@ -7,6 +7,7 @@
 #include "abuffer/tile_kernels.h"
 #include "image/image.h"
 #include "methods/abuffer/screen_surfaces.h"
+#include "methods/abuffer/tile_lists.h"
 
 namespace burin {
 
@@ -17,10 +18,10 @@ struct LargePolygon {
     SurfaceId surface;
 };
 
-/// Some small triangles of one instance in one tile, wound one way.
+/// Some small triangles of one instance in one tile, of one kind.
 struct TriangleRun {
     std::uint32_t instance, count;
-    bool is_clockwise;
+    TriangleKind kind;
     const TileTriangle* triangles;
 };
 
@@ -29,9 +30,9 @@ class TriangleBins {
   public:
     /// Finds the facing of all triangles on the way, and which of their edges may be lines. Tiles cover `region`; a tile
     /// also gets what lies on the samples next to its right and lower border. `tile_samples`: a tile's width, a
-    /// power of two.
+    /// power of two. `keeps_thin`: triangles between samples are kept, too.
     TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel, const TileKernels& kernels,
-                 int threads, int tile_samples = TileGrid::kTileSamples);
+                 int threads, int tile_samples = TileGrid::kTileSamples, bool keeps_thin = false);
 
     std::size_t tile_count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
     PixelRect tile(std::size_t index) const;
@@ -39,22 +40,22 @@ class TriangleBins {
     /// The empty tiles side by side from this one on, as one rectangle; nothing if the tile to its left
     /// is one of them.
     PixelRect empty_tiles_from(std::size_t tile) const;
-    std::span<const TriangleRun> runs_in(std::size_t tile) const {
-        return {runs_.data() + run_end_[tile], run_end_[tile + 1] - run_end_[tile]};
-    }
+    std::span<const TriangleRun> runs_in(std::size_t tile) const { return runs_.of(tile); }
     /// Numbers into large().
-    std::span<const std::uint32_t> large_in(std::size_t tile) const {
-        return {large_sorted_.data() + large_end_[tile], large_end_[tile + 1] - large_end_[tile]};
-    }
+    std::span<const std::uint32_t> large_in(std::size_t tile) const { return large_in_.of(tile); }
     const LargePolygon& large(std::uint32_t i) const { return large_[i]; }
+    /// The same for what lies between samples.
+    std::span<const TriangleRun> thin_runs_in(std::size_t tile) const { return thin_runs_.of(tile); }
+    std::span<const std::uint32_t> thin_large_in(std::size_t tile) const { return thin_large_in_.of(tile); }
+    /// The tiles, all of one size but for the last ones.
+    int tile_px() const { return tile_px_; }
 
   private:
     PixelRect region_;
     int tile_px_, columns_, rows_;
     std::vector<std::unique_ptr<TileTriangle[]>> triangles_;  // what runs point into
-    std::vector<std::size_t> run_end_, large_end_;
-    std::vector<TriangleRun> runs_;
-    std::vector<std::uint32_t> large_sorted_;
+    TileLists<TriangleRun> runs_, thin_runs_;
+    TileLists<std::uint32_t> large_in_, thin_large_in_;
     std::vector<LargePolygon> large_;
 };
 
