@@ -167,7 +167,7 @@ TEST(TileKernels, CullingLosesNoSample) {
         Triangles triangles(100 + seed, per_pixel, 0, 0);
         triangles.vertices[5].x = ScreenVertex::kOffScreen;  // of triangle 1
         triangles.vertices[7].x += 4 * kLargestSmallTriangle;  // of triangle 2
-        const TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), 7};
+        const TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), 7, false};
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<TileTriangle> kept(triangles.count() + 8);
             std::vector<std::uint32_t> keys(triangles.count() + 8);
@@ -192,7 +192,7 @@ TEST(TileKernels, CullingLosesNoSample) {
                 const bool covers = std::any_of(tile.ids.begin(), tile.ids.end(),
                                                 [](std::uint32_t id) { return id != SampleTile::kBackground; });
                 if (!covers) continue;
-                ASSERT_EQ(key_of(t), area > 0 ? 1u : 0u) << kernels->name << " seed " << seed;
+                ASSERT_EQ(key_of(t), tile_key(0, area > 0 ? wound_clockwise : wound_counterclockwise)) << kernels->name << " seed " << seed;
                 const TileTriangle& own = kept[place_of(t)];
                 EXPECT_EQ(own.highest, in_tile(triangles, t, tile).highest);
                 for (int row = 0; row < tile.rows; ++row) {
@@ -246,55 +246,104 @@ TEST(TileKernels, EdgesThatMayBeLinesAreFound) {
     }
 }
 
-/// No triangle in front of anything in a block is left out, and none is listed for nothing unless it is large.
-TEST(TileKernels, HidingTrianglesAreAllFound) {
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        Triangles triangles(seed, 4, -40, 24);
-        triangles.vertices[7].x = ScreenVertex::kOffScreen;
-        Random random(1000 + seed);
-        constexpr int kColumns = 7, kRows = 5, kShift = 10;
-        constexpr float kNothing = std::numeric_limits<float>::infinity();
-        std::vector<float> farthest((kColumns + 2) * (kRows + 2), kNothing);
-        const auto place = [&](int x, int y) { return static_cast<std::size_t>((y + 1) * (kColumns + 2) + x + 1); };
-        for (int y = 0; y < kRows; ++y) {
-            for (int x = 0; x < kColumns; ++x) {
-                if (random.integer(0, 2) == 0) farthest[place(x, y)] = static_cast<float>(random.integer(0, 40)) * 0.125f;
-            }
+/// What touches no sample is listed if it is asked for, with the blocks of the samples around it.
+TEST(TileKernels, ThinTrianglesAreKeptIfWanted) {
+    Random random(7);
+    std::size_t thin_count = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const int per_pixel = 2 << seed % 3, pitch = kSubpixelsPerPixel / per_pixel;
+        Triangles triangles(200 + seed, per_pixel, 0, 0);
+        for (ScreenVertex& v : triangles.vertices) {  // most of them flat
+            if (random.integer(0, 1) == 0) v.y = (v.y & ~(pitch - 1)) + random.integer(0, pitch - 1);
         }
-        const BlockMap map{farthest.data(), -2000, 1700, kShift, kColumns, kRows};
-        std::vector<std::uint32_t> expected(triangles.count() + 8);
-        const std::size_t count = baseline_kernels().find_hiding(triangles.mesh, 0, triangles.count(), map, expected.data());
-        expected.resize(count);
-        if (avx2_kernels() != nullptr) {
-            std::vector<std::uint32_t> found(triangles.count() + 8);
-            found.resize(avx2_kernels()->find_hiding(triangles.mesh, 0, triangles.count(), map, found.data()));
-            EXPECT_EQ(found, expected);
+        for (std::size_t t = 0; t < triangles.count(); t += 2) {
+            const int y = triangles.vertices[3 * t].y & ~(pitch - 1);
+            for (std::size_t k = 0; k < 3; ++k) triangles.vertices[3 * t + k].y = y + pitch / 2 + random.integer(1, pitch - 1);
         }
-        for (std::uint32_t t = 0; t < triangles.count(); ++t) {
-            const bool is_listed = std::find(expected.begin(), expected.end(), t) != expected.end();
-            const ScreenVertex v[3] = {triangles.corner(t, 0), triangles.corner(t, 1), triangles.corner(t, 2)};
-            const auto [x0, x1] = std::minmax({v[0].x, v[1].x, v[2].x});
-            const auto [y0, y1] = std::minmax({v[0].y, v[1].y, v[2].y});
-            const float nearest = std::max({v[0].nearness, v[1].nearness, v[2].nearness});
-            if (x0 == ScreenVertex::kOffScreen) {
-                EXPECT_TRUE(is_listed);
-                continue;
-            }
-            bool hides = false;
-            for (int y = 0; y < kRows; ++y) {
-                for (int x = 0; x < kColumns; ++x) {
-                    const int left = map.x + (x << kShift), top = map.y + (y << kShift), size = 1 << kShift;
-                    const bool touches = x1 >= left && x0 < left + size && y1 >= top && y0 < top + size;
-                    hides = hides || (touches && nearest > farthest[place(x, y)]);
+        TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), 7, true};
+        for (const TileKernels* kernels : all_kernels()) {
+            const auto cull = [&] {
+                std::vector<std::pair<TileTriangle, std::uint32_t>> kept;
+                std::vector<TileTriangle> found(triangles.count() + 8);
+                std::vector<std::uint32_t> keys(triangles.count() + 8);
+                const std::size_t count = kernels->cull(triangles.mesh, 0, triangles.count(), grid, triangles.facing.data(),
+                                                        found.data(), keys.data());
+                for (std::size_t i = 0; i < count; ++i) kept.push_back({found[i], keys[i]});
+                return kept;
+            };
+            grid.keeps_thin = true;
+            const auto all = cull();
+            for (std::uint32_t t = 0; t < triangles.count(); ++t) {
+                const ScreenVertex v[3] = {triangles.corner(t, 0), triangles.corner(t, 1), triangles.corner(t, 2)};
+                const auto [x0, x1] = std::minmax({v[0].x, v[1].x, v[2].x});
+                const auto [y0, y1] = std::minmax({v[0].y, v[1].y, v[2].y});
+                const auto at = [&](int sample) { return sample * pitch + pitch / 2; };
+                const bool is_in_grid = x1 >= at(0) && x0 <= at(grid.width) && y1 >= at(0) && y0 <= at(grid.height);
+                const auto own = std::find_if(all.begin(), all.end(), [t](const auto& k) { return k.first.triangle == t; });
+                ASSERT_EQ(own != all.end(), is_in_grid && triangles.area(t) != 0) << kernels->name << " seed " << seed << " triangle " << t;
+                if (own == all.end() || own->second != tile_key(0, thin)) continue;
+                ++thin_count;
+                const auto block = [&](double place, bool up, int last) {
+                    const double sample = (place - pitch / 2) / pitch;
+                    return std::clamp(static_cast<int>(up ? std::ceil(sample) : std::floor(sample)), 0, last) / kBlockSamples;
+                };
+                EXPECT_LE(own->first.first_column, block(x0, true, grid.width));
+                EXPECT_GE(own->first.last_column, block(x1, false, grid.width));
+                EXPECT_LE(own->first.first_row, block(y0, true, grid.height));
+                EXPECT_GE(own->first.last_row, block(y1, false, grid.height));
+                EXPECT_LE(own->first.first_row, own->first.last_row);
+                EXPECT_LE(own->first.first_column, own->first.last_column);
+                // Between two samples: those on either side.
+                if (block(y0, true, grid.height) > block(y1, false, grid.height)) {
+                    EXPECT_LE(own->first.first_row, block(y1, false, grid.height));
+                    EXPECT_GE(own->first.last_row, block(y0, true, grid.height));
                 }
             }
-            const bool is_large = ((x1 - map.x) >> kShift) - ((x0 - map.x) >> kShift) > 1 ||
-                                  ((y1 - map.y) >> kShift) - ((y0 - map.y) >> kShift) > 1;
-            if (hides) {
-                EXPECT_TRUE(is_listed) << "seed " << seed << " triangle " << t;
-            } else if (!is_large) {
-                EXPECT_FALSE(is_listed) << "seed " << seed << " triangle " << t;
+            grid.keeps_thin = false;
+            std::vector<std::uint32_t> expected, found;
+            for (const auto& [t, key] : all) {
+                if (key != tile_key(0, thin)) expected.push_back(t.triangle);
             }
+            for (const auto& [t, key] : cull()) found.push_back(t.triangle);
+            EXPECT_EQ(found, expected);
+        }
+    }
+    EXPECT_GT(thin_count, 500u);
+}
+
+/// A triangle is listed if it may be nearer than the least number of a block that it touches, and only then.
+TEST(TileKernels, NearerTrianglesAreFound) {
+    Random random(9);
+    constexpr int kColumns = 7, kRows = 5;
+    for (int round = 0; round < 40; ++round) {
+        std::vector<float> least(4 * kColumns * kRows, std::numeric_limits<float>::infinity());
+        for (int i = 0; i < kColumns * kRows; ++i) {
+            if (random.integer(0, 2) == 0) least[static_cast<std::size_t>(i)] = static_cast<float>(random.integer(0, 9));
+        }
+        std::vector<TileTriangle> triangles(97);
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+            const auto range = [&](int count, std::uint8_t& first, std::uint8_t& last) {
+                first = static_cast<std::uint8_t>(random.integer(0, count - 1));
+                last = static_cast<std::uint8_t>(std::min(count - 1, first + (random.integer(0, 5) == 0 ? 3 : random.integer(0, 1))));
+            };
+            TileTriangle& t = triangles[i];
+            t.highest = static_cast<float>(random.integer(0, 9));
+            range(kColumns, t.first_column, t.last_column);
+            range(kRows, t.first_row, t.last_row);
+            bool is_nearer = false;
+            for (int row = t.first_row; row <= t.last_row; ++row) {
+                for (int column = t.first_column; column <= t.last_column; ++column) {
+                    is_nearer = is_nearer || t.highest >= least[static_cast<std::size_t>(row * kColumns + column)];
+                }
+            }
+            if (is_nearer) expected.push_back(i);
+        }
+        for (const TileKernels* kernels : all_kernels()) {
+            kernels->combine_blocks(kColumns, kRows, least.data());
+            std::vector<std::uint32_t> found(triangles.size());
+            found.resize(kernels->find_nearer(least.data(), kColumns, kRows, triangles.data(), triangles.size(), found.data()));
+            EXPECT_EQ(found, expected) << kernels->name << " round " << round;
         }
     }
 }
