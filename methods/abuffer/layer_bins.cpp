@@ -9,30 +9,30 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 
 using Record = TileLists<std::uint32_t>::Record;
 
-void bin(const ScreenSurfaces& screen, const PixelTiles& grid, SurfaceId s, std::vector<Record>& records) {
-    const std::uint32_t number = screen.number_of(s);
-    const Facing facing = screen.facing(number);
-    if (facing == edge_on) return;
-    glm::dvec2 low(1e300), high(-1e300);
-    const auto reach = [&](double x, double y) {
-        low = glm::min(low, glm::dvec2(x, y) / 256.0);
-        high = glm::max(high, glm::dvec2(x, y) / 256.0);
-    };
-    std::uint32_t value = number;
-    if (facing == off_screen) {
-        const ScreenPolygon polygon = screen.surfaces().screen_polygon(s);
-        for (int i = 0; i < polygon.count; ++i) {
-            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
-            reach(p.x, p.y);
+void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const TriangleChunk& chunk, std::vector<Record>& records) {
+    const ScreenMesh& mesh = screen.mesh(chunk.instance);
+    for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
+        if (mesh.facing[t] == edge_on) continue;
+        std::uint32_t value = mesh.first_number + t;
+        glm::ivec2 low, high;
+        if (mesh.facing[t] == off_screen) {
+            const ScreenPolygon polygon = screen.surfaces().screen_polygon({chunk.instance, t});
+            if (polygon.count == 0) continue;
+            low = high = {polygon.corners[0].x, polygon.corners[0].y};
+            for (int i = 1; i < polygon.count; ++i) {
+                const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+                low = glm::min(low, glm::ivec2(p.x, p.y));
+                high = glm::max(high, glm::ivec2(p.x, p.y));
+            }
+            value |= LayerBins::kClipped;
+        } else {
+            const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
+            const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
+            low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
+            high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
         }
-        value |= LayerBins::kClipped;
-    } else {
-        const ScreenVertex* const v = screen.vertices(s.instance);
-        for (const std::uint32_t corner : screen.surfaces().mesh_of(s).triangles[s.triangle]) {
-            reach(v[corner].x, v[corner].y);
-        }
+        grid.visit(low, high, [&](std::uint32_t tile) { records.push_back({tile, value}); });
     }
-    grid.visit(low, high, [&](std::uint32_t tile) { records.push_back({tile, value}); });
 }
 
 }  // namespace
@@ -41,9 +41,7 @@ LayerBins::LayerBins(const ScreenSurfaces& screen, const PixelTiles& grid, int t
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     std::vector<std::vector<Record>> records(chunks.size());
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
-        for (std::uint32_t t = chunks[c].begin; t < chunks[c].end; ++t) {
-            bin(screen, grid, {chunks[c].instance, t}, records[c]);
-        }
+        bin(screen, grid, chunks[c], records[c]);
     });
     lists_ = TileLists<std::uint32_t>(records, grid.count());
 }

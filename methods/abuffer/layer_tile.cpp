@@ -124,13 +124,11 @@ const LayerTriangle& LayerTile::triangle(std::uint32_t i) {
     return triangles_.back();
 }
 
-int LayerTile::column_at(float x) const {
-    const float pitch = static_cast<float>(cell_px_ * 256);
-    return std::clamp(static_cast<int>((x - static_cast<float>(rect_.x0 * 256)) / pitch), 0, columns_ - 1);
-}
-int LayerTile::row_at(float y) const {
-    const float pitch = static_cast<float>(cell_px_ * 256);
-    return std::clamp(static_cast<int>((y - static_cast<float>(rect_.y0 * 256)) / pitch), 0, rows_ - 1);
+int LayerTile::column_at(float x) const { return cell_along(x - static_cast<float>(rect_.x0 * 256), columns_); }
+int LayerTile::row_at(float y) const { return cell_along(y - static_cast<float>(rect_.y0 * 256), rows_); }
+
+int LayerTile::cell_along(float offset, int count) const {
+    return std::clamp(static_cast<int>(offset * cells_per_subpixel_), 0, count - 1);
 }
 
 void LayerTile::sort_into_cells() {
@@ -138,26 +136,31 @@ void LayerTile::sort_into_cells() {
     const double wanted = std::sqrt(area * kTrianglesPerCell / std::max(1.0, static_cast<double>(entries_.size())));
     cell_px_ = 1;
     while (cell_px_ < 32 && 2 * cell_px_ <= wanted) cell_px_ *= 2;
+    cells_per_subpixel_ = 1 / static_cast<float>(cell_px_ * 256);
     columns_ = (rect_.width() + cell_px_ - 1) / cell_px_;
     rows_ = (rect_.height() + cell_px_ - 1) / cell_px_;
     cell_end_.assign(static_cast<std::size_t>(columns_ * rows_) + 2, 0);
-    const auto for_cells = [&](const ScreenBox& box, const auto& visit) {
-        const int first_column = column_at(box.x0), last_column = column_at(box.x1);
-        const int last_row = row_at(box.y1);
-        for (int row = row_at(box.y0); row <= last_row; ++row) {
-            for (int column = first_column; column <= last_column; ++column) {
+    const auto for_cells = [&](const CellRange& range, const auto& visit) {
+        for (int row = range.first_row; row <= range.last_row; ++row) {
+            for (int column = range.first_column; column <= range.last_column; ++column) {
                 visit(static_cast<std::size_t>(row * columns_ + column));
             }
         }
     };
     // Counts are kept one place further, so that filling moves each list's end to its place.
-    for (const Entry& e : entries_) for_cells(e.box, [&](std::size_t c) { ++cell_end_[c + 2]; });
+    cell_ranges_.resize(entries_.size());
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        const ScreenBox& box = entries_[i].box;
+        const auto number = [](int cell) { return static_cast<std::uint8_t>(cell); };
+        cell_ranges_[i] = {number(column_at(box.x0)), number(column_at(box.x1)), number(row_at(box.y0)), number(row_at(box.y1))};
+        for_cells(cell_ranges_[i], [&](std::size_t c) { ++cell_end_[c + 2]; });
+    }
     for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
     cell_triangles_.resize(cell_end_.back());
     cell_boxes_.resize(cell_end_.back());
     cell_vertices_.resize(cell_end_.back());
     for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-        for_cells(entries_[i].box, [&](std::size_t c) {
+        for_cells(cell_ranges_[i], [&](std::size_t c) {
             const std::size_t at = cell_end_[c + 1]++;
             cell_triangles_[at] = i;
             cell_boxes_.set(at, entries_[i].box);
@@ -284,26 +287,35 @@ void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines)
         const ScreenBox box = cell_boxes_[i];
         for (const std::uint32_t j : touching(i + 1, c.end, box, from(box.x0, left), from(box.y0, top))) {
             if (have_vertex_in_common(i, j)) continue;
+            if (is_on_one_side(cell_vertices_[i], cell_vertices_[j]) || is_on_one_side(cell_vertices_[j], cell_vertices_[i])) continue;
             const std::uint32_t own = cell_triangles_[i], other = cell_triangles_[j];
-            if (is_on_one_side(triangle(own), cell_vertices_[j])) continue;
             triangle(other);  // before either is looked at: setting up moves them
             intersect(triangle(own), triangle(other), lines);
         }
     }
 }
 
-/// Whether the plane of a triangle does not reach through another one, which need not be set up for that.
-bool LayerTile::is_on_one_side(const LayerTriangle& plane, const std::array<std::uint32_t, 3>& vertices) const {
+/// Whether the plane of a triangle does not reach through another one, by more than snapping does; neither need be
+/// set up for that.
+bool LayerTile::is_on_one_side(const Corners& plane, const Corners& other) const {
     const ScreenVertex* const v = screen_.vertices(0);
+    const ScreenVertex &a = v[plane[0]], &b = v[plane[1]], &c = v[plane[2]];
+    if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen || c.x == ScreenVertex::kOffScreen) return false;
+    const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
+    const double qa = static_cast<double>(a.nearness), uq = static_cast<double>(b.nearness) - qa,
+                 vq = static_cast<double>(c.nearness) - qa;
+    // All numbers are multiplied by twice the triangle's area on the screen.
+    const double area = ux * vy - uy * vx, per_x = uq * vy - vq * uy, per_y = vq * ux - uq * vx;
+    const double slack = std::abs(per_x) + std::abs(per_y), sign = area < 0 ? -1.0 : 1.0;
     double low = 0, high = 0;
-    for (const std::uint32_t vertex : vertices) {
-        const ScreenVertex& corner = v[vertex];
-        if (corner.x == ScreenVertex::kOffScreen) return false;
-        const double gap = plane.nearness_at({corner.x, corner.y}) - static_cast<double>(corner.nearness);
-        low = std::min(low, gap);
-        high = std::max(high, gap);
+    for (const std::uint32_t vertex : other) {
+        const ScreenVertex& p = v[vertex];
+        if (p.x == ScreenVertex::kOffScreen) return false;
+        const double gap = per_x * (p.x - a.x) + per_y * (p.y - a.y) - (static_cast<double>(p.nearness) - qa) * area;
+        low = std::min(low, sign * gap);
+        high = std::max(high, sign * gap);
     }
-    return low >= -plane.slack || high <= plane.slack;
+    return low >= -slack || high <= slack;
 }
 
 void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {

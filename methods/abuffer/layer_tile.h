@@ -38,10 +38,15 @@ class LayerTile {
         double at;
         int opaque;
     };
+    /// Vertices, numbered through over all instances.
+    using Corners = std::array<std::uint32_t, 3>;
     struct Entry {
         ScreenBox box;
-        std::array<std::uint32_t, 3> vertices;  ///< numbered through over all instances
+        Corners vertices;
         std::uint32_t number;
+    };
+    struct CellRange {
+        std::uint8_t first_column, last_column, first_row, last_row;
     };
     /// A cell's list: [begin, end) of cell_triangles_ and cell_boxes_.
     struct Cell {
@@ -57,6 +62,7 @@ class LayerTile {
     void sort_into_cells();
     int column_at(float x) const;
     int row_at(float y) const;
+    int cell_along(float offset, int count) const;
     Cell cell(int column, int row) const {
         const auto i = static_cast<std::size_t>(row * columns_ + column);
         return {cell_end_[i], cell_end_[i + 1]};
@@ -65,7 +71,7 @@ class LayerTile {
                                             float least_y0);
     void hide(const LayerLine& line, std::uint32_t i, double begin, double end);
     void find_in_cell(int column, int row, std::vector<LayerLine>& lines);
-    bool is_on_one_side(const LayerTriangle& plane, const std::array<std::uint32_t, 3>& vertices) const;
+    bool is_on_one_side(const Corners& plane, const Corners& other) const;
     void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                std::vector<LayerPiece>& pieces);
     void intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const;
@@ -78,13 +84,15 @@ class LayerTile {
     bool has_transparent_;
     PixelRect rect_;
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
+    float cells_per_subpixel_ = 0;
     // Per triangle of the tile; what it takes to clip with one is set up when first needed.
     std::vector<Entry> entries_;
-    std::vector<std::uint32_t> set_up_;  // per entry: which of triangles_, or kNotSetUp
+    std::vector<CellRange> cell_ranges_;  // per entry
+    std::vector<std::uint32_t> set_up_;   // per entry: which of triangles_, or kNotSetUp
     std::vector<LayerTriangle> triangles_;
     std::vector<std::uint32_t> cell_end_, cell_triangles_;  // numbers of entries
     ScreenBoxes cell_boxes_;                                // the same ones' boxes and vertices
-    std::vector<std::array<std::uint32_t, 3>> cell_vertices_;
+    std::vector<Corners> cell_vertices_;
     std::vector<std::uint32_t> touching_;
     std::vector<Interval> intervals_;
     std::vector<Event> events_;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
+#include "abuffer/subpixel.h"
 #include "image/image.h"
 
 namespace burin {
@@ -19,9 +21,11 @@ struct TileRows {
 /// A rectangle of pixels cut into square tiles, row by row.
 class PixelTiles {
   public:
+    /// `tile_px`: a power of two.
     PixelTiles(PixelRect region, int tile_px)
         : region_(region),
           tile_px_(tile_px),
+          shift_(std::countr_zero(static_cast<unsigned>(tile_px * kSubpixelsPerPixel))),
           columns_((region.width() + tile_px - 1) / tile_px),
           rows_{0, (region.height() + tile_px - 1) / tile_px},
           chosen_(rows_) {}
@@ -61,13 +65,28 @@ class PixelTiles {
         }
     }
 
+    /// The same for a box in 1/256 pixel.
+    template <typename Visit>
+    void visit(glm::ivec2 low, glm::ivec2 high, const Visit& visit) const {
+        const glm::ivec2 first = glm::ivec2(region_.x0, region_.y0) * kSubpixelsPerPixel;
+        const glm::ivec2 last = glm::ivec2(region_.x1, region_.y1) * kSubpixelsPerPixel;
+        if (high.x < first.x || high.y < first.y || low.x > last.x || low.y > last.y) return;
+        const auto index = [this](int offset, int count) { return std::clamp(offset >> shift_, 0, count - 1); };
+        const int x0 = index(low.x - first.x, columns_), x1 = index(high.x - first.x, columns_);
+        const int y0 = std::max(index(low.y - first.y, rows_.end), chosen_.begin);
+        const int y1 = std::min(index(high.y - first.y, rows_.end), chosen_.end - 1);
+        for (int y = y0; y <= y1; ++y) {
+            for (int x = x0; x <= x1; ++x) visit(static_cast<std::uint32_t>((y - chosen_.begin) * columns_ + x));
+        }
+    }
+
   private:
     int index_along(double offset_px, int count) const {
         return static_cast<int>(std::clamp(std::floor(offset_px / tile_px_), 0.0, static_cast<double>(count - 1)));
     }
 
     PixelRect region_;
-    int tile_px_, columns_;
+    int tile_px_, shift_, columns_;
     TileRows rows_, chosen_;
 };
 
