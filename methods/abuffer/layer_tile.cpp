@@ -285,9 +285,12 @@ void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines)
     const Cell c = cell(column, row);
     for (std::size_t i = c.begin; i + 1 < c.end; ++i) {
         const ScreenBox box = cell_boxes_[i];
+        std::optional<SidePlane> plane;
         for (const std::uint32_t j : touching(i + 1, c.end, box, from(box.x0, left), from(box.y0, top))) {
             if (have_vertex_in_common(i, j)) continue;
-            if (is_on_one_side(cell_vertices_[i], cell_vertices_[j]) || is_on_one_side(cell_vertices_[j], cell_vertices_[i])) continue;
+            if (!plane) plane = side_plane(cell_vertices_[i]);
+            if (is_on_one_side(*plane, cell_vertices_[j])) continue;
+            if (is_on_one_side(side_plane(cell_vertices_[j]), cell_vertices_[i])) continue;
             const std::uint32_t own = cell_triangles_[i], other = cell_triangles_[j];
             triangle(other);  // before either is looked at: setting up moves them
             intersect(triangle(own), triangle(other), lines);
@@ -295,27 +298,40 @@ void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines)
     }
 }
 
-/// Whether the plane of a triangle does not reach through another one, by more than snapping does; neither need be
-/// set up for that.
-bool LayerTile::is_on_one_side(const Corners& plane, const Corners& other) const {
+LayerTile::SidePlane LayerTile::side_plane(const Corners& corners) const {
     const ScreenVertex* const v = screen_.vertices(0);
-    const ScreenVertex &a = v[plane[0]], &b = v[plane[1]], &c = v[plane[2]];
-    if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen || c.x == ScreenVertex::kOffScreen) return false;
+    const ScreenVertex &a = v[corners[0]], &b = v[corners[1]], &c = v[corners[2]];
+    SidePlane plane;
+    plane.is_on_screen = (a.x != ScreenVertex::kOffScreen) & (b.x != ScreenVertex::kOffScreen) & (c.x != ScreenVertex::kOffScreen);
+    if (!plane.is_on_screen) return plane;
     const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
     const double qa = static_cast<double>(a.nearness), uq = static_cast<double>(b.nearness) - qa,
                  vq = static_cast<double>(c.nearness) - qa;
-    // All numbers are multiplied by twice the triangle's area on the screen.
-    const double area = ux * vy - uy * vx, per_x = uq * vy - vq * uy, per_y = vq * ux - uq * vx;
-    const double slack = std::abs(per_x) + std::abs(per_y), sign = area < 0 ? -1.0 : 1.0;
+    const double area = ux * vy - uy * vx, sign = area < 0 ? -1.0 : 1.0;
+    plane.x = a.x;
+    plane.y = a.y;
+    plane.nearness = qa;
+    plane.per_x = sign * (uq * vy - vq * uy);
+    plane.per_y = sign * (vq * ux - uq * vx);
+    plane.per_nearness = sign * area;
+    plane.slack = std::abs(plane.per_x) + std::abs(plane.per_y);
+    return plane;
+}
+
+/// Whether a plane does not reach through a triangle, by more than snapping does; neither need be set up for that.
+bool LayerTile::is_on_one_side(const SidePlane& plane, const Corners& corners) const {
+    if (!plane.is_on_screen) return false;
+    const ScreenVertex* const v = screen_.vertices(0);
     double low = 0, high = 0;
-    for (const std::uint32_t vertex : other) {
+    for (const std::uint32_t vertex : corners) {
         const ScreenVertex& p = v[vertex];
         if (p.x == ScreenVertex::kOffScreen) return false;
-        const double gap = per_x * (p.x - a.x) + per_y * (p.y - a.y) - (static_cast<double>(p.nearness) - qa) * area;
-        low = std::min(low, sign * gap);
-        high = std::max(high, sign * gap);
+        const double gap = plane.per_x * (p.x - plane.x) + plane.per_y * (p.y - plane.y) -
+                           plane.per_nearness * (static_cast<double>(p.nearness) - plane.nearness);
+        low = std::min(low, gap);
+        high = std::max(high, gap);
     }
-    return low >= -slack || high <= slack;
+    return low >= -plane.slack || high <= plane.slack;
 }
 
 void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {

@@ -40,6 +40,12 @@ class LayerTile {
     };
     /// Vertices, numbered through over all instances.
     using Corners = std::array<std::uint32_t, 3>;
+    /// The plane of a triangle, with all changes multiplied by twice the triangle's area on the screen.
+    struct SidePlane {
+        double x = 0, y = 0, nearness = 0, per_x = 0, per_y = 0, per_nearness = 0;
+        double slack = 0;  ///< what snapping does, multiplied likewise
+        bool is_on_screen = false;
+    };
     struct Entry {
         ScreenBox box;
         Corners vertices;
@@ -71,7 +77,8 @@ class LayerTile {
                                             float least_y0);
     void hide(const LayerLine& line, std::uint32_t i, double begin, double end);
     void find_in_cell(int column, int row, std::vector<LayerLine>& lines);
-    bool is_on_one_side(const Corners& plane, const Corners& other) const;
+    SidePlane side_plane(const Corners& corners) const;
+    bool is_on_one_side(const SidePlane& plane, const Corners& corners) const;
     void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                std::vector<LayerPiece>& pieces);
     void intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const;
