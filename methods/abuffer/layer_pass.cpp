@@ -94,7 +94,7 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
       threads_(threads),
       all_tiles_(tiles_of(frame)),
       tiles_(all_tiles_),
-      strokes_(frame, threads) {}
+      strokes_(frame, kernels, threads) {}
 
 void LayerPass::find_edges(TileRows rows) {
     const PixelRect region = needs_all_lines(frame_) ? region_of_lines(frame_) : all_tiles_.only(rows).rect();

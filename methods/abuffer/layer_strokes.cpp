@@ -1,7 +1,6 @@
 #include "methods/abuffer/layer_strokes.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "base/parallel.h"
 #include "lines/pen.h"
@@ -25,13 +24,6 @@ TileLists<const Segment*> sort_by_tile(const std::vector<std::vector<Segment>>& 
     return TileLists<const Segment*>(records, grid.count());
 }
 
-float share(const StrokeMask& mask) {
-    int count = 0;
-    for (std::size_t r = 0; r < mask.rows.size(); r += 2) {  // by twos: without an instruction it is a call
-        count += std::popcount(std::uint64_t{mask.rows[r]} << 32 | mask.rows[r + 1]);
-    }
-    return static_cast<float>(count) / (StrokeMask::kRows * StrokeMask::kColumns);
-}
 void remove(StrokeMask& mask, const StrokeMask& taken) {
     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
 }
@@ -39,7 +31,7 @@ void unite(StrokeMask& mask, const StrokeMask& other) {
     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] |= other.rows[r];
 }
 
-/// The strokes of one tile. Buffers are used again.
+/// The strokes of one tile. Buffers are used again, and only what was used is cleared.
 class TileStrokes {
   public:
     struct Pixel {
@@ -48,16 +40,28 @@ class TileStrokes {
         LinePixel seen_through;
         float hidden_share = 0;               // coverage of hidden lines
         float hidden_seen = 0;                // of that, what no other line covers
+        bool is_used = false;
         bool is_touched = false;
     };
 
-    explicit TileStrokes(const FilterTable* filter) : filter_(filter) {}
+    TileStrokes(const FilterTable* filter, const TileKernels& kernels)
+        : filter_(filter), kernels_(kernels), canvas_(kernels) {}
 
     void reset(PixelRect rect) {
         rect_ = rect;
-        pixels_.assign(static_cast<std::size_t>(rect.width() * rect.height()), Pixel{});
+        for (const std::size_t i : used_) pixels_[i] = Pixel{};
+        used_.clear();
+        pixels_.resize(static_cast<std::size_t>(rect.width() * rect.height()));
     }
-    std::vector<Pixel>& pixels() { return pixels_; }
+    std::size_t count() const { return pixels_.size(); }
+    Pixel& pixel(std::size_t i) {
+        Pixel& p = pixels_[i];
+        if (!p.is_used) used_.push_back(i);
+        p.is_used = true;
+        return p;
+    }
+    /// Those that pixel() was asked for.
+    std::span<const std::size_t> used() const { return used_; }
 
     /// Draws the segments chosen and calls use(pixel, mask) where there is any.
     template <typename Segment, typename Choose, typename Use>
@@ -66,34 +70,43 @@ class TileStrokes {
         for (const Segment* s : segments) {
             if (choose(*s)) canvas_.draw(s->from, s->to, radius_px);
         }
-        for (std::size_t i = 0; i < pixels_.size(); ++i) {
-            const int column = static_cast<int>(i) % rect_.width(), row = static_cast<int>(i) / rect_.width();
-            if (canvas_.is_touched(column, row)) use(i, canvas_.at(column, row));
+        for (int row = 0; row < rect_.height(); ++row) {
+            for (int column = 0; column < rect_.width(); ++column) {
+                if (canvas_.is_touched(column, row)) use(index(column, row), canvas_.at(column, row));
+            }
         }
     }
 
     /// Calls add(pixel, share) for the pixels that see samples of pixel `i`.
     template <typename Add>
     void spread(std::size_t i, const StrokeMask& mask, const Add& add) {
-        if (filter_ == nullptr) return add(pixels_[i], share(mask));
+        if (filter_ == nullptr) return add(pixel(i), share(mask));
         const FilterTable::Shares shares = filter_->shares_of(mask);
         const int column = static_cast<int>(i) % rect_.width(), row = static_cast<int>(i) / rect_.width();
         for (int dy = -FilterTable::kReach; dy <= FilterTable::kReach; ++dy) {
             for (int dx = -FilterTable::kReach; dx <= FilterTable::kReach; ++dx) {
                 const int x = column + dx, y = row + dy;
                 if (x < 0 || y < 0 || x >= rect_.width() || y >= rect_.height()) continue;
-                add(pixels_[static_cast<std::size_t>(y * rect_.width() + x)],
-                    shares[static_cast<std::size_t>(dy + FilterTable::kReach)]
-                          [static_cast<std::size_t>(dx + FilterTable::kReach)]);
+                add(pixel(index(x, y)), shares[static_cast<std::size_t>(dy + FilterTable::kReach)]
+                                              [static_cast<std::size_t>(dx + FilterTable::kReach)]);
             }
         }
     }
 
   private:
+    std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * rect_.width() + column); }
+    float share(const StrokeMask& mask) const {
+        static constexpr StrokeMask kNothing{};
+        return static_cast<float>(kernels_.count_bits(mask.rows.data(), kNothing.rows.data())) /
+               (StrokeMask::kRows * StrokeMask::kColumns);
+    }
+
     const FilterTable* filter_;
+    const TileKernels& kernels_;
     PixelRect rect_;
     StrokeCanvas canvas_;
     std::vector<Pixel> pixels_;
+    std::vector<std::size_t> used_;
 };
 
 void draw_seen_through(std::span<const LayerSegment* const> layers, int transmission, const Pen& pen,
@@ -106,7 +119,7 @@ void draw_seen_through(std::span<const LayerSegment* const> layers, int transmis
         if (std::none_of(layers.begin(), layers.end(), [&](const LayerSegment* s) { return is_it(*s); })) continue;
         const float strength = pen.strength * static_cast<float>(transmission) / 255.0f;
         strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
-            TileStrokes::Pixel& own = strokes.pixels()[i];
+            TileStrokes::Pixel& own = strokes.pixel(i);
             remove(mask, own.visible);
             remove(mask, own.through);
             unite(own.through, mask);
@@ -125,7 +138,7 @@ void draw_hidden(std::span<const LayerSegment* const> layers, int transmission, 
     const auto is_it = [&](const LayerSegment& s) { return s.is_hidden && s.transmission == transmission; };
     const float strength = pen.strength * static_cast<float>(transmission) / 255.0f;
     strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
-        TileStrokes::Pixel& own = strokes.pixels()[i];
+        TileStrokes::Pixel& own = strokes.pixel(i);
         remove(mask, own.hidden);
         unite(own.hidden, mask);
         strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) {
@@ -158,8 +171,8 @@ void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<Line
     const auto visible_in = sort_by_tile(visible, grid, Pen(style.width_px, style.side).radius_px + reach + 1);
     const auto layers_in = sort_by_tile(layers, grid, std::max(pen.radius_px, hidden_pen.radius_px) + reach + 1);
     seen_through_.assign(grid.count(), {});
-    std::vector<TileStrokes> workers(static_cast<std::size_t>(threads_), TileStrokes(filter.get()));
-    std::vector<VisibleStrokes> in_front(static_cast<std::size_t>(threads_), VisibleStrokes(frame_));
+    std::vector<TileStrokes> workers(static_cast<std::size_t>(threads_), TileStrokes(filter.get(), kernels_));
+    std::vector<VisibleStrokes> in_front(static_cast<std::size_t>(threads_), VisibleStrokes(frame_, kernels_));
     parallel_for(grid.count(), threads_, [&](std::size_t tile, int worker) {
         const auto list = layers_in.of(tile);
         if (list.empty()) return;
@@ -169,10 +182,10 @@ void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<Line
         strokes.reset(rect);
         VisibleStrokes& visible_strokes = in_front[static_cast<std::size_t>(worker)];
         visible_strokes.draw(visible_in.of(tile), rect);
-        for (std::size_t i = 0; i < strokes.pixels().size(); ++i) {
-            TileStrokes::Pixel& own = strokes.pixels()[i];
+        for (std::size_t i = 0; i < strokes.count(); ++i) {
             const int column = static_cast<int>(i) % rect.width(), row = static_cast<int>(i) / rect.width();
             if (!visible_strokes.is_touched(column, row)) continue;
+            TileStrokes::Pixel& own = strokes.pixel(i);
             visible_strokes.for_classes(column, row, [&](LineClass, const StrokeMask& mask, const StrokeMask&, float opacity) {
                 if (opacity == 1.0f) unite(own.visible, mask);  // hidden lines shine through what fades
             });
@@ -187,8 +200,8 @@ void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<Line
         transmissions.erase(std::unique(transmissions.begin(), transmissions.end()), transmissions.end());
         for (const int t : transmissions) draw_seen_through(list, t, pen, style, strokes);
         for (const int t : transmissions) draw_hidden(list, t, hidden_pen, strokes);
-        for (std::size_t i = 0; i < strokes.pixels().size(); ++i) {
-            TileStrokes::Pixel& pixel = strokes.pixels()[i];
+        for (const std::size_t i : strokes.used()) {
+            TileStrokes::Pixel& pixel = strokes.pixel(i);
             const int x = rect.x0 + static_cast<int>(i) % rect.width();
             const int y = rect.y0 + static_cast<int>(i) / rect.width();
             const bool is_inner = x >= inner.x0 && y >= inner.y0 && x < inner.x1 && y < inner.y1;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "abuffer/tile_kernels.h"
 #include "lines/line_segment.h"
 #include "render/film.h"
 #include "render/frame.h"
@@ -20,7 +21,8 @@ struct LayerSegment {
 /// channels, and those seen through transparent surfaces into the channels of the visible lines.
 class LayerStrokes {
   public:
-    LayerStrokes(const Frame& frame, int threads) : frame_(frame), threads_(threads) {}
+    LayerStrokes(const Frame& frame, const TileKernels& kernels, int threads)
+        : frame_(frame), kernels_(kernels), threads_(threads) {}
 
     /// Before the visible lines of this part are drawn, which are given, too: what they will cover stays
     /// free.
@@ -35,6 +37,7 @@ class LayerStrokes {
         LinePixel lines;
     };
     const Frame& frame_;
+    const TileKernels& kernels_;
     int threads_;
     std::vector<std::vector<SeenThrough>> seen_through_;  // per tile
 };
