@@ -4,8 +4,18 @@
 #include <array>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace burin {
 namespace {
+
+template <typename Work>
+void for_triangles(std::size_t count, int threads, const Work& work) {
+    constexpr std::size_t kChunk = 1 << 15;
+    parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+        for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk); ++t) work(t);
+    });
+}
 
 glm::vec3 scaled_to_one(const glm::dvec3& v, double square) {
     return glm::vec3(v * (1 / std::max(std::sqrt(square), 1e-300)));
@@ -13,14 +23,14 @@ glm::vec3 scaled_to_one(const glm::dvec3& v, double square) {
 
 /// The polygons' normals, in single precision; with kThinTriangle where a triangle is a sliver in its own
 /// proportions, or nearly.
-std::vector<glm::vec3> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>& thin) {
+std::vector<glm::vec3> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>& thin, int threads) {
     std::vector<glm::vec3> normals(mesh.polygon_count);
     const bool has_polygons = !mesh.polygon_normals.empty();
     for (std::size_t p = 0; has_polygons && p < normals.size(); ++p) {
         const glm::dvec3 normal(mesh.polygon_normals[p]);
         normals[p] = scaled_to_one(normal, glm::dot(normal, normal));
     }
-    for (std::size_t t = 0; t < thin.size(); ++t) {
+    for_triangles(thin.size(), threads, [&](std::size_t t) {
         const auto& corners = mesh.triangles[t];
         const glm::dvec3 a(mesh.positions[corners[0]]);
         const glm::dvec3 ab = glm::dvec3(mesh.positions[corners[1]]) - a;
@@ -31,15 +41,15 @@ std::vector<glm::vec3> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
         constexpr double kPart = 1.001 * kSliverHeightPart;
         thin[t] = !(area2 > kPart * kPart * longest2 * longest2) ? kThinTriangle : 0;
         if (!has_polygons) normals[t] = scaled_to_one(area, area2);
-    }
+    });
     return normals;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria) {
+std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria, int threads) {
     std::vector<std::uint8_t> sharp(mesh.triangles.size());
-    const std::vector<glm::vec3> normals = unit_normals(mesh, sharp);
+    const std::vector<glm::vec3> normals = unit_normals(mesh, sharp, threads);
     const bool by_polygon = criteria.classes.has(LineClass::polygon);
     const bool by_material = criteria.classes.has(LineClass::material) && !mesh.polygon_material.empty();
     const bool by_crease = criteria.classes.has(LineClass::crease);
@@ -53,7 +63,8 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
         return by_crease && !(glm::dot(normals[p], normals[q]) > cos_crease);
     };
     // Both half-edges of a pair find the same: guessing which of them comes first would take longer.
-    for (std::uint32_t t = 0; t < sharp.size(); ++t) {
+    for_triangles(sharp.size(), threads, [&](std::size_t i) {
+        const auto t = static_cast<std::uint32_t>(i);
         unsigned edges = 0;
         for (unsigned k = 0; k < 3; ++k) {
             const HalfEdge h = 3 * t + k, g = mesh.next_on_edge[h];
@@ -61,7 +72,7 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
             edges |= (!is_pair || is_sharp(t, h, g / 3, g) ? 1u : 0u) << k;
         }
         sharp[t] |= static_cast<std::uint8_t>(edges);
-    }
+    });
     return sharp;
 }
 

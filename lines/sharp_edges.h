@@ -13,7 +13,7 @@ constexpr std::uint8_t kThinTriangle = 8;
 /// That is, it has not exactly one partner wound the other way, or a class asked for. An edge without
 /// its bit is none, under any transform that keeps angles.
 /// kThinTriangle: the triangle may be a sliver, see is_sliver(), under any such transform.
-std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria);
+std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria, int threads = 1);
 
 /// Whether a transform keeps angles: rotation, translation and one scale for all directions.
 bool keeps_angles(const glm::dmat4& transform);

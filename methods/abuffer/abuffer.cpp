@@ -67,9 +67,9 @@ LineCriteria criteria_of(const LineSettings& lines) {
 void prepare_for_abuffer(Scene& scene, int threads) {
     const LineCriteria criteria = criteria_of(scene.lines);
     scene.sharp_edges.resize(scene.meshes.size());
-    parallel_for(scene.meshes.size(), threads, [&](std::size_t i, int) {
-        scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria);
-    });
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, threads);
+    }
 }
 
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
