@@ -87,13 +87,37 @@ struct TileGrid {
     bool keeps_thin;                       ///< whether triangles between samples, which touch none, are wanted
 };
 
+constexpr std::int32_t kBlockShift = 3;
+constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
+
+/// Numbers of a tile's blocks of kBlockSamples x kBlockSamples samples: first one per block, row by row, kPitch to a
+/// row; then, kPage further each, those of a block and the next one to the right together, of a block and the one
+/// below, of two by two.
+struct BlockTable {
+    static constexpr std::int32_t kPitch = 32, kPage = kPitch * kPitch;
+    static constexpr std::size_t kSize = 4 * static_cast<std::size_t>(kPage);
+};
+
 /// A small triangle in a tile, with what tells whether it can be seen there.
 struct TileTriangle {
     std::uint32_t triangle;  ///< number in its mesh
     float highest;           ///< nearness of its nearest corner
-    /// Blocks of kBlockSamples x kBlockSamples samples of the tile that it may touch; if it lies between samples,
-    /// those of the samples on either side.
-    std::uint8_t first_column, last_column, first_row, last_row;
+    /// The blocks of samples of the tile that it may touch; if it lies between samples, those of the samples on either
+    /// side. The lowest 12 bits say where a BlockTable has their number, unless there are more than two by two
+    /// (kMany). Then five bits each: the last column and row.
+    std::uint32_t blocks;
+
+    static constexpr std::uint32_t kPlace = BlockTable::kSize - 1, kMany = BlockTable::kSize;
+    static constexpr std::uint32_t pack(std::uint32_t first_column, std::uint32_t last_column, std::uint32_t first_row,
+                                        std::uint32_t last_row) {
+        const std::uint32_t columns = last_column - first_column, rows = last_row - first_row;
+        const std::uint32_t page = (columns | rows) > 1 ? kMany : (columns | rows << 1) << 10;
+        return first_column | first_row << 5 | page | last_column << 16 | last_row << 21;
+    }
+    std::int32_t first_column() const { return static_cast<std::int32_t>(blocks & 31u); }
+    std::int32_t first_row() const { return static_cast<std::int32_t>(blocks >> 5 & 31u); }
+    std::int32_t last_column() const { return static_cast<std::int32_t>(blocks >> 16 & 31u); }
+    std::int32_t last_row() const { return static_cast<std::int32_t>(blocks >> 21 & 31u); }
 };
 
 /// What a tile lists separately. `thin` ones have no column or no row of samples in their box.
@@ -121,17 +145,14 @@ struct TileKernels {
     /// Returns how many were drawn.
     std::size_t (*draw_small)(const SampleView& tile, const float* farthest, const ScreenMesh& mesh,
                               const TileTriangle* triangles, std::size_t count);
-    /// The least nearness in every block of kBlockSamples x kBlockSamples samples, row by row, with
-    /// stride / kBlockSamples blocks to a row; then what combine_blocks() makes of it. There are farthest_count()
-    /// numbers.
+    /// The least nearness in every block of samples, as a BlockTable.
     void (*find_farthest)(const SampleView& tile, float* farthest);
-    /// Behind a table of numbers, one per block, row by row, writes three more: of every block and the next one
-    /// to the right, of every block and the one below, of every two by two, the least.
+    /// Makes a BlockTable of the least numbers from its first page.
     void (*combine_blocks)(std::int32_t columns, std::int32_t rows, float* least);
-    /// Lists the places of those triangles that may be nearer than the least number of the blocks they touch;
-    /// `least` as combine_blocks() leaves it. Returns how many.
-    std::size_t (*find_nearer)(const float* least, std::int32_t columns, std::int32_t rows,
-                               const TileTriangle* triangles, std::size_t count, std::uint32_t* found);
+    /// Lists the triangles that may be nearer than the least number of the blocks they touch, or level with it (see
+    /// SampleView). Returns how many.
+    std::size_t (*find_nearer)(const float* least, float level, float level_per_nearness, const TileTriangle* triangles,
+                               std::size_t count, std::uint32_t* found);
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
                       const SpanPlane& plane);
@@ -164,12 +185,6 @@ struct TileKernels {
 constexpr double kStrokeRowShift[16] = {-15.0 / 32, 1.0 / 32, -7.0 / 32, 9.0 / 32, -11.0 / 32, 5.0 / 32, -3.0 / 32, 13.0 / 32,
                                         -13.0 / 32, 3.0 / 32, -5.0 / 32, 11.0 / 32, -9.0 / 32, 7.0 / 32, -1.0 / 32, 15.0 / 32};
 
-constexpr std::int32_t kBlockShift = 3;
-constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
-/// How many numbers find_farthest() writes: four tables.
-constexpr std::size_t farthest_count(const SampleView& tile) {
-    return 4 * static_cast<std::size_t>((tile.stride >> kBlockShift) * ((tile.rows + kBlockSamples - 1) >> kBlockShift));
-}
 /// A tile's key for triangles of one kind.
 constexpr std::uint32_t tile_key(std::uint32_t tile, TriangleKind kind) { return kTriangleKinds * tile + kind; }
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;

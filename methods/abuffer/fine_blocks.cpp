@@ -27,9 +27,7 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     farthest_.assign(cell_at(0, kCells * rows_), kNothing);
     const int samples = kSubpixelsPerPixel / (2 * grid_.half_pitch) * bins_.tile_px();
     sample_blocks_ = (samples >> kBlockShift) + 1;  // a tile has one more column and row of samples
-    const auto block_count = static_cast<std::size_t>(sample_blocks_ * sample_blocks_);
-    least_.resize(4 * block_count);
-    std::fill_n(least_.begin(), block_count, kNothing);
+    least_.assign(BlockTable::kSize, kNothing);
     sort_candidates(candidates);
     kernels_.combine_blocks(sample_blocks_, sample_blocks_, least_.data());
     for (const TriangleRun& run : bins_.runs_in(tile)) add_small(run);
@@ -87,7 +85,7 @@ void FineBlocks::note_least(glm::ivec2 low, glm::ivec2 high, float lowest) {
     const int y0 = block(before(low.y, rect_.y0)), y1 = block(behind(high.y, rect_.y0));
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
-            float& least = least_[static_cast<std::size_t>(y * sample_blocks_ + x)];
+            float& least = least_[static_cast<std::size_t>(y * BlockTable::kPitch + x)];
             least = std::min(least, lowest);
         }
     }
@@ -95,15 +93,17 @@ void FineBlocks::note_least(glm::ivec2 low, glm::ivec2 high, float lowest) {
 
 void FineBlocks::add_small(const TriangleRun& run) {
     if (nearer_.size() < run.count) nearer_.resize(run.count);
+    constexpr float kNoLevel = 0;
     const std::size_t count =
-        kernels_.find_nearer(least_.data(), sample_blocks_, sample_blocks_, run.triangles, run.count, nearer_.data());
+        kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data());
     const ScreenMesh& mesh = screen_.mesh(run.instance);
     for (std::size_t i = 0; i < count; ++i) {
-        const TileTriangle& t = run.triangles[nearer_[i]];
-        const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t.triangle);
+        const std::uint32_t t = nearer_[i];
+        const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
         const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
-        sort_triangle({mesh.first_number + t.triangle, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
-                       std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), t.highest});
+        sort_triangle({mesh.first_number + t, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
+                       std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}),
+                       std::max({a.nearness, b.nearness, c.nearness})});
     }
 }
 

@@ -68,9 +68,8 @@ class FineBlocks {
     std::size_t count_ = 0;
     std::vector<std::uint32_t> index_;  // per block: its number, or kNone without candidates
     std::vector<float> farthest_;       // per cell: the least nearness of candidates there
-    // The same per block of kBlockSamples samples, as combine_blocks() leaves it.
-    int sample_blocks_ = 0;  // along each side
-    std::vector<float> least_;
+    std::vector<float> least_;          // the same as a BlockTable
+    int sample_blocks_ = 0;             // along each side
     std::vector<std::uint32_t> nearer_;
     std::vector<std::vector<std::uint32_t>> candidates_;  // per block
     std::vector<std::vector<HidingTriangle>> triangles_;

@@ -125,7 +125,7 @@ void FineParts::find_farthest(const SampleTile& samples) {
                           nullptr,
                           nullptr,
                           0};
-    farthest_.resize(farthest_count(view));
+    farthest_.resize(BlockTable::kSize);
     kernels_.find_farthest(view, farthest_.data());
 }
 
@@ -168,9 +168,7 @@ bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& 
     const double limit = nearest + kFarInFront * level(nearest);
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
-            const auto i =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.stride / kBlockSamples);
-            if (!(static_cast<double>(farthest_[i + static_cast<std::size_t>(x)]) > limit)) return false;
+            if (!(static_cast<double>(farthest_[static_cast<std::size_t>(y * BlockTable::kPitch + x)]) > limit)) return false;
         }
     }
     return true;

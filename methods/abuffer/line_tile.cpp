@@ -67,7 +67,7 @@ void LineTile::draw_all(std::size_t tile) {
     contest_count_ = 0;
     samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
                    rect_.height() * per_pixel_ + 1, per_pixel_);
-    farthest_.resize(farthest_count(view()));
+    farthest_.resize(BlockTable::kSize);
     draw_large_ones(tile);
     order_runs(tile);
     // What is hidden by what was drawn so far need not be drawn. The picture does not depend on the
@@ -195,14 +195,13 @@ int LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
     const int bottom = std::min(scan.end_row() - samples_.first_row, samples_.rows);
     int drawn = 0;
     if (left >= right) return drawn;
-    const int blocks = samples_.stride >> kBlockShift;
     for (int strip = top & -kBlockSamples; strip < bottom; strip += kBlockSamples) {
         const int first_row = std::max(strip, top), end_row = std::min(strip + kBlockSamples, bottom);
         int begin = left >> kBlockShift, end = ((right - 1) >> kBlockShift) + 1;
         if (has_look) {
             const float highest = highest_in(plane, left, right, first_row, end_row);
             const float high = highest + (highest * tile.level_per_nearness + tile.level);
-            const float* const farthest = farthest_.data() + (strip >> kBlockShift) * blocks;
+            const float* const farthest = farthest_.data() + (strip >> kBlockShift) * BlockTable::kPitch;
             while (begin < end && high < farthest[begin]) ++begin;
             while (begin < end && high < farthest[end - 1]) --end;
         }

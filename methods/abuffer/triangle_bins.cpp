@@ -199,14 +199,12 @@ class Binner {
         // A tile has one more column and row of samples.
         const auto block = [size](std::int32_t at, std::int32_t first, std::int32_t last) {
             const std::int32_t within = std::clamp(std::min(at, last) - first, 0, size);
-            return static_cast<std::uint8_t>(within >> kBlockShift);
+            return static_cast<std::uint32_t>(within >> kBlockShift);
         };
         const auto [column0, column1] = std::minmax(samples.column0, samples.column1);
         const auto [row0, row1] = std::minmax(samples.row0, samples.row1);
-        t.first_column = block(column0, first_column, grid_.width);
-        t.last_column = block(column1, first_column, grid_.width);
-        t.first_row = block(row0, first_row, grid_.height);
-        t.last_row = block(row1, first_row, grid_.height);
+        t.blocks = TileTriangle::pack(block(column0, first_column, grid_.width), block(column1, first_column, grid_.width),
+                                      block(row0, first_row, grid_.height), block(row1, first_row, grid_.height));
         return t;
     }
 

@@ -99,7 +99,7 @@ TileTriangle in_tile(const Triangles& triangles, std::uint32_t t, const SampleTi
     const int pitch = kSubpixelsPerPixel / tile.samples_per_pixel;
     const ScreenVertex v[3] = {triangles.corner(t, 0), triangles.corner(t, 1), triangles.corner(t, 2)};
     const auto block = [](double sample, int first, int last) {
-        return static_cast<std::uint8_t>(std::clamp(static_cast<int>(sample) - first, 0, last) / kBlockSamples);
+        return static_cast<std::uint32_t>(std::clamp(static_cast<int>(sample) - first, 0, last) / kBlockSamples);
     };
     // Sample n lies at n + 1/2 pitches.
     const auto from = [pitch](int at) { return std::ceil(static_cast<double>(at) / pitch - 0.5); };
@@ -108,10 +108,10 @@ TileTriangle in_tile(const Triangles& triangles, std::uint32_t t, const SampleTi
     const auto [y0, y1] = std::minmax({v[0].y, v[1].y, v[2].y});
     return {t,
             std::max({v[0].nearness, v[1].nearness, v[2].nearness}),
-            block(from(x0), tile.first_column, tile.columns - 1),
-            block(to(x1), tile.first_column, tile.columns - 1),
-            block(from(y0), tile.first_row, tile.rows - 1),
-            block(to(y1), tile.first_row, tile.rows - 1)};
+            TileTriangle::pack(block(from(x0), tile.first_column, tile.columns - 1),
+                               block(to(x1), tile.first_column, tile.columns - 1),
+                               block(from(y0), tile.first_row, tile.rows - 1),
+                               block(to(y1), tile.first_row, tile.rows - 1))};
 }
 
 std::vector<const TileKernels*> all_kernels() {
@@ -137,7 +137,7 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
             for (const bool with_look : {false, true}) {
                 SampleTile tile;
                 tile.reset(37, -20, 129, 97, per_pixel);
-                std::vector<float> farthest(farthest_count(view_of(tile)));
+                std::vector<float> farthest(BlockTable::kSize);
                 std::size_t drawn = 0;
                 for (std::size_t first = 0; first < drawable.size(); first += 50) {
                     kernels->find_farthest(view_of(tile), farthest.data());
@@ -198,8 +198,8 @@ TEST(TileKernels, CullingLosesNoSample) {
                 for (int row = 0; row < tile.rows; ++row) {
                     for (int column = 0; column < tile.columns; ++column) {
                         if (tile.ids[tile.index(column, row)] == SampleTile::kBackground) continue;
-                        EXPECT_TRUE(column / kBlockSamples >= own.first_column && column / kBlockSamples <= own.last_column &&
-                                    row / kBlockSamples >= own.first_row && row / kBlockSamples <= own.last_row);
+                        EXPECT_TRUE(column / kBlockSamples >= own.first_column() && column / kBlockSamples <= own.last_column() &&
+                                    row / kBlockSamples >= own.first_row() && row / kBlockSamples <= own.last_row());
                     }
                 }
             }
@@ -287,16 +287,16 @@ TEST(TileKernels, ThinTrianglesAreKeptIfWanted) {
                     const double sample = (place - pitch / 2) / pitch;
                     return std::clamp(static_cast<int>(up ? std::ceil(sample) : std::floor(sample)), 0, last) / kBlockSamples;
                 };
-                EXPECT_LE(own->first.first_column, block(x0, true, grid.width));
-                EXPECT_GE(own->first.last_column, block(x1, false, grid.width));
-                EXPECT_LE(own->first.first_row, block(y0, true, grid.height));
-                EXPECT_GE(own->first.last_row, block(y1, false, grid.height));
-                EXPECT_LE(own->first.first_row, own->first.last_row);
-                EXPECT_LE(own->first.first_column, own->first.last_column);
+                EXPECT_LE(own->first.first_column(), block(x0, true, grid.width));
+                EXPECT_GE(own->first.last_column(), block(x1, false, grid.width));
+                EXPECT_LE(own->first.first_row(), block(y0, true, grid.height));
+                EXPECT_GE(own->first.last_row(), block(y1, false, grid.height));
+                EXPECT_LE(own->first.first_row(), own->first.last_row());
+                EXPECT_LE(own->first.first_column(), own->first.last_column());
                 // Between two samples: those on either side.
                 if (block(y0, true, grid.height) > block(y1, false, grid.height)) {
-                    EXPECT_LE(own->first.first_row, block(y1, false, grid.height));
-                    EXPECT_GE(own->first.last_row, block(y0, true, grid.height));
+                    EXPECT_LE(own->first.first_row(), block(y1, false, grid.height));
+                    EXPECT_GE(own->first.last_row(), block(y0, true, grid.height));
                 }
             }
             grid.keeps_thin = false;
@@ -316,33 +316,42 @@ TEST(TileKernels, NearerTrianglesAreFound) {
     Random random(9);
     constexpr int kColumns = 7, kRows = 5;
     for (int round = 0; round < 40; ++round) {
-        std::vector<float> least(4 * kColumns * kRows, std::numeric_limits<float>::infinity());
-        for (int i = 0; i < kColumns * kRows; ++i) {
-            if (random.integer(0, 2) == 0) least[static_cast<std::size_t>(i)] = static_cast<float>(random.integer(0, 9));
+        std::vector<float> least(BlockTable::kSize, std::numeric_limits<float>::infinity());
+        const auto least_of = [&](std::uint32_t column, std::uint32_t row) -> float& { return least[row * BlockTable::kPitch + column]; };
+        for (std::uint32_t row = 0; row < kRows; ++row) {
+            for (std::uint32_t column = 0; column < kColumns; ++column) {
+                if (random.integer(0, 2) == 0) least_of(column, row) = static_cast<float>(random.integer(0, 9));
+            }
         }
+        const float level = 0.25f * static_cast<float>(random.integer(0, 4)), per_nearness = 0.125f * static_cast<float>(random.integer(0, 2));
         std::vector<TileTriangle> triangles(97);
         std::vector<std::uint32_t> expected;
         for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-            const auto range = [&](int count, std::uint8_t& first, std::uint8_t& last) {
-                first = static_cast<std::uint8_t>(random.integer(0, count - 1));
-                last = static_cast<std::uint8_t>(std::min(count - 1, first + (random.integer(0, 5) == 0 ? 3 : random.integer(0, 1))));
+            struct Range {
+                std::uint32_t first, last;
             };
+            const auto range = [&](int count) {
+                const int first = random.integer(0, count - 1);
+                const int more = random.integer(0, 5) == 0 ? 3 : random.integer(0, 1);
+                return Range{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(count - 1, first + more))};
+            };
+            const Range columns = range(kColumns), rows = range(kRows);
             TileTriangle& t = triangles[i];
+            t.triangle = 1000 + i;
             t.highest = static_cast<float>(random.integer(0, 9));
-            range(kColumns, t.first_column, t.last_column);
-            range(kRows, t.first_row, t.last_row);
+            t.blocks = TileTriangle::pack(columns.first, columns.last, rows.first, rows.last);
             bool is_nearer = false;
-            for (int row = t.first_row; row <= t.last_row; ++row) {
-                for (int column = t.first_column; column <= t.last_column; ++column) {
-                    is_nearer = is_nearer || t.highest >= least[static_cast<std::size_t>(row * kColumns + column)];
+            for (std::uint32_t row = rows.first; row <= rows.last; ++row) {
+                for (std::uint32_t column = columns.first; column <= columns.last; ++column) {
+                    is_nearer = is_nearer || t.highest + (t.highest * per_nearness + level) >= least_of(column, row);
                 }
             }
-            if (is_nearer) expected.push_back(i);
+            if (is_nearer) expected.push_back(t.triangle);
         }
         for (const TileKernels* kernels : all_kernels()) {
             kernels->combine_blocks(kColumns, kRows, least.data());
             std::vector<std::uint32_t> found(triangles.size());
-            found.resize(kernels->find_nearer(least.data(), kColumns, kRows, triangles.data(), triangles.size(), found.data()));
+            found.resize(kernels->find_nearer(least.data(), level, per_nearness, triangles.data(), triangles.size(), found.data()));
             EXPECT_EQ(found, expected) << kernels->name << " round " << round;
         }
     }
