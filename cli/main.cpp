@@ -33,9 +33,10 @@ void print_error(const char* prefix, const char* message) {
 }
 
 void run(const burin::Arguments& arguments) {
-    if (arguments.memory_bytes == 0) burin::keep_freed_memory();
     switch (arguments.command) {
-        case burin::Command::render: return run_render(arguments);
+        case burin::Command::render:
+            if (arguments.memory_bytes == 0) burin::keep_freed_memory();
+            return run_render(arguments);
         case burin::Command::info: return run_info(arguments);
         case burin::Command::explain: return run_explain(arguments);
         case burin::Command::methods: return run_methods(arguments);

@@ -121,7 +121,8 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     Rows visible, layers;
     visible.of_instance.resize(instance_count);
     layers.of_instance.resize(instance_count);
-    PieceCosts costs(tiles, has_layers ? &layer_tiles : nullptr, samples_per_pixel_of(*frame.scene), threads);
+    PieceCosts costs(tiles, has_layers ? &layer_tiles : nullptr, samples_per_pixel_of(*frame.scene),
+                     frame.scene->abuffer.draws_fine_lines(), threads);
     std::uint64_t least = 0;
     for (const std::vector<std::uint32_t>& group : plan.groups) {
         screen.show(group, threads);

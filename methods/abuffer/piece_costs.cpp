@@ -1,6 +1,7 @@
 #include "methods/abuffer/piece_costs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +16,7 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
 constexpr std::uint64_t kPerRun = 90;         // a chunk's list in a tile, as found and as sorted
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
+constexpr std::uint64_t kPerEdge = 16;        // of a triangle, that may be a line: half of the pair's place in a tile's list
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerLayerInTile = 400;  // a triangle in a LayerTile and its cells, set up
@@ -56,8 +58,8 @@ bool find_box(const ScreenSurfaces& screen, SurfaceId s, Box& box) {
 
 }  // namespace
 
-PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, int threads)
-    : visible_(visible), layers_(layers), sample_px_(1.0 / samples_per_pixel), threads_(threads) {
+PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, bool has_fine, int threads)
+    : visible_(visible), layers_(layers), sample_px_(1.0 / samples_per_pixel), has_fine_(has_fine), threads_(threads) {
     counts_.visible_bytes.assign(static_cast<std::size_t>(visible.rows().end), 0);
     counts_.visible_touches = counts_.visible_bytes;
     if (layers == nullptr) return;
@@ -65,8 +67,9 @@ PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int 
     layer_tile_touches_.assign(layers->count(), 0);
 }
 
-void PieceCosts::add(const ScreenSurfaces& screen) {
+void PieceCosts::add(ScreenSurfaces& screen) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
+    if (has_fine_) find_edges(screen, chunks);
     std::vector<Tally> tallies(static_cast<std::size_t>(threads_));
     const auto row_of = [](const PixelTiles& tiles, std::uint32_t tile) {
         return tile / static_cast<std::uint32_t>(tiles.columns());
@@ -94,15 +97,17 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
             // The samples in the box; a tile also gets those next to its right and lower border.
             const glm::dvec2 first = glm::ceil(box.low / sample_px_ - 0.5), last = glm::floor(box.high / sample_px_ - 0.5);
             const bool is_thin = first.x > last.x || first.y > last.y;
+            if (is_thin && !has_fine_) continue;
             const ScreenTriangle t = screen.triangle(s);
             const bool is_clockwise = !is_large && doubled_area(t.corners[0], t.corners[1], t.corners[2]) > 0;
             const TriangleKind kind = is_thin ? thin : is_clockwise ? wound_clockwise : wound_counterclockwise;
+            const auto edges = has_fine_ ? static_cast<std::uint64_t>(std::popcount(screen.mesh(s.instance).line_edges[triangle] & 7u)) : 0;
             std::uint32_t last_row = ~0u;
             visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_, [&](std::uint32_t tile) {
                 const std::uint32_t row = row_of(visible_, tile);
                 std::uint64_t& cost = tally.visible_bytes[row];
                 ++tally.visible_touches[row];
-                cost += is_large ? kPerLarge : kPerSmall;
+                cost += (is_large ? kPerLarge : kPerSmall) + edges * kPerEdge;
                 if (is_large && row != last_row) cost += kPerPolygon;
                 last_row = row;
                 std::uint32_t& last_chunk = tally.last_chunk[kind][tile];
@@ -120,6 +125,19 @@ void PieceCosts::add(const ScreenSurfaces& screen) {
         add_to(counts_.layer_touches, tally.layer_touches);
         add_to(layer_tile_touches_, tally.layer_tile_touches);
     }
+}
+
+void PieceCosts::find_edges(ScreenSurfaces& screen, const std::vector<TriangleChunk>& chunks) const {
+    parallel_for(chunks.size(), threads_, [&](std::size_t c, int) {
+        for (std::uint32_t t = chunks[c].begin; t < chunks[c].end; ++t) {
+            const SurfaceId s{chunks[c].instance, t};
+            const auto [p, q, r] = screen.triangle(s).corners;
+            const bool is_off = std::min({p.x, q.x, r.x}) == ScreenVertex::kOffScreen;
+            const std::int64_t area = is_off ? 0 : doubled_area(p, q, r);
+            screen.set_facing(screen.number_of(s), is_off ? off_screen : area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
+        }
+    });
+    parallel_for(chunks.size(), threads_, [&](std::size_t c, int) { screen.find_line_edges(chunks[c]); });
 }
 
 RowCosts PieceCosts::visible() const {

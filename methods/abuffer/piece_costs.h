@@ -22,11 +22,11 @@ struct InstanceExtent {
 /// What the tiles of a picture cost.
 class PieceCosts {
   public:
-    /// `layers`: nullptr where nothing behind the first surface is drawn.
-    PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, int threads);
+    /// `layers`: nullptr where nothing behind the first surface is drawn. `has_fine`: lines that samples miss are.
+    PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, bool has_fine, int threads);
 
-    /// Adds the instances shown.
-    void add(const ScreenSurfaces& screen);
+    /// Adds the instances shown. Finds the facing of their triangles on the way, and which edges may be lines.
+    void add(ScreenSurfaces& screen);
     /// Of visible surfaces, and of all layers; the latter are empty where there are none.
     RowCosts visible() const;
     RowCosts layers() const;
@@ -35,9 +35,12 @@ class PieceCosts {
     static InstanceExtent extent_of(const ScreenSurfaces& screen, std::uint32_t instance);
 
   private:
+    void find_edges(ScreenSurfaces& screen, const std::vector<TriangleChunk>& chunks) const;
+
     PixelTiles visible_;
     const PixelTiles* layers_;
     double sample_px_;
+    bool has_fine_;
     int threads_;
     struct Counts {  // per row
         std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;
