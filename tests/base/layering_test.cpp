@@ -17,7 +17,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"image", {"base"}},
     {"mesh", {"base"}},
     {"abuffer", {}},
-    {"lines", {"abuffer", "mesh"}},
+    {"lines", {"abuffer", "mesh", "base"}},
     {"shading", {"lines", "abuffer", "mesh"}},
     {"scene", {"shading", "lines", "abuffer", "mesh", "image", "base"}},
     {"render", {"scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
