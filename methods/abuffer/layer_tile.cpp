@@ -292,7 +292,8 @@ void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines)
             if (is_on_one_side(*plane, cell_vertices_[j])) continue;
             if (is_on_one_side(side_plane(cell_vertices_[j]), cell_vertices_[i])) continue;
             const std::uint32_t own = cell_triangles_[i], other = cell_triangles_[j];
-            triangle(other);  // before either is looked at: setting up moves them
+            triangle(own);  // both before either is looked at: setting up moves them
+            triangle(other);
             intersect(triangle(own), triangle(other), lines);
         }
     }
