@@ -16,7 +16,7 @@ void keep_freed_memory() noexcept {
 #ifdef __GLIBC__
     ::mallopt(M_MMAP_MAX, 0);
     ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-    // The heap grows by this now, and does not shrink. None of it is backed by memory before it is written.
+    // The heap grows by this now, and so much of it stays, in huge pages. It is backed by memory when it is written.
     constexpr std::size_t kAtFirst = std::size_t{256} << 20;
     void* const heap = std::malloc(kAtFirst);
     if (heap == nullptr) return;

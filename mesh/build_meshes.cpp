@@ -42,6 +42,12 @@ void check_triangle_count(const std::string& object, std::size_t triangles) {
     throw InputError("object '" + object + "': more than 1.4 billion triangles; split the model");
 }
 
+/// Gives a vector's memory back, which clear() and an empty list do not.
+template <typename T>
+void release(std::vector<T>& v) {
+    std::vector<T>().swap(v);
+}
+
 /// Triangles, their polygons, and the polygons' normals.
 void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
     mesh.polygon_count = static_cast<std::uint32_t>(polygons.polygon_count());
@@ -174,11 +180,11 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
     if (has_only_triangles(soup)) {
         Mesh mesh = empty_mesh(0);
         // What is done with makes room: fresh memory costs more than the work on it.
-        soup.positions = {};
+        release(soup.positions);
         collect_triangles(soup, positions, welded, mesh);
-        soup.corners = {};
-        positions = {};
-        welded = {};
+        release(soup.corners);
+        release(positions);
+        release(welded);
         meshes.push_back(finish_triangles(options, std::move(mesh)));
         return meshes;
     }

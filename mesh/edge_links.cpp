@@ -85,7 +85,7 @@ class EdgeTable {
     struct Free {
         void operator()(Bucket* p) const { std::free(p); }
     };
-    std::unique_ptr<Bucket, Free> buckets_;  // calloc's pages are zero without being written
+    std::unique_ptr<Bucket, Free> buckets_;  // from calloc: fresh pages are zero without being written
 };
 
 /// A half-edge that found no place in the table.

@@ -67,9 +67,12 @@ LineCriteria criteria_of(const LineSettings& lines) {
 void prepare_for_abuffer(Scene& scene, int threads) {
     const LineCriteria criteria = criteria_of(scene.lines);
     scene.sharp_edges.resize(scene.meshes.size());
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, threads);
-    }
+    // A few large meshes, or many.
+    const std::size_t count = scene.meshes.size();
+    const bool has_many = count >= 4 * static_cast<std::size_t>(resolve_thread_count(threads));
+    parallel_for(count, has_many ? threads : 1, [&](std::size_t i, int) {
+        scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, has_many ? 1 : threads);
+    });
 }
 
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {

@@ -138,7 +138,7 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     }
     // Lines are kept to the end of a piece, or of the picture where other lines have to be found first.
     std::uint64_t lasting = lasting_bytes(frame, tiles, threads);
-    lasting += costs.largest_layer_tile() * static_cast<std::uint64_t>(threads);
+    lasting += (costs.largest_layer_tile() + costs.largest_fine_tile()) * static_cast<std::uint64_t>(threads);
     const auto split = [&](const RowCosts& rows, bool keeps_lines) {
         std::vector<std::uint64_t> bytes = rows.bins;
         for (std::size_t i = 0; i < bytes.size(); ++i) (keeps_lines ? lasting : bytes[i]) += rows.lines[i];

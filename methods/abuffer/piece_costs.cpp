@@ -18,6 +18,8 @@ constexpr std::uint64_t kPerRun = 90;         // a chunk's list in a tile, as fo
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerEdge = 16;        // of a triangle, that may be a line: half of the pair's place in a tile's list
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
+// Lines that samples miss, in one tile: a triangle that may hide some, and a triangle's edge that may be one.
+constexpr std::uint64_t kPerHidingInTile = 200, kPerEdgeInTile = 250;
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerLayerInTile = 400;  // a triangle in a LayerTile and its cells, set up
 // Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.
@@ -34,7 +36,7 @@ struct Box {  // in pixels
 /// What one thread has counted.
 struct Tally {
     std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;  // per row
-    std::vector<std::uint64_t> layer_tile_touches;                               // per tile
+    std::vector<std::uint64_t> layer_tile_touches, fine_tile_bytes;               // per tile
     std::vector<std::uint32_t> last_chunk[kTriangleKinds];  // per tile: 1 + the last chunk with a run there
 };
 
@@ -62,6 +64,7 @@ PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int 
     : visible_(visible), layers_(layers), sample_px_(1.0 / samples_per_pixel), has_fine_(has_fine), threads_(threads) {
     counts_.visible_bytes.assign(static_cast<std::size_t>(visible.rows().end), 0);
     counts_.visible_touches = counts_.visible_bytes;
+    if (has_fine) fine_tile_bytes_.assign(visible.count(), 0);
     if (layers == nullptr) return;
     counts_.layer_touches.assign(static_cast<std::size_t>(layers->rows().end), 0);
     layer_tile_touches_.assign(layers->count(), 0);
@@ -81,6 +84,7 @@ void PieceCosts::add(ScreenSurfaces& screen) {
             tally.visible_touches = tally.visible_bytes;
             tally.layer_touches.assign(counts_.layer_touches.size(), 0);
             tally.layer_tile_touches.assign(layer_tile_touches_.size(), 0);
+            tally.fine_tile_bytes.assign(fine_tile_bytes_.size(), 0);
             for (auto& last : tally.last_chunk) last.assign(visible_.count(), 0);
         }
         for (std::uint32_t triangle = chunks[c].begin; triangle < chunks[c].end; ++triangle) {
@@ -108,6 +112,7 @@ void PieceCosts::add(ScreenSurfaces& screen) {
                 std::uint64_t& cost = tally.visible_bytes[row];
                 ++tally.visible_touches[row];
                 cost += (is_large ? kPerLarge : kPerSmall) + edges * kPerEdge;
+                if (has_fine_) tally.fine_tile_bytes[tile] += kPerHidingInTile + edges * kPerEdgeInTile;
                 if (is_large && row != last_row) cost += kPerPolygon;
                 last_row = row;
                 std::uint32_t& last_chunk = tally.last_chunk[kind][tile];
@@ -124,6 +129,7 @@ void PieceCosts::add(ScreenSurfaces& screen) {
         add_to(counts_.visible_touches, tally.visible_touches);
         add_to(counts_.layer_touches, tally.layer_touches);
         add_to(layer_tile_touches_, tally.layer_tile_touches);
+        add_to(fine_tile_bytes_, tally.fine_tile_bytes);
     }
 }
 
@@ -161,6 +167,11 @@ RowCosts PieceCosts::layers() const {
 std::uint64_t PieceCosts::largest_layer_tile() const {
     const auto largest = std::max_element(layer_tile_touches_.begin(), layer_tile_touches_.end());
     return largest == layer_tile_touches_.end() ? 0 : kPerLayerInTile * *largest;
+}
+
+std::uint64_t PieceCosts::largest_fine_tile() const {
+    const auto largest = std::max_element(fine_tile_bytes_.begin(), fine_tile_bytes_.end());
+    return largest == fine_tile_bytes_.end() ? 0 : *largest;
 }
 
 InstanceExtent PieceCosts::extent_of(const ScreenSurfaces& screen, std::uint32_t instance) {

@@ -32,6 +32,8 @@ class PieceCosts {
     RowCosts layers() const;
     /// Of a LayerTile with the most triangles that there are in one: a thread has one.
     std::uint64_t largest_layer_tile() const;
+    /// Of the tile whose search for lines that samples miss takes most: a thread has one.
+    std::uint64_t largest_fine_tile() const;
     static InstanceExtent extent_of(const ScreenSurfaces& screen, std::uint32_t instance);
 
   private:
@@ -45,7 +47,7 @@ class PieceCosts {
     struct Counts {  // per row
         std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;
     } counts_;
-    std::vector<std::uint64_t> layer_tile_touches_;  // per tile
+    std::vector<std::uint64_t> layer_tile_touches_, fine_tile_bytes_;  // per tile
 };
 
 }  // namespace burin

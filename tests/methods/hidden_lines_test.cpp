@@ -123,6 +123,19 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
     }
 }
 
+/// Triangles of which nothing else asked before.
+TEST(HiddenLines, TwoTrianglesPassThroughEachOtherBehindAThird) {
+    Scene scene = scene_of({soup_of({{-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}, {0, -0.7, -1}, {0.1, -0.7, 1}, {0, 0.6, 0.2},
+                                     {-3, -3, 1.5}, {3, -3, 1.5}, {0, 4, 1.5}},
+                                    {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}})});
+    scene.lines.classes = LineClass::intersection;
+    scene.lines.style.hidden.style = HiddenStyle::solid;
+    const Layers layers(scene, perspective_camera({0, 0, 6}, {0, 0, 0}));
+    ASSERT_EQ(layers.pass.lines().size(), 1u);
+    EXPECT_NEAR(layers.hidden_px(1), layers.pass.lines()[0].length_px(), 0.1);
+    EXPECT_GT(layers.hidden_px(1), 20);
+}
+
 TEST(HiddenLines, ACubeInACube) {
     const Scene scene = scene_of({make_box({2, 2, 2}), make_box({1, 1, 1})});
     for (const Camera& camera : {ortho_camera({4, 3, 5}, 5), perspective_camera({5, 4, 7}, {0, 0, 0})}) {
