@@ -18,8 +18,8 @@ constexpr std::uint64_t kPerRun = 90;         // a chunk's list in a tile, as fo
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerEdge = 16;        // of a triangle, that may be a line: half of the pair's place in a tile's list
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
-// Lines that samples miss, in one tile: a triangle that may hide some, and a triangle's edge that may be one.
-constexpr std::uint64_t kPerHidingInTile = 200, kPerEdgeInTile = 250;
+// Lines that samples miss, in one tile: a triangle that may hide some, and an edge that may be one. Estimated: few are.
+constexpr std::uint64_t kPerHidingInTile = 40, kPerEdgeInTile = 50;
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerLayerInTile = 400;  // a triangle in a LayerTile and its cells, set up
 // Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.

@@ -125,15 +125,28 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
 
 /// Triangles of which nothing else asked before.
 TEST(HiddenLines, TwoTrianglesPassThroughEachOtherBehindAThird) {
-    Scene scene = scene_of({soup_of({{-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}, {0, -0.7, -1}, {0.1, -0.7, 1}, {0, 0.6, 0.2},
-                                     {-3, -3, 1.5}, {3, -3, 1.5}, {0, 4, 1.5}},
+    const glm::dvec3 eye(0, 0, 6), a[3] = {{-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}}, b[3] = {{0, -0.7, -1}, {0.1, -0.7, 1}, {0, 0.6, 0.2}};
+    Scene scene = scene_of({soup_of({a[0], a[1], a[2], b[0], b[1], b[2], {-3, -3, 1.5}, {3, -3, 1.5}, {0, 4, 1.5}},
                                     {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}})});
     scene.lines.classes = LineClass::intersection;
     scene.lines.style.hidden.style = HiddenStyle::solid;
-    const Layers layers(scene, perspective_camera({0, 0, 6}, {0, 0, 0}));
+    const Layers layers(scene, perspective_camera(eye, {0, 0, 0}), 1);
+    // The edges of b pass through the plane of a at the ends of the line.
+    const glm::dvec3 normal = glm::cross(a[1] - a[0], a[2] - a[0]);
+    std::vector<glm::dvec2> ends;
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 p = b[k], q = b[(k + 1) % 3];
+        const double at_p = glm::dot(normal, p - a[0]), at_q = glm::dot(normal, q - a[0]);
+        if (at_p * at_q >= 0) continue;
+        ends.push_back(layers.frame.surfaces.projection.to_pixel(glm::mix(p, q, at_p / (at_p - at_q)) - eye));
+    }
+    ASSERT_EQ(ends.size(), 2u);
     ASSERT_EQ(layers.pass.lines().size(), 1u);
-    EXPECT_NEAR(layers.hidden_px(1), layers.pass.lines()[0].length_px(), 0.1);
-    EXPECT_GT(layers.hidden_px(1), 20);
+    const LayerLine& line = layers.pass.lines()[0];
+    const glm::dvec2 from = line.from / 256.0, to = line.to / 256.0;
+    EXPECT_LT(std::min(glm::distance(from, ends[0]) + glm::distance(to, ends[1]),
+                       glm::distance(from, ends[1]) + glm::distance(to, ends[0])), 0.1);
+    EXPECT_NEAR(layers.hidden_px(1), glm::distance(ends[0], ends[1]), 0.1);
 }
 
 TEST(HiddenLines, ACubeInACube) {
