@@ -123,9 +123,9 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
     }
 }
 
-/// Triangles of which nothing else asked before.
+/// Triangles of which nothing else asked before, all in one tile.
 TEST(HiddenLines, TwoTrianglesPassThroughEachOtherBehindAThird) {
-    const glm::dvec3 eye(0, 0, 6), a[3] = {{-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}}, b[3] = {{0, -0.7, -1}, {0.1, -0.7, 1}, {0, 0.6, 0.2}};
+    const glm::dvec3 eye(0, 0, 60), a[3] = {{-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}}, b[3] = {{0, -0.7, -1}, {0.1, -0.7, 1}, {0, 0.6, 0.2}};
     Scene scene = scene_of({soup_of({a[0], a[1], a[2], b[0], b[1], b[2], {-3, -3, 1.5}, {3, -3, 1.5}, {0, 4, 1.5}},
                                     {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}})});
     scene.lines.classes = LineClass::intersection;
