@@ -73,7 +73,6 @@ class SceneLoader {
             model.materials = std::move(object.shape.materials);
             model.meshes = build_meshes(std::move(object.shape), options);
             model.objects.push_back({object.name, 0, glm::dmat4(1.0)});
-            object.shape = PolygonSoup();
             shapes_.push_back(adopt(std::move(model)));
             return shapes_.back();
         }

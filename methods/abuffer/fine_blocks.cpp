@@ -1,6 +1,7 @@
 #include "methods/abuffer/fine_blocks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "methods/abuffer/layer_triangle.h"

@@ -16,9 +16,9 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
 constexpr std::uint64_t kPerRun = 90;         // a chunk's list in a tile, as found and as sorted
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
-constexpr std::uint64_t kPerEdge = 16;        // of a triangle, that may be a line: half of the pair's place in a tile's list
+constexpr std::uint64_t kPerEdge = 32;        // that may be a line, in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
-// Lines that samples miss, in one tile: a triangle that may hide some, and an edge that may be one. Estimated: few are.
+// Lines that samples miss, in one tile: a triangle that may hide some, and a half-edge that may be one. Estimated: few are.
 constexpr std::uint64_t kPerHidingInTile = 40, kPerEdgeInTile = 50;
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerLayerInTile = 400;  // a triangle in a LayerTile and its cells, set up
@@ -56,6 +56,16 @@ bool find_box(const ScreenSurfaces& screen, SurfaceId s, Box& box) {
     for (const ScreenVertex& v : t.corners) box.reach(v.x, v.y);
     const glm::dvec2 size = (box.high - box.low) * 256.0;
     return std::max(size.x, size.y) >= kLargestSmallTriangle;
+}
+
+/// Edges of a triangle that may be lines, in half-edges: one where its partner counts, too, two for a border.
+std::uint64_t possible_lines(const ScreenMesh& mesh, std::uint32_t triangle) {
+    std::uint64_t count = 0;
+    for (unsigned edges = mesh.line_edges[triangle] & 7u; edges != 0; edges &= edges - 1) {
+        const HalfEdge h = 3 * triangle + static_cast<unsigned>(std::countr_zero(edges));
+        count += mesh.partners[h] == h ? 2 : 1;
+    }
+    return count;
 }
 
 }  // namespace
@@ -105,14 +115,14 @@ void PieceCosts::add(ScreenSurfaces& screen) {
             const ScreenTriangle t = screen.triangle(s);
             const bool is_clockwise = !is_large && doubled_area(t.corners[0], t.corners[1], t.corners[2]) > 0;
             const TriangleKind kind = is_thin ? thin : is_clockwise ? wound_clockwise : wound_counterclockwise;
-            const auto edges = has_fine_ ? static_cast<std::uint64_t>(std::popcount(screen.mesh(s.instance).line_edges[triangle] & 7u)) : 0;
+            const std::uint64_t half_edges = has_fine_ ? possible_lines(screen.mesh(s.instance), triangle) : 0;
             std::uint32_t last_row = ~0u;
             visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_, [&](std::uint32_t tile) {
                 const std::uint32_t row = row_of(visible_, tile);
                 std::uint64_t& cost = tally.visible_bytes[row];
                 ++tally.visible_touches[row];
-                cost += (is_large ? kPerLarge : kPerSmall) + edges * kPerEdge;
-                if (has_fine_) tally.fine_tile_bytes[tile] += kPerHidingInTile + edges * kPerEdgeInTile;
+                cost += (is_large ? kPerLarge : kPerSmall) + half_edges * kPerEdge / 2;
+                if (has_fine_) tally.fine_tile_bytes[tile] += kPerHidingInTile + half_edges * kPerEdgeInTile;
                 if (is_large && row != last_row) cost += kPerPolygon;
                 last_row = row;
                 std::uint32_t& last_chunk = tally.last_chunk[kind][tile];

@@ -201,6 +201,7 @@ TEST(Abuffer, SliversAreKnownToBeThin) {
     const Frame frame = make_frame(scene, perspective_camera(kEye, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
     const Mesh& mesh = scene.meshes.at(0);
     const std::vector<std::uint8_t> table = find_sharp_edges(mesh, frame.criteria);
+    EXPECT_EQ(find_sharp_edges(mesh, frame.criteria, 3), table);
     int slivers = 0, thin = 0;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         thin += (table[t] & kThinTriangle) != 0;

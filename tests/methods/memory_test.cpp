@@ -9,7 +9,9 @@
 #include "base/error.h"
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
+#include "methods/abuffer/fine_edges.h"
 #include "methods/abuffer/picture_pieces.h"
+#include "methods/abuffer/piece_costs.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
@@ -169,6 +171,42 @@ TEST(Memory, TheFullestTileCountsForEveryThread) {
     const double some = mb_per_thread(200, HiddenStyle::solid) - plain;
     EXPECT_GT(some, 0.1);
     EXPECT_GT(mb_per_thread(400, HiddenStyle::solid) - plain, 3 * some) << "four times as many triangles in a tile";
+}
+
+/// As found and as sorted, and not half of it for borders, which have one side only.
+TEST(Memory, ListsOfEdgesAreCountedFromAbove) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        Random random(seed);
+        PolygonSoup loose;
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            const glm::dvec3 center = random.in_box(1) * glm::dvec3(1.5, 3.5, 1);
+            for (int k = 0; k < 3; ++k) loose.positions.push_back(center + random.direction() * random.real(0.01, 0.3));
+            loose.add_polygon(std::vector<std::uint32_t>{3 * i, 3 * i + 1, 3 * i + 2});
+        }
+        const Scene scene = seed % 2 == 0 ? scene_of({loose}) : heap_of_instances(seed);
+        const Frame frame = frame_of(scene, {0, 0, kWidth, kHeight});
+        constexpr int kSamples = 2;
+        const PixelTiles tiles({0, 0, 120, 264}, kTileSamples / kSamples);
+        ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
+        const auto rows = [&](bool has_fine) {
+            PieceCosts costs(tiles, nullptr, kSamples, has_fine, 1);
+            costs.add(screen);
+            return costs.visible().bins;
+        };
+        const std::vector<std::uint64_t> plain = rows(false), all = rows(true);
+        const FineEdges edges(screen, tiles, kSamples, 1);
+        std::uint64_t count = 0;
+        for (std::size_t row = 0; row < all.size(); ++row) {
+            std::uint64_t in_row = 0;
+            for (int column = 0; column < tiles.columns(); ++column) {
+                in_row += edges.in(row * static_cast<std::size_t>(tiles.columns()) + static_cast<std::size_t>(column)).size();
+            }
+            using List = TileLists<FineEdge>;
+            EXPECT_GE(all[row] - plain[row], in_row * (2 * sizeof(List::Record) + sizeof(FineEdge))) << "seed " << seed << " row " << row;
+            count += in_row;
+        }
+        EXPECT_GT(count, 1000u);
+    }
 }
 
 TEST(Memory, LinesThatOthersDependOnAreKeptToTheEnd) {
