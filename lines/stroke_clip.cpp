@@ -81,6 +81,7 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
     std::array<Bound, 4> bounds;
     std::size_t count = 0;
     double first = first_row_, last = end_row_;  // rows in [first, last)
+    const double left = x0_ + (first_column_ - 1.0) / StrokeMask::kColumns, right = x0_ + (end_column_ + 1.0) / StrokeMask::kColumns;
     for (const HalfPlane& side : sides) {
         if (side.normal.x == 0) {
             const double row = (side.offset / side.normal.y - y0_) * StrokeMask::kRows - 0.5;
@@ -91,12 +92,25 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
             }
             continue;
         }
+        // The rows in which it has any of the columns, and one more for rounding.
+        const double most = std::max(side.normal.x * left, side.normal.x * right);
+        if (side.normal.y != 0) {
+            const double row = ((side.offset - most) / side.normal.y - y0_) * StrokeMask::kRows - 0.5;
+            if (side.normal.y > 0) {
+                first = std::max(first, std::floor(row) - 1);
+            } else {
+                last = std::min(last, std::ceil(row) + 2);
+            }
+        } else if (most < side.offset) {
+            return;
+        }
         const double per_row = -side.normal.y / side.normal.x / StrokeMask::kRows * StrokeMask::kColumns;
         const double y = y0_ + 0.5 / StrokeMask::kRows;
         const double column = ((side.offset - side.normal.y * y) / side.normal.x - x0_) * StrokeMask::kColumns - 0.5;
         bounds[count++] = {column, per_row, side.normal.x > 0};
     }
-    for (int row = static_cast<int>(std::min(first, last)); row < last; ++row) {
+    if (!(first < last)) return;
+    for (int row = static_cast<int>(first); row < last; ++row) {
         double low = first_column_, high = end_column_;  // columns in [low, high)
         const double shift = kStrokeRowShift[static_cast<std::uint32_t>(row) % StrokeMask::kRows];
         for (std::size_t i = 0; i < count; ++i) {
@@ -188,6 +202,24 @@ void StrokeClipper::apply(const Shadow& shadow, bool blocks_outside) {
     });
 }
 
+bool StrokeClipper::cut_to_open(const StrokeCanvas& onto) {
+    int low_x = width_, low_y = height_, high_x = -1, high_y = -1;
+    for (int y = first_row_ / StrokeMask::kRows; y <= (end_row_ - 1) / StrokeMask::kRows; ++y) {
+        for (int x = first_column_ / StrokeMask::kColumns; x <= (end_column_ - 1) / StrokeMask::kColumns; ++x) {
+            if (onto.is_full(x, y)) continue;
+            low_x = std::min(low_x, x);
+            high_x = std::max(high_x, x);
+            low_y = std::min(low_y, y);
+            high_y = std::max(high_y, y);
+        }
+    }
+    first_row_ = std::max(first_row_, low_y * StrokeMask::kRows);
+    end_row_ = std::min(end_row_, (high_y + 1) * StrokeMask::kRows);
+    first_column_ = std::max(first_column_, low_x * StrokeMask::kColumns);
+    end_column_ = std::min(end_column_, (high_x + 1) * StrokeMask::kColumns);
+    return high_x >= 0;
+}
+
 void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide side,
                          std::span<const ClipPiece* const> boundaries, StrokeCanvas& onto) {
     if (!piece.occludes) side = StrokeSide::both;  // it has no front
@@ -201,7 +233,7 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     end_row_ = static_cast<int>(std::ceil(to_samples(high.y, StrokeMask::kRows, height_)));
     first_column_ = static_cast<int>(std::floor(to_samples(low.x, StrokeMask::kColumns, width_)));
     end_column_ = static_cast<int>(std::ceil(to_samples(high.x, StrokeMask::kColumns, width_)));
-    if (first_row_ >= end_row_ || first_column_ >= end_column_ || piece.from == piece.to) return;
+    if (first_row_ >= end_row_ || first_column_ >= end_column_ || piece.from == piece.to || !cut_to_open(onto)) return;
 
     if (side != StrokeSide::both && glm::distance(piece.from, piece.to) < kShortestPx) return;
     const Frame frame(piece);

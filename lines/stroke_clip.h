@@ -62,6 +62,8 @@ class StrokeClipper {
     template <typename Visit>
     void for_spans(std::span<const HalfPlane> sides, const Visit& visit) const;
     void apply(const Shadow& shadow, bool blocks_outside);
+    /// Cuts the stroke's rows and columns to pixels of the canvas that are not full yet. False if all are.
+    bool cut_to_open(const StrokeCanvas& onto);
 
     StrokeCanvas canvas_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;

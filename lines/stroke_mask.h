@@ -54,6 +54,13 @@ class StrokeCanvas {
     bool is_touched(int column, int row) const {
         return touched_[static_cast<std::size_t>(row * width_ + column)] != 0;
     }
+    /// Whether nothing can be added any more.
+    bool is_full(int column, int row) const {
+        if (!is_touched(column, row)) return false;
+        std::uint32_t all = ~0u;
+        for (const std::uint32_t bits : at(column, row).rows) all &= bits;
+        return all == ~0u;
+    }
 
   private:
     void draw_row(int sub_row, int begin, int end);
