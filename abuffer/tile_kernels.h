@@ -66,6 +66,17 @@ struct BoxView {
     const float *x0, *y0, *x1, *y1, *low, *high;
 };
 
+/// Triangles on the screen, an array per number: corners in 1/256 pixel, clockwise as seen, and the nearness of the
+/// nearest one.
+struct TriangleView {
+    const float *x[3], *y[3], *highest;
+};
+
+/// A straight part of a line on the screen, in 1/256 pixel, and the nearness of its farther end.
+struct ScreenLine {
+    float ax, ay, bx, by, low;
+};
+
 /// What all pixels of a triangle have in common.
 struct TriangleLook {
     double normal[3];       ///< unit length, in view space, towards the eye
@@ -177,6 +188,15 @@ struct TileKernels {
     /// numbers more are read of each array.
     std::size_t (*find_touching)(const BoxView& boxes, std::size_t begin, std::size_t end, const ScreenBox& box,
                                  float least_x0, float least_y0, std::uint32_t* found);
+    /// Lists those of the triangles [begin, end) that may hide a part of a line: with a corner nearer than its farther
+    /// end, and not beside it by more than 1/32 pixel. Returns their number. Up to seven numbers more are read of each array.
+    std::size_t (*find_hiding)(const TriangleView& triangles, std::size_t begin, std::size_t end, const ScreenLine& line,
+                               std::uint32_t* found);
+    /// Which of at most eight boxes from `a` on overlap which of at most eight from `b` on, touching in x and y being
+    /// enough: bit 8 i + k for box a + i and box b + k. Up to seven numbers more are read of each array.
+    std::uint64_t (*find_overlaps)(const BoxView& boxes, std::size_t a, std::size_t a_count, std::size_t b, std::size_t b_count);
+    /// Of such pairs of triangles, those that have no corner in common. `corners`: an array for each corner.
+    std::uint64_t (*find_unconnected)(const std::uint32_t* const corners[3], std::size_t a, std::size_t b, std::uint64_t pairs);
 };
 
 /// By how many columns the samples in the rows of a StrokeMask lie further right. Rows take turns, in the
