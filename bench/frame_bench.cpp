@@ -203,7 +203,19 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     add("default_all_layers", drawing(view, layers, kDefault));
     add("samples_2_two_threads", drawing(view, picture, 2, 2));
     add("default_two_threads", drawing(view, picture, kDefault, 2));
+    // Once per scene, then any number of frames; "searched" is a frame without it.
+    add("prepare_hidden", [&view] {
+        view.scene.lines.style.hidden.style = HiddenStyle::solid;
+        prepare_for_abuffer(view.scene, 1);
+    });
     add("hidden_solid", drawing(view, picture, kDefault, 1, HiddenStyle::solid));
+    const auto searched = drawing(view, picture, kDefault, 1, HiddenStyle::solid);
+    add("hidden_solid_searched", [&view, searched] {
+        std::optional<std::vector<SurfacePair>> kept;
+        kept.swap(view.scene.intersecting_pairs);
+        searched();
+        kept.swap(view.scene.intersecting_pairs);
+    });
     std::unique_ptr<View> large, fine;
     std::unique_ptr<Film> large_film;
     if (has_scaling) {

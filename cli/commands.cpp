@@ -346,7 +346,7 @@ void run_render(const Arguments& a) {
     StageTimes times;
     Scene scene = load_input(a);
     refuse_hidden_lines(a, method, scene);
-    if (method.name == "abuffer") prepare_for_abuffer(scene, a.threads);
+    if (method.name == "abuffer") prepare_for_abuffer(scene, a.threads, a.memory_bytes > 0);
     const Frame frame = frame_of(scene, a);
     times.load_s = watch.lap();
     note_limits(a, frame, method, output);

@@ -22,6 +22,12 @@ struct SurfaceId {
 };
 constexpr SurfaceId kBackground{};
 
+/// Two triangles, the smaller one first.
+struct SurfacePair {
+    SurfaceId first, second;
+    auto operator<=>(const SurfacePair&) const = default;
+};
+
 /// A mesh placed in front of the camera, with its numbers in the scene.
 struct SurfaceInstance {
     const Mesh* mesh = nullptr;

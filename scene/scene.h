@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lines/crease_fade.h"
+#include "lines/surface_set.h"
 #include "mesh/mesh.h"
 #include "mesh/subdivide.h"
 #include "scene/camera.h"
@@ -72,6 +73,9 @@ struct Scene {
     /// Per mesh, see find_sharp_edges(); empty: not made. It saves the method `abuffer` making them
     /// for every frame, and is for the line classes and the crease angle above.
     std::vector<std::vector<std::uint8_t>> sharp_edges;
+    /// Triangles that may pass through each other: the only ones that `abuffer` then looks at for hidden
+    /// intersections. For the objects above as they stand. Without it, it searches every frame.
+    std::optional<std::vector<SurfacePair>> intersecting_pairs;
     ReferenceSettings reference;
     GBufferSettings gbuffer;
     ZBufferSettings zbuffer;

@@ -64,7 +64,7 @@ LineCriteria criteria_of(const LineSettings& lines) {
 
 }  // namespace
 
-void prepare_for_abuffer(Scene& scene, int threads) {
+void prepare_for_abuffer(Scene& scene, int threads, bool saves_memory) {
     const LineCriteria criteria = criteria_of(scene.lines);
     scene.sharp_edges.resize(scene.meshes.size());
     // A few large meshes, or many.
@@ -73,6 +73,10 @@ void prepare_for_abuffer(Scene& scene, int threads) {
     parallel_for(count, has_many ? threads : 1, [&](std::size_t i, int) {
         scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, has_many ? 1 : threads);
     });
+    scene.intersecting_pairs.reset();
+    if (!saves_memory && LayerPass::is_needed(scene) && IntersectionLines::are_wanted(scene.lines.classes)) {
+        scene.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), threads);
+    }
 }
 
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
@@ -102,7 +106,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     stats.prepare_s = watch.lap();
     if (options.progress != nullptr) options.progress->begin("rendering", tiles.count());
 
-    const bool has_layers = LayerPass::is_needed(frame);
+    const bool has_layers = LayerPass::is_needed(*frame.scene);
     const double reach_px = reach_of(lines.style);
     std::vector<std::vector<LineSegment>> segments;
     int done_y = frame.crop.y0;
@@ -132,15 +136,15 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     for (const std::vector<std::uint32_t>& group : plan.groups) {
         if (!needs_all) break;
         show(group);
-        layers.find_edges(layer_tiles.rows());
+        layers.find_lines(layer_tiles.rows());
     }
     std::vector<std::vector<LayerSegment>> layer_segments;
     for (const PicturePiece& piece : plan.layers) {
         const bool is_last = &piece == &plan.layers.back();
         show(piece.instances);
+        if (!needs_all) layers.find_lines(piece.rows);
         layers.sort(piece.rows);
         layers.composite(film);
-        if (!needs_all) layers.find_edges(piece.rows);
         layers.find_pieces();
         if (needs_all && !is_last) continue;
         layer_segments.push_back(layers.take_segments());

@@ -17,6 +17,7 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
 
 /// Makes what is the same for all frames of a scene with these line settings. Frames are right without
 /// it, but take longer.
-void prepare_for_abuffer(Scene& scene, int threads);
+/// `saves_memory`: makes nothing that a frame rendered under RunOptions::memory_bytes has no use for.
+void prepare_for_abuffer(Scene& scene, int threads, bool saves_memory = false);
 
 }  // namespace burin

@@ -6,15 +6,18 @@ namespace burin {
 namespace {
 
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
+constexpr float kNearerThanAll = 3e38f;
 
 using Record = TileLists<std::uint32_t>::Record;
 
-void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const TriangleChunk& chunk, std::vector<Record>& records) {
+void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const LineDepths* lines, const TriangleChunk& chunk,
+         std::vector<Record>& records) {
     const ScreenMesh& mesh = screen.mesh(chunk.instance);
     for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
         if (mesh.facing[t] == edge_on) continue;
         std::uint32_t value = mesh.first_number + t;
         glm::ivec2 low, high;
+        float nearest = kNearerThanAll;
         if (mesh.facing[t] == off_screen) {
             const ScreenPolygon polygon = screen.surfaces().screen_polygon({chunk.instance, t});
             if (polygon.count == 0) continue;
@@ -30,18 +33,24 @@ void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const TriangleChu
             const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
             low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
             high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+            nearest = std::max({a.nearness, b.nearness, c.nearness});
         }
-        grid.visit(low, high, [&](std::uint32_t tile) { records.push_back({tile, value}); });
+        const auto add = [&](std::uint32_t tile) { records.push_back({tile, value}); };
+        if (lines != nullptr) {
+            lines->for_tiles(low, high, nearest, add);
+        } else {
+            grid.visit(low, high, add);
+        }
     }
 }
 
 }  // namespace
 
-LayerBins::LayerBins(const ScreenSurfaces& screen, const PixelTiles& grid, int threads) {
+LayerBins::LayerBins(const ScreenSurfaces& screen, const PixelTiles& grid, int threads, const LineDepths* lines) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     std::vector<std::vector<Record>> records(chunks.size());
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
-        bin(screen, grid, chunks[c], records[c]);
+        bin(screen, grid, lines, chunks[c], records[c]);
     });
     lists_ = TileLists<std::uint32_t>(records, grid.count());
 }

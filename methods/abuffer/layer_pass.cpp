@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <tuple>
 
 #include "base/parallel.h"
 #include "methods/abuffer/layer_edges.h"
@@ -32,7 +31,9 @@ PixelRect region_of_lines(const Frame& frame) {
     return is_dashed ? with_margin(frame, {0, 0, frame.width, frame.height}) : region_of(frame);
 }
 
-bool shows_hidden(const Frame& frame) { return frame.scene->lines.style.hidden.style != HiddenStyle::none; }
+bool overlap(const PixelRect& a, const PixelRect& b) {
+    return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
+}
 
 /// Brings the lines that tiles have found behind `lines`, each one once, and renumbers their pieces.
 void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, std::vector<LayerPiece>& pieces) {
@@ -44,17 +45,13 @@ void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, 
     for (std::size_t tile = 0; tile < results.size(); ++tile) {
         for (std::uint32_t i = 0; i < results[tile].intersections.size(); ++i) found.push_back({tile, i});
     }
-    const auto key = [&](const Found& f) {
-        const LayerLine& l = results[f.tile].intersections[f.index];
-        return std::tuple(l.owners[0], l.owners[1], l.from.x, l.from.y, l.to.x, l.to.y);
-    };
-    std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) { return key(a) < key(b); });
+    const auto line = [&](const Found& f) -> const LayerLine& { return results[f.tile].intersections[f.index]; };
+    const auto is_before = [&](const Found& a, const Found& b) { return IntersectionLines::is_before(line(a), line(b)); };
+    std::stable_sort(found.begin(), found.end(), is_before);
     std::vector<std::vector<std::uint32_t>> number(results.size());
     for (std::size_t tile = 0; tile < results.size(); ++tile) number[tile].resize(results[tile].intersections.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-        if (i == 0 || key(found[i]) != key(found[i - 1])) {
-            lines.push_back(results[found[i].tile].intersections[found[i].index]);
-        }
+        if (i == 0 || is_before(found[i - 1], found[i])) lines.push_back(line(found[i]));
         number[found[i].tile][found[i].index] = static_cast<std::uint32_t>(lines.size() - 1);
     }
     for (std::size_t tile = 0; tile < results.size(); ++tile) {
@@ -77,9 +74,16 @@ TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const
 
 }  // namespace
 
-bool LayerPass::is_needed(const Frame& frame) { return shows_hidden(frame) || has_transparent_surfaces(*frame.scene); }
+bool LayerPass::is_needed(const Scene& scene) {
+    return scene.lines.style.hidden.style != HiddenStyle::none || has_transparent_surfaces(scene);
+}
 
-PixelTiles LayerPass::tiles_of(const Frame& frame) { return PixelTiles(region_of(frame), kTilePx); }
+PixelTiles LayerPass::tiles_of(const Frame& frame) {
+    // Tiles end at the same places in any crop: the shortest parts of lines hang on it.
+    const PixelRect r = region_of_lines(frame);
+    const auto before = [](int px) { return px & -kTilePx; };
+    return {{before(r.x0), before(r.y0), before(r.x1 + kTilePx - 1), before(r.y1 + kTilePx - 1)}, kTilePx};
+}
 
 bool LayerPass::needs_all_lines(const Frame& frame) {
     return frame.scene->lines.style.hidden.style == HiddenStyle::dashed || needs_all_visible_lines(frame);
@@ -94,22 +98,33 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
       threads_(threads),
       all_tiles_(tiles_of(frame)),
       tiles_(all_tiles_),
-      strokes_(frame, kernels, threads) {}
+      intersections_(frame, screen, all_tiles_.rect()),
+      strokes_(frame, kernels, threads) {
+    if (IntersectionLines::are_wanted(frame.criteria.classes) && !has_pairs()) may_intersect_.emplace(*frame.scene);
+}
 
-void LayerPass::find_edges(TileRows rows) {
-    const PixelRect region = needs_all_lines(frame_) ? region_of_lines(frame_) : all_tiles_.only(rows).rect();
+bool LayerPass::has_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
+
+void LayerPass::find_lines(TileRows rows) {
+    const PixelRect region = needs_all_lines(frame_) ? all_tiles_.rect() : all_tiles_.only(rows).rect();
     std::vector<LayerLine> found = find_layer_edges(frame_, screen_, region, threads_);
     if (lines_.empty()) {
         lines_ = std::move(found);
     } else {
         lines_.insert(lines_.end(), found.begin(), found.end());
     }
+    if (!has_pairs() || !IntersectionLines::are_wanted(frame_.criteria.classes)) return;
+    found = intersections_.of_pairs(*frame_.scene->intersecting_pairs, threads_);
+    lines_.insert(lines_.end(), found.begin(), found.end());
 }
 
 void LayerPass::sort(TileRows rows) {
     tiles_ = all_tiles_.only(rows);
     bins_ = LayerBins();  // before there are new ones
-    bins_ = LayerBins(screen_, tiles_, threads_);
+    const bool needs_all = may_intersect_ || has_transparent_surfaces(*frame_.scene);
+    std::optional<LineDepths> depths;
+    if (!needs_all) depths.emplace(lines_, tiles_);
+    bins_ = LayerBins(screen_, tiles_, threads_, depths ? &*depths : nullptr);
 }
 
 void LayerPass::composite(Film& film) const {
@@ -118,19 +133,20 @@ void LayerPass::composite(Film& film) const {
 
 void LayerPass::find_pieces() {
     const TileLists<std::uint32_t> lines_in = sort_by_tile(lines_, tiles_);
-    const bool intersects =
-        !(frame_.criteria.classes & (LineClass::intersection | LineClassSet(LineClass::object) | LineClass::material)).empty();
+    const PixelRect drawn = region_of(frame_);
     const std::size_t before = results_.size();
     results_.resize(before + tiles_.count());
     std::vector<std::unique_ptr<LayerTile>> tiles(static_cast<std::size_t>(threads_));
     parallel_for(tiles_.count(), threads_, [&](std::size_t index, int worker) {
-        if (bins_.triangles(index).empty()) return;
+        const bool is_drawn = overlap(tiles_.tile(index), drawn);
+        if (bins_.triangles(index).empty() || (!is_drawn && !may_intersect_)) return;
         auto& tile = tiles[static_cast<std::size_t>(worker)];
-        if (!tile) tile = std::make_unique<LayerTile>(frame_, screen_, kernels_, bins_, tiles_);
+        if (!tile) tile = std::make_unique<LayerTile>(frame_, screen_, kernels_, bins_, tiles_, may_intersect_.has_value());
         tile->fill(index);
         LayerTileResult& result = results_[before + index];
+        if (may_intersect_) tile->find_intersections(*may_intersect_, intersections_, result.intersections);
+        if (!is_drawn) return;
         for (const std::uint32_t i : lines_in.of(index)) tile->find_pieces(lines_[i], i, result.pieces);
-        if (intersects) tile->find_intersections(result.intersections);
         for (std::uint32_t i = 0; i < result.intersections.size(); ++i) {
             tile->find_pieces(result.intersections[i], kOfTile | i, result.pieces);
         }
@@ -142,7 +158,7 @@ void LayerPass::find_pieces() {
 
 void LayerPass::find() {
     lines_.clear();
-    find_edges(all_tiles_.rows());
+    find_lines(all_tiles_.rows());
     sort(all_tiles_.rows());
     find_pieces();
     join_results();

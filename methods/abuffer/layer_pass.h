@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "methods/abuffer/intersecting_pairs.h"
+#include "methods/abuffer/intersection_lines.h"
 #include "methods/abuffer/layer_bins.h"
 #include "methods/abuffer/layer_strokes.h"
 #include "methods/abuffer/layer_tile.h"
@@ -18,13 +20,16 @@ struct LayerTileResult {
 /// What is behind the first surface: keeps all layers of all tiles in turn, composites transparent
 /// surfaces, and finds and draws hidden lines and lines seen through transparent surfaces.
 ///
-/// A picture is made in one or more pieces, each some rows of tiles: find_edges(), sort(), composite()
+/// A picture is made in one or more pieces, each some rows of tiles: find_lines(), sort(), composite()
 /// and find_pieces() for one, with what touches it shown; then its lines are drawn.
+/// Intersections are found from the scene's pairs of triangles if it has them and all instances are shown, else tile by
+/// tile; they are the same.
 class LayerPass {
   public:
-    /// Whether a frame shows anything of it.
-    static bool is_needed(const Frame& frame);
-    /// The frame's crop and what strokes from beside it reach, as tiles.
+    /// Whether a picture of a scene shows anything of it.
+    static bool is_needed(const Scene& scene);
+    /// The pixels in which lines are looked for, as tiles: the frame's crop and what strokes from beside it reach, or the
+    /// whole picture.
     static PixelTiles tiles_of(const Frame& frame);
     /// Whether all lines are needed before the first one can be drawn: dashes run on from line to line.
     static bool needs_all_lines(const Frame& frame);
@@ -40,13 +45,13 @@ class LayerPass {
     const std::vector<LayerLine>& lines() const { return lines_; }
     const std::vector<LayerPiece>& pieces() const { return pieces_; }
 
-    /// Adds the edges that are lines, of the instances shown, as far as they touch these rows.
-    void find_edges(TileRows rows);
-    /// Sorts the instances shown to the tiles of these rows.
+    /// Adds the edges that are lines, of the instances shown, as far as they touch these rows; and intersections.
+    void find_lines(TileRows rows);
+    /// Sorts the instances shown to the tiles of these rows, for the lines found.
     void sort(TileRows rows);
     /// Replaces the surfaces of pixels behind transparent ones, in the rows sorted.
     void composite(Film& film) const;
-    /// Finds what is in front of lines in the rows sorted, and intersections.
+    /// Finds what is in front of lines in the rows sorted, and intersections that are missing.
     void find_pieces();
     /// Of all that was found since the last call; it is forgotten.
     std::vector<LayerSegment> take_segments();
@@ -64,6 +69,7 @@ class LayerPass {
   private:
     std::vector<LayerSegment> make_segments() const;
     void join_results();
+    bool has_pairs() const;
     void add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const;
     void add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
                     std::vector<LayerSegment>& segments) const;
@@ -74,6 +80,8 @@ class LayerPass {
     const SmoothContours* contours_;
     int threads_;
     PixelTiles all_tiles_, tiles_;
+    IntersectionLines intersections_;
+    std::optional<IntersectionTest> may_intersect_;  // where tiles look for intersections
     LayerBins bins_;
     LayerStrokes strokes_;
     std::vector<LayerLine> lines_;

@@ -13,26 +13,9 @@ constexpr double kTrianglesPerCell = 40;
 constexpr double kShortestPiecePx = 1.0 / 32;
 constexpr float kFar = 1e30f;
 
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
-
-/// Names the place where an edge of one triangle passes through another one.
-std::uint64_t node_of(const LayerTriangle& edge_owner, std::size_t edge, const LayerTriangle& other) {
-    const auto mix = [](std::uint64_t h, std::uint64_t value) {  // splitmix64
-        h += value + 0x9E3779B97F4A7C15u;
-        h = (h ^ h >> 30) * 0xBF58476D1CE4E5B9u;
-        h = (h ^ h >> 27) * 0x94D049BB133111EBu;
-        return h ^ h >> 31;
-    };
-    const auto [a, b] = std::minmax(edge_owner.vertices[edge], edge_owner.vertices[(edge + 1) % 3]);
-    const std::uint64_t h = mix(mix(edge_owner.instance, std::uint64_t{a} << 32 | b), other.number);
-    return h | std::uint64_t{1} << 63;
-}
-
-/// What lies around a part of a line, and is nearer than its farther end.
-ScreenBox box_of(const LayerLine& line, double begin, double end) {
-    const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
-    const glm::vec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
-    return {low.x, low.y, high.x, high.y, static_cast<float>(std::min(line.nearness_from, line.nearness_to)), kFar};
+ScreenLine part_of(const LayerLine& line, double begin, double end) {
+    const glm::vec2 a(glm::mix(line.from, line.to, begin)), b(glm::mix(line.from, line.to, end));
+    return {a.x, a.y, b.x, b.y, static_cast<float>(std::min(line.nearness_from, line.nearness_to))};
 }
 
 }  // namespace
@@ -45,13 +28,14 @@ bool has_transparent_surfaces(const Scene& scene) {
 }
 
 LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
-                     const LayerBins& bins, const PixelTiles& grid)
+                     const LayerBins& bins, const PixelTiles& grid, bool has_pairs)
     : frame_(frame),
       screen_(screen),
       kernels_(kernels),
       bins_(bins),
       grid_(grid),
-      has_transparent_(has_transparent_surfaces(*frame.scene)) {}
+      has_transparent_(has_transparent_surfaces(*frame.scene)),
+      has_pairs_(has_pairs) {}
 
 void LayerTile::fill(std::size_t tile) {
     rect_ = grid_.tile(tile);
@@ -77,19 +61,23 @@ void LayerTile::fill(std::size_t tile) {
         const ScreenVertex &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]];
         const auto lowest = [](auto p, auto q, auto r) { return std::min(std::min(p, q), r); };
         const auto highest = [](auto p, auto q, auto r) { return std::max(std::max(p, q), r); };
-        add(number, s.instance, v,
-            {static_cast<float>(lowest(a.x, b.x, c.x)), static_cast<float>(lowest(a.y, b.y, c.y)),
-             static_cast<float>(highest(a.x, b.x, c.x)), static_cast<float>(highest(a.y, b.y, c.y)),
-             lowest(a.nearness, b.nearness, c.nearness), highest(a.nearness, b.nearness, c.nearness)},
+        const auto first_vertex = static_cast<std::uint32_t>(vertices - screen_.vertices(0));
+        const bool is_clockwise = screen_.facing(number) == clockwise;
+        const ScreenVertex &p = is_clockwise ? b : c, &q = is_clockwise ? c : b;
+        const auto real = [](std::int32_t subpixels) { return static_cast<float>(subpixels); };
+        add({{real(lowest(a.x, b.x, c.x)), real(lowest(a.y, b.y, c.y)), real(highest(a.x, b.x, c.x)), real(highest(a.y, b.y, c.y)),
+              lowest(a.nearness, b.nearness, c.nearness), highest(a.nearness, b.nearness, c.nearness)},
+             {real(a.x), real(p.x), real(q.x)},
+             {real(a.y), real(p.y), real(q.y)},
+             {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]},
+             number},
             kNotSetUp);
     }
     sort_into_cells();
 }
 
-void LayerTile::add(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
-                    const ScreenBox& box, std::uint32_t set_up) {
-    const auto first = static_cast<std::uint32_t>(screen_.vertices(instance) - screen_.vertices(0));
-    entries_.push_back({box, {first + vertices[0], first + vertices[1], first + vertices[2]}, number});
+void LayerTile::add(const Entry& entry, std::uint32_t set_up) {
+    entries_.push_back(entry);
     set_up_.push_back(set_up);
 }
 
@@ -100,16 +88,21 @@ double LayerTile::transmission_of(SurfaceId s) const {
 void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
     const DepthPlane plane = frame_.surfaces.plane(s);
     const double zero = frame_.surfaces.farthest_nearness;
+    const auto first_vertex = static_cast<std::uint32_t>(screen_.vertices(s.instance) - screen_.vertices(0));
     for (LayerTriangle& triangle : clipped_layer_triangles(screen_, s, number)) {
         triangle.transmission = transmission_of(s);
-        const auto& x = triangle.x;
-        const auto& y = triangle.y;
         triangles_.push_back(triangle);
-        add(number, s.instance, triangle.vertices,
-            {static_cast<float>(std::min({x[0], x[1], x[2]})), static_cast<float>(std::min({y[0], y[1], y[2]})),
-             static_cast<float>(std::max({x[0], x[1], x[2]})), static_cast<float>(std::max({y[0], y[1], y[2]})),
-             static_cast<float>(plane.lowest - zero), static_cast<float>(plane.highest - zero)},
-            static_cast<std::uint32_t>(triangles_.size() - 1));
+        Entry entry;
+        for (std::size_t k = 0; k < 3; ++k) {
+            entry.x[k] = static_cast<float>(triangle.x[k]);
+            entry.y[k] = static_cast<float>(triangle.y[k]);
+            entry.vertices[k] = first_vertex + triangle.vertices[k];
+        }
+        const auto &x = entry.x, &y = entry.y;
+        entry.box = {std::min({x[0], x[1], x[2]}), std::min({y[0], y[1], y[2]}), std::max({x[0], x[1], x[2]}),
+                     std::max({y[0], y[1], y[2]}), static_cast<float>(plane.lowest - zero), static_cast<float>(plane.highest - zero)};
+        entry.number = number;
+        add(entry, static_cast<std::uint32_t>(triangles_.size() - 1));
     }
 }
 
@@ -156,13 +149,18 @@ void LayerTile::sort_into_cells() {
         for_cells(cell_ranges_[i], [&](std::size_t c) { ++cell_end_[c + 2]; });
     }
     for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
+    cell_entries_.resize(cell_end_.back());
     cell_triangles_.resize(cell_end_.back());
-    cell_boxes_.resize(cell_end_.back());
-    cell_vertices_.resize(cell_end_.back());
+    if (has_pairs_) {
+        cell_boxes_.resize(cell_end_.back());
+        cell_vertices_.resize(cell_end_.back());
+    }
     for (std::uint32_t i = 0; i < entries_.size(); ++i) {
         for_cells(cell_ranges_[i], [&](std::size_t c) {
             const std::size_t at = cell_end_[c + 1]++;
-            cell_triangles_[at] = i;
+            cell_entries_[at] = i;
+            cell_triangles_.set(at, entries_[i]);
+            if (!has_pairs_) return;
             cell_boxes_.set(at, entries_[i].box);
             cell_vertices_[at] = entries_[i].vertices;
         });
@@ -171,22 +169,22 @@ void LayerTile::sort_into_cells() {
     for (std::size_t i = 0; i + 2 < cell_end_.size(); ++i) {
         largest = std::max<std::size_t>(largest, cell_end_[i + 1] - cell_end_[i]);
     }
-    if (touching_.size() < largest) touching_.resize(largest);
-    fragment_count_ += cell_triangles_.size();
+    if (found_.size() < largest) found_.resize(largest);
+    fragment_count_ += cell_entries_.size();
 }
 
-/// Places in cell_triangles_.
+/// Places in cell_entries_.
 std::span<const std::uint32_t> LayerTile::touching(std::size_t begin, std::size_t end, const ScreenBox& box,
                                                    float least_x0, float least_y0) {
-    return {touching_.data(),
-            kernels_.find_touching(cell_boxes_.view(), begin, end, box, least_x0, least_y0, touching_.data())};
+    return {found_.data(),
+            kernels_.find_touching(cell_boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
 }
 
 /// Notes where in [begin, end] a triangle is in front of a line.
 void LayerTile::hide(const LayerLine& line, std::uint32_t i, double begin, double end) {
     const LayerTriangle& t = triangle(i);
     if (lies_on(line, t) || !clip_where_hidden(line, line_slack_ + t.slack, t, begin, end)) return;
-    intervals_.push_back({begin, end, t.transmission});
+    intervals_.push_back({t.number, begin, end, t.transmission});
 }
 
 void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces) {
@@ -207,12 +205,30 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
             const glm::dvec2 low = corner + glm::dvec2(column, row) * size;
             if (!clip_to_rect(line, low, low + size, from, to)) continue;
             const Cell c = cell(column, row);
-            for (const std::uint32_t i : touching(c.begin, c.end, box_of(line, from, to), -kFar, -kFar)) {
-                hide(line, cell_triangles_[i], from, to);
-            }
+            const std::size_t count = kernels_.find_hiding(cell_triangles_.view(), c.begin, c.end, part_of(line, from, to), found_.data());
+            for (std::size_t i = 0; i < count; ++i) hide(line, cell_entries_[found_[i]], from, to);
         }
     }
-    if (!intervals_.empty()) sweep(line, line_number, begin, end, pieces);
+    if (intervals_.empty()) return;
+    merge_intervals();
+    sweep(line, line_number, begin, end, pieces);
+}
+
+/// Joins what a triangle hides from cell to cell, so that nothing depends on where cells end.
+void LayerTile::merge_intervals() {
+    std::sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) {
+        return a.triangle != b.triangle ? a.triangle < b.triangle : a.begin < b.begin;
+    });
+    std::size_t count = 1;
+    for (const Interval& i : intervals_) {
+        Interval& last = intervals_[count - 1];
+        if (i.triangle != last.triangle || i.begin > last.end) {
+            intervals_[count++] = i;
+        } else {
+            last.end = std::max(last.end, i.end);
+        }
+    }
+    intervals_.resize(count);
 }
 
 /// Counts the layers in front from one end of the line to the other.
@@ -262,13 +278,22 @@ void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin,
     emit(end);
 }
 
-void LayerTile::find_intersections(std::vector<LayerLine>& lines) {
+void LayerTile::find_intersections(const IntersectionTest& may_intersect, const IntersectionLines& intersections,
+                                   std::vector<LayerLine>& lines) {
+    pairs_.clear();
     for (int row = 0; row < rows_; ++row) {
-        for (int column = 0; column < columns_; ++column) find_in_cell(column, row, lines);
+        for (int column = 0; column < columns_; ++column) find_pairs_in_cell(column, row);
+    }
+    const auto surface_of = [this](std::uint32_t i) { return screen_.surface_of(entries_[i].number); };
+    for (const auto& [own, other] : pairs_) {
+        if (!may_intersect.may_intersect(surface_of(own), surface_of(other))) continue;
+        triangle(own);  // both before either is looked at: setting up moves them
+        triangle(other);
+        intersections.add(triangle(own), triangle(other), lines);
     }
 }
 
-void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines) {
+void LayerTile::find_pairs_in_cell(int column, int row) {
     // Of all cells that both triangles touch, the one with the corner where their boxes begin to overlap
     // is responsible.
     const float pitch = static_cast<float>(cell_px_ * 256);
@@ -291,10 +316,7 @@ void LayerTile::find_in_cell(int column, int row, std::vector<LayerLine>& lines)
             if (!plane) plane = side_plane(cell_vertices_[i]);
             if (is_on_one_side(*plane, cell_vertices_[j])) continue;
             if (is_on_one_side(side_plane(cell_vertices_[j]), cell_vertices_[i])) continue;
-            const std::uint32_t own = cell_triangles_[i], other = cell_triangles_[j];
-            triangle(own);  // both before either is looked at: setting up moves them
-            triangle(other);
-            intersect(triangle(own), triangle(other), lines);
+            pairs_.push_back({cell_entries_[i], cell_entries_[j]});
         }
     }
 }
@@ -333,74 +355,6 @@ bool LayerTile::is_on_one_side(const SidePlane& plane, const Corners& corners) c
         high = std::max(high, gap);
     }
     return low >= -plane.slack || high <= plane.slack;
-}
-
-void LayerTile::intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {
-    // How much nearer a is than b, where corners of either are.
-    double low = 0, high = 0;
-    const auto reaches_through = [&](const LayerTriangle& plane, const LayerTriangle& corners) {
-        low = high = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::dvec2 p(corners.x[k], corners.y[k]);
-            const double gap = plane.nearness_at(p) - corners.nearness_at(p);
-            low = std::min(low, gap);
-            high = std::max(high, gap);
-        }
-        const double slack = plane.slack + corners.slack + level_slack(frame_.surfaces, std::max(plane.nearness, corners.nearness));
-        return low < -slack && high > slack;
-    };
-    if (!reaches_through(a, b) || !reaches_through(b, a)) return;
-
-    // Both planes meet where gap(p) = offset + slope.p = 0; from there, the part within both triangles.
-    const glm::dvec2 slope(a.per_x - b.per_x, a.per_y - b.per_y);
-    const glm::dvec2 origin(a.x[0], a.y[0]);
-    const double square = glm::dot(slope, slope);
-    if (!(square > 0)) return;
-    const glm::dvec2 foot = origin - slope * ((a.nearness_at(origin) - b.nearness_at(origin)) / square);
-    const glm::dvec2 along = glm::dvec2(-slope.y, slope.x) / std::sqrt(square);
-    double begin = -1e300, end = 1e300;
-    struct Edge {
-        const LayerTriangle *owner = nullptr, *other = nullptr;
-        std::size_t corner = 0;
-        std::uint64_t node() const { return owner != nullptr ? node_of(*owner, corner, *other) : LayerLine::kNoNode; }
-    } first, last;  // between which the line runs
-    for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t next = k == 2 ? 0 : k + 1;
-            const glm::dvec2 p(own->x[k], own->y[k]);
-            const glm::dvec2 edge = glm::dvec2(own->x[next], own->y[next]) - p;
-            const double inside = cross(edge, foot - p), change = cross(edge, along);
-            if (change == 0) {
-                if (inside < 0) return;
-                continue;
-            }
-            const double t = -inside / change;
-            if (change > 0 && t > begin) {
-                begin = t;
-                first = {own, other, k};
-            } else if (change < 0 && t < end) {
-                end = t;
-                last = {own, other, k};
-            }
-            if (!(begin < end)) return;
-        }
-    }
-    LayerLine line;
-    line.from = foot + along * begin;
-    line.to = foot + along * end;
-    line.nearness_from = a.nearness_at(line.from);
-    line.nearness_to = a.nearness_at(line.to);
-    line.owners = {a.number, b.number};
-    line.nodes = {first.node(), last.node()};
-    const SurfaceId sa = screen_.surface_of(a.number), sb = screen_.surface_of(b.number);
-    if (frame_.surfaces.polygon_id(sa) == frame_.surfaces.polygon_id(sb)) return;
-    const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, 0.5 * (line.from + line.to) / 256.0, frame_.criteria);
-    const LineClassSet classes =
-        (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;
-    if (classes.empty()) return;
-    line.classes = classes;
-    line.drawn_as = *classes.first();
-    lines.push_back(line);
 }
 
 }  // namespace burin

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "abuffer/screen_boxes.h"
+#include "methods/abuffer/intersecting_pairs.h"
+#include "methods/abuffer/intersection_lines.h"
 #include "methods/abuffer/layer_bins.h"
 #include "methods/abuffer/layer_line.h"
 #include "methods/abuffer/layer_triangle.h"
@@ -15,13 +17,15 @@ namespace burin {
 /// a list of the triangles that touch it. Buffers are used again from tile to tile.
 class LayerTile {
   public:
+    /// `has_pairs`: find_intersections() is wanted, too.
     LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const LayerBins& bins,
-              const PixelTiles& grid);
+              const PixelTiles& grid, bool has_pairs);
 
     void fill(std::size_t tile);
 
     /// Adds the lines in which triangles of this tile pass through each other.
-    void find_intersections(std::vector<LayerLine>& lines);
+    void find_intersections(const IntersectionTest& may_intersect, const IntersectionLines& intersections,
+                            std::vector<LayerLine>& lines);
 
     /// Adds the parts of a line within the tile that something is in front of.
     void find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces);
@@ -30,7 +34,9 @@ class LayerTile {
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
+    /// Where a triangle is in front of a line.
     struct Interval {
+        std::uint32_t triangle;  // its number
         double begin, end;
         double transmission;
     };
@@ -48,21 +54,39 @@ class LayerTile {
     };
     struct Entry {
         ScreenBox box;
+        std::array<float, 3> x, y;  ///< corners, clockwise
         Corners vertices;
         std::uint32_t number;
+    };
+    /// A TriangleView of the triangles in the cells.
+    struct CellTriangles {
+        std::array<std::vector<float>, 7> numbers;
+        void resize(std::size_t count) {
+            for (auto& list : numbers) list.resize(std::max(list.size(), count + 7));  // what find_hiding() may read too far
+        }
+        void set(std::size_t i, const Entry& e) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                numbers[k][i] = e.x[k];
+                numbers[3 + k][i] = e.y[k];
+            }
+            numbers[6][i] = e.box.high;
+        }
+        TriangleView view() const {
+            const auto at = [this](std::size_t k) { return numbers[k].data(); };
+            return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6)};
+        }
     };
     struct CellRange {
         std::uint8_t first_column, last_column, first_row, last_row;
     };
-    /// A cell's list: [begin, end) of cell_triangles_ and cell_boxes_.
+    /// A cell's list: [begin, end) of cell_entries_ and what goes with it.
     struct Cell {
         std::size_t begin, end;
     };
     static constexpr std::uint32_t kNotSetUp = 0xFFFFFFFFu;
 
     void add_clipped(SurfaceId s, std::uint32_t number);
-    void add(std::uint32_t number, std::uint32_t instance, const std::array<std::uint32_t, 3>& vertices,
-             const ScreenBox& box, std::uint32_t set_up);
+    void add(const Entry& entry, std::uint32_t set_up);
     const LayerTriangle& triangle(std::uint32_t i);
     double transmission_of(SurfaceId s) const;
     void sort_into_cells();
@@ -76,19 +100,19 @@ class LayerTile {
     std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
                                             float least_y0);
     void hide(const LayerLine& line, std::uint32_t i, double begin, double end);
-    void find_in_cell(int column, int row, std::vector<LayerLine>& lines);
+    void find_pairs_in_cell(int column, int row);
     SidePlane side_plane(const Corners& corners) const;
     bool is_on_one_side(const SidePlane& plane, const Corners& corners) const;
+    void merge_intervals();
     void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                std::vector<LayerPiece>& pieces);
-    void intersect(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const;
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
     const LayerBins& bins_;
     const PixelTiles& grid_;
-    bool has_transparent_;
+    bool has_transparent_, has_pairs_;
     PixelRect rect_;
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
     float cells_per_subpixel_ = 0;
@@ -97,10 +121,12 @@ class LayerTile {
     std::vector<CellRange> cell_ranges_;  // per entry
     std::vector<std::uint32_t> set_up_;   // per entry: which of triangles_, or kNotSetUp
     std::vector<LayerTriangle> triangles_;
-    std::vector<std::uint32_t> cell_end_, cell_triangles_;  // numbers of entries
-    ScreenBoxes cell_boxes_;                                // the same ones' boxes and vertices
-    std::vector<Corners> cell_vertices_;
-    std::vector<std::uint32_t> touching_;
+    std::vector<std::uint32_t> cell_end_, cell_entries_;  // numbers of entries
+    CellTriangles cell_triangles_;
+    ScreenBoxes cell_boxes_;              // where pairs are wanted
+    std::vector<Corners> cell_vertices_;  // likewise
+    std::vector<std::uint32_t> found_;  // by a kernel
+    std::vector<std::array<std::uint32_t, 2>> pairs_;  // of entries
     std::vector<Interval> intervals_;
     std::vector<Event> events_;
     double line_slack_ = 0;

@@ -113,7 +113,7 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
                       int threads) {
     PiecePlan plan;
     plan.groups = group_instances(frame);
-    const bool has_layers = LayerPass::is_needed(frame);
+    const bool has_layers = LayerPass::is_needed(*frame.scene);
     const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
     const PixelRect a = tiles.rect(), b = layer_tiles.rect();
     const PixelRect picture{std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};

@@ -21,7 +21,7 @@ constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
 // Lines that samples miss, in one tile: a triangle that may hide some, and a half-edge that may be one. Estimated: few are.
 constexpr std::uint64_t kPerHidingInTile = 40, kPerEdgeInTile = 50;
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
-constexpr std::uint64_t kPerLayerInTile = 400;  // a triangle in a LayerTile and its cells, set up
+constexpr std::uint64_t kPerLayerInTile = 500;  // a triangle in a LayerTile and its cells, set up
 // Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.
 constexpr std::uint64_t kLinesPerVisible = 256, kLinesPerPixel = 32, kLinesPerLayer = 100;
 

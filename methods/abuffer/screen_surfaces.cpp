@@ -51,6 +51,7 @@ ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& c
     : surfaces_(surfaces),
       criteria_(criteria),
       kernels_(kernels),
+      shows_all_(shows_all),
       is_shown_(surfaces.instances.size(), 0),
       first_vertex_(surfaces.instances.size(), 0) {
     std::uint64_t triangle_count = 0;

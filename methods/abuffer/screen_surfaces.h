@@ -30,6 +30,8 @@ class ScreenSurfaces {
     /// Shows these instances, in ascending order, and no others.
     void show(std::span<const std::uint32_t> instances, int threads);
     bool is_shown(std::uint32_t instance) const { return is_shown_[instance] != 0; }
+    /// Whether all are shown, always.
+    bool shows_all() const { return shows_all_; }
 
     /// All triangles of the instances that are shown, in ascending order, cut into pieces.
     std::vector<TriangleChunk> chunks_of_triangles(std::uint32_t largest) const;
@@ -85,6 +87,7 @@ class ScreenSurfaces {
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
     const TileKernels& kernels_;
+    bool shows_all_;
     std::vector<std::uint8_t> is_shown_;
     std::vector<std::size_t> first_vertex_;  // in vertices_, of instances that are shown
     std::size_t room_ = 0;                   // in vertices_

@@ -37,6 +37,9 @@ class PixelTiles {
         return part;
     }
 
+    /// All rows of them.
+    PixelTiles all_rows() const { return only(rows_); }
+
     TileRows rows() const { return chosen_; }
     int tile_px() const { return tile_px_; }
     int columns() const { return columns_; }

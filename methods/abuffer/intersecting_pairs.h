@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "abuffer/tile_kernels.h"
+#include "scene/scene.h"
+
+namespace burin {
+
+/// Tells which triangles of a scene may pass through each other, whatever the view.
+class IntersectionTest {
+  public:
+    using Triangle = std::array<glm::dvec3, 3>;
+
+    explicit IntersectionTest(const Scene& scene);
+
+    /// Whether they do, by more than rounding, or almost. Triangles that touch do not count.
+    bool may_intersect(SurfaceId a, SurfaceId b) const { return may_intersect(triangle(a), triangle(b)); }
+    bool may_intersect(const Triangle& p, const Triangle& q) const;
+
+    /// A vertex of an object, from the scene's middle.
+    glm::dvec3 position(std::uint32_t object, std::uint32_t vertex) const {
+        const Place& p = places_[object];
+        const glm::dvec3 at(p.mesh->positions[vertex]);
+        return p.axes[0] * at.x + p.axes[1] * at.y + (p.axes[2] * at.z + p.origin);
+    }
+    /// The diagonal of the box of all vertices.
+    double extent() const { return extent_; }
+    /// In single precision, and no smaller for it; nearness is the third axis.
+    static ScreenBox box_of(const Triangle& t);
+
+  private:
+    struct Place {
+        const Mesh* mesh;
+        glm::dmat3 axes;
+        glm::dvec3 origin;
+    };
+    Triangle triangle(SurfaceId s) const;
+
+    std::vector<Place> places_;  // per object
+    double extent_ = 0;
+};
+
+/// All pairs of triangles without a vertex in common that may intersect, in ascending order, the smaller one first.
+/// Nothing if there are too many triangles or pairs to be worth their memory, or the scene is too large to calculate with.
+std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& scene, const TileKernels& kernels, int threads);
+
+}  // namespace burin
