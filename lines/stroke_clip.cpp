@@ -36,7 +36,7 @@ double distance_to_piece(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
 class StrokeClipper::Frame {
   public:
     explicit Frame(const ClipPiece& piece) : origin_(piece.from), length(glm::distance(piece.from, piece.to)) {
-        along_ = (piece.to - piece.from) / length;
+        along_ = length > 0 ? (piece.to - piece.from) / length : glm::dvec2(1, 0);  // a dot has any direction
         across_ = {along_.y, -along_.x};
     }
     glm::dvec2 to_local(glm::dvec2 p) const { return {glm::dot(p - origin_, along_), glm::dot(p - origin_, across_)}; }
@@ -144,8 +144,8 @@ void StrokeClipper::add_shadows(const ClipPiece& boundary, const ClipPiece& piec
                          HalfPlane beside) {
         const glm::dvec2 middle = p + along * (0.5 * (begin + end));
         const double depth = boundary.depth_from_px + (boundary.depth_to_px - boundary.depth_from_px) * 0.5 * (begin + end);
-        const double own = piece.depth_from_px + (piece.depth_to_px - piece.depth_from_px) *
-                                                      std::clamp(middle.x / length, 0.0, 1.0);
+        const double share = length > 0 ? std::clamp(middle.x / length, 0.0, 1.0) : 0;
+        const double own = piece.depth_from_px + (piece.depth_to_px - piece.depth_from_px) * share;
         Shadow shadow;
         glm::dvec2 beyond(-along.y, along.x);
         if (glm::dot(beyond, p - seen_from) < 0) beyond = -beyond;
@@ -233,7 +233,7 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     end_row_ = static_cast<int>(std::ceil(to_samples(high.y, StrokeMask::kRows, height_)));
     first_column_ = static_cast<int>(std::floor(to_samples(low.x, StrokeMask::kColumns, width_)));
     end_column_ = static_cast<int>(std::ceil(to_samples(high.x, StrokeMask::kColumns, width_)));
-    if (first_row_ >= end_row_ || first_column_ >= end_column_ || piece.from == piece.to || !cut_to_open(onto)) return;
+    if (first_row_ >= end_row_ || first_column_ >= end_column_ || !cut_to_open(onto)) return;
 
     if (side != StrokeSide::both && glm::distance(piece.from, piece.to) < kShortestPx) return;
     const Frame frame(piece);
