@@ -7,7 +7,7 @@
 
 namespace burin {
 
-/// Boxes on the screen, an array per number as the kernels want them.
+/// Boxes on the screen, or in space with nearness as the third axis, an array per number as the kernels want them.
 class ScreenBoxes {
   public:
     /// Those before stay; the others mean nothing until they are set.
@@ -32,7 +32,7 @@ class ScreenBoxes {
     }
 
   private:
-    static constexpr std::size_t kPadding = 7;  // what find_touching() may read too far
+    static constexpr std::size_t kPadding = 7;  // what kernels may read too far
     std::size_t count_ = 0;
     std::vector<float> x0_, y0_, x1_, y1_, low_, high_;
 };

@@ -189,7 +189,7 @@ struct TileKernels {
     std::size_t (*find_touching)(const BoxView& boxes, std::size_t begin, std::size_t end, const ScreenBox& box,
                                  float least_x0, float least_y0, std::uint32_t* found);
     /// Lists those of the triangles [begin, end) that may hide a part of a line: with a corner nearer than its farther
-    /// end, and not beside it by more than 1/32 pixel. Returns their number. Up to seven numbers more are read of each array.
+    /// end, and not beside it by more than 1/16 pixel. Returns their number. Up to seven numbers more are read of each array.
     std::size_t (*find_hiding)(const TriangleView& triangles, std::size_t begin, std::size_t end, const ScreenLine& line,
                                std::uint32_t* found);
     /// Which of at most eight boxes from `a` on overlap which of at most eight from `b` on, touching in x and y being

@@ -92,7 +92,7 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
             }
             continue;
         }
-        // The rows in which it has any of the columns, and one more for rounding.
+        // The rows in which it has any of the columns, one more to either side for the shift of rows; and one more row.
         const double most = std::max(side.normal.x * left, side.normal.x * right);
         if (side.normal.y != 0) {
             const double row = ((side.offset - most) / side.normal.y - y0_) * StrokeMask::kRows - 0.5;

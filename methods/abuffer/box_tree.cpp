@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kChunk = 1 << 14;
 constexpr int kBitsPerAxis = 13, kDigitBits = 13;
 constexpr std::size_t kTaskLevel = 3;
+// Neighbours of a patch on a surface are about eight.
+constexpr std::size_t kMostPartners = 256, kLeastTasks = 1 << 14;
 constexpr float kLastPlace = (1 << kBitsPerAxis) - 1;
 
 template <typename Work>
@@ -75,12 +77,17 @@ BoxTree::BoxTree(std::span<const ScreenBox> boxes, const TileKernels& kernels, i
     task_level_ = std::min(kTaskLevel, levels_.size() - 1);
 }
 
-std::vector<BoxTree::NodePair> BoxTree::tasks() const {
-    if (order_.empty()) return {};
-    std::vector<NodePair> pairs{{0, 0}}, next;
+std::optional<std::vector<BoxTree::NodePair>> BoxTree::tasks() const {
+    std::vector<NodePair> pairs, next;
+    if (order_.empty()) return pairs;
+    pairs.push_back({0, 0});
+    const std::size_t most = kLeastTasks + kMostPartners * levels_[task_level_].size();
     for (std::size_t level = levels_.size() - 1; level > task_level_; --level) {
         next.clear();
-        for (const NodePair& p : pairs) for_parts(level, p, [&](const NodePair& parts) { next.push_back(parts); });
+        for (const NodePair& p : pairs) {
+            for_parts(level, p, [&](const NodePair& parts) { next.push_back(parts); });
+            if (next.size() > most) return std::nullopt;
+        }
         pairs.swap(next);
     }
     return pairs;

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,9 @@ class BoxTree {
     struct NodePair {
         std::uint32_t a, b;  // a <= b
     };
-    /// Pairs of large nodes that all pairs of boxes are in, each once.
-    std::vector<NodePair> tasks() const;
+    /// Pairs of large nodes that all pairs of boxes are in, each once. Nothing if these nodes overlap that many others
+    /// that it is no use to have a tree.
+    std::optional<std::vector<NodePair>> tasks() const;
 
     /// The numbers of the boxes, as given, in the tree's order.
     std::span<const std::uint32_t> order() const { return order_; }

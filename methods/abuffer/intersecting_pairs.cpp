@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -14,8 +15,10 @@ namespace {
 using Triangle = IntersectionTest::Triangle;
 
 constexpr std::size_t kMostTriangles = std::size_t{1} << 23, kMostPairs = std::size_t{1} << 24;
+// Pairs whose boxes overlap: scans have one for each triangle, assemblies a few dozen. Of long slanted facets all may.
+constexpr std::uint64_t kMostTestsPerTriangle = 64, kLeastTests = 1 << 20;
 constexpr std::size_t kChunk = 1 << 14;
-constexpr double kLargestExtent = 1e15;  // products of three do not overflow single precision
+constexpr double kLargestExtent = 1e30;  // boxes have single precision
 // Of a coordinate, as a part of the scene's extent.
 constexpr double kRounding = 0x1p-50;
 
@@ -180,25 +183,31 @@ std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& sce
     });
     const std::uint32_t* const corner_lists[3] = {corners[0].data(), corners[1].data(), corners[2].data()};
     triangles.corners = std::vector<Triangles::Corners>();
-    const std::vector<BoxTree::NodePair> tasks = tree.tasks();
-    std::vector<std::vector<SurfacePair>> found(tasks.size());
-    std::atomic<std::size_t> found_count{0};
-    parallel_for(tasks.size(), threads, [&](std::size_t task, int) {
-        if (found_count > kMostPairs) return;
+    const auto tasks = tree.tasks();
+    if (!tasks) return std::nullopt;
+    std::vector<std::vector<SurfacePair>> found(tasks->size());
+    std::atomic<std::uint64_t> found_count{0}, test_count{0};
+    const std::uint64_t most_tests = kLeastTests + kMostTestsPerTriangle * count;
+    const auto are_too_many = [&] { return found_count > kMostPairs || test_count > most_tests; };
+    parallel_for(tasks->size(), threads, [&](std::size_t task, int) {
+        if (are_too_many()) return;
         const auto triangle = [&](std::uint32_t i) {
             return triangles.triangle({corners[0][i], corners[1][i], corners[2][i]});
         };
-        tree.for_leaf_pairs(tasks[task], [&](std::uint32_t first, std::uint32_t second, std::uint64_t overlapping) {
+        std::uint64_t tests = 0;
+        tree.for_leaf_pairs((*tasks)[task], [&](std::uint32_t first, std::uint32_t second, std::uint64_t overlapping) {
             const std::uint64_t pairs = kernels.find_unconnected(corner_lists, first, second, overlapping);
+            tests += static_cast<std::uint64_t>(std::popcount(pairs));
             BoxTree::for_bits(pairs, [&](std::uint32_t i, std::uint32_t k) {
                 if (!test.may_intersect(triangle(first + i), triangle(second + k))) return;
                 const auto [a, b] = std::minmax(tree.order()[first + i], tree.order()[second + k]);
                 found[task].push_back({triangles.surface(a), triangles.surface(b)});
             });
         });
+        test_count += tests;
         found_count += found[task].size();
     });
-    if (found_count > kMostPairs) return std::nullopt;
+    if (are_too_many()) return std::nullopt;
     std::vector<SurfacePair> pairs;
     pairs.reserve(found_count);
     for (const auto& list : found) pairs.insert(pairs.end(), list.begin(), list.end());

@@ -98,22 +98,22 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
       threads_(threads),
       all_tiles_(tiles_of(frame)),
       tiles_(all_tiles_),
-      intersections_(frame, screen, all_tiles_.rect()),
+      intersections_(frame, screen, region_of_lines(frame)),
       strokes_(frame, kernels, threads) {
-    if (IntersectionLines::are_wanted(frame.criteria.classes) && !has_pairs()) may_intersect_.emplace(*frame.scene);
+    if (IntersectionLines::are_wanted(frame.criteria.classes) && !knows_pairs()) may_intersect_.emplace(*frame.scene);
 }
 
-bool LayerPass::has_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
+bool LayerPass::knows_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
 
 void LayerPass::find_lines(TileRows rows) {
-    const PixelRect region = needs_all_lines(frame_) ? all_tiles_.rect() : all_tiles_.only(rows).rect();
+    const PixelRect region = needs_all_lines(frame_) ? region_of_lines(frame_) : all_tiles_.only(rows).rect();
     std::vector<LayerLine> found = find_layer_edges(frame_, screen_, region, threads_);
     if (lines_.empty()) {
         lines_ = std::move(found);
     } else {
         lines_.insert(lines_.end(), found.begin(), found.end());
     }
-    if (!has_pairs() || !IntersectionLines::are_wanted(frame_.criteria.classes)) return;
+    if (!knows_pairs() || !IntersectionLines::are_wanted(frame_.criteria.classes)) return;
     found = intersections_.of_pairs(*frame_.scene->intersecting_pairs, threads_);
     lines_.insert(lines_.end(), found.begin(), found.end());
 }

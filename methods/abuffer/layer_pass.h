@@ -69,7 +69,8 @@ class LayerPass {
   private:
     std::vector<LayerSegment> make_segments() const;
     void join_results();
-    bool has_pairs() const;
+    /// Whether intersections are found from the scene's pairs.
+    bool knows_pairs() const;
     void add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const;
     void add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
                     std::vector<LayerSegment>& segments) const;

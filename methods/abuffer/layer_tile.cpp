@@ -28,14 +28,14 @@ bool has_transparent_surfaces(const Scene& scene) {
 }
 
 LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
-                     const LayerBins& bins, const PixelTiles& grid, bool has_pairs)
+                     const LayerBins& bins, const PixelTiles& grid, bool finds_pairs)
     : frame_(frame),
       screen_(screen),
       kernels_(kernels),
       bins_(bins),
       grid_(grid),
       has_transparent_(has_transparent_surfaces(*frame.scene)),
-      has_pairs_(has_pairs) {}
+      finds_pairs_(finds_pairs) {}
 
 void LayerTile::fill(std::size_t tile) {
     rect_ = grid_.tile(tile);
@@ -151,7 +151,7 @@ void LayerTile::sort_into_cells() {
     for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
     cell_entries_.resize(cell_end_.back());
     cell_triangles_.resize(cell_end_.back());
-    if (has_pairs_) {
+    if (finds_pairs_) {
         cell_boxes_.resize(cell_end_.back());
         cell_vertices_.resize(cell_end_.back());
     }
@@ -160,7 +160,7 @@ void LayerTile::sort_into_cells() {
             const std::size_t at = cell_end_[c + 1]++;
             cell_entries_[at] = i;
             cell_triangles_.set(at, entries_[i]);
-            if (!has_pairs_) return;
+            if (!finds_pairs_) return;
             cell_boxes_.set(at, entries_[i].box);
             cell_vertices_[at] = entries_[i].vertices;
         });

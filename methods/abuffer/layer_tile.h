@@ -17,9 +17,9 @@ namespace burin {
 /// a list of the triangles that touch it. Buffers are used again from tile to tile.
 class LayerTile {
   public:
-    /// `has_pairs`: find_intersections() is wanted, too.
+    /// `finds_pairs`: find_intersections() is wanted, too.
     LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const LayerBins& bins,
-              const PixelTiles& grid, bool has_pairs);
+              const PixelTiles& grid, bool finds_pairs);
 
     void fill(std::size_t tile);
 
@@ -112,7 +112,7 @@ class LayerTile {
     const TileKernels& kernels_;
     const LayerBins& bins_;
     const PixelTiles& grid_;
-    bool has_transparent_, has_pairs_;
+    bool has_transparent_, finds_pairs_;
     PixelRect rect_;
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
     float cells_per_subpixel_ = 0;
@@ -123,8 +123,8 @@ class LayerTile {
     std::vector<LayerTriangle> triangles_;
     std::vector<std::uint32_t> cell_end_, cell_entries_;  // numbers of entries
     CellTriangles cell_triangles_;
-    ScreenBoxes cell_boxes_;              // where pairs are wanted
-    std::vector<Corners> cell_vertices_;  // likewise
+    ScreenBoxes cell_boxes_;                              // where pairs are wanted
+    std::vector<Corners> cell_vertices_;                  // likewise
     std::vector<std::uint32_t> found_;  // by a kernel
     std::vector<std::array<std::uint32_t, 2>> pairs_;  // of entries
     std::vector<Interval> intervals_;

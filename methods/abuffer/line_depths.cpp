@@ -6,6 +6,7 @@
 namespace burin {
 namespace {
 
+constexpr double kFarthest = 1 << 28;  // 1/256 pixel
 constexpr float kNoLine = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -26,8 +27,9 @@ LineDepths::LineDepths(std::span<const LayerLine> lines, const PixelTiles& tiles
 
 void LineDepths::add(const LayerLine& line) {
     const float least = std::nextafter(static_cast<float>(std::min(line.nearness_from, line.nearness_to)), -kNoLine);
-    const glm::dvec2 low = glm::floor(glm::min(line.from, line.to)), high = glm::ceil(glm::max(line.from, line.to));
-    const Blocks b = blocks_of(glm::ivec2(low), glm::ivec2(high));
+    // Ends of lines that are cut lie about the guard band's border, as exactly as the line is long.
+    const auto whole = [](glm::dvec2 p) { return glm::ivec2(glm::clamp(p, -kFarthest, kFarthest)); };
+    const Blocks b = blocks_of(whole(glm::floor(glm::min(line.from, line.to))), whole(glm::ceil(glm::max(line.from, line.to))));
     if (b.x1 - b.x0 <= 1 || b.y1 - b.y0 <= 1) return note(b, least);
     // Row by row, the part of the line in it, and a bit; what is beside the picture is in the row at its border.
     const glm::dvec2 along = line.to - line.from;
@@ -37,7 +39,7 @@ void LineDepths::add(const LayerLine& line) {
             return line.from.x + along.x * std::clamp((row - line.from.y) / along.y, 0.0, 1.0);
         };
         const auto [left, right] = std::minmax({y == 0 ? x_at(-1e30) : x_at(top), y == rows_ - 1 ? x_at(1e30) : x_at(bottom)});
-        note({column_at(static_cast<int>(std::floor(left)) - 1), y, column_at(static_cast<int>(std::ceil(right)) + 1), y}, least);
+        note({column_at(whole({left - 1, 0}).x - 1), y, column_at(whole({right + 1, 0}).x + 1), y}, least);
     }
 }
 

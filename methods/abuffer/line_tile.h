@@ -36,7 +36,7 @@ class LineTile {
     SampleView view();
     void draw_all(std::size_t tile);
     void settle_contests();
-    bool coincide(std::uint32_t loser, std::uint32_t winner, std::uint32_t sample);
+    bool coincide(std::uint32_t loser, std::uint32_t winner, glm::dvec2 pixel);
     void order_runs(std::size_t tile);
     void draw_large_ones(std::size_t tile);
     int draw_large(const LargePolygon& large, bool plain, bool has_look);

@@ -507,7 +507,7 @@ TEST(TileKernels, TrianglesThatMayHideALineAreFound) {
                 ++crossing;
                 EXPECT_TRUE(is_found) << "round " << round << ' ' << i;
             }
-            if (!is_nearer || gap > 13) {  // a margin of 8 along either axis, and rounding
+            if (!is_nearer || gap > 24) {  // a margin of 16 along either axis, and rounding
                 ++beside;
                 EXPECT_FALSE(is_found) << "round " << round << ' ' << i << ' ' << gap;
             }

@@ -167,6 +167,35 @@ TEST(IntersectingPairs, NeedNoTriangles) {
     EXPECT_TRUE(pairs->empty());
 }
 
+/// Long facets around a slanted axis: the boxes of all overlap, and hardly any intersect.
+Scene slanted_facets(std::uint32_t count) {
+    PolygonSoup soup;
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 1, 1)), u = glm::normalize(glm::dvec3(1, -1, 0)), v = glm::cross(axis, u);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double a = 6.283185307179586 * i / count;
+        const glm::dvec3 around = std::cos(a) * u + std::sin(a) * v;
+        soup.positions.push_back(0.3 * around - axis);
+        soup.positions.push_back(0.3 * around + axis);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t next = (i + 1) % count;
+        soup.add_polygon(std::vector<std::uint32_t>{2 * i, 2 * next, 2 * next + 1, 2 * i + 1});
+    }
+    Scene scene = scene_of({soup});
+    scene.lines.style.hidden.style = HiddenStyle::solid;
+    return scene;
+}
+
+TEST(IntersectingPairs, AreLeftToTheViewWhereAllBoxesOverlap) {
+    Scene few = slanted_facets(100), many = slanted_facets(3000);
+    prepare_for_abuffer(few, 1);
+    EXPECT_TRUE(few.intersecting_pairs.has_value());
+    for (const int threads : {1, 2, 3}) {
+        prepare_for_abuffer(many, threads);
+        EXPECT_FALSE(many.intersecting_pairs.has_value());
+    }
+}
+
 TEST(BoxTree, FindsEachPairOnce) {
     for (const std::size_t count : {0u, 1u, 7u, 8u, 9u, 63u, 65u, 600u, 5000u}) {
         Random random(count);
@@ -188,7 +217,9 @@ TEST(BoxTree, FindsEachPairOnce) {
             }
         }
         const BoxTree tree(boxes, best_kernels(), 2);
-        for (const BoxTree::NodePair& task : tree.tasks()) {
+        const auto tasks = tree.tasks();
+        ASSERT_TRUE(tasks.has_value());
+        for (const BoxTree::NodePair& task : *tasks) {
             tree.for_leaf_pairs(task, [&](std::uint32_t a, std::uint32_t b, std::uint64_t overlapping) {
                 BoxTree::for_bits(overlapping, [&](std::uint32_t i, std::uint32_t k) {
                     found.push_back(std::minmax({tree.order()[a + i], tree.order()[b + k]}));
