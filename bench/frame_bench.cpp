@@ -27,6 +27,7 @@
 #include "bench/statistics.h"
 #include "mesh/build_meshes.h"
 #include "methods/abuffer/abuffer.h"
+#include "methods/abuffer/intersecting_pairs.h"
 #include "render/output.h"
 #include "scene/scene_description.h"
 
@@ -205,8 +206,7 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     add("default_two_threads", drawing(view, picture, kDefault, 2));
     // Once per scene, then any number of frames; "searched" is a frame without it.
     add("prepare_hidden", [&view] {
-        view.scene.lines.style.hidden.style = HiddenStyle::solid;
-        prepare_for_abuffer(view.scene, 1);
+        view.scene.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1);
     });
     add("hidden_solid", drawing(view, picture, kDefault, 1, HiddenStyle::solid));
     const auto searched = drawing(view, picture, kDefault, 1, HiddenStyle::solid);

@@ -16,7 +16,7 @@ namespace burin {
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film);
 
 /// Makes what is the same for all frames of a scene with these line settings. Frames are right without
-/// it, but take longer.
+/// it, but take longer. Frames made before point to what it replaces: make them after it.
 /// `saves_memory`: makes nothing that a frame rendered under RunOptions::memory_bytes has no use for.
 void prepare_for_abuffer(Scene& scene, int threads, bool saves_memory = false);
 
