@@ -9,6 +9,8 @@ namespace {
 
 /// Smaller loops come from samples beside a vertex, not from anything to be seen.
 constexpr double kSmallestLoopPx = 1.0 / 16;
+/// Length of what is drawn as a dot: it keeps its direction, or a dot would have no sides.
+constexpr double kDotPx = 1.0 / 256;
 constexpr std::uint32_t kNoEnd = 0xFFFFFFFFu;
 
 /// Higher on the screen, then further left.
@@ -150,6 +152,7 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
         }
         // The ends of the pen's way: a dash with its round ends is as long as asked for.
         const double inset = std::min(0.5 * on, 0.5 * width_px);
+        const bool is_dotted = on - 2 * inset < kDotPx;
         double at = 0;
         for (const std::uint32_t end : chain.ends) {
             const LineSegment& piece = chains.piece(end);
@@ -166,6 +169,12 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
                 LineSegment part = piece;
                 part.from = point(is_backwards ? stop : begin);
                 part.to = point(is_backwards ? begin : stop);
+                if (is_dotted) {
+                    const glm::dvec2 middle = 0.5 * (part.from + part.to);
+                    const glm::dvec2 half = (piece.to - piece.from) * (0.5 * kDotPx / length);
+                    part.from = middle - half;
+                    part.to = middle + half;
+                }
                 result[0].push_back(part);
             }
             at += length;

@@ -110,10 +110,13 @@ TEST(VisibleDashes, HooksDoNotDotTheGaps) {
     EXPECT_EQ(sorted_ends(dashed({pieces}, {6, 4}, 2)), expected);
 }
 
-TEST(VisibleDashes, DotsAreRound) {
+TEST(VisibleDashes, DotsAreRoundAndKeepTheirDirection) {
     const auto parts = dashed({polyline({{10, 10}, {50, 10}})}, {1, 4}, 3);
     ASSERT_EQ(parts[0].size(), 8u);
-    for (const LineSegment& s : parts[0]) EXPECT_NEAR(glm::distance(s.from, s.to), 0, 1e-9);
+    for (const LineSegment& s : parts[0]) {
+        EXPECT_NEAR(s.to.x - s.from.x, 1.0 / 256, 1e-9);
+        EXPECT_EQ(s.to.y, s.from.y);
+    }
 }
 
 constexpr int kSize = 200;
@@ -165,6 +168,20 @@ TEST(VisibleDashes, OnTheContourOfASphereAreEqual) {
     std::size_t odd = 0;
     for (const double dash : dashes) odd += std::abs(dash - 8) > 1.2 ? 1 : 0;
     EXPECT_EQ(odd, 0u);
+}
+
+TEST(VisibleDashes, DotsHaveTwoSides) {
+    Scene scene = dashed_scene(make_sphere(0.5, 64, 32));
+    scene.lines.style.width_px = 6;
+    scene.lines.style.dash_px = {3, 9};
+    const auto ink = [&](StrokeSide side) {
+        scene.lines.style.side = side;
+        return drawing_of(scene, {0, 0, 2}).sum("lines.A");
+    };
+    const double whole = ink(StrokeSide::both);
+    EXPECT_GT(whole, 900);
+    EXPECT_NEAR(ink(StrokeSide::inside), 0.5 * whole, 0.05 * whole);
+    EXPECT_NEAR(ink(StrokeSide::outside), 0.5 * whole, 0.05 * whole);
 }
 
 TEST(VisibleDashes, OfACubeBeginAtItsHigherCorners) {
