@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 
@@ -15,5 +16,14 @@ int resolve_thread_count(int threads);
 /// The first exception stops the others and is rethrown. An interrupt throws `Interrupted`.
 void parallel_for(std::size_t count, int threads,
                   const std::function<void(std::size_t index, int worker)>& work);
+
+/// Calls work(i) once for every i in [0, count), many in a row on one thread: for work that is little by itself.
+template <typename Work>
+void parallel_for_each(std::size_t count, int threads, const Work& work) {
+    constexpr std::size_t kChunk = 1 << 14;
+    parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+        for (std::size_t i = chunk * kChunk, end = std::min(count, i + kChunk); i < end; ++i) work(i);
+    });
+}
 
 }  // namespace burin

@@ -1,14 +1,11 @@
 #include "methods/feature_edges.h"
 
-#include <algorithm>
 #include <map>
 
 #include "base/parallel.h"
 
 namespace burin {
 namespace {
-
-constexpr std::uint32_t kChunk = 16384;
 
 /// A triangle lower than this part of its longest edge: rounding decides its facing.
 constexpr double kSliverHeightPart = 1.0 / 1024;
@@ -144,15 +141,6 @@ class InstanceEdges {
     std::vector<std::uint8_t> faces_;  // per polygon; bytes, so that threads can write side by side
 };
 
-template <typename Work>
-void for_chunks(std::uint32_t count, int threads, const Work& work) {
-    parallel_for((std::size_t{count} + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        const auto first = static_cast<std::uint32_t>(chunk * kChunk);
-        const std::uint32_t end = std::min(count, first + kChunk);
-        for (std::uint32_t i = first; i < end; ++i) work(i);
-    });
-}
-
 }  // namespace
 
 FeatureEdges::FeatureEdges(const Frame& frame, int threads) {
@@ -173,9 +161,12 @@ FeatureEdges::FeatureEdges(const Frame& frame, int threads) {
         InstanceEdges edges(frame, i, outlines(i));
         std::vector<std::uint8_t>& classes = classes_[i];
         classes.resize(3 * mesh.triangles.size());
-        for_chunks(mesh.polygon_count, threads, [&](std::uint32_t p) { edges.find_facing(p); });
-        for_chunks(static_cast<std::uint32_t>(classes.size()), threads,
-                   [&](std::uint32_t h) { classes[h] = edges.classes_of(h).bits; });
+        parallel_for_each(mesh.polygon_count, threads, [&](std::size_t p) {
+            edges.find_facing(static_cast<std::uint32_t>(p));
+        });
+        parallel_for_each(classes.size(), threads, [&](std::size_t h) {
+            classes[h] = edges.classes_of(static_cast<HalfEdge>(h)).bits;
+        });
     }
 }
 

@@ -8,19 +8,11 @@
 namespace burin {
 namespace {
 
-constexpr std::size_t kChunk = 1 << 14;
 constexpr int kBitsPerAxis = 13, kDigitBits = 13;
 constexpr std::size_t kTaskLevel = 3;
 // Neighbours of a patch on a surface are about eight.
 constexpr std::size_t kMostPartners = 256, kLeastTasks = 1 << 14;
 constexpr float kLastPlace = (1 << kBitsPerAxis) - 1;
-
-template <typename Work>
-void for_chunks(std::size_t count, int threads, const Work& work) {
-    parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        work(chunk * kChunk, std::min(count, (chunk + 1) * kChunk));
-    });
-}
 
 ScreenBox around(const ScreenBox& a, const ScreenBox& b) {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1),
@@ -58,19 +50,15 @@ BoxTree::BoxTree(std::span<const ScreenBox> boxes, const TileKernels& kernels, i
     sort(boxes, threads);
     levels_.emplace_back();
     levels_[0].resize(order_.size());
-    for_chunks(order_.size(), threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) levels_[0].set(i, boxes[order_[i]]);
-    });
+    parallel_for_each(order_.size(), threads, [&](std::size_t i) { levels_[0].set(i, boxes[order_[i]]); });
     do {
         const ScreenBoxes& below = levels_.back();
         ScreenBoxes level;
         level.resize((below.size() + kFan - 1) / kFan);
-        for_chunks(level.size(), threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                ScreenBox all = below[kFan * i];
-                for (std::size_t k = kFan * i + 1; k < std::min(kFan * (i + 1), below.size()); ++k) all = around(all, below[k]);
-                level.set(i, all);
-            }
+        parallel_for_each(level.size(), threads, [&](std::size_t i) {
+            ScreenBox all = below[kFan * i];
+            for (std::size_t k = kFan * i + 1; k < std::min(kFan * (i + 1), below.size()); ++k) all = around(all, below[k]);
+            level.set(i, all);
         });
         levels_.push_back(std::move(level));
     } while (levels_.back().size() > 1);
@@ -101,16 +89,14 @@ void BoxTree::sort(std::span<const ScreenBox> boxes, int threads) {
     const float most = std::max({all.x1 - all.x0, all.y1 - all.y0, all.high - all.low});
     const float scale = most > 0 ? kLastPlace / most : 0.0f;
     std::vector<Key> keys(boxes.size());
-    for_chunks(boxes.size(), threads, [&](std::size_t begin, std::size_t end) {
-        const auto bits = [scale](float low, float high, float zero) {
-            const float place = (0.5f * (low - zero) + 0.5f * (high - zero)) * scale;
-            return spread(place > 0 ? static_cast<std::uint64_t>(std::min(place, kLastPlace)) : 0);
-        };
-        for (std::size_t i = begin; i < end; ++i) {
-            const ScreenBox& b = boxes[i];
-            keys[i] = {bits(b.x0, b.x1, all.x0) | bits(b.y0, b.y1, all.y0) << 1 | bits(b.low, b.high, all.low) << 2,
-                       static_cast<std::uint32_t>(i)};
-        }
+    const auto bits = [scale](float low, float high, float zero) {
+        const float place = (0.5f * (low - zero) + 0.5f * (high - zero)) * scale;
+        return spread(place > 0 ? static_cast<std::uint64_t>(std::min(place, kLastPlace)) : 0);
+    };
+    parallel_for_each(boxes.size(), threads, [&](std::size_t i) {
+        const ScreenBox& b = boxes[i];
+        keys[i] = {bits(b.x0, b.x1, all.x0) | bits(b.y0, b.y1, all.y0) << 1 | bits(b.low, b.high, all.low) << 2,
+                   static_cast<std::uint32_t>(i)};
     });
     sort_by_place(keys);
     for (std::size_t i = 0; i < keys.size(); ++i) order_[i] = keys[i].number;

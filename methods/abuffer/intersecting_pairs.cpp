@@ -17,17 +17,9 @@ using Triangle = IntersectionTest::Triangle;
 constexpr std::size_t kMostTriangles = std::size_t{1} << 23, kMostPairs = std::size_t{1} << 24;
 // Pairs whose boxes overlap: scans have one for each triangle, assemblies a few dozen. Of long slanted facets all may.
 constexpr std::uint64_t kMostTestsPerTriangle = 64, kLeastTests = 1 << 20;
-constexpr std::size_t kChunk = 1 << 14;
 constexpr double kLargestExtent = 1e30;  // boxes have single precision
 // Of a coordinate, as a part of the scene's extent.
 constexpr double kRounding = 0x1p-50;
-
-template <typename Work>
-void for_chunks(std::size_t count, int threads, const Work& work) {
-    parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) work(i);
-    });
-}
 
 /// How far the corners of a triangle are on one side or the other of another one's plane, multiplied by the length
 /// of the plane's normal.
@@ -94,11 +86,11 @@ struct Triangles {
             const Mesh& mesh = scene.meshes[scene.objects[o].mesh];
             const std::size_t offset = positions.size();
             positions.resize(offset + mesh.positions.size());
-            for_chunks(mesh.positions.size(), threads, [&](std::size_t v) {
+            parallel_for_each(mesh.positions.size(), threads, [&](std::size_t v) {
                 positions[offset + v] = test.position(o, static_cast<std::uint32_t>(v));
             });
             corners.resize(first.back() + mesh.triangles.size());
-            for_chunks(mesh.triangles.size(), threads, [&](std::size_t t) {
+            parallel_for_each(mesh.triangles.size(), threads, [&](std::size_t t) {
                 const Corners& c = mesh.triangles[t];
                 const auto shift = static_cast<std::uint32_t>(offset);
                 corners[first.back() + t] = {c[0] + shift, c[1] + shift, c[2] + shift};
@@ -173,12 +165,14 @@ std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& sce
     if (!(test.extent() < kLargestExtent)) return std::nullopt;
     Triangles triangles(scene, test, threads);
     std::vector<ScreenBox> boxes(count);
-    for_chunks(count, threads, [&](std::size_t i) { boxes[i] = IntersectionTest::box_of(triangles.triangle(triangles.corners[i])); });
+    parallel_for_each(count, threads, [&](std::size_t i) {
+        boxes[i] = IntersectionTest::box_of(triangles.triangle(triangles.corners[i]));
+    });
     const BoxTree tree(boxes, kernels, threads);
     boxes = std::vector<ScreenBox>();
     std::array<std::vector<std::uint32_t>, 3> corners;  // in the tree's order, and what kernels may read too far
     for (auto& of_all : corners) of_all.resize(count + 7);
-    for_chunks(count, threads, [&](std::size_t i) {
+    parallel_for_each(count, threads, [&](std::size_t i) {
         for (std::size_t k = 0; k < 3; ++k) corners[k][i] = triangles.corners[tree.order()[i]][k];
     });
     const std::uint32_t* const corner_lists[3] = {corners[0].data(), corners[1].data(), corners[2].data()};

@@ -35,5 +35,16 @@ TEST(ParallelFor, NothingToDo) {
     parallel_for(0, 4, [](std::size_t, int) { FAIL(); });
 }
 
+TEST(ParallelForEach, VisitsEveryIndexOnce) {
+    constexpr std::size_t kChunk = 1 << 14;
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, kChunk - 1, kChunk, kChunk + 1, 5 * kChunk + 77}) {
+        for (const int threads : {1, 3}) {
+            std::vector<std::atomic<int>> visits(count);
+            parallel_for_each(count, threads, [&](std::size_t i) { ++visits.at(i); });
+            for (const auto& v : visits) ASSERT_EQ(v, 1) << count << " indices, " << threads << " threads";
+        }
+    }
+}
+
 }  // namespace
 }  // namespace burin
