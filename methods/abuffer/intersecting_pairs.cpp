@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "mesh/box.h"
 #include "methods/abuffer/box_tree.h"
 
 namespace burin {
@@ -108,27 +109,21 @@ struct Triangles {
 }  // namespace
 
 IntersectionTest::IntersectionTest(const Scene& scene) {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+    std::vector<Box> mesh_boxes;
+    for (const Mesh& mesh : scene.meshes) mesh_boxes.push_back(burin::box_of(mesh));
+    Box all;
     for (const SceneObject& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
-        places_.push_back({&mesh, glm::dmat3(object.to_world),
-                           glm::dvec3(object.to_world * glm::dvec4(mesh.origin, 1.0))});
-        glm::vec3 mesh_low(std::numeric_limits<float>::infinity()), mesh_high(-std::numeric_limits<float>::infinity());
-        for (const glm::vec3& p : mesh.positions) {
-            mesh_low = glm::min(mesh_low, p);
-            mesh_high = glm::max(mesh_high, p);
-        }
-        for (int corner = 0; corner < 8 && !mesh.positions.empty(); ++corner) {
-            const glm::dvec3 p(glm::mix(mesh_low, mesh_high, glm::bvec3(corner & 1, corner & 2, corner & 4)));
-            const glm::dvec3 at = places_.back().axes * p + places_.back().origin;
-            low = glm::min(low, at);
-            high = glm::max(high, at);
-        }
+        const Place place{&mesh, glm::dmat3(object.to_world), glm::dvec3(object.to_world * glm::dvec4(mesh.origin, 1.0))};
+        places_.push_back(place);
+        const Box& box = mesh_boxes[object.mesh];
+        if (box.is_empty()) continue;
+        box.for_each_corner([&](const glm::dvec3& corner) { all.add(place.axes * corner + place.origin); });
     }
-    if (!(low.x <= high.x)) return;
-    const glm::dvec3 middle = 0.5 * (low + high);
+    if (all.is_empty()) return;
+    const glm::dvec3 middle = 0.5 * (all.low + all.high);
     for (Place& p : places_) p.origin -= middle;
-    extent_ = glm::distance(low, high);
+    extent_ = glm::distance(all.low, all.high);
 }
 
 IntersectionTest::Triangle IntersectionTest::triangle(SurfaceId s) const {
