@@ -148,13 +148,9 @@ void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, int y) {
     const std::size_t first = samples.index(rect.x0 * s, y * s);
     kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
     const auto width = static_cast<std::size_t>(rect.width());
-    if (std::memcmp(covered, covered + 1, width - 1) == 0) {  // most rows: all of one colour
-        for (std::size_t c = 0; c < 4; ++c) std::fill_n(row_.color[c], width, paper_[covered[0]][c]);
-        return;
-    }
-    for (std::size_t i = 0; i < width; ++i) {
-        const auto& color = paper_[covered[i]];
-        for (std::size_t c = 0; c < 4; ++c) row_.color[c][i] = color[c];
+    for (std::size_t begin = 0, end; begin < width; begin = end) {  // a few runs of equal counts
+        for (end = begin + 1; end < width && covered[end] == covered[begin];) ++end;
+        for (std::size_t c = 0; c < 4; ++c) std::fill(row_.color[c] + begin, row_.color[c] + end, paper_[covered[begin]][c]);
     }
 }
 
