@@ -216,6 +216,7 @@ constexpr std::int32_t kLargestSmallTriangle = 1 << 14;
 const TileKernels& baseline_kernels();
 /// nullptr where this build or this machine has none.
 const TileKernels* avx2_kernels();
+const TileKernels* avx512_kernels();
 /// The fastest ones.
 const TileKernels& best_kernels();
 

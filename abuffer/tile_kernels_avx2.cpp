@@ -8,9 +8,7 @@
 namespace burin {
 
 const TileKernels* avx2_kernels() {
-    static const TileKernels kernels{"avx2", project, cull, find_line_edges, draw_small, find_farthest, combine_blocks, find_nearer, draw_span,
-                                     find_pairs, count_covered, look, stroke_spans, count_bits,
-                                     find_touching, find_hiding, find_overlaps, find_unconnected};
+    static constexpr TileKernels kernels = kernels_named("avx2");
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") ? &kernels : nullptr;
 }
 
