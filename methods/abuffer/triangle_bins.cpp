@@ -128,8 +128,9 @@ class Binner {
         for (const std::uint32_t key : scratch.used) count[key] = 0;
     }
 
-    /// Lists a small triangle once for every tile that it may touch.
-    void find_tiles(std::uint32_t instance, const TileTriangle& found, Scratch& scratch) const {
+    /// Lists a small triangle once for every tile that it may touch. Not a part of sort(), whose variables would no longer
+    /// fit into registers.
+    [[gnu::noinline]] void find_tiles(std::uint32_t instance, const TileTriangle& found, Scratch& scratch) const {
         const ScreenTriangle t = surfaces_.triangle({instance, found.triangle});
         const bool turned = surfaces_.facing(surfaces_.number_of({instance, found.triangle})) == clockwise;
         for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched, const SampleBox& samples) {
