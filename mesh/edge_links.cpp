@@ -134,6 +134,17 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
     std::vector<LeftOver> left_over;
     constexpr std::size_t kAhead = 16;
     bool twins = false;
+    // Notes half-edge h; whether its edge was known.
+    const auto link = [&](std::uint32_t u, std::uint32_t v, HalfEdge h) {
+        const HalfEdge before = table.exchange(u, v, h);
+        if (before == EdgeTable::kFull) {
+            left_over.push_back({std::min(u, v), std::max(u, v), h});
+            return true;
+        }
+        // The newest one of a ring leads back to the oldest.
+        std::swap(next_on_edge[h], next_on_edge[before]);
+        return before != h;
+    };
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         if ((t & 0xFFFF) == 0) throw_if_interrupted();
         if (t + kAhead < triangles.size()) {
@@ -142,24 +153,12 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
             table.prefetch(b, c);
             table.prefetch(c, a);
         }
-        const auto& [a, b, c] = triangles[t];
-        const auto first = static_cast<HalfEdge>(3 * t);
-        next_on_edge.insert(next_on_edge.end(), {first, first + 1, first + 2});
-        HalfEdge h = first;
-        bool has_partners = true;  // at all three edges
-        for (const auto& [u, v] : {std::pair{a, b}, {b, c}, {c, a}}) {
-            const HalfEdge before = table.exchange(u, v, h);
-            if (before == EdgeTable::kFull) {
-                left_over.push_back({std::min(u, v), std::max(u, v), h});
-            } else {
-                // The newest one of a ring leads back to the oldest.
-                std::swap(next_on_edge[h], next_on_edge[before]);
-            }
-            has_partners &= before != h;
-            ++h;
-        }
+        const auto [a, b, c] = triangles[t];
+        const auto h = static_cast<HalfEdge>(3 * t);
+        next_on_edge.insert(next_on_edge.end(), {h, h + 1, h + 2});
+        const bool ab = link(a, b, h), bc = link(b, c, h + 1), ca = link(c, a, h + 2);
         // Twins share all three edges.
-        if (has_partners && next_on_edge[first] != first) twins = twins || has_twin(triangles, next_on_edge, first);
+        if (ab & bc & ca && next_on_edge[h] != h) twins = twins || has_twin(triangles, next_on_edge, h);
     }
     link_by_sorting(left_over, next_on_edge);
     for (const LeftOver& l : left_over) twins = twins || has_twin(triangles, next_on_edge, l.half_edge);
