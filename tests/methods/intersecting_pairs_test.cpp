@@ -98,6 +98,12 @@ TEST(IntersectionTest, IsTrueOfTrianglesThatPassThroughEachOtherAndOfNoneThatAre
     EXPECT_GT(touching, 20);
 }
 
+TEST(IntersectionTest, SeesATipThatSinglePrecisionDoesNot) {
+    Scene scene = scene_of({soup_of({{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {{0, 1, 2}}), soup_of({{0, 0, 1}, {-1, 0, -1}, {1, 0, -1}}, {{0, 1, 2}})});
+    scene.objects[1].to_world = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 1e-10));
+    EXPECT_TRUE(IntersectionTest(scene).may_intersect({0, 0}, {1, 0}));
+}
+
 /// Objects of loose triangles and closed surfaces, small and large, in and beside each other.
 Scene tangle(Random& random) {
     std::vector<PolygonSoup> objects;
@@ -162,6 +168,12 @@ TEST(IntersectingPairs, NeedNoTriangles) {
     const auto pairs = find_intersecting_pairs(scene_of({soup_of({{0, 0, 0}}, {})}), best_kernels(), 1);
     ASSERT_TRUE(pairs.has_value());
     EXPECT_TRUE(pairs->empty());
+}
+
+TEST(IntersectingPairs, AreLeftToTheViewWhereSinglePrecisionEnds) {
+    Scene scene = scene_of({make_box({1, 1, 1}), make_box({1, 1, 1})});
+    for (SceneObject& o : scene.objects) o.to_world = glm::scale(glm::dmat4(1.0), glm::dvec3(1e40));
+    EXPECT_FALSE(find_intersecting_pairs(scene, best_kernels(), 1).has_value());
 }
 
 /// Long facets around a slanted axis: the boxes of all overlap, and hardly any intersect.
