@@ -9,14 +9,6 @@
 namespace burin {
 namespace {
 
-template <typename Work>
-void for_triangles(std::size_t count, int threads, const Work& work) {
-    constexpr std::size_t kChunk = 1 << 15;
-    parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk); ++t) work(t);
-    });
-}
-
 glm::vec3 scaled_to_one(const glm::dvec3& v, double square) {
     return glm::vec3(v * (1 / std::max(std::sqrt(square), 1e-300)));
 }
@@ -30,7 +22,7 @@ std::vector<glm::vec3> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
         const glm::dvec3 normal(mesh.polygon_normals[p]);
         normals[p] = scaled_to_one(normal, glm::dot(normal, normal));
     }
-    for_triangles(thin.size(), threads, [&](std::size_t t) {
+    parallel_for_each(thin.size(), threads, [&](std::size_t t) {
         const auto& corners = mesh.triangles[t];
         const glm::dvec3 a(mesh.positions[corners[0]]);
         const glm::dvec3 ab = glm::dvec3(mesh.positions[corners[1]]) - a;
@@ -63,7 +55,7 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
         return by_crease && !(glm::dot(normals[p], normals[q]) > cos_crease);
     };
     // Both half-edges of a pair find the same: guessing which of them comes first would take longer.
-    for_triangles(sharp.size(), threads, [&](std::size_t i) {
+    parallel_for_each(sharp.size(), threads, [&](std::size_t i) {
         const auto t = static_cast<std::uint32_t>(i);
         unsigned edges = 0;
         for (unsigned k = 0; k < 3; ++k) {

@@ -93,36 +93,41 @@ void LineTile::draw_all(std::size_t tile) {
 /// each block of kMergeBlockPx pixels, in its middle, so that it hangs on no tile.
 void LineTile::settle_contests() {
     if (contests_used_ == 0) return;
+    std::sort(contests_.begin(), contests_.begin() + contests_used_, [](const Contest& a, const Contest& b) {
+        return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser);
+    });
     const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
+    const auto stride = static_cast<std::uint32_t>(samples_.stride);
     const auto block_of = [&](std::uint32_t sample) {
-        const auto stride = static_cast<std::uint32_t>(samples_.stride);
         return glm::ivec2(samples_.first_column + static_cast<int>(sample % stride), samples_.first_row + static_cast<int>(sample / stride)) >> shift;
     };
-    std::sort(contests_.begin(), contests_.begin() + contests_used_, [&](const Contest& a, const Contest& b) {
-        const glm::ivec2 p = block_of(a.sample), q = block_of(b.sample);
-        return std::tie(p.y, p.x, a.sample, a.loser) < std::tie(q.y, q.x, b.sample, b.loser);
-    });
-    glm::ivec2 block = block_of(contests_[0].sample);
-    known_.clear();
+    const int first_block = samples_.first_column >> shift;
+    known_.resize(static_cast<std::size_t>(samples_.stride >> shift) + 2);
+    int row_of_blocks = block_of(contests_[0].sample).y - 1;
     for (std::uint32_t i = 0; i < contests_used_;) {
         const std::uint32_t sample = contests_[i].sample;
-        if (block_of(sample) != block) known_.clear();
-        block = block_of(sample);
+        const glm::ivec2 block = block_of(sample);
+        if (block.y != row_of_blocks) {
+            for (auto& known : known_) known.clear();
+        }
+        row_of_blocks = block.y;
+        auto& known = known_[static_cast<std::size_t>(block.x - first_block)];
         const glm::dvec2 middle = (glm::dvec2(block) + 0.5) * double{kMergeBlockPx};
         const std::uint32_t winner = samples_.ids[sample] >> 1;
         bool settled = false;
         for (; i < contests_used_ && contests_[i].sample == sample; ++i) {
             const std::uint32_t loser = contests_[i].loser >> 1;
-            if (settled || loser >= winner || !coincide(loser, winner, middle)) continue;
+            if (settled || loser >= winner) continue;
+            const auto [it, is_new] = known.try_emplace(std::uint64_t{loser} << 32 | winner, false);
+            if (is_new) it->second = coincide(loser, winner, middle);
+            if (!it->second) continue;
             samples_.ids[sample] = loser << 1;
             settled = true;
         }
     }
 }
 
-bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner, glm::dvec2 pixel) {
-    const auto [it, is_new] = known_.try_emplace(std::uint64_t{loser} << 32 | winner, false);
-    if (!is_new) return it->second;
+bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner, glm::dvec2 pixel) const {
     const SurfaceId a = screen_.surface_of(loser), b = screen_.surface_of(winner);
     if (a.instance == b.instance) {
         // Neighbours that fold over are level along their edge, and no more.
@@ -132,7 +137,7 @@ bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner, glm::dvec2 pi
             if (std::find(t.begin(), t.end(), v) != t.end()) return false;
         }
     }
-    return it->second = frame_.surfaces.coincide(a, b, pixel);
+    return frame_.surfaces.coincide(a, b, pixel);
 }
 
 /// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it
