@@ -1,7 +1,9 @@
 #include "methods/abuffer/layer_edges.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "base/parallel.h"
@@ -21,6 +23,28 @@ struct ScreenPoint {
 };
 
 }  // namespace
+
+std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
+    constexpr std::uint32_t kGroup = 8;
+    constexpr std::uint64_t kEdges = 0x0707070707070707u;
+    static_assert(std::endian::native == std::endian::little);
+    std::vector<HalfEdge> sides;
+    std::size_t count = 0;
+    for (std::uint32_t first = begin; first < end; first += kGroup) {
+        std::uint64_t edges = 0;  // a byte for each triangle
+        std::memcpy(&edges, mesh.line_edges + first, std::min(kGroup, end - first));
+        if (sides.size() < count + 3 * kGroup) sides.resize(2 * count + 3 * kGroup);
+        for (edges &= kEdges; edges != 0; edges &= edges - 1) {  // without other branches: they would be guesses
+            const auto bit = static_cast<unsigned>(std::countr_zero(edges));
+            const std::uint32_t t = first + bit / 8;
+            const bool is_found_from_behind = rank_of_side(mesh.facing[t]) == 2 && mesh.sharp != nullptr && mesh.sharp[t] == 0;
+            sides[count] = 3 * t + bit % 8;
+            count += is_found_from_behind ? 0 : 1;
+        }
+    }
+    sides.resize(count);
+    return sides;
+}
 
 class LayerEdgeFinder::Rules {
   public:

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <memory>
 #include <vector>
 
@@ -12,31 +11,31 @@
 
 namespace burin {
 
-/// Calls visit(triangle, half-edge) for the edges of some triangles that may be lines in this view: that
-/// are sharp, or whose triangles do not face one way. Edges of two triangles come once, as the smaller of
-/// their half-edges. The facing of all triangles must be known.
+/// The sides of edges of some triangles that may be lines in this view: that are sharp, or whose triangles do not face one
+/// way. Of a contour, one side may be missing. The facing of all triangles must be known.
+std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end);
+
+/// A contour is found from the side that comes first in this order, so that half of a surface without sharp edges need not
+/// be read.
+constexpr int rank_of_side(std::uint8_t facing) { return facing == counterclockwise ? 1 : facing == clockwise ? 2 : 0; }
+
+/// Calls visit(triangle, half-edge) for the edges of these triangles. Edges of two triangles come once, as the smaller of
+/// their half-edges.
 template <typename Visit>
 void for_possible_lines(const ScreenSurfaces& screen, const TriangleChunk& chunk, const Visit& visit) {
     const ScreenMesh mesh = screen.mesh(chunk.instance);
-    // A contour is found from the side that comes first here, so that half of a surface without sharp edges
-    // need not be read.
-    static_assert(edge_on == 0 && clockwise == 1 && counterclockwise == 2 && off_screen == 3);
-    constexpr std::uint8_t kRank[4] = {0, 2, 1, 0};
-    for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
-        unsigned edges = mesh.line_edges[t] & 7u;
-        if (edges == 0) continue;
-        const unsigned rank = kRank[mesh.facing[t]];
-        if (rank == 2 && mesh.sharp != nullptr && mesh.sharp[t] == 0) continue;
-        const HalfEdge* const partner = mesh.partners + 3 * std::size_t{t};
-        for (; edges != 0; edges &= edges - 1) {
-            const HalfEdge h = 3 * t + static_cast<unsigned>(std::countr_zero(edges)), g = partner[h - 3 * t];
-            const std::uint8_t other = mesh.facing[g / 3];
-            if (g != h && mesh.partners[g] == h) {
-                if (rank != kRank[other] ? rank > kRank[other] : g < h) continue;
-                visit(SurfaceId{chunk.instance, std::min(h, g) / 3}, std::min(h, g));
-            } else {
-                visit(SurfaceId{chunk.instance, t}, h);
-            }
+    const std::vector<HalfEdge> sides = sides_of_possible_lines(mesh, chunk.begin, chunk.end);
+    // What is on the other side of an edge may lie anywhere in memory.
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (i + kAhead < sides.size()) __builtin_prefetch(mesh.partners + mesh.partners[sides[i + kAhead]]);
+        const HalfEdge h = sides[i], g = mesh.partners[h];
+        if (g != h && mesh.partners[g] == h) {
+            const int own = rank_of_side(mesh.facing[h / 3]), other = rank_of_side(mesh.facing[g / 3]);
+            if (own != other ? own > other : g < h) continue;
+            visit(SurfaceId{chunk.instance, std::min(h, g) / 3}, std::min(h, g));
+        } else {
+            visit(SurfaceId{chunk.instance, h / 3}, h);
         }
     }
 }
