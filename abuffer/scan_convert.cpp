@@ -18,9 +18,9 @@ std::int64_t ceil_divide(std::int64_t a, std::int64_t positive_b, double per_b) 
     return quotient;
 }
 
-// In units of 1 / (2 * 256 * s) pixel, sample number i lies at 512 i + 256.
-constexpr std::int64_t kPitch = 2 * kSubpixelsPerPixel;
-constexpr std::int64_t kHalfPitch = kSubpixelsPerPixel;
+constexpr std::int64_t kPitch = ScanEdge::kPitch, kHalfPitch = kPitch / 2;
+static_assert(kPitch == 2 * kSubpixelsPerPixel);
+constexpr double kLargestProduct = 0x1p52;
 
 /// The first sample at or behind a position.
 int first_sample_from(std::int64_t position) {
@@ -44,9 +44,10 @@ ScanConverter::ScanConverter(const ScreenPolygon& polygon, int samples_per_pixel
         low_y = std::min(low_y, ay);
         high_y = std::max(high_y, ay);
         if (ay == by) continue;
-        const double per_dy = 1.0 / static_cast<double>(kPitch * std::abs(by - ay));
-        edges_[static_cast<std::size_t>(edge_count_++)] =
-            ay < by ? Edge{ax, ay, bx, by, per_dy} : Edge{bx, by, ax, ay, per_dy};
+        const double height = static_cast<double>(std::abs(by - ay)), per_dy = 1.0 / (static_cast<double>(kPitch) * height);
+        edges_[edge_count_++] = ay < by ? ScanEdge{ax, ay, bx, by, per_dy} : ScanEdge{bx, by, ax, ay, per_dy};
+        const auto farthest = static_cast<double>(std::max(std::abs(ax), std::abs(bx)) + kPitch);
+        fits_doubles_ = fits_doubles_ && 4 * farthest * height < kLargestProduct;
     }
     first_row_ = first_sample_from(low_y);
     end_row_ = first_sample_from(high_y);
@@ -57,8 +58,7 @@ ScanConverter::ScanConverter(const ScreenPolygon& polygon, int samples_per_pixel
 SampleSpan ScanConverter::span(int row) const {
     const std::int64_t y = kPitch * row + kHalfPitch;
     SampleSpan span{std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};
-    for (int i = 0; i < edge_count_; ++i) {
-        const Edge& e = edges_[static_cast<std::size_t>(i)];
+    for (const ScanEdge& e : edges()) {
         if (y < e.y0 || y >= e.y1) continue;
         // The edge meets the row at x = x0 + (y - y0) (x1 - x0) / (y1 - y0).
         const std::int64_t dy = e.y1 - e.y0;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include "abuffer/scan_edge.h"
 #include "abuffer/screen_polygon.h"
 
 namespace burin {
@@ -31,13 +33,15 @@ class ScanConverter {
     /// The covered samples of a row in [first_row(), end_row()).
     SampleSpan span(int row) const;
 
+    /// The edges that are not horizontal.
+    std::span<const ScanEdge> edges() const { return {edges_.data(), edge_count_}; }
+    /// Whether double precision holds all that span() computes: not for polygons thousands of pixels large or away.
+    bool fits_doubles() const { return fits_doubles_; }
+
   private:
-    struct Edge {  // from its upper to its lower end, in units of 1 / (2 * 256 * s) pixel
-        std::int64_t x0, y0, x1, y1;
-        double per_dy;  // about 1 / (kPitch (y1 - y0))
-    };
-    int edge_count_ = 0;
-    std::array<Edge, ScreenPolygon::kMaxCorners> edges_;  // the others are horizontal
+    std::size_t edge_count_ = 0;
+    std::array<ScanEdge, ScreenPolygon::kMaxCorners> edges_;
+    bool fits_doubles_ = true;
     int first_row_ = 0, end_row_ = 0, first_column_ = 0, end_column_ = 0;
 };
 

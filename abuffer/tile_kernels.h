@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "abuffer/scan_edge.h"
 #include "abuffer/screen_triangle.h"
 
 namespace burin {
@@ -33,6 +34,11 @@ struct SpanPlane {
     std::int32_t x, y;
     float nearness, per_x, per_y, low, high;
     std::uint32_t id;
+};
+
+/// Columns and rows [first, end) of a tile's samples.
+struct SampleRect {
+    std::int32_t first_column, first_row, end_column, end_row;
 };
 
 /// Two neighbouring samples with different ids between which a line may lie.
@@ -167,6 +173,10 @@ struct TileKernels {
     /// Draws columns [begin, end) of a row of the tile.
     void (*draw_span)(const SampleView& tile, std::int32_t row, std::int32_t begin, std::int32_t end,
                       const SpanPlane& plane);
+    /// Draws the part of a polygon that lies in a rectangle: ScanConverter::edges(), if it fits_doubles(). Returns how many
+    /// samples.
+    std::int32_t (*draw_polygon)(const SampleView& tile, const ScanEdge* edges, std::size_t edge_count, const SampleRect& rect,
+                                 const SpanPlane& plane);
     /// Finds the pairs of neighbours with different ids, except where both are plain and level.
     /// Returns their number; `pairs` must have room for 2 * columns * rows.
     std::size_t (*find_pairs)(const SampleView& tile, SamplePair* pairs);

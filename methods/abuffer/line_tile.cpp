@@ -222,6 +222,10 @@ int LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
         }
         const int least = std::max(left, begin << kBlockShift), most = std::min(right, end << kBlockShift);
         if (least >= most) continue;
+        if (scan.fits_doubles()) {
+            drawn += kernels_.draw_polygon(tile, scan.edges().data(), scan.edges().size(), {least, first_row, most, end_row}, plane);
+            continue;
+        }
         for (int row = first_row; row < end_row; ++row) {
             const SampleSpan span = scan.span(row + samples_.first_row);
             const int from = std::max(span.begin - samples_.first_column, least);

@@ -155,6 +155,52 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
     EXPECT_GT(left_out, 0u);
 }
 
+/// Of polygons of all sizes, with corners on samples and rows, through tiles near and far from the origin.
+TEST(TileKernels, PolygonsAreDrawnRowByRow) {
+    int fitting = 0, drawn = 0;
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+        Random random(seed);
+        const int per_pixel = 2 << seed % 3, pitch = kSubpixelsPerPixel / per_pixel;
+        const int first_column = random.integer(-20000, 20000), first_row = random.integer(-20000, 20000);
+        SampleTile tile;
+        tile.reset(first_column, first_row, random.integer(1, 129), random.integer(1, 40), per_pixel);
+        const int reach = 1 << random.integer(7, 24), mask = random.integer(0, 1) == 0 ? ~(pitch / 2 - 1) : ~0;
+        ScreenPolygon polygon;
+        polygon.count = 3;
+        for (std::size_t k = 0; k < 3; ++k) {
+            polygon.corners[k] = {(first_column * pitch + random.integer(-reach, reach)) & mask, (first_row * pitch + random.integer(-reach, reach)) & mask};
+        }
+        const ScanConverter scan(polygon, per_pixel);
+        if (!scan.fits_doubles()) continue;
+        ++fitting;
+        SpanPlane plane{};
+        plane.per_x = 0.001f;
+        plane.low = -3;
+        plane.high = 3;
+        plane.id = 10;
+        const int top = std::max(scan.first_row() - first_row, 0), bottom = std::min(scan.end_row() - first_row, tile.rows);
+        const SampleRect rect{random.integer(0, tile.columns - 1), top, random.integer(1, tile.columns), std::max(bottom, top)};
+        SampleTile expected = tile;
+        int count = 0;
+        for (int row = rect.first_row; row < rect.end_row; ++row) {
+            const SampleSpan span = scan.span(row + first_row);
+            const int from = std::max(span.begin - first_column, rect.first_column), to = std::min(span.end - first_column, rect.end_column);
+            if (from >= to) continue;
+            baseline_kernels().draw_span(view_of(expected), row, from, to, plane);
+            count += to - from;
+        }
+        drawn += count;
+        for (const TileKernels* kernels : all_kernels()) {
+            SampleTile found = tile;
+            EXPECT_EQ(kernels->draw_polygon(view_of(found), scan.edges().data(), scan.edges().size(), rect, plane), count) << kernels->name << " seed " << seed;
+            EXPECT_EQ(found.ids, expected.ids) << kernels->name << " seed " << seed;
+            EXPECT_EQ(found.nearness, expected.nearness) << kernels->name << " seed " << seed;
+        }
+    }
+    EXPECT_GT(fitting, 1500);
+    EXPECT_GT(drawn, 50000);
+}
+
 TEST(TileKernels, CullingLosesNoSample) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         const int per_pixel = 2 << seed % 3;
