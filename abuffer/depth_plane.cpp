@@ -78,21 +78,4 @@ DepthPlane snapped_depth_plane(const Projection& projection, const glm::dvec3 (&
     return usable(plane);
 }
 
-bool are_coincident(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
-                    glm::dvec2 pixel, double coordinate_error) {
-    const DepthPlane plane_a = exact_depth_plane(projection, a), plane_b = exact_depth_plane(projection, b);
-    const double gap = std::abs(plane_a.extended_to(pixel) - plane_b.extended_to(pixel)) +
-                       0.5 * (std::abs(plane_a.per_x - plane_b.per_x) + std::abs(plane_a.per_y - plane_b.per_y));
-    // Moving a plane by e along its normal changes nearness by e / n.z (orthographic) or by a factor
-    // of e / c (perspective).
-    double allowed = 0;
-    for (const auto* corners : {&a, &b}) {
-        const SpacePlane plane = space_plane(*corners);
-        allowed += projection.orthographic
-                       ? coordinate_error / std::abs(plane.normal.z)
-                       : std::abs(plane_a.extended_to(pixel)) * coordinate_error / std::abs(plane.offset);
-    }
-    return gap <= allowed;  // false for what is not a number
-}
-
 }  // namespace burin

@@ -37,9 +37,4 @@ DepthPlane snapped_depth_plane(const Projection& projection, const glm::dvec3 (&
 /// The plane through the corners as they are.
 DepthPlane exact_depth_plane(const Projection& projection, const glm::dvec3 (&corners)[3]);
 
-/// Whether two triangles lie in one plane, as far as coordinates with an error of `coordinate_error`
-/// world units can tell, over the pixel around `pixel`.
-bool are_coincident(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
-                    glm::dvec2 pixel, double coordinate_error);
-
 }  // namespace burin

@@ -166,7 +166,7 @@ class Decider {
             const double own = distance_of(surfaces_.projection, own_nearness);
             gap[i] = distance_of(surfaces_.projection, plane.extended_to(at)) - own;
             tolerance[i] = depth_tolerance(surfaces_, own, plane);
-            coincident = coincident && surfaces_.coincide(w.surface, points_[i].surface, at);
+            coincident = coincident && surfaces_.coincide(w.surface, points_[i].surface);
             followed = followed && w.end != WalkEnd::lost;
         }
         const double smaller_gap = std::min(std::abs(gap[0]), std::abs(gap[1]));

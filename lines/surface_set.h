@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "abuffer/coincidence.h"
 #include "abuffer/depth_plane.h"
 #include "abuffer/projection.h"
 #include "abuffer/screen_polygon.h"
@@ -70,13 +71,9 @@ struct SurfaceSet {
         view_corners(s, corners);
         return snapped_depth_plane(projection, corners);
     }
-    /// Whether two surfaces lie in one plane around a pixel.
-    bool coincide(SurfaceId a, SurfaceId b, glm::dvec2 pixel) const {
-        glm::dvec3 corners_a[3], corners_b[3];
-        view_corners(a, corners_a);
-        view_corners(b, corners_b);
-        return are_coincident(projection, corners_a, corners_b, pixel, coordinate_error);
-    }
+    /// How the polygons of two triangles lie to each other. Not all places are looked at where they are apart.
+    SurfaceOrder order(SurfaceId a, SurfaceId b) const;
+    bool coincide(SurfaceId a, SurfaceId b) const { return order(a, b).are_coincident(); }
     ScreenPolygon screen_polygon(SurfaceId s) const {
         glm::dvec3 corners[3];
         view_corners(s, corners);

@@ -130,6 +130,12 @@ class FineLines::BlockClipper {
         return std::find_first_of(v.begin(), v.end(), t.vertices.begin(), t.vertices.end()) != v.end();
     }
 
+    /// Of two surfaces at about one depth, of which the one is nearer by `gap`.
+    bool is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
+        const SurfaceOrder order = screen_.surfaces().order(screen_.surface_of(one), screen_.surface_of(other));
+        return order.have_common_place && !order.are_coincident() ? gap > 0 : one < other;
+    }
+
     /// Of surfaces at one depth the first one is seen. Whether that is `t`, and neither triangle at the edge: none
     /// rises in front of it beside the edge, or comes before it.
     bool is_seen_instead(const FineCandidate& candidate, const LayerTriangle& t, double level) const {
@@ -150,7 +156,7 @@ class FineLines::BlockClipper {
             const glm::dvec2 inward = (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y) + glm::dvec2(c.x, c.y)) / 3.0 - at;
             const glm::dvec2 beside = at + inward * std::min(1.0, kBesideSubpixels / glm::length(inward));
             const double gap = extended_nearness(own, beside.x, beside.y) - t.nearness_at(beside);
-            if (gap > level || (gap >= -level && owner < t.number)) return false;
+            if (gap > level || (gap >= -level && is_seen_first(owner, t.number, gap))) return false;
         }
         return true;
     }

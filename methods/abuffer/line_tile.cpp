@@ -89,37 +89,21 @@ void LineTile::draw_all(std::size_t tile) {
     }
 }
 
-/// Coincident surfaces do not fight: the first one wins, as in resolve_visibility(). Whether two coincide is asked once in
-/// each block of kMergeBlockPx pixels, in its middle, so that it hangs on no tile.
+/// Coincident surfaces do not fight: the first one wins, as in resolve_visibility().
 void LineTile::settle_contests() {
-    if (contests_used_ == 0) return;
     std::sort(contests_.begin(), contests_.begin() + contests_used_, [](const Contest& a, const Contest& b) {
         return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser);
     });
-    const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * per_pixel_));
-    const auto stride = static_cast<std::uint32_t>(samples_.stride);
-    const auto block_of = [&](std::uint32_t sample) {
-        return glm::ivec2(samples_.first_column + static_cast<int>(sample % stride), samples_.first_row + static_cast<int>(sample / stride)) >> shift;
-    };
-    const int first_block = samples_.first_column >> shift;
-    known_.resize(static_cast<std::size_t>(samples_.stride >> shift) + 2);
-    int row_of_blocks = block_of(contests_[0].sample).y - 1;
+    known_.clear();
     for (std::uint32_t i = 0; i < contests_used_;) {
         const std::uint32_t sample = contests_[i].sample;
-        const glm::ivec2 block = block_of(sample);
-        if (block.y != row_of_blocks) {
-            for (auto& known : known_) known.clear();
-        }
-        row_of_blocks = block.y;
-        auto& known = known_[static_cast<std::size_t>(block.x - first_block)];
-        const glm::dvec2 middle = (glm::dvec2(block) + 0.5) * double{kMergeBlockPx};
         const std::uint32_t winner = samples_.ids[sample] >> 1;
         bool settled = false;
         for (; i < contests_used_ && contests_[i].sample == sample; ++i) {
             const std::uint32_t loser = contests_[i].loser >> 1;
             if (settled || loser >= winner) continue;
-            const auto [it, is_new] = known.try_emplace(std::uint64_t{loser} << 32 | winner, false);
-            if (is_new) it->second = coincide(loser, winner, middle);
+            const auto [it, is_new] = known_.try_emplace(std::uint64_t{loser} << 32 | winner, false);
+            if (is_new) it->second = coincide(loser, winner);
             if (!it->second) continue;
             samples_.ids[sample] = loser << 1;
             settled = true;
@@ -127,7 +111,7 @@ void LineTile::settle_contests() {
     }
 }
 
-bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner, glm::dvec2 pixel) const {
+bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner) const {
     const SurfaceId a = screen_.surface_of(loser), b = screen_.surface_of(winner);
     if (a.instance == b.instance) {
         // Neighbours that fold over are level along their edge, and no more.
@@ -137,7 +121,7 @@ bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner, glm::dvec2 pi
             if (std::find(t.begin(), t.end(), v) != t.end()) return false;
         }
     }
-    return frame_.surfaces.coincide(a, b, pixel);
+    return frame_.surfaces.coincide(a, b);
 }
 
 /// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it

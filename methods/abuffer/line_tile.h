@@ -36,7 +36,7 @@ class LineTile {
     SampleView view();
     void draw_all(std::size_t tile);
     void settle_contests();
-    bool coincide(std::uint32_t loser, std::uint32_t winner, glm::dvec2 pixel) const;
+    bool coincide(std::uint32_t loser, std::uint32_t winner) const;
     void order_runs(std::size_t tile);
     void draw_large_ones(std::size_t tile);
     int draw_large(const LargePolygon& large, bool plain, bool has_look);
@@ -76,8 +76,7 @@ class LineTile {
     std::uint64_t drawn_ = 0;
     std::vector<Contest> contests_;
     std::uint32_t contest_count_ = 0, contests_used_ = 0;
-    // Per block of a row of them, of two triangles: whether they coincide.
-    std::vector<std::unordered_map<std::uint64_t, bool>> known_;
+    std::unordered_map<std::uint64_t, bool> known_;  // two triangles: whether they coincide
 };
 
 }  // namespace burin

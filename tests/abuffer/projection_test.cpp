@@ -111,28 +111,6 @@ TEST(DepthPlane, SnappedPlanesOfNeighboursAgreeAlongTheirEdge) {
     }
 }
 
-TEST(DepthPlane, CoincidenceIsThatOfPlanesNotOfTriangles) {
-    Random random(5);
-    for (const Projection& p : {perspective(), orthographic()}) {
-        for (int trial = 0; trial < 500; ++trial) {
-            const glm::dvec3 o = random.in_box(1) - glm::dvec3(0, 0, 6), u = random.direction(), v = random.direction();
-            glm::dvec3 a[3], b[3], moved[3], turned[3];
-            const glm::dvec3 normal = glm::normalize(glm::cross(u, v));
-            if (std::abs(normal.z) < 0.05) continue;
-            for (int k = 0; k < 3; ++k) {
-                a[k] = o + random.real(-1, 1) * u + random.real(-1, 1) * v;
-                b[k] = o + random.real(-1, 1) * u + random.real(-1, 1) * v;
-                moved[k] = b[k] + 1e-3 * normal;
-                turned[k] = b[k] + 0.02 * glm::dot(b[k] - o, u) * normal;
-            }
-            const glm::dvec2 pixel = p.to_pixel(o);
-            ASSERT_TRUE(are_coincident(p, a, b, pixel, 1e-7)) << trial;
-            ASSERT_FALSE(are_coincident(p, a, moved, pixel, 1e-7)) << trial;
-            ASSERT_FALSE(are_coincident(p, a, turned, pixel, 1e-7)) << trial;
-        }
-    }
-}
-
 TEST(DepthPlane, EdgeOnTrianglesGiveFiniteDepths) {
     const glm::dvec3 edge_on[3] = {{0, 0, -1}, {0, 0, -2}, {0, 1, -2}};
     for (const Projection& p : {perspective(), orthographic()}) {

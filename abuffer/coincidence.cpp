@@ -1,0 +1,137 @@
+#include "abuffer/coincidence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "abuffer/depth_plane.h"
+#include "abuffer/screen_polygon.h"
+
+namespace burin {
+namespace {
+
+/// Planes that meet at an angle drift apart by more than kCoincidentPx within so many pixels, or are taken for one.
+constexpr double kAroundPx = 2;
+
+/// A convex polygon on the screen, in pixels, clockwise as seen.
+class Region {
+  public:
+    explicit Region(const ScreenPolygon& polygon) {
+        for (int i = 0; i < polygon.count; ++i) {
+            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+            corners_[count_++] = glm::dvec2(p.x, p.y) / double{kSubpixelsPerPixel};
+        }
+        double area = 0;
+        for (std::size_t i = 2; i < count_; ++i) area += cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
+        if (area < 0) std::reverse(corners_.begin(), corners_.begin() + count_);
+    }
+
+    bool is_empty() const { return count_ == 0; }
+    /// No wider than what snapping does to edges.
+    bool is_sliver() const {
+        constexpr double kSnappedPx = 1.0 / 128;
+        double area = 0, around = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const glm::dvec2 p = corners_[i] - corners_[0], q = corners_[i + 1 == count_ ? 0 : i + 1] - corners_[0];
+            area += 0.5 * cross(p, q);
+            around += glm::distance(p, q);
+        }
+        return !(area > 0.5 * kSnappedPx * around);
+    }
+    std::span<const glm::dvec2> corners() const { return {corners_.data(), count_}; }
+
+    /// What lies to the right of the way from one point to another.
+    void clip(glm::dvec2 from, glm::dvec2 to) {
+        std::array<glm::dvec2, kMost> kept{};
+        std::size_t kept_count = 0;
+        const auto side = [&](glm::dvec2 p) { return cross(to - from, p - from); };
+        for (std::size_t i = 0; i < count_ && kept_count + 2 <= kMost; ++i) {
+            const glm::dvec2 p = corners_[i], q = corners_[i + 1 == count_ ? 0 : i + 1];
+            const double at_p = side(p), at_q = side(q);
+            if (at_p >= 0) kept[kept_count++] = p;
+            if ((at_p < 0) != (at_q < 0)) kept[kept_count++] = glm::mix(p, q, at_p / (at_p - at_q));
+        }
+        corners_ = kept;
+        count_ = kept_count;
+    }
+    void clip(const Region& other) {
+        const auto c = other.corners();
+        for (std::size_t i = 0; i < c.size(); ++i) clip(c[i], c[i + 1 == c.size() ? 0 : i + 1]);
+    }
+
+  private:
+    static constexpr std::size_t kMost = 2 * ScreenPolygon::kMaxCorners + 8;  // each side of another one adds a corner
+    static double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+    std::array<glm::dvec2, kMost> corners_;
+    std::size_t count_ = 0;
+};
+
+/// Where both are in the picture, or anywhere if they are not.
+Region common_region(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3]) {
+    Region common(project_triangle(projection, a));
+    common.clip(Region(project_triangle(projection, b)));
+    const glm::dvec2 size = 2.0 * projection.center_px, right(size.x, 0), below(0, size.y);
+    Region seen = common;
+    for (const auto& [from, to] : {std::pair{glm::dvec2(0.0), right}, {right, size}, {size, below}, {below, glm::dvec2(0.0)}}) seen.clip(from, to);
+    return seen.is_empty() ? common : seen;
+}
+
+/// How much nearness changes when a plane moves by `error` along its normal: by error / normal.z (orthographic), or by a
+/// factor of error / distance of the plane from the eye.
+class Sensitivity {
+  public:
+    Sensitivity(const Projection& projection, const glm::dvec3 (&corners)[3]) : projection_(projection) {
+        const glm::dvec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const glm::dvec3 normal = area / std::max(glm::length(area), 1e-300);
+        divisor_ = projection.orthographic ? normal.z : glm::dot(normal, corners[0]);
+    }
+    bool has_plane() const { return divisor_ != 0; }  // else it is seen edge-on, or has no area
+    bool is_front() const { return projection_.orthographic ? divisor_ > 0 : divisor_ < 0; }
+    double change(double nearness, double error) const {
+        return (projection_.orthographic ? error : std::abs(nearness) * error) / std::abs(divisor_);
+    }
+
+  private:
+    const Projection& projection_;
+    double divisor_;
+};
+
+}  // namespace
+
+void SurfaceOrder::operator+=(const SurfaceOrder& o) {
+    have_common_place = have_common_place || o.have_common_place;
+    has_front = has_front || o.has_front;
+    has_behind = has_behind || o.has_behind;
+    has_level = has_level || o.has_level;
+    is_apart = is_apart || o.is_apart;
+}
+
+SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], bool are_of_one_mesh,
+                              double coordinate_error) {
+    SurfaceOrder order;
+    const Sensitivity of_a(projection, a), of_b(projection, b);
+    if (!of_a.has_plane() || !of_b.has_plane()) return order;
+    const DepthPlane plane_a = exact_depth_plane(projection, a), plane_b = exact_depth_plane(projection, b);
+    const double drift = std::abs(plane_a.per_x - plane_b.per_x) + std::abs(plane_a.per_y - plane_b.per_y);
+    const double snapping = plane_a.snapping_error() + plane_b.snapping_error();
+    const auto change = [&](double nearness, double error) { return of_a.change(nearness, error) + of_b.change(nearness, error); };
+    const bool may_be_one_plane = !are_of_one_mesh || of_a.is_front() == of_b.is_front();
+    const Region region = common_region(projection, a, b);
+    if (region.is_sliver()) return order;
+    for (const glm::dvec2 p : region.corners()) {
+        order.have_common_place = true;
+        const double nearness = plane_a.extended_to(p), gap = nearness - plane_b.extended_to(p);
+        const double error = change(nearness, coordinate_error);
+        const double visible = change(nearness, 0.5 * kCoincidentPx * projection.pixel_size(projection.distance(nearness)));
+        const double certain = error + snapping;
+        (gap > certain ? order.has_front : gap < -certain ? order.has_behind : order.has_level) = true;
+        const double allowed = may_be_one_plane ? std::max(error, visible) : error;
+        order.is_apart = order.is_apart || !(std::abs(gap) + kAroundPx * drift <= allowed);  // so is what is not a number
+    }
+    return order;
+}
+
+}  // namespace burin

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "abuffer/projection.h"
+
+namespace burin {
+
+/// Planes nearer to each other than this, in pixels, cannot be told apart.
+constexpr double kCoincidentPx = 1.0 / 64;
+
+/// How two surfaces lie to each other wherever both are in the picture, or anywhere if nowhere in it.
+struct SurfaceOrder {
+    bool have_common_place = false;
+    /// Places where the first is in front of the second, behind it, or neither for certain: coordinates have errors, and
+    /// corners are snapped.
+    bool has_front = false, has_behind = false, has_level = false;
+    bool is_apart = false;  ///< places where the planes are farther apart than kCoincidentPx, or soon will be
+
+    void operator+=(const SurfaceOrder& o);
+    /// Files round coordinates, and what was modelled in one plane is read a little off it: a surface that is now in front
+    /// and now behind by less than can be seen. The answer is one for all places, so that of two such surfaces the same
+    /// one is in front everywhere. A surface that is in front for certain, by however little, is in front.
+    bool are_coincident() const { return have_common_place && !is_apart && (has_level || has_front == has_behind); }
+};
+
+/// Of two triangles, with corners in view space. `coordinate_error`: how exact coordinates are, in world units. Where those
+/// of one mesh face different ways, nothing but that error counts: a thin sheet has two sides.
+SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], bool are_of_one_mesh,
+                              double coordinate_error);
+
+}  // namespace burin
