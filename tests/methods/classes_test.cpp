@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
 #include "tests/support/drawing.h"
+#include "tests/support/random.h"
 
 namespace burin {
 namespace {
@@ -268,6 +270,23 @@ TEST(FlatStep, IsDrawnByItsOwnersHoweverSmall) {
     }
 }
 
+/// Nor is what lies behind it drawn, however near: in files it comes before or after.
+TEST(FlatStep, HidesWhatLiesBehind) {
+    for (const double step : {1e-3, 0.01, 0.1, 1.0}) {
+        for (const bool is_front_first : {false, true}) {
+            std::vector<PolygonSoup> sheets{rectangle(10.2, 10.2, 60.2, 60.2, 0), rectangle(30.2, 30.2, 90.2, 90.2, step)};
+            if (is_front_first) std::swap(sheets[0], sheets[1]);
+            for (const RenderFunction render : {render_patel, render_abuffer}) {
+                const Drawing d(scene_of(sheets), pixel_camera(100, 100), 100, 100, {0, 0, 100, 100}, 1, render);
+                EXPECT_EQ(d.drawn_share({34, 39.8}, {60.2, 39.8}), 0) << step << is_front_first;
+                EXPECT_EQ(d.drawn_share({60.2, 66}, {60.2, 39.8}), 0) << step << is_front_first;
+                EXPECT_GT(d.drawn_share({30.2, 69.8}, {90.2, 69.8}), 0.99) << step << is_front_first;
+                EXPECT_GT(d.drawn_share({30.2, 69.8}, {30.2, 9.8}), 0.99) << step << is_front_first;
+            }
+        }
+    }
+}
+
 TEST(GrazingFloor, HasNoFalseLines) {
     PolygonSoup floor = make_plane(400, 400, 40, 40);
     Camera camera = perspective_camera({0, 3, 60}, {0, 0, 0});  // under 3 degrees
@@ -292,6 +311,34 @@ TEST(CoincidentFaces, DoNotFight) {
             ASSERT_EQ(d.at("id.object", x, y), 1) << x << "," << y;
         }
     }
+}
+
+/// A flat label on a turned box, as files have them: their planes differ by what coordinates were rounded. It is seen as a
+/// whole, or not at all.
+TEST(CoincidentFaces, DoNotFightWhenRounded) {
+    int hidden = 0;
+    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+        Random random(seed);
+        const glm::dmat3 turned(glm::rotate(glm::dmat4(1.0), random.real(0, 3), random.direction()));
+        const double unit = seed % 2 == 0 ? 1e-5 : 1e-4;
+        const auto rounded = [&](glm::dvec3 p) { return glm::round(turned * p / unit) * unit; };
+        PolygonSoup box = transformed(make_box({1, 1, 1}), rounded);
+        const PolygonSoup label = transformed(soup_of({{0.5, -0.3, -0.2}, {0.5, 0.4, -0.1}, {0.5, 0.35, 0.3}, {0.5, -0.3, 0.25}}, {{0, 1, 2, 3}}), rounded);
+        const Camera camera = perspective_camera(turned * glm::dvec3(3, 0.6, 0.8), {0, 0, 0});
+        for (const int samples : {0, 4}) {
+            const auto draw = [&](std::vector<PolygonSoup> objects) {
+                Scene scene = scene_of(std::move(objects));
+                if (samples > 0) scene.abuffer.samples = samples;
+                return Drawing(scene, camera, 300, 225, {0, 0, 300, 225}, 2, render_abuffer);
+            };
+            const Drawing d = draw({box, label});
+            EXPECT_EQ(d.sum(LineClass::intersection), 0) << "seed " << seed << ", samples " << samples;
+            const double outline = draw({label}).sum(LineClass::border), drawn = d.sum(LineClass::object) + d.sum(LineClass::border);
+            EXPECT_NEAR(drawn, drawn > 0 ? outline : 0, 0.02 * outline) << "seed " << seed << ", samples " << samples;
+            hidden += drawn > 0 ? 0 : 1;
+        }
+    }
+    EXPECT_GT(hidden, 10);
 }
 
 TEST(TwoSided, WindingChangesNothing) {
