@@ -56,7 +56,7 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
 
 Model read_by_extension(const std::string& path, const MeshOptions& options) {
     const std::string extension = lower_extension(path);
-    if (extension == ".obj") return model_of(path, read_obj(path), options);
+    if (extension == ".obj") return model_of(path, read_obj(path, options.threads), options);
     if (extension == ".ply") return model_of(path, read_ply(path, options.threads), options);
     if (extension == ".stl") return model_of(path, read_stl(path), options);
     if (extension == ".off") return model_of(path, read_off(path), options);

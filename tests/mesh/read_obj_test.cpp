@@ -15,12 +15,14 @@ using test::polygons_of;
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
+PolygonSoup read_file(const std::string& path) { return read_obj(path); }
+
 class ReadObj : public testing::Test {
   protected:
     PolygonSoup read(std::string_view text) { return read_obj(folder_.write("part.obj", text)); }
     testing::AssertionResult refuses(std::string_view text,
                                      std::initializer_list<std::string_view> parts) {
-        return test::refuses(read_obj, folder_.write("part.obj", text), parts);
+        return test::refuses(read_file, folder_.write("part.obj", text), parts);
     }
     test::TemporaryFolder folder_;
 };
@@ -201,8 +203,8 @@ TEST_F(ReadObj, TextThatIsNoObjIsRefused) {
     EXPECT_TRUE(refuses(kSquare, {"no polygons"}));
     EXPECT_TRUE(refuses(kSquare + "l 1 2\n", {"no polygons"}));
     EXPECT_TRUE(refuses("", {"empty"}));
-    EXPECT_TRUE(test::refuses(read_obj, folder_.file("none.obj"), {"cannot open"}));
-    EXPECT_TRUE(test::refuses(read_obj, folder_.path(), {"not a regular file"}));
+    EXPECT_TRUE(test::refuses(read_file, folder_.file("none.obj"), {"cannot open"}));
+    EXPECT_TRUE(test::refuses(read_file, folder_.path(), {"not a regular file"}));
 }
 
 TEST_F(ReadObj, AFaceCutOffAtTheEndIsAnError) {

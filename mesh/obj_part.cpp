@@ -1,0 +1,173 @@
+#include "mesh/obj_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/interrupt.h"
+#include "mesh/text_scan.h"
+
+namespace burin {
+namespace {
+
+/// Comments go on nowhere: "# saved in C:\models\" must not swallow the next line.
+bool is_comment(std::string_view line) {
+    LineScanner scan(line);
+    return !scan.at_end() && scan.rest().front() == '#';
+}
+bool ends_in_backslash(std::string_view line) {
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    return !line.empty() && line.back() == '\\';
+}
+
+class ObjParser {
+  public:
+    ObjParser(const std::string& path, std::string_view text, bool is_whole)
+        : path_(path), text_(text), is_whole_(is_whole), lines_(text) {}
+
+    ObjPart parse() {
+        std::string_view line;
+        while (lines_.next(line)) {
+            if ((lines_.line_number() & 0xFFFF) == 0) throw_if_interrupted();
+            const bool goes_on = ends_in_backslash(line) && !is_comment(line);
+            parse_line(goes_on ? joined_lines(line) : line);
+        }
+        return std::move(part_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& message) const {
+        throw InputError({path_, lines_.line_number()}, message);
+    }
+
+    /// The logical line that starts with `line` and goes on behind its backslash.
+    std::string_view joined_lines(std::string_view line) {
+        joined_.clear();
+        bool more = true;
+        while (more) {
+            more = ends_in_backslash(line);
+            if (more) line = line.substr(0, line.rfind('\\'));
+            joined_.append(line);
+            joined_ += ' ';
+            if (more && !lines_.next(line)) more = false;
+        }
+        return joined_;
+    }
+
+    void parse_line(std::string_view line) {
+        LineScanner scan(line);
+        const std::string_view keyword = scan.word();
+        if (keyword == "v") {
+            parse_vertex(scan);
+        } else if (keyword == "f" || keyword == "fo") {
+            parse_face(scan);
+        } else if (keyword == "l") {
+            parse_marked_line(scan);
+        } else if (keyword == "o") {
+            part_.objects.use(scan.rest(), soup_.polygon_ends.size());
+        } else if (keyword == "g") {
+            part_.groups.use(scan.rest(), soup_.polygon_ends.size());
+        } else if (keyword == "usemtl") {
+            part_.materials.use(scan.rest(), soup_.polygon_ends.size());
+        } else if (keyword == "mtllib") {
+            part_.material_files.emplace_back(scan.rest());
+        }
+    }
+
+    void parse_vertex(LineScanner& scan) {
+        glm::dvec3 p;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!scan.number(p[axis])) {
+                fail("a vertex needs three numbers, found '" + printable(scan.rest()) +
+                     "'; repair or re-export the file");
+            }
+            if (!(std::abs(p[axis]) <= kLargestCoordinate)) {
+                fail("a coordinate is not finite or beyond 1e30; repair or re-export the file");
+            }
+        }
+        soup_.positions.push_back(p);
+    }
+
+    /// The vertex number at the start of a corner "7", "7/1", "7//2", "7/1/2", "-1/…".
+    std::uint32_t parse_corner(std::string_view corner) {
+        const char* const end = corner.data() + corner.size();
+        std::int64_t number = 0;
+        const char* p = scan_integer(corner.data(), end, number);
+        if (p == nullptr || (p < end && *p != '/')) {
+            fail("'" + printable(corner) + "' is no vertex number; repair or re-export the file");
+        }
+        const auto vertices = static_cast<std::int64_t>(soup_.positions.size());
+        if (number < 0 && (number >= -vertices || !is_whole_)) return counted_back(vertices + number);
+        if (number <= 0 || number > std::int64_t{0xFFFFFFFF}) {
+            fail("vertex " + std::to_string(number) + " does not exist (there are " +
+                 std::to_string(vertices) + " so far); repair or re-export the file");
+        }
+        if (number > vertices && number > part_.largest_reference) {
+            // Vertices behind their first use are not standard, but exist: checked at the end.
+            part_.largest_reference = number;
+            part_.largest_reference_line = lines_.line_number();
+        }
+        return static_cast<std::uint32_t>(number - 1);
+    }
+    std::uint32_t counted_back(std::int64_t vertex) {
+        if (is_whole_) return static_cast<std::uint32_t>(vertex);
+        part_.least_counted_back = std::min(part_.least_counted_back, vertex);
+        return ObjPart::kFirstOfPiece + static_cast<std::uint32_t>(vertex);
+    }
+
+    void parse_face(LineScanner& scan) {
+        corners_.clear();
+        for (std::string_view corner = scan.word(); !corner.empty(); corner = scan.word()) {
+            if (corner.front() == '#') break;
+            corners_.push_back(parse_corner(corner));
+        }
+        if (corners_.size() < 3 && lines_.rest().empty() && !text_.ends_with('\n')) {
+            fail("the file ends in the middle of a face; was it written completely?");
+        }
+        if (soup_.corners.size() + corners_.size() > PolygonSoup::kMaxCorners) {
+            fail("more than 4 billion polygon corners; split the model");
+        }
+        soup_.add_polygon(corners_);
+    }
+
+    void parse_marked_line(LineScanner& scan) {
+        corners_.clear();
+        for (std::string_view corner = scan.word(); !corner.empty(); corner = scan.word()) {
+            if (corner.front() == '#') break;
+            corners_.push_back(parse_corner(corner));
+        }
+        for (std::size_t i = 1; i < corners_.size(); ++i) {
+            soup_.marked_edges.push_back({corners_[i - 1], corners_[i]});
+        }
+    }
+
+    const std::string& path_;
+    const std::string_view text_;
+    const bool is_whole_;
+    LineReader lines_;
+    ObjPart part_;
+    PolygonSoup& soup_ = part_.soup;
+    std::string joined_;
+    std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+ObjPart parse_obj_part(const std::string& path, std::string_view text, bool is_whole) {
+    return ObjParser(path, text, is_whole).parse();
+}
+
+std::vector<std::string_view> cut_between_statements(std::string_view text, std::size_t size) {
+    std::vector<std::string_view> pieces;
+    while (text.size() > size) {
+        std::size_t feed = text.find('\n', size - 1);
+        while (feed != text.npos && ends_in_backslash(text.substr(0, feed))) feed = text.find('\n', feed + 1);
+        if (feed == text.npos || feed + 1 == text.size()) break;
+        pieces.push_back(text.substr(0, feed + 1));
+        text.remove_prefix(feed + 1);
+    }
+    pieces.push_back(text);
+    return pieces;
+}
+
+}  // namespace burin

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/name_uses.h"
+#include "mesh/polygon_soup.h"
+
+namespace burin {
+
+/// What a piece of the text of an OBJ file says, or all of it.
+struct ObjPart {
+    /// Vertices, corners and marked edges. A piece does not know the number of its first vertex: vertices
+    /// that it counts backwards are numbered kFirstOfPiece + n, where n is negative for those before the
+    /// piece. Others have smaller numbers, if the file has up to kMostVertices.
+    PolygonSoup soup;
+    NameUses objects, groups, materials;
+    std::vector<std::string> material_files;
+
+    static constexpr std::uint32_t kMostVertices = 1u << 30, kFirstOfPiece = 3 * kMostVertices;
+    static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+    std::int64_t least_counted_back = kNone;  ///< the least n
+
+    /// The largest number, from 1, of a vertex that does not stand before it in this piece, and where
+    /// that is first.
+    std::int64_t largest_reference = 0;
+    std::size_t largest_reference_line = 0;
+};
+
+/// Parses all the text of an OBJ file (`is_whole`) or a piece. Throws InputError, which names the right
+/// line and number of vertices if it is all.
+ObjPart parse_obj_part(const std::string& path, std::string_view text, bool is_whole);
+
+/// Cuts a text into pieces of at least `size` bytes at line ends, but not behind a backslash, where a
+/// statement goes on.
+std::vector<std::string_view> cut_between_statements(std::string_view text, std::size_t size);
+
+}  // namespace burin
