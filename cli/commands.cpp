@@ -403,6 +403,7 @@ void run_explain(const Arguments& a) {
                          std::to_string(frame.height) + " pixels");
     }
     std::fputs(explain_pixel(frame, x, y).c_str(), stdout);
+    if (a.method != "patel") std::fputs(drawn_by_abuffer(frame, x, y).c_str(), stdout);
 }
 
 void run_methods(const Arguments& a) {

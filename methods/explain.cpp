@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "methods/abuffer/abuffer.h"
 #include "methods/patel.h"
 #include "methods/patel_tile.h"
 #include "methods/surface_bins.h"
@@ -146,7 +147,7 @@ class Explainer {
     std::string result_text() const {
         std::string text = "\n";
         const PixelResult result = tile_.shade(x_, y_);
-        if (!lines_->any) return text + "no line is drawn in this pixel\n";
+        if (!lines_->any) return text + "no line is drawn in this pixel by these samples\n";
         std::vector<std::pair<std::string, Mask>> titled;
         for (std::size_t c = 0; c < kLineClassCount; ++c) {
             if (lines_->masks[c] == Mask{}) continue;
@@ -167,6 +168,22 @@ class Explainer {
 };
 
 }  // namespace
+
+std::string drawn_by_abuffer(const Frame& given, int x, int y) {
+    Frame frame = given;
+    frame.crop = {x, y, x + 1, y + 1};
+    LayerSet layers{.depth = false, .normal = false, .ids = false};
+    layers.coverage = true;
+    Film film({0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
+    render_abuffer(frame, RunOptions{}, film);
+    std::string classes;
+    for (std::size_t c = 0; c < kLineClassCount; ++c) {
+        const Channel* const channel = film.image().find("coverage." + std::string(kLineClassNames[c]));
+        const double coverage = channel == nullptr ? 0 : film.image().value(*channel, 0, 0);
+        if (coverage > 0) classes += (classes.empty() ? "" : ", ") + std::string(kLineClassNames[c]) + format(" %.4f", coverage);
+    }
+    return "method abuffer, with lines that these samples miss, covers of the pixel: " + (classes.empty() ? "nothing" : classes) + "\n";
+}
 
 std::string explain_pixel(const Frame& frame, int x, int y) {
     return with_patel_grid(*frame.scene, [&](auto mask, const ExtendedGrid& grid) {

@@ -10,4 +10,7 @@ namespace burin {
 /// owners and planes, and for every pair of neighbours which test drew or refused the line.
 std::string explain_pixel(const Frame& frame, int x, int y);
 
+/// What lines method abuffer draws in the pixel, class by class: it decides on fewer samples and knows more than them.
+std::string drawn_by_abuffer(const Frame& frame, int x, int y);
+
 }  // namespace burin

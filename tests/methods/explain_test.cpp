@@ -47,5 +47,14 @@ TEST(Explain, SaysWhyThereIsNoLine) {
     EXPECT_TRUE(contains(empty, "0 fragments")) << empty;
 }
 
+/// A strip between the samples.
+TEST(Explain, TellsOfLinesThatItsSamplesMiss) {
+    const Scene scene = scene_of({soup_of({{50.51, 10, 5}, {50.53, 10, 5}, {50.53, 90, 5}, {50.51, 90, 5}}, {{0, 1, 2, 3}})});
+    EXPECT_TRUE(contains(explain(scene, pixel_camera(100, 100), 100, 50, 50), "0 fragments"));
+    const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100});
+    EXPECT_TRUE(contains(drawn_by_abuffer(frame, 50, 50), "covers of the pixel: border 0.9")) << drawn_by_abuffer(frame, 50, 50);
+    EXPECT_TRUE(contains(drawn_by_abuffer(frame, 20, 50), "covers of the pixel: nothing"));
+}
+
 }  // namespace
 }  // namespace burin
