@@ -40,8 +40,12 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 c
     segment.nearness_from = static_cast<float>(style.nearness);
     segment.nearness_to = other_end == nullptr ? segment.nearness_from : static_cast<float>(other_end->nearness);
     // y runs down: what is to the left of the way has a negative cross product.
-    const double side = cross(inwards(style, center), style.towards_front);
-    segment.front_on_left = (to == style.pixel ? -side : side) < 0;
+    const glm::dvec2 in = inwards(style, center);
+    const double side = cross(in, style.towards_front);
+    // A corner beyond the cell: the piece runs back to it.
+    constexpr double kBack = 1e-6;
+    const bool runs_back = glm::dot((to == style.pixel ? from : to) - style.pixel, in) < -kBack * glm::length(in);
+    segment.front_on_left = ((to == style.pixel) != runs_back ? -side : side) < 0;
     segment.line_key = style.line_key;
     segment.opacity = style.opacity;
     segments.push_back(segment);

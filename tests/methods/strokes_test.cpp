@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -183,6 +184,37 @@ TEST(Strokes, OutsideStrokesLeaveEverySurfaceFree) {
         EXPECT_EQ(d.line(84, 96 - 81), 0) << "beyond the round corner";
         EXPECT_EQ(d.line(81, 96 - 77), side == StrokeSide::outside ? 1 : 0);
     }
+}
+
+/// Also where corners of lines lie beyond the squares of samples that tell of them.
+TEST(Strokes, InsideStrokesStayOnTheSurface) {
+    constexpr int kSize = 120;
+    std::size_t ink = 0;
+    double stray_px = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        Random random(seed);
+        Scene scene = scene_of({make_torus(0.75, 0.25, 48, 24)});
+        scene.lines.style.width_px = random.real(3, 12);
+        scene.lines.style.side = StrokeSide::inside;
+        const Drawing d = draw(scene, perspective_camera(3.0 * random.direction(), {0, 0, 0}), kSize);
+        const auto is_beside = [&](int x, int y) {
+            for (int dy = -1; dy <= 1; ++dy) {
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const int u = std::clamp(x + dx, 0, kSize - 1), v = std::clamp(y + dy, 0, kSize - 1);
+                    if (d.at("id.object", u, v) != 0) return false;
+                }
+            }
+            return true;
+        };
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                ink += d.line(x, y) > 0.5 ? 1 : 0;
+                if (is_beside(x, y)) stray_px += d.line(x, y);
+            }
+        }
+    }
+    EXPECT_LT(stray_px, 1) << "but for a contour that goes on behind its cusp";
+    EXPECT_GT(ink, 10000u);
 }
 
 TEST(Strokes, BothSidesTogetherAreTheWholeStroke) {
