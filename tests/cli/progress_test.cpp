@@ -93,7 +93,7 @@ void interrupt(int signal_number, const std::string& output, std::chrono::millis
     const TemporaryFolder folder;
     folder.write("teapot.toml", "[[object]]\nshape = 'teapot'\ntessellation = 150\n");
     folder.write(output, "old");
-    Program program(folder.path(), {"render", "teapot.toml", "-r", "6000x5000", "-o", output, "-j",
+    Program program(folder.path(), {"render", "teapot.toml", "-r", "6000x5000", "--samples", "8", "-o", output, "-j",
                                     "1", "-q", "--stats", "stats.json", "--progress", "alf"});
     std::this_thread::sleep_for(after);
     const auto start = std::chrono::steady_clock::now();
