@@ -28,7 +28,6 @@ class Region {
         if (area < 0) std::reverse(corners_.begin(), corners_.begin() + count_);
     }
 
-    bool is_empty() const { return count_ == 0; }
     /// No wider than what snapping does to edges.
     bool is_sliver() const {
         constexpr double kSnappedPx = 1.0 / 128;
@@ -65,7 +64,7 @@ class Region {
     static constexpr std::size_t kMost = 2 * ScreenPolygon::kMaxCorners + 8;  // each side of another one adds a corner
     static double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-    std::array<glm::dvec2, kMost> corners_;
+    std::array<glm::dvec2, kMost> corners_{};
     std::size_t count_ = 0;
 };
 
@@ -76,7 +75,7 @@ Region common_region(const Projection& projection, const glm::dvec3 (&a)[3], con
     const glm::dvec2 size = 2.0 * projection.center_px, right(size.x, 0), below(0, size.y);
     Region seen = common;
     for (const auto& [from, to] : {std::pair{glm::dvec2(0.0), right}, {right, size}, {size, below}, {below, glm::dvec2(0.0)}}) seen.clip(from, to);
-    return seen.is_empty() ? common : seen;
+    return seen.is_sliver() ? common : seen;
 }
 
 /// How much nearness changes when a plane moves by `error` along its normal: by error / normal.z (orthographic), or by a

@@ -7,7 +7,7 @@ namespace burin {
 /// Planes nearer to each other than this, in pixels, cannot be told apart.
 constexpr double kCoincidentPx = 1.0 / 64;
 
-/// How two surfaces lie to each other wherever both are in the picture, or anywhere if nowhere in it.
+/// How two polygons lie to each other wherever both are in the picture, or anywhere if nowhere in it.
 struct SurfaceOrder {
     bool have_common_place = false;
     /// Places where the first is in front of the second, behind it, or neither for certain: coordinates have errors, and
@@ -17,7 +17,7 @@ struct SurfaceOrder {
 
     void operator+=(const SurfaceOrder& o);
     /// Files round coordinates, and what was modelled in one plane is read a little off it: a surface that is now in front
-    /// and now behind by less than can be seen. The answer is one for all places, so that of two such surfaces the same
+    /// and now behind by less than can be seen. The answer is one for all places, so that of two such polygons the same
     /// one is in front everywhere. A surface that is in front for certain, by however little, is in front.
     bool are_coincident() const { return have_common_place && !is_apart && (has_level || has_front == has_behind); }
 };

@@ -5,13 +5,16 @@
 namespace burin {
 namespace {
 
-/// The triangles [first, second) of the polygon that a triangle belongs to.
+/// Of more, only the two triangles are compared: time would grow with the square of the corners.
+constexpr std::uint64_t kMostComparisons = 16;
+
+/// The triangles [first, second) of the polygon that a triangle belongs to, or some of them if there are many.
 std::pair<std::uint32_t, std::uint32_t> triangles_of_polygon(const Mesh& mesh, std::uint32_t triangle) {
     std::uint32_t begin = triangle, end = triangle + 1;
     if (mesh.triangle_polygon.empty()) return {begin, end};
     const std::uint32_t polygon = mesh.polygon_of(triangle);
-    while (begin > 0 && mesh.polygon_of(begin - 1) == polygon) --begin;
-    while (end < mesh.triangles.size() && mesh.polygon_of(end) == polygon) ++end;
+    while (begin > 0 && triangle - begin <= kMostComparisons && mesh.polygon_of(begin - 1) == polygon) --begin;
+    while (end < mesh.triangles.size() && end - triangle <= kMostComparisons && mesh.polygon_of(end) == polygon) ++end;
     return {begin, end};
 }
 
@@ -24,10 +27,12 @@ SurfaceOrder SurfaceSet::order(SurfaceId a, SurfaceId b) const {
         view_corners(t, corners_t);
         return compare_surfaces(projection, corners_s, corners_t, s.instance == t.instance, coordinate_error);
     };
+    if (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(b).polygon_of(b.triangle)) return {};
     // The triangles in question first: they tell for most.
     SurfaceOrder order = compare(a, b);
     const auto [begin_a, end_a] = triangles_of_polygon(mesh_of(a), a.triangle);
     const auto [begin_b, end_b] = triangles_of_polygon(mesh_of(b), b.triangle);
+    if (std::uint64_t{end_a - begin_a} * (end_b - begin_b) > kMostComparisons) return order;
     for (std::uint32_t s = begin_a; s < end_a; ++s) {
         for (std::uint32_t t = begin_b; t < end_b; ++t) {
             if (order.is_apart) return order;

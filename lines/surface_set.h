@@ -71,7 +71,8 @@ struct SurfaceSet {
         view_corners(s, corners);
         return snapped_depth_plane(projection, corners);
     }
-    /// How the polygons of two triangles lie to each other. Not all places are looked at where they are apart.
+    /// How the polygons of two triangles lie to each other, or the two triangles, if the polygons have many corners. Not all
+    /// places are looked at where they are apart. Nothing for triangles of one polygon.
     SurfaceOrder order(SurfaceId a, SurfaceId b) const;
     bool coincide(SurfaceId a, SurfaceId b) const { return order(a, b).are_coincident(); }
     ScreenPolygon screen_polygon(SurfaceId s) const {
