@@ -132,7 +132,8 @@ class FineLines::BlockClipper {
 
     /// Of two surfaces at about one depth, of which the one is nearer by `gap`. The first one, if they are neighbours, which
     /// have no more than slivers in common.
-    bool is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
+    [[gnu::noinline]] bool is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
+        if ((gap > 0) == (one < other)) return one < other;  // either way
         const SurfaceOrder order = screen_.surfaces().order(screen_.surface_of(one), screen_.surface_of(other));
         return order.have_common_place && !order.are_coincident() ? gap > 0 : one < other;
     }
