@@ -1,7 +1,6 @@
 #include "methods/abuffer/pixel_fill.h"
 
 #include <algorithm>
-#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 

@@ -341,26 +341,6 @@ TEST(CoincidentFaces, DoNotFightWhenRounded) {
     EXPECT_GT(hidden, 10);
 }
 
-/// Polygons of many corners, over each other in one plane: one is in front, and it does not take its corners' square to tell.
-TEST(CoincidentFaces, OfManyCornersDoNotFight) {
-    constexpr std::uint32_t kCorners = 400;
-    const auto disc = [](glm::dvec3 middle) {
-        PolygonSoup soup;
-        std::vector<std::uint32_t> corners;
-        for (std::uint32_t i = 0; i < kCorners; ++i) {
-            const double angle = 6.283185307179586 * i / kCorners;
-            soup.positions.push_back(middle + 30.0 * glm::dvec3(std::cos(angle), std::sin(angle), 0));
-            corners.push_back(i);
-        }
-        soup.add_polygon(corners);
-        return soup;
-    };
-    Scene scene = scene_of({disc({40.2, 50.1, 0}), disc({60.3, 48.7, 0})});
-    const Drawing d(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100}, 1, render_abuffer);
-    EXPECT_EQ(d.sum(LineClass::intersection), 0);
-    for (int x = 35; x < 65; ++x) ASSERT_EQ(d.at("id.object", x, 50), 1) << x;
-}
-
 TEST(TwoSided, WindingChangesNothing) {
     PolygonSoup box = make_box({1, 1, 1});
     PolygonSoup turned = box;
