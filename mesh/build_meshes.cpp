@@ -18,11 +18,28 @@
 namespace burin {
 namespace {
 
+double largest_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+/// Whether choose_origin() will find that the model lies around 0 or near it, if that is plain to see:
+/// some corners alone make it large enough for all vertices to be near.
+bool is_plainly_near_zero(const PolygonSoup& soup) {
+    glm::dvec3 low = soup.positions[soup.corners[0]], high = low;
+    const std::size_t step = soup.corners.size() / 1024 + 1;
+    for (std::size_t i = 0; i < soup.corners.size(); i += step) {
+        low = glm::min(low, soup.positions[soup.corners[i]]);
+        high = glm::max(high, soup.positions[soup.corners[i]]);
+    }
+    const double near = 16 * largest_of(0.5 * (high - low));
+    bool is_near = true;
+    for (const glm::dvec3& p : soup.positions) is_near &= largest_of(p) < near;
+    return is_near;
+}
+
 /// Where to put 0 so that single precision resolves the model: its centre if the model lies more
 /// than 16 of its own half sizes away from 0, else 0 itself (and coordinates keep their values).
 /// Vertices that no polygon uses, such as a stray one at 0, do not count.
 glm::dvec3 choose_origin(const PolygonSoup& soup) {
-    if (soup.corners.empty()) return glm::dvec3(0.0);
+    if (soup.corners.empty() || is_plainly_near_zero(soup)) return glm::dvec3(0.0);
     std::vector<std::uint8_t> is_corner(soup.positions.size(), 0);
     for (const std::uint32_t v : soup.corners) is_corner[v] = 1;
     glm::dvec3 low = soup.positions[soup.corners[0]], high = low;
@@ -32,9 +49,7 @@ glm::dvec3 choose_origin(const PolygonSoup& soup) {
         high = glm::max(high, soup.positions[v]);
     }
     const glm::dvec3 center = 0.5 * (low + high);
-    const glm::dvec3 half = 0.5 * (high - low);
-    const double distance = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
-    return distance > 16 * std::max({half.x, half.y, half.z}) ? center : glm::dvec3(0.0);
+    return largest_of(center) > 16 * largest_of(0.5 * (high - low)) ? center : glm::dvec3(0.0);
 }
 
 void check_triangle_count(const std::string& object, std::size_t triangles) {

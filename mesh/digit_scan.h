@@ -35,6 +35,13 @@ inline std::uint32_t value_of_digits(std::uint64_t eight, int count) {
     return static_cast<std::uint32_t>(eight * 10000 + (eight >> 32));
 }
 
+/// Those that a double holds exactly.
+inline constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                          1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                          1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+inline constexpr std::uint64_t kIntegerPowersOfTen[] = {
+    1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+
 /// Reads 1..7 digits at `p`. Returns the place behind them, or nullptr if there are more or none.
 /// `p` must have kScanReach bytes.
 inline const char* scan_plain_integer(const char* p, std::uint32_t& value) {
@@ -50,9 +57,6 @@ inline const char* scan_plain_integer(const char* p, std::uint32_t& value) {
 /// Correctly rounded: up to 15 digits and powers of ten up to 22 fit a double, so the one division
 /// is the only rounding (Clinger 1990). `p` must have kScanReach bytes.
 inline const char* scan_plain_decimal(const char* p, double& value) {
-    static constexpr double kPowersOfTen[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
-    static constexpr std::uint64_t kIntegerPowersOfTen[] = {
-        1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
     const bool negative = *p == '-';
     std::uint32_t whole = 0;
     p = scan_plain_integer(p + negative, whole);

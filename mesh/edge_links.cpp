@@ -22,10 +22,12 @@ namespace {
 class EdgeTable {
   public:
     explicit EdgeTable(std::size_t vertex_count)
-        : buckets_(static_cast<Bucket*>(
-              std::calloc(std::max<std::size_t>(1, vertex_count), sizeof(Bucket)))) {
-        if (buckets_ == nullptr) throw std::bad_alloc();
-        advise_huge_pages(buckets_.get(), vertex_count * sizeof(Bucket));
+        : memory_(std::calloc(vertex_count + 1, sizeof(Bucket))) {
+        if (memory_ == nullptr) throw std::bad_alloc();
+        advise_huge_pages(memory_.get(), vertex_count * sizeof(Bucket));
+        void* p = memory_.get();
+        std::size_t room = (vertex_count + 1) * sizeof(Bucket);
+        buckets_ = static_cast<Bucket*>(std::align(sizeof(Bucket), vertex_count * sizeof(Bucket), p, room));
     }
 
     static constexpr HalfEdge kFull = kNoHalfEdge;
@@ -39,7 +41,7 @@ class EdgeTable {
         return before == kFull ? exchange_in(other, owner, h) : before;
     }
     void prefetch(std::uint32_t u, std::uint32_t v) const {
-        __builtin_prefetch(&buckets_.get()[owner_of(u, v)], 1);
+        __builtin_prefetch(&buckets_[owner_of(u, v)], 1);
     }
 
   private:
@@ -53,20 +55,20 @@ class EdgeTable {
     /// Without branches, which would guess wrong half of the time.
     HalfEdge exchange_in(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
         const std::uint32_t key = other + 1;  // 0 = free
-        Bucket& bucket = buckets_.get()[owner];
+        Bucket& bucket = buckets_[owner];
         const std::uint32_t is_known = slots_with(bucket.keys, key);
         // The slot of the edge, else the first one that is free.
         const std::uint32_t places = is_known | slots_with(bucket.keys, 0) << kSlots;
         if (places == 0) return kFull;
         const int slot = std::countr_zero(places) % static_cast<int>(kSlots);
         const HalfEdge newest = bucket.half_edges[slot];
-        bucket.keys[slot] = key;
+        put_key(bucket.keys, slot, key);
         bucket.half_edges[slot] = h;
         return is_known != 0 ? newest : h;
     }
 
     static constexpr std::uint32_t kSlots = 4;
-    struct alignas(16) Bucket {
+    struct alignas(32) Bucket {
         std::uint32_t keys[kSlots];
         HalfEdge half_edges[kSlots];
     };
@@ -82,10 +84,23 @@ class EdgeTable {
         return slots;
 #endif
     }
+    /// keys[slot] = key where there is 0 or the same. All are written, for what is soon read at once would
+    /// wait for one that was written alone.
+    static void put_key(std::uint32_t (&keys)[kSlots], int slot, std::uint32_t key) {
+#ifdef __SSE2__
+        auto* const all = reinterpret_cast<__m128i*>(keys);
+        const __m128i at = _mm_cmpeq_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(slot));
+        const __m128i put = _mm_and_si128(at, _mm_set1_epi32(static_cast<int>(key)));
+        _mm_store_si128(all, _mm_or_si128(_mm_load_si128(all), put));
+#else
+        keys[slot] = key;
+#endif
+    }
     struct Free {
-        void operator()(Bucket* p) const { std::free(p); }
+        void operator()(void* p) const { std::free(p); }
     };
-    std::unique_ptr<Bucket, Free> buckets_;  // from calloc: fresh pages are zero without being written
+    Bucket* buckets_;  // in memory_, none of them in two cache lines
+    std::unique_ptr<void, Free> memory_;  // from calloc: fresh pages are zero without being written
 };
 
 /// A half-edge that found no place in the table.
@@ -153,7 +168,7 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
             table.prefetch(b, c);
             table.prefetch(c, a);
         }
-        const auto [a, b, c] = triangles[t];
+        const auto& [a, b, c] = triangles[t];
         const auto h = static_cast<HalfEdge>(3 * t);
         next_on_edge.insert(next_on_edge.end(), {h, h + 1, h + 2});
         const bool ab = link(a, b, h), bc = link(b, c, h + 1), ca = link(c, a, h + 2);

@@ -1,10 +1,12 @@
 #include "mesh/obj_part.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/interrupt.h"
+#include "mesh/row_scan.h"
 #include "mesh/text_scan.h"
 
 namespace burin {
@@ -27,8 +29,10 @@ class ObjParser {
 
     ObjPart parse() {
         std::string_view line;
-        while (lines_.next(line)) {
+        while (true) {
             if ((lines_.line_number() & 0xFFFF) == 0) throw_if_interrupted();
+            if (pass_plain_line()) continue;
+            if (!lines_.next(line)) break;
             const bool goes_on = ends_in_backslash(line) && !is_comment(line);
             parse_line(goes_on ? joined_lines(line) : line);
         }
@@ -38,6 +42,38 @@ class ObjParser {
   private:
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError({path_, lines_.line_number()}, message);
+    }
+
+    /// Takes the next line if it is nothing but "v" or "f" and three plain numbers. (parse_line() takes
+    /// any line.)
+    bool pass_plain_line() {
+        const std::string_view rest = lines_.rest();
+        const char* const p = rest.data();
+        if (p - text_.data() < kRowReachBack || rest.size() < 2 + kRowReach || p[1] != ' ') return false;
+        const auto pass = [&](const char* q) {
+            while (is_blank(*q)) ++q;
+            if (*q != '\n') return false;
+            lines_.pass(q);
+            return true;
+        };
+        if (p[0] == 'v') {
+            glm::dvec3 position;
+            const char* const next = scan_three_decimals(p + 2, &position.x);
+            if (next == nullptr || !pass(next)) return false;
+            soup_.positions.push_back(position);
+            return true;
+        }
+        if (p[0] != 'f') return false;
+        std::array<std::uint32_t, 3> numbers;
+        const char* const next = scan_three_integers(p + 2, numbers.data());
+        if (next == nullptr || numbers[0] == 0 || numbers[1] == 0 || numbers[2] == 0) return false;
+        if (soup_.corners.size() + 3 > PolygonSoup::kMaxCorners || !pass(next)) return false;
+        for (std::uint32_t& n : numbers) {
+            note_reference(n);
+            --n;
+        }
+        soup_.add_polygon(numbers);
+        return true;
     }
 
     /// The logical line that starts with `line` and goes on behind its backslash.
@@ -102,12 +138,14 @@ class ObjParser {
             fail("vertex " + std::to_string(number) + " does not exist (there are " +
                  std::to_string(vertices) + " so far); repair or re-export the file");
         }
-        if (number > vertices && number > part_.largest_reference) {
-            // Vertices behind their first use are not standard, but exist: checked at the end.
-            part_.largest_reference = number;
-            part_.largest_reference_line = lines_.line_number();
-        }
+        note_reference(number);
         return static_cast<std::uint32_t>(number - 1);
+    }
+    /// Vertices behind their first use are not standard, but exist: checked at the end.
+    void note_reference(std::int64_t number) {
+        if (number <= part_.largest_reference || number <= static_cast<std::int64_t>(soup_.positions.size())) return;
+        part_.largest_reference = number;
+        part_.largest_reference_line = lines_.line_number();
     }
     std::uint32_t counted_back(std::int64_t vertex) {
         if (is_whole_) return static_cast<std::uint32_t>(vertex);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mesh/ply_header.h"
+#include "mesh/row_scan.h"
 #include "mesh/text_scan.h"
 
 namespace burin {
@@ -27,7 +28,7 @@ inline bool to_integer(double number, std::int64_t& value) {
 class AsciiValues {
   public:
     AsciiValues(std::string_view body, std::size_t first_line)
-        : p_(body.data()), end_(body.data() + body.size()), line_(first_line) {}
+        : begin_(body.data()), p_(begin_), end_(begin_ + body.size()), line_(first_line) {}
 
     bool number(PlyType, double& value) {
         skip_space();
@@ -73,11 +74,19 @@ class AsciiValues {
     /// Stops in front of the first row that is not plain, for number() and skip() to have a look
     /// at. `axis_of` says for every value of a row which coordinate it is, or -1.
     std::size_t plain_positions(std::span<const int> axis_of, std::span<glm::dvec3> rows) {
+        const bool begins_with_xyz = axis_of[0] == 0 && axis_of[1] == 1 && axis_of[2] == 2;
         return plain_rows(rows.size(), [&](const char* p, std::size_t row, std::size_t) {
-            for (const int axis : axis_of) {
+            std::size_t column = 0;
+            if (begins_with_xyz && has_reach(p)) {
+                if (const char* const next = scan_three_decimals(p, &rows[row].x)) {
+                    p = next;
+                    column = 3;
+                }
+            }
+            for (; column < axis_of.size(); ++column) {
                 p = skip_blanks(p);
                 if (end_ - p < kScanReach) return kNotPlain;
-                if (axis >= 0) {
+                if (const int axis = axis_of[column]; axis >= 0) {
                     p = scan_plain_decimal(p, rows[row][axis]);
                     if (p == nullptr || !is_space(*p)) return kNotPlain;
                 } else {
@@ -97,6 +106,11 @@ class AsciiValues {
     std::size_t plain_triangles(std::size_t max_count, PlainTriangles& rows) {
         return plain_rows(max_count, [&](const char* p, std::size_t row, std::size_t line) {
             if (end_ - p < kScanReach || p[0] != '3' || !is_blank(p[1])) return kNotPlain;
+            rows.lines[row] = line;
+            if (has_reach(p)) {
+                const char* const next = scan_three_integers(p + 2, &rows.corners[3 * row]);
+                if (next != nullptr) return next;
+            }
             ++p;
             for (std::size_t k = 0; k < 3; ++k) {
                 p = skip_blanks(p);
@@ -104,7 +118,6 @@ class AsciiValues {
                 p = scan_plain_integer(p, rows.corners[3 * row + k]);
                 if (p == nullptr || !is_space(*p)) return kNotPlain;
             }
-            rows.lines[row] = line;
             return p;
         });
     }
@@ -124,6 +137,7 @@ class AsciiValues {
         }
         return row;
     }
+    bool has_reach(const char* p) const { return p - begin_ >= kRowReachBack && end_ - p >= kRowReach; }
     const char* skip_blanks(const char* p) const {
         while (p < end_ && is_blank(*p)) ++p;
         return p;
@@ -140,6 +154,7 @@ class AsciiValues {
         return true;
     }
 
+    const char* begin_;
     const char* p_;
     const char* end_;
     std::size_t line_;

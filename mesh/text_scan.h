@@ -21,9 +21,6 @@ inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; 
 /// The short way is exact: up to 15 digits fit a double, and so do powers of ten up to 22, so one
 /// multiplication or division rounds once (Clinger 1990). Everything else goes to from_chars.
 inline const char* scan_number(const char* p, const char* end, double& value) {
-    static constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                              1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                              1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     if (end - p >= kScanReach) {
         if (const char* const next = scan_plain_decimal(p, value)) return next;
     }
@@ -144,6 +141,11 @@ class LineReader {
         p_ = feed == end_ ? end_ : feed + 1;
         ++line_number_;
         return true;
+    }
+    /// Goes on behind the line feed at `feed`, which is that of the next line.
+    void pass(const char* feed) {
+        p_ = feed + 1;
+        ++line_number_;
     }
     std::size_t line_number() const { return line_number_; }
     /// Text behind the last line fetched.

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
 #include "mesh/readers.h"
 #include "tests/mesh/model_files.h"
+#include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
 
 namespace burin {
@@ -51,6 +53,41 @@ TEST_F(ReadObj, NegativeIndicesCountFromTheEnd) {
 
 TEST_F(ReadObj, VerticesMayFollowTheFacesThatUseThem) {
     EXPECT_EQ(polygons_of(read("f 1 2 3\n" + kSquare)), (Polygons{{0, 1, 2}}));
+}
+
+// Lines in the usual form are read in another way than others, if they are not close to an end of the file.
+TEST_F(ReadObj, UnusualSpellingsMeanTheSame) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        test::Random random(seed);
+        std::string plain = "# 16 characters and more\n", unusual = plain;
+        int vertices = 0;
+        for (int line = 0; line < 60; ++line) {
+            std::string text;
+            if (vertices < 3 || random.integer(0, 1) == 0) {
+                ++vertices;
+                text = "v";
+                for (int k = 0; k < 3; ++k) text += " " + std::to_string(random.real(-50.0, 50.0));
+            } else {
+                text = "f";
+                for (int k = 0; k < 3; ++k) text += " " + std::to_string(random.integer(1, vertices + (line < 30 ? 2 : 0)));
+            }
+            plain += text + "\n";
+            const std::string ends[] = {"\n", "\r\n", " \n", "\t\n", text[0] == 'f' ? " # a comment\n" : " 1.0\n"};
+            std::replace(text.begin(), text.end(), ' ', random.integer(0, 1) == 0 ? ' ' : '\t');
+            unusual += text + ends[random.integer(0, 4)];
+        }
+        for (std::string* text : {&plain, &unusual}) *text += "v 0 0 0\nv 1 0 0\n";
+        const PolygonSoup expected = read(unusual), soup = read(plain);
+        ASSERT_EQ(soup.positions, expected.positions) << "seed " << seed;
+        ASSERT_EQ(polygons_of(soup), polygons_of(expected)) << "seed " << seed;
+    }
+}
+
+TEST_F(ReadObj, ErrorsOfUsualLinesNameTheLine) {
+    const std::string vertices = "v 0.0 0.0 0.0\nv 1.0 0.0 0.0\nv 0.0 1.0 0.0\n";
+    const std::string behind = "f 1 2 3\n" + vertices + vertices + vertices;
+    EXPECT_TRUE(refuses(vertices + "f 1 2 3\nf 1 2 400\n" + behind, {":5:", "vertex 400 does not exist"}));
+    EXPECT_TRUE(refuses(vertices + "f 1 2 3\nf 1 0 3\n" + behind, {":5:", "vertex 0 does not exist"}));
 }
 
 TEST_F(ReadObj, CoordinatesAreReadInDoublePrecision) {
