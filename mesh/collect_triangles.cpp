@@ -10,12 +10,11 @@ namespace burin {
 namespace {
 
 /// How many of the vertices that triangles use fall together with others of these.
-std::uint64_t count_welded(const PolygonSoup& soup, const std::vector<std::uint32_t>& welded) {
+std::uint64_t count_welded(const std::vector<std::uint8_t>& is_corner, const std::vector<std::uint32_t>& welded) {
     bool all_apart = true;
     for (std::uint32_t v = 0; v < welded.size(); ++v) all_apart &= welded[v] == v;
     if (all_apart) return 0;
-    std::vector<std::uint8_t> is_corner(welded.size(), 0), is_welded_corner(welded.size(), 0);
-    for (const std::uint32_t corner : soup.corners) is_corner[corner] = 1;
+    std::vector<std::uint8_t> is_welded_corner(welded.size(), 0);
     std::uint64_t count = 0;
     for (std::size_t v = 0; v < welded.size(); ++v) {
         std::uint8_t& is_seen = is_welded_corner[welded[v]];
@@ -46,11 +45,13 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
     const std::size_t count = soup.polygon_count();
     std::vector<std::uint32_t> local =
         large_vector(positions.size(), kUnused);  // number in the object
+    std::vector<std::uint8_t> is_corner(positions.size(), 0);
     reserve_large(mesh.positions, positions.size());
     reserve_large(mesh.triangles, count);
     for (std::size_t i = 0; i < count; ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
         const std::uint32_t* const corners = &soup.corners[3 * i];
+        for (int k = 0; k < 3; ++k) is_corner[corners[k]] = 1;
         std::array<std::uint32_t, 3> t{welded[corners[0]], welded[corners[1]], welded[corners[2]]};
         // Vertices that are one make no area, and those that are not have different places.
         if (!has_area(positions[t[0]], positions[t[1]], positions[t[2]])) continue;
@@ -66,7 +67,7 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
     mesh.polygon_count = static_cast<std::uint32_t>(mesh.triangles.size());
     mesh.repairs.input_polygons = mesh.repairs.input_triangles = count;
     mesh.repairs.degenerate_polygons = count - mesh.triangles.size();
-    mesh.repairs.welded_vertices = count_welded(soup, welded);
+    mesh.repairs.welded_vertices = count_welded(is_corner, welded);
 }
 
 }  // namespace burin

@@ -64,8 +64,9 @@ class ObjParser {
             return true;
         }
         if (p[0] != 'f') return false;
-        std::array<std::uint32_t, 3> numbers;
-        const char* const next = scan_three_integers(p + 2, numbers.data());
+        std::array<std::uint32_t, 4> four;
+        const char* const next = scan_three_integers(p + 2, four.data());
+        const std::span<std::uint32_t, 3> numbers(four.data(), 3);
         if (next == nullptr || numbers[0] == 0 || numbers[1] == 0 || numbers[2] == 0) return false;
         if (soup_.corners.size() + 3 > PolygonSoup::kMaxCorners || !pass(next)) return false;
         for (std::uint32_t& n : numbers) {

@@ -100,7 +100,7 @@ class AsciiValues {
     /// Triangles, each of them a row of the number 3 and three vertex numbers on one line.
     struct PlainTriangles {
         static constexpr std::size_t kMax = 1024;
-        std::array<std::uint32_t, 3 * kMax> corners;
+        std::array<std::uint32_t, 3 * kMax + 1> corners;  // and what scan_three_integers() overwrites
         std::array<std::size_t, kMax> lines;
     };
     std::size_t plain_triangles(std::size_t max_count, PlainTriangles& rows) {
@@ -128,13 +128,16 @@ class AsciiValues {
     /// Calls read_row(place, row, line) for one row after the other; it returns the place behind.
     template <typename ReadRow>
     std::size_t plain_rows(std::size_t max_count, ReadRow read_row) {
-        std::size_t row = 0;
+        const char* p = p_;  // in a register, and so is the line: each row waits for the one before
+        std::size_t line = line_, row = 0;
         for (; row < max_count; ++row) {
-            skip_space();
-            const char* const next = read_row(p_, row, line_);
+            p = behind_space(p, line);
+            const char* const next = read_row(p, row, line);
             if (next == kNotPlain) break;
-            p_ = next;
+            p = next;
         }
+        p_ = p;
+        line_ = line;
         return row;
     }
     bool has_reach(const char* p) const { return p - begin_ >= kRowReachBack && end_ - p >= kRowReach; }
@@ -143,10 +146,10 @@ class AsciiValues {
         return p;
     }
     static bool is_space(char c) { return is_blank(c) || c == '\n'; }
-    void skip_space() {
-        while (p_ < end_ && static_cast<unsigned char>(*p_) <= ' ' && is_space(*p_)) {
-            line_ += *p_++ == '\n';
-        }
+    void skip_space() { p_ = behind_space(p_, line_); }
+    const char* behind_space(const char* p, std::size_t& line) const {
+        for (; p < end_ && static_cast<unsigned char>(*p) <= ' ' && is_space(*p); ++p) line += *p == '\n' ? 1 : 0;
+        return p;
     }
     bool accept(const char* next) {
         if (next == nullptr || (next < end_ && !is_space(*next))) return false;

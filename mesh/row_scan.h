@@ -41,28 +41,45 @@ RowMarks find_marks(const char* p) {
 }
 #endif
 
-/// The number that the `count` characters in front of `end` make, 1..8 digits.
-inline std::uint32_t value_of_digits_before(const char* end, int count) {
-    const int rest = 64 - 8 * count;
-    return value_of_digits(load_eight(end - 8) >> rest, count);
+#ifdef __SSE2__
+/// 0xFF for the last `count` of sixteen bytes.
+inline __m128i last_bytes(int count) {
+    static constexpr std::uint64_t kTable[] = {0, 0, ~std::uint64_t{0}, ~std::uint64_t{0}};
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(reinterpret_cast<const char*>(kTable) + count));
 }
+inline __m128i load_sixteen(const char* p) {
+    return _mm_xor_si128(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)), _mm_set1_epi8('0'));
+}
+/// Four numbers below 10,000 from sixteen digits 0..9.
+inline __m128i fours_of_digits(__m128i digits) {
+    const __m128i tens = _mm_mullo_epi16(_mm_and_si128(digits, _mm_set1_epi16(0xFF)), _mm_set1_epi16(10));
+    return _mm_madd_epi16(_mm_add_epi16(tens, _mm_srli_epi16(digits, 8)), _mm_set1_epi32(1 << 16 | 100));
+}
+/// Four numbers of eight digits each.
+inline __m128i eights_of_fours(__m128i first_two, __m128i last_two) {
+    return _mm_madd_epi16(_mm_packs_epi32(first_two, last_two), _mm_set1_epi32(1 << 16 | 10000));
+}
+#endif
 
 /// Reads three integers of 1..7 digits. Returns the place behind them, where a space or a line feed
-/// stands, or nullptr for any other text.
+/// stands, or nullptr for any other text. `values` has a fourth place, which is overwritten.
 inline const char* scan_three_integers([[maybe_unused]] const char* p,
                                        [[maybe_unused]] std::uint32_t* values) {
 #ifdef __SSE2__
     std::uint64_t others = find_marks<32>(p).others;
+    __m128i digits[3];
     int begin = 0;
     for (int k = 0; k < 3; ++k) {
         const int end = std::countr_zero(others);
         const char behind = p[end];
         if (static_cast<unsigned>(end - begin - 1) > 6) return nullptr;
         if (behind != ' ' && !(k == 2 && behind == '\n')) return nullptr;
-        values[k] = value_of_digits_before(p + end, end - begin);
+        digits[k] = _mm_and_si128(load_sixteen(p + end - 16), last_bytes(end - begin));
         others &= others - 1;
         begin = end + 1;
     }
+    const __m128i first_two = _mm_unpackhi_epi64(digits[0], digits[1]), last_two = _mm_unpackhi_epi64(digits[2], digits[2]);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(values), eights_of_fours(fours_of_digits(first_two), fours_of_digits(last_two)));
     return p + begin - 1;
 #else
     return nullptr;
@@ -77,9 +94,12 @@ inline const char* scan_three_decimals([[maybe_unused]] const char* p,
 #ifdef __SSE2__
     const RowMarks marks = find_marks<64>(p);
     std::uint64_t others = marks.others & ~marks.minus, minus_signs = 0;
+    __m128i fours[3];
+    double scale[3];
+    std::uint64_t sign[3];
     int begin = 0;
     for (int k = 0; k < 3; ++k) {
-        const bool negative = p[begin] == '-';
+        const int negative = p[begin] == '-' ? 1 : 0;
         const int point = std::countr_zero(others);
         others &= others - 1;
         const int end = std::countr_zero(others);
@@ -87,24 +107,30 @@ inline const char* scan_three_decimals([[maybe_unused]] const char* p,
         if (end >= 64 || p[point] != '.') return nullptr;
         const char behind = p[end];
         if (behind != ' ' && !(k == 2 && behind == '\n')) return nullptr;
-        minus_signs |= std::uint64_t{negative} << begin;
-        const int whole = point - begin - (negative ? 1 : 0), places = end - point - 1;
+        const int whole = point - begin - negative, places = end - point - 1;
         if (static_cast<unsigned>(whole - 1) > 6 || static_cast<unsigned>(places - 1) > 7) return nullptr;
-        std::int64_t digits = 0;
-        if (whole + places <= 8) {  // as one number, from two views of the text that leave out the point
-            const std::uint64_t behind_point = ~std::uint64_t{0} << (64 - 8 * places);
-            const std::uint64_t eight = (load_eight(p + end - 8) & behind_point) |
-                                        (load_eight(p + end - 9) & ~behind_point);
-            digits = value_of_digits(eight >> (64 - 8 * (whole + places)), whole + places);
-        } else {
-            digits = static_cast<std::int64_t>(value_of_digits_before(p + point, whole) *
-                                               kIntegerPowersOfTen[places]) +
-                     value_of_digits_before(p + end, places);
-        }
-        const double magnitude = static_cast<double>(digits) / kPowersOfTen[places];
-        values[k] = negative ? -magnitude : magnitude;
+        // All digits as one number: two views of the text leave out the point.
+        const __m128i is_fraction = last_bytes(places);
+        const __m128i digits = _mm_or_si128(_mm_and_si128(is_fraction, load_sixteen(p + end - 16)),
+                                            _mm_andnot_si128(is_fraction, load_sixteen(p + end - 17)));
+        fours[k] = fours_of_digits(_mm_and_si128(digits, last_bytes(whole + places)));
+        scale[k] = kPowersOfTen[places];
+        sign[k] = static_cast<std::uint64_t>(negative) << 63;
+        minus_signs |= static_cast<std::uint64_t>(negative) << begin;
         begin = end + 1;
     }
+    // Up to 15 digits fit a double, so each division is the only rounding, as in scan_plain_decimal().
+    const auto magnitudes = [](__m128i two_of_sixteen, __m128d by) {
+        const __m128d first = _mm_cvtepi32_pd(two_of_sixteen);
+        const __m128d second = _mm_cvtepi32_pd(_mm_unpackhi_epi64(two_of_sixteen, two_of_sixteen));
+        const __m128d high = _mm_unpacklo_pd(first, second), low = _mm_unpackhi_pd(first, second);
+        return _mm_div_pd(_mm_add_pd(_mm_mul_pd(high, _mm_set1_pd(1e8)), low), by);
+    };
+    const auto bits = [&](int k) { return static_cast<long long>(sign[k]); };
+    const __m128d xy = magnitudes(eights_of_fours(fours[0], fours[1]), _mm_set_pd(scale[1], scale[0]));
+    const __m128d z = magnitudes(eights_of_fours(fours[2], fours[2]), _mm_set1_pd(scale[2]));
+    _mm_storeu_pd(values, _mm_xor_pd(xy, _mm_castsi128_pd(_mm_set_epi64x(bits(1), bits(0)))));
+    _mm_store_sd(values + 2, _mm_xor_pd(z, _mm_castsi128_pd(_mm_set1_epi64x(bits(2)))));
     const std::uint64_t row = ~std::uint64_t{0} >> (64 - begin);
     return (marks.minus & row) == minus_signs ? p + begin - 1 : nullptr;
 #else
