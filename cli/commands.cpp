@@ -207,7 +207,7 @@ Totals count(const Scene& scene) {
         totals.polygons += mesh.repairs.input_polygons;
         totals.vertices += mesh.positions.size();
     }
-    scene_points(scene)([&](const glm::dvec3& p) {
+    for_each_point(scene_points(scene), [&](const glm::dvec3& p) {
         totals.low = glm::min(totals.low, p);
         totals.high = glm::max(totals.high, p);
     });

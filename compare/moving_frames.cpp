@@ -13,7 +13,7 @@ constexpr glm::dvec2 kStep_px{1.0 / 32, .618 / 32};
 double middle_distance(const Scene& scene, const Camera& camera) {
     const glm::dmat4 to_view = camera.to_view();
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    scene_points(scene)([&](const glm::dvec3& p) {
+    for_each_point(scene_points(scene), [&](const glm::dvec3& p) {
         const double distance = -(to_view * glm::dvec4(p, 1.0)).z;
         low = std::min(low, distance);
         high = std::max(high, distance);

@@ -25,7 +25,7 @@ struct Bounds {
 
 Bounds bounds_of(const PointSource& points) {
     Bounds bounds;
-    points([&](const glm::dvec3& p) {
+    for_each_point(points, [&](const glm::dvec3& p) {
         bounds.low = glm::min(bounds.low, p);
         bounds.high = glm::max(bounds.high, p);
     });
@@ -62,7 +62,7 @@ glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double 
     const glm::dmat3 to_axes = glm::transpose(axes);
     glm::dvec4 most(-std::numeric_limits<double>::infinity());
     double foremost = -std::numeric_limits<double>::infinity();
-    points([&](const glm::dvec3& p) {
+    for_each_point(points, [&](const glm::dvec3& p) {
         const glm::dvec3 q = to_axes * p;
         foremost = std::max(foremost, q.z);
         most = glm::max(most, glm::dvec4(q.x + kx * q.z, -q.x + kx * q.z, q.y + ky * q.z,
@@ -79,7 +79,7 @@ double fitted_distance(const PointSource& points, const glm::dvec3& target, cons
                        double kx, double ky, double nearest) {
     const glm::dmat3 to_axes = glm::transpose(axes);
     double distance = 0;
-    points([&](const glm::dvec3& p) {
+    for_each_point(points, [&](const glm::dvec3& p) {
         const glm::dvec3 q = to_axes * (p - target);
         distance =
             std::max({distance, std::abs(q.x) / kx + q.z, std::abs(q.y) / ky + q.z, q.z + nearest});
@@ -192,7 +192,7 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
         const glm::dmat3 to_axes = glm::transpose(axes);
         glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
         if (!settings.height || !settings.eye) {
-            points([&](const glm::dvec3& p) {
+            for_each_point(points, [&](const glm::dvec3& p) {
                 low = glm::min(low, glm::dvec2(to_axes * p));
                 high = glm::max(high, glm::dvec2(to_axes * p));
             });

@@ -3,6 +3,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "abuffer/projection.h"
@@ -40,8 +41,15 @@ struct Camera {
     Projection projection(int width, int height, double near_distance) const;
 };
 
-/// All points that the camera should see: calls its argument for each. May be run several times.
-using PointSource = std::function<void(const std::function<void(const glm::dvec3&)>&)>;
+/// All points that the camera should see: calls its argument with some of them at a time. May be run several times.
+using PointSource = std::function<void(const std::function<void(std::span<const glm::dvec3>)>&)>;
+
+template <typename Visit>
+void for_each_point(const PointSource& points, const Visit& visit) {
+    points([&](std::span<const glm::dvec3> some) {
+        for (const glm::dvec3& p : some) visit(p);
+    });
+}
 
 /// Fills in what the settings leave open. `aspect` is width / height of the picture.
 ///

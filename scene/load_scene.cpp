@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -160,11 +161,18 @@ bool is_named(const SceneObject& object, const std::string& name) {
 }
 
 PointSource scene_points(const Scene& scene) {
-    return [&scene](const std::function<void(const glm::dvec3&)>& visit) {
+    return [&scene](const std::function<void(std::span<const glm::dvec3>)>& visit) {
+        std::array<glm::dvec3, 512> some;
         for (const SceneObject& object : scene.objects) {
             const Mesh& mesh = scene.meshes[object.mesh];
-            for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-                visit(glm::dvec3(object.to_world * glm::dvec4(mesh.position(v), 1.0)));
+            const glm::dmat4 to_world = object.to_world;
+            for (std::size_t first = 0; first < mesh.positions.size(); first += some.size()) {
+                const std::size_t count = std::min(some.size(), mesh.positions.size() - first);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const glm::dvec3 p = mesh.position(static_cast<std::uint32_t>(first + i));
+                    some[i] = glm::dvec3(to_world * glm::dvec4(p, 1.0));
+                }
+                visit(std::span(some).first(count));
             }
         }
     };

@@ -30,9 +30,7 @@ std::array<glm::dvec3, 8> random_box(Random& random) {
 }
 
 PointSource source(const std::array<glm::dvec3, 8>& corners) {
-    return [&corners](const auto& visit) {
-        for (const glm::dvec3& p : corners) visit(p);
-    };
+    return [&corners](const auto& visit) { visit(std::span<const glm::dvec3>(corners)); };
 }
 
 /// What part of the picture the points take: 1 = from edge to edge.

@@ -17,10 +17,13 @@ namespace {
 using test::expect_near;
 using test::Random;
 
-const PointSource kCube = [](const std::function<void(const glm::dvec3&)>& visit) {
-    for (int i = 0; i < 8; ++i) visit({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
+const PointSource kCube = [](const std::function<void(std::span<const glm::dvec3>)>& visit) {
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 p(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+        visit({&p, 1});
+    }
 };
-const PointSource kNothing = [](const std::function<void(const glm::dvec3&)>&) {};
+const PointSource kNothing = [](const std::function<void(std::span<const glm::dvec3>)>&) {};
 
 TEST(Camera, EyeTargetAndUp) {
     for (int trial = 0; trial < 200; ++trial) {
@@ -51,8 +54,8 @@ TEST(Camera, AnEyeAloneLooksAtTheMiddle) {
     const Camera camera = resolve_camera(
         settings,
         [](const auto& visit) {
-            visit(glm::dvec3(0, 0, 0));
-            visit(glm::dvec3(2, 4, 6));
+            const glm::dvec3 corners[] = {{0, 0, 0}, {2, 4, 6}};
+            visit(std::span(corners));
         },
         1);
     expect_near(glm::normalize(glm::dvec3(camera.to_world[2])),
@@ -243,7 +246,10 @@ TEST(BadCamera, Matrices) {
 }
 
 TEST(BadCamera, NothingToFitTo) {
-    const PointSource point = [](const auto& visit) { visit(glm::dvec3(1, 2, 3)); };
+    const PointSource point = [](const auto& visit) {
+        const glm::dvec3 p(1, 2, 3);
+        visit({&p, 1});
+    };
     for (const PointSource& source : {point, kNothing}) {
         for (const bool orthographic : {false, true}) {
             const CameraSettings settings =

@@ -172,7 +172,7 @@ TEST(LoadScene, ScenePointsAreInWorldSpace) {
         "[[object]]\nshape='box'\nscale=2\ntranslate=[10,0,0]\n[[object.instance]]\ntranslate=[1,0,"
         "0]\n");
     int count = 0;
-    scene_points(scene)([&](const glm::dvec3& p) {
+    for_each_point(scene_points(scene), [&](const glm::dvec3& p) {
         ++count;
         EXPECT_NEAR(std::abs(p.x - 12), 1, 1e-9);
         EXPECT_NEAR(std::abs(p.y), 1, 1e-9);

@@ -64,7 +64,7 @@ struct Bounds {
 };
 inline Bounds bounds_of(const Scene& scene) {
     Bounds bounds;
-    scene_points(scene)([&](const glm::dvec3& p) {
+    for_each_point(scene_points(scene), [&](const glm::dvec3& p) {
         bounds.low = glm::min(bounds.low, p);
         bounds.high = glm::max(bounds.high, p);
     });
