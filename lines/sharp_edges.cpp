@@ -47,24 +47,38 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
     const bool by_crease = criteria.classes.has(LineClass::crease);
     // Single precision normals: what is close to the angle counts as sharp and is looked at again.
     const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + 1e-5f;
-    const auto is_sharp = [&](std::uint32_t t, HalfEdge h, std::uint32_t u, HalfEdge g) {
-        if (mesh.is_marked(h) || mesh.triangles[t][h - 3 * t] == mesh.triangles[u][g - 3 * u]) return true;
-        const std::uint32_t p = mesh.polygon_of(t), q = mesh.polygon_of(u);
-        if (p == q) return false;
-        if (by_polygon || (by_material && mesh.polygon_material[p] != mesh.polygon_material[q])) return true;
+    const auto is_crease = [&](std::uint32_t p, std::uint32_t q) {
         return by_crease && !(glm::dot(normals[p], normals[q]) > cos_crease);
     };
+    const auto is_sharp = [&](HalfEdge h, HalfEdge g) {
+        if (mesh.is_marked(h)) return true;
+        const std::uint32_t p = mesh.polygon_of(h / 3), q = mesh.polygon_of(g / 3);
+        if (p == q) return false;
+        if (by_polygon || (by_material && mesh.polygon_material[p] != mesh.polygon_material[q])) return true;
+        return is_crease(p, q);
+    };
     // Both half-edges of a pair find the same: guessing which of them comes first would take longer.
-    parallel_for_each(sharp.size(), threads, [&](std::size_t i) {
-        const auto t = static_cast<std::uint32_t>(i);
-        unsigned edges = 0;
-        for (unsigned k = 0; k < 3; ++k) {
-            const HalfEdge h = 3 * t + k, g = mesh.next_on_edge[h];
-            const bool is_pair = (g != h) & (mesh.next_on_edge[g] == h);
-            edges |= (!is_pair || is_sharp(t, h, g / 3, g) ? 1u : 0u) << k;
-        }
-        sharp[t] |= static_cast<std::uint8_t>(edges);
-    });
+    const auto find = [&](const auto& is_sharp_pair) {
+        const std::uint32_t* const begins = mesh.triangles.front().data();  // of half-edges, vertices
+        const HalfEdge* const next = mesh.next_on_edge.data();
+        parallel_for_each(sharp.size(), threads, [&](std::size_t t) {
+            unsigned edges = 0;
+            for (unsigned k = 0; k < 3; ++k) {
+                const auto h = static_cast<HalfEdge>(3 * t + k), g = next[h];
+                const bool is_smooth_pair =
+                    (g != h) & (next[g] == h) & (begins[h] != begins[g]) && !is_sharp_pair(h, g);
+                edges |= (is_smooth_pair ? 0u : 1u) << k;
+            }
+            sharp[t] |= static_cast<std::uint8_t>(edges);
+        });
+    };
+    if (sharp.empty()) return sharp;
+    const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !by_polygon && !by_material;
+    if (has_only_creases) {
+        find([&](HalfEdge h, HalfEdge g) { return is_crease(h / 3, g / 3); });
+    } else {
+        find(is_sharp);
+    }
     return sharp;
 }
 
