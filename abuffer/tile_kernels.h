@@ -86,10 +86,24 @@ struct ScreenLine {
 /// What all pixels of a triangle have in common.
 struct TriangleLook {
     double normal[3];       ///< unit length, in view space, towards the eye
-    double corner[3];       ///< in view space
+    double offset;          ///< of its plane: the product of its normal and a point of it
     double nearest, farthest;  ///< distances
     float world_normal[3];
     std::uint32_t object_id, material_id, polygon_id;
+};
+
+/// The view rays (Projection::view_ray()) of pixels side by side: the first one's centre, from the centre of the
+/// projection.
+struct RowRays {
+    bool orthographic;
+    double first_x_px, y_px, focal_px;
+};
+
+/// Layers of pixels side by side, each with room for a multiple of four of them.
+struct GeometryRow {
+    float* distance;        ///< along the view axis
+    float* normal[3];
+    std::uint32_t* ids[3];  ///< object, material, polygon
 };
 
 /// The tiles of a picture, all of one size but the last ones. A tile also gets the samples next to its
@@ -187,6 +201,10 @@ struct TileKernels {
     /// Fills in all but the ids of triangles that are polygons of their own; none may be off screen.
     void (*look)(const ScreenTransform& transform, const float* positions, const ScreenMesh& mesh,
                  const std::uint32_t* triangles, std::size_t count, TriangleLook* looks);
+    /// Fills in the layers of pixels in the planes of the looks with numbers `look_at`; where a plane is not met, or beyond
+    /// its triangle, it is the triangle's nearest or farthest distance.
+    void (*put_geometry)(const RowRays& rays, const TriangleLook* looks, const std::uint16_t* look_at, std::size_t count,
+                         const GeometryRow& row);
     /// The columns [begin, end) that a stroke covers in `count` rows of a stroke canvas (StrokeMask's
     /// samples), cut off at `columns`. Up to three more may be written.
     void (*stroke_spans)(const PenStroke& stroke, std::int32_t row, std::int32_t count, std::int32_t columns,

@@ -110,35 +110,23 @@ TriangleLook PixelFiller::look_of(std::uint32_t number) const {
     const glm::vec3 world(surfaces.view_to_world * normal);
     for (int c = 0; c < 3; ++c) {
         look.normal[c] = normal[c];
-        look.corner[c] = corners[0][c];
         look.world_normal[c] = world[c];
     }
+    look.offset = glm::dot(normal, corners[0]);
     look.nearest = std::max(std::min({-corners[0].z, -corners[1].z, -corners[2].z}), surfaces.projection.near_distance);
     look.farthest = std::max({-corners[0].z, -corners[1].z, -corners[2].z});
     return look;
 }
 
-double PixelFiller::distance(const TriangleLook& look, int x, int y) const {
-    glm::dvec3 origin, ray;
-    frame_.surfaces.projection.view_ray({x + 0.5, y + 0.5}, origin, ray);
-    const glm::dvec3 normal = vector_of(look.normal);
-    const double at = glm::dot(normal, vector_of(look.corner) - origin) / glm::dot(normal, ray);
-    // A triangle seen edge-on may be met anywhere along the ray, or nowhere.
-    return std::isfinite(at) ? std::clamp(at, look.nearest, look.farthest) : look.nearest;
-}
-
 void PixelFiller::put_geometry(PixelRect rect, int y) {
     const auto width = static_cast<std::size_t>(rect.width());
-    const std::uint16_t* const look_at = &look_at_[static_cast<std::size_t>(y - rect.y0) * width];
-    for (std::size_t i = 0; i < width; ++i) {
-        const TriangleLook& look = looks_[look_at[i]];
-        row_.distance[i] = look_at[i] == 0 ? std::numeric_limits<float>::infinity()
-                                           : static_cast<float>(distance(look, rect.x0 + static_cast<int>(i), y));
-        for (std::size_t c = 0; c < 3; ++c) row_.normal[c][i] = look.world_normal[c];
-        row_.ids[0][i] = look.object_id;
-        row_.ids[1][i] = look.material_id;
-        row_.ids[2][i] = look.polygon_id;
-    }
+    const Projection& p = frame_.surfaces.projection;
+    const glm::dvec2 first = glm::dvec2(rect.x0 + 0.5, y + 0.5) - p.center_px;
+    kernels_.put_geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(),
+                          &look_at_[static_cast<std::size_t>(y - rect.y0) * width], width,
+                          {row_.distance,
+                           {row_.normal[0], row_.normal[1], row_.normal[2]},
+                           {row_.ids[0], row_.ids[1], row_.ids[2]}});
 }
 
 void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, int y) {

@@ -29,7 +29,6 @@ class PixelFiller {
     void make_looks();
     TriangleLook look_of(std::uint32_t number) const;
     void fill_ids(std::uint32_t number, TriangleLook& look) const;
-    double distance(const TriangleLook& look, int x, int y) const;
 
     void put_geometry(PixelRect rect, int y);
     void put_paper(const SampleTile& samples, PixelRect rect, int y);
@@ -47,6 +46,7 @@ class PixelFiller {
     TriangleLook shaded_look_{};
     struct Row {
         std::uint16_t color[4][kWidth];
+        static_assert(kWidth % 4 == 0);  // see GeometryRow
         float distance[kWidth], normal[3][kWidth];
         std::uint32_t ids[3][kWidth];
     } row_;
