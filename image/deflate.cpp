@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "image/adler32.h"
 #include "image/huffman.h"
 
 namespace burin {
@@ -59,34 +60,6 @@ void for_each_piece(std::size_t length, const Use& use) {
         use(static_cast<std::uint32_t>(piece));
         length -= piece;
     }
-}
-
-/// RFC 1950, 8.2. No modulo is due for 5552 bytes.
-std::uint32_t adler32(std::span<const std::uint8_t> bytes) {
-    constexpr std::uint32_t kModulo = 65521, kGroup = 32, kGroups = 173;
-    std::uint32_t a = 1, b = 0;
-    while (!bytes.empty()) {
-        std::size_t count = std::min<std::size_t>(bytes.size(), kGroup * kGroups);
-        std::size_t i = 0;
-        for (; i + kGroup <= count; i += kGroup) {
-            std::uint32_t sum = 0, weighted = 0;
-            for (std::uint32_t k = 0; k < kGroup; ++k) {
-                sum += bytes[i + k];
-                weighted += static_cast<std::uint32_t>(static_cast<std::int16_t>(bytes[i + k]) *
-                                                       static_cast<std::int16_t>(kGroup - k));
-            }
-            b += kGroup * a + weighted;
-            a += sum;
-        }
-        for (; i < count; ++i) {
-            a += bytes[i];
-            b += a;
-        }
-        a %= kModulo;
-        b %= kModulo;
-        bytes = bytes.subspan(count);
-    }
-    return b << 16 | a;
 }
 
 /// Bits from the lowest on, into memory that is large enough.
