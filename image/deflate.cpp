@@ -24,6 +24,12 @@ std::uint64_t load_eight(const std::uint8_t* p) {
 /// How many bytes at `p` are those at `q`.
 std::size_t common_length(const std::uint8_t* p, const std::uint8_t* q, const std::uint8_t* end) {
     const std::uint8_t* const start = p;
+    const auto differ = [](const std::uint8_t* a, const std::uint8_t* b) { return load_eight(a) ^ load_eight(b); };
+    // Long runs, 32 bytes at a time.
+    while (end - p >= 32 && (differ(p, q) | differ(p + 8, q + 8) | differ(p + 16, q + 16) | differ(p + 24, q + 24)) == 0) {
+        p += 32;
+        q += 32;
+    }
     for (; end - p >= 8; p += 8, q += 8) {
         const std::uint64_t difference = load_eight(p) ^ load_eight(q);
         if (difference != 0)
