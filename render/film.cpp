@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/stream_store.h"
 #include "image/half.h"
 
 namespace burin {
@@ -83,7 +84,7 @@ bool Film::has_geometry() const {
 void Film::put_background(int x0, int x1, int y) {
     const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
     const auto clear = [&](auto* plane, auto value) {
-        if (plane != nullptr) std::fill_n(plane + begin, count, value);
+        if (plane != nullptr) stream_fill(plane + begin, count, value);
     };
     for (std::size_t c = 0; c < 4; ++c) {
         for (std::uint16_t* plane : {planes_.beauty[c], planes_.lines[c], planes_.surface[c]}) {
@@ -111,10 +112,14 @@ void Film::put_row(int x0, int x1, int y, const SurfaceRow& row) {
     for (std::uint16_t* plane : planes_.coverage) {
         if (plane != nullptr) std::fill_n(plane + begin, count, std::uint16_t{0});
     }
-    copy(planes_.depth, row.distance);
+    // Nothing is drawn over these.
+    const auto stream = [&](auto* plane, const auto* values) {
+        if (plane != nullptr) stream_copy(values, count, plane + begin);
+    };
+    stream(planes_.depth, row.distance);
     for (std::size_t c = 0; c < 3; ++c) {
-        copy(planes_.normal[c], row.normal[c]);
-        copy(planes_.ids[c], row.ids[c]);
+        stream(planes_.normal[c], row.normal[c]);
+        stream(planes_.ids[c], row.ids[c]);
     }
 }
 

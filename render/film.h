@@ -61,7 +61,8 @@ class Film {
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
     bool has_geometry() const;
-    /// The same as put() for pixels [x0, x1) of a row, without lines. Without geometry, only colours are read.
+    /// The same as put() for pixels [x0, x1) of a row, without lines. Without geometry, only colours are read. Before other
+    /// threads read or change pixels of rows, finish_stream_stores() is due.
     void put_row(int x0, int x1, int y, const SurfaceRow& row);
     /// Puts the background into pixels [x0, x1) of a row.
     void put_background(int x0, int x1, int y);

@@ -4,6 +4,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 
+#include "base/stream_store.h"
 #include "methods/abuffer/sampling.h"
 #include "shading/surface_shader.h"
 
@@ -185,6 +186,7 @@ void PixelFiller::clear(PixelRect rect, Film& film) const {
     rect = in_crop(rect);
     if (rect.x0 >= rect.x1) return;
     for (int y = rect.y0; y < rect.y1; ++y) film.put_background(rect.x0, rect.x1, y);
+    finish_stream_stores();
 }
 
 void PixelFiller::fill(const LineTile& tile, Film& film) {
@@ -206,6 +208,7 @@ void PixelFiller::fill(const LineTile& tile, Film& film) {
         is_paper ? put_paper(samples, rect, y) : put_shaded(samples, rect, y);
         film.put_row(rect.x0, rect.x1, y, row);
     }
+    finish_stream_stores();
 }
 
 }  // namespace burin
