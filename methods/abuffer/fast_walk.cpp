@@ -105,6 +105,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     const FastWalk::Step* current = &(result.steps[0] = way.first_step(start.triangle));
     if (current->exit == kNoHalfEdge) return;
     const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
+    const FastWalk::Step* before_wall = current;  // where it last got farther by more than a trifle
     const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
     std::uint32_t last_solid = start.triangle;
     bool over_slivers = false;
@@ -140,6 +141,12 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             (unfolds && !is_level({instance, farthest->triangle}, {instance, next.triangle}, way.at(farthest->left)))) {
             return end_at(FastWalk::fold, *farthest);
         }
+        const bool goes_on = next.left > before_wall->left + negligible_fold;
+        if (goes_on && current != before_wall &&
+            !is_level({instance, before_wall->triangle}, {instance, next.triangle}, way.at(before_wall->left),
+                      least_wall_depth_px(current->left - before_wall->left))) {
+            return end_at(FastWalk::fold, *before_wall);
+        }
         const bool sliver = !is_surely_solid(mesh, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
         if (sliver) {
             over_slivers = true;
@@ -154,6 +161,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         if (!sliver) last_solid = next.triangle;
         current = &next;
         if (next.left >= farthest->left) farthest = current;
+        if (goes_on) before_wall = current;
     }
 }
 
@@ -229,12 +237,12 @@ DepthPlane FastWalker::plane(SurfaceId s) const {
     return plane;
 }
 
-bool FastWalker::is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const {
+bool FastWalker::is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel, double pixels) const {
     const glm::dvec2 at = subpixel / double{kSubpixelsPerPixel};
     const DepthPlane plane_b = plane(b);
     const double distance = distance_of(surfaces_.projection, plane(a).nearness(at));
     const double other = distance_of(surfaces_.projection, plane_b.nearness(at));
-    return std::abs(distance - other) <= depth_tolerance(surfaces_, distance, plane_b);
+    return std::abs(distance - other) <= depth_tolerance(surfaces_, distance, plane_b, pixels);
 }
 
 }  // namespace burin

@@ -157,6 +157,33 @@ class LayerEdgeFinder::Rules {
         return side(instance, p, q, apex_of(mesh, h));
     }
 
+    /// Whether the surface ends for the eye at half-edge h, with a wall beyond it that is seen edge-on: where it goes
+    /// on behind the wall, that lies deeper, or turns back.
+    bool ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond) const {
+        const SurfaceId own{instance, h / 3};
+        const auto has_side = [](Facing facing) { return facing == clockwise || facing == counterclockwise; };
+        if (screen_.facing(screen_.number_of({instance, beyond / 3})) != edge_on ||
+            !has_side(screen_.facing(screen_.number_of(own)))) {
+            return false;
+        }
+        const Mesh& mesh = surfaces_.mesh_of(own);
+        const ScreenVertex* const v = screen_.vertices(instance);
+        const auto place = [&](std::uint32_t vertex) { return glm::dvec2(v[vertex].x, v[vertex].y) / double{kSubpixelsPerPixel}; };
+        const glm::dvec2 a = place(start_of(mesh, h)), b = place(end_of(mesh, h)), middle = 0.5 * (a + b);
+        if (a == b) return false;
+        // The wall leads away from the eye, else this is its foot.
+        const std::uint32_t wall_apex = apex_of(mesh, beyond);
+        const double along = glm::dot(place(wall_apex) - a, b - a) / glm::dot(b - a, b - a);
+        const double edge_nearness = glm::mix(static_cast<double>(v[start_of(mesh, h)].nearness),
+                                              static_cast<double>(v[end_of(mesh, h)].nearness), along);
+        if (static_cast<double>(v[wall_apex].nearness) > edge_nearness) return false;
+        glm::dvec2 out = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
+        if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
+        // To both sides, as far as the triangles go or a pixel.
+        const SurfaceWalk walk = walk_surface(surfaces_, own, middle - out, middle + out, criteria_);
+        return walk.end == WalkEnd::fold && walk.half_edge == h;
+    }
+
     void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const auto solid_h = solid_behind(s.instance, h), solid_g = solid_behind(s.instance, g);
@@ -168,6 +195,7 @@ class LayerEdgeFinder::Rules {
             const int side_h = side_at(s.instance, *solid_h, a, b), side_g = side_at(s.instance, *solid_g, a, b);
             if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
         }
+        if (ends_at_wall(s.instance, h, g) || ends_at_wall(s.instance, g, h)) classes |= LineClass::silhouette;
         if (!is_sliver(surfaces_, triangle_of(s, h)) && !is_sliver(surfaces_, triangle_of(s, g))) {
             classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
         } else if (solid_h && solid_g) {

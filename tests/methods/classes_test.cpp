@@ -287,6 +287,56 @@ TEST(FlatStep, HidesWhatLiesBehind) {
     }
 }
 
+// Two plates with a wall between them, seen from above. The wall may be undercut, or lean towards the eye.
+TEST(Wall, SeenEdgeOnIsAnOutline) {
+    const glm::dvec2 a(40.3, 10.1), b(60.7, 90.1), out = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
+    const auto step = [&](double lean) {
+        const glm::dvec2 a0 = a + lean * out, b0 = b + lean * out;
+        return soup_of({{10, 10.1, 30}, {a, 30}, {b, 30}, {10, 90.1, 30}, {a0, 0}, {b0, 0}, {95, 10.1, 0}, {95, 90.1, 0}},
+                       {{0, 1, 2, 3}, {1, 4, 5, 2}, {4, 6, 7, 5}});
+    };
+    const auto drawn_share = [&](double lean, RenderFunction render) {
+        Scene scene = scene_of({step(lean)});
+        scene.lines.classes = LineClass::silhouette;
+        const Drawing d(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100}, 1, render);
+        return d.drawn_share({a.x, 100 - a.y}, {b.x, 100 - b.y});
+    };
+    for (const RenderFunction render : {render_patel, render_abuffer}) {
+        for (const double lean : {-2.0, -0.1, -0.01, -1e-6, 0.0, 1e-6, 1e-3, 0.005, 0.01}) EXPECT_GT(drawn_share(lean, render), 0.99) << lean;
+        for (const double lean : {0.1, 2.0}) EXPECT_EQ(drawn_share(lean, render), 0) << lean;
+    }
+}
+
+// As a fillet ends on a boss: no edge is sharp, and the wall has several rows of triangles.
+TEST(Wall, OfASmoothBossIsAnOutline) {
+    constexpr int kSides = 48;
+    std::vector<glm::dvec3> positions;
+    std::vector<std::vector<std::uint32_t>> polygons;
+    const std::pair<double, double> rings[] = {{10, 30}, {24, 29}, {28, 27}, {30, 24}, {30.0, 15}, {30, 6}, {32, 3}, {36, 1}, {45, 0}};  // radius, z
+    for (const auto& [radius, z] : rings) {
+        for (int i = 0; i < kSides; ++i) {
+            const double angle = 2 * M_PI * (i + 0.3) / kSides;
+            positions.emplace_back(50 + radius * std::cos(angle), 50 + radius * std::sin(angle), z);
+        }
+    }
+    for (std::uint32_t ring = 0; ring + 1 < std::size(rings); ++ring) {
+        for (std::uint32_t i = 0; i < kSides; ++i) {
+            const std::uint32_t next = (i + 1) % kSides, inner = ring * kSides, outer = inner + kSides;
+            polygons.push_back({inner + i, outer + i, outer + next, inner + next});
+        }
+    }
+    Scene scene = scene_of({soup_of(positions, polygons)});
+    scene.lines.classes = LineClass::silhouette;
+    for (const RenderFunction render : {render_patel, render_abuffer}) {
+        const Drawing d(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100}, 1, render);
+        for (int i = 0; i < kSides; ++i) {
+            const glm::dvec3 &p = positions[static_cast<std::size_t>(3 * kSides + i)], &q = positions[static_cast<std::size_t>(3 * kSides + (i + 1) % kSides)];
+            EXPECT_GT(d.drawn_share({p.x, 100 - p.y}, {q.x, 100 - q.y}, 0), 0.99) << i;
+        }
+        EXPECT_EQ(d.drawn_share({50, 20}, {50, 45}, 3), 0) << "nothing on the fillet or the plate";
+    }
+}
+
 TEST(GrazingFloor, HasNoFalseLines) {
     PolygonSoup floor = make_plane(400, 400, 40, 40);
     Camera camera = perspective_camera({0, 3, 60}, {0, 0, 0});  // under 3 degrees

@@ -325,6 +325,17 @@ TEST(HiddenLines, SheetsThatCrossBehindAWall) {
     EXPECT_NEAR(layers.hidden_px(1, LineClass::border), (160 + 100 + 100) + (60 + 80) + (40 + 60), 0.5);
 }
 
+// Two plates with a wall between them that is seen edge-on, behind a sheet: the wall's upper edge is an outline, once.
+TEST(HiddenLines, OutlineOverAWallThatIsSeenEdgeOn) {
+    const PolygonSoup step = soup_of({{20, 20, 30}, {90.3, 20, 30}, {110.7, 200, 30}, {20, 200, 30}, {90.3, 20, 0}, {110.7, 200, 0}, {200, 20, 0}, {200, 200, 0}},
+                                     {{0, 1, 2, 3}, {1, 4, 5, 2}, {4, 6, 7, 5}});
+    Scene scene = scene_of({step, soup_of({{10, 10, 100}, {230, 10, 100}, {230, 230, 100}, {10, 230, 100}}, {{0, 1, 2, 3}})});
+    scene.lines.classes = LineClass::silhouette;
+    const Layers layers(scene, pixel_camera(kSize, kSize));
+    EXPECT_NEAR(layers.all_hidden_px(), glm::distance(glm::dvec2(90.3, 20), glm::dvec2(110.7, 200)), 0.1);
+    EXPECT_NEAR(layers.hidden_px(1), layers.all_hidden_px(), 1e-9);
+}
+
 TEST(HiddenLines, GoToTheirOwnChannels) {
     Scene scene = crossing_behind_wall();
     scene.lines.style.hidden.color = {0.5f, 0.25f, 0.0f};
