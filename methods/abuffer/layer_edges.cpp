@@ -129,16 +129,18 @@ class LayerEdgeFinder::Rules {
     }
 
     /// The triangle that counts at an edge: behind thin triangles the next one. Nothing at a thin
-    /// triangle's longest edge: the two others stand for it.
+    /// triangle's longest edge, if the two others stand for it: they do not where what lies behind faces alike.
     std::optional<HalfEdge> solid_behind(std::uint32_t instance, HalfEdge h) const {
         const Mesh& mesh = *surfaces_.instances[instance].mesh;
         for (int step = 0; step < 4; ++step) {
             const auto base = base_of_thin({instance, h / 3});
             if (!base) return h;
-            if (*base == h && step == 0) return std::nullopt;
             const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base;
             const HalfEdge g = mesh.next_on_edge[exit];
-            if (g == exit || mesh.next_on_edge[g] != exit) return h;
+            const bool is_pair = g != exit && mesh.next_on_edge[g] == exit;
+            const auto facing = [&](HalfEdge e) { return screen_.facing(screen_.number_of({instance, e / 3})); };
+            if (*base == h && step == 0 && !(is_pair && facing(g) == facing(h))) return std::nullopt;
+            if (!is_pair) return h;
             h = g;
         }
         return h;

@@ -103,6 +103,26 @@ TEST(FineLines, ARodThinnerThanASampleHasNoDropouts) {
     }
 }
 
+// Facets beside a contour are narrower than the grid of corners: rounding turns them over.
+TEST(FineLines, ARoundWireThinnerThanASampleHasNoDropouts) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        const double radius = random.real(0.05, 0.2), turn = random.real(0, 6), angle = random.real(0, 180);
+        const int sides = random.integer(6, 48);
+        std::vector<glm::dvec2> section;
+        for (int i = 0; i < sides; ++i) {
+            const double a = turn + 2 * M_PI * i / sides;
+            section.emplace_back(radius * std::cos(a), radius * std::sin(a));
+        }
+        const Scene scene = scene_of({placed(prism(section, 15), angle), wall()});
+        const Drawing drawn = draw(scene, pixel_camera(kSize, kSize), kSize);
+        const double a = glm::radians(angle);
+        const glm::dvec2 middle(22.13, kSize - 21.86), along(std::cos(a), -std::sin(a));
+        EXPECT_EQ(drawn.drawn_share(middle - 14.0 * along, middle + 14.0 * along, 0), 1.0)
+            << "seed " << seed << ": " << radius << " px, " << sides << " sides, " << angle << " deg";
+    }
+}
+
 TEST(FineLines, BothEdgesOfANarrowChamferAreDrawn) {
     for (const double angle : kAngles_deg) {
         const double c = 0.1;
