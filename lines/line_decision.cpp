@@ -98,6 +98,23 @@ class Decider {
         return extended_distance(walks_[1 - i].surface, at) > distance(points_[i].surface, at);
     }
 
+    double tolerance_at_point(int i, double pixels) const {
+        const glm::dvec2 at = points_[i].pixel;
+        return depth_tolerance(surfaces_, distance(points_[i].surface, at), surfaces_.plane(walks_[1 - i].surface), pixels);
+    }
+    /// Whether point i's surface, that was followed to the other point, ends there, but for rounding: its walk
+    /// becomes the one that ends.
+    bool ends_at_point(int i) {
+        constexpr double kRoundingPx = 1.0 / 64;
+        const double farther = 1 + kRoundingPx / glm::distance(points_[0].pixel, points_[1].pixel);
+        SurfaceWalk beyond = walk_surface(surfaces_, points_[i].surface, points_[i].pixel, place(i, farther), criteria_);
+        if (!ended(beyond)) return false;
+        beyond.fraction = std::min(beyond.fraction * farther, 1.0);
+        walks_[i] = beyond;
+        behind_[i] = points_[1 - i].surface;
+        return true;
+    }
+
     LineDecision with_fraction(LineDecision decision, int i, double fraction) const {
         decision.front = i;
         decision.fraction = i == 0 ? fraction : 1 - fraction;
@@ -152,7 +169,7 @@ class Decider {
     }
 
     /// Both surfaces go on behind each other (or could not be followed).
-    LineDecision overlap() const {
+    LineDecision overlap() {
         double gap[2];
         double tolerance[2];
         bool coincident = true;
@@ -193,6 +210,11 @@ class Decider {
             decision.reason =
                 decision.classes.empty() ? LineReason::touches_smoothly : LineReason::touches;
             return decision;
+        }
+        for (const int i : {0, 1}) {
+            if (std::abs(gap[i]) <= tolerance_at_point(i, kCertainlyApartPx) && ends_at_point(1 - i)) {
+                return end_of_surface(1 - i, gap[i], true);
+            }
         }
         decision.classes = LineClass::intersection | (contact & (LineClass::object | LineClass::material));
         decision.reason = LineReason::passes_through;

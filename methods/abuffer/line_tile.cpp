@@ -89,26 +89,66 @@ void LineTile::draw_all(std::size_t tile) {
     }
 }
 
-/// Coincident surfaces do not fight: the first one wins, as in resolve_visibility().
+/// Two faces that fold over at an edge are level there, and rounding says which is seen. Of those the one in front
+/// wins, and of coincident surfaces the first one, as in resolve_visibility().
 void LineTile::settle_contests() {
     std::sort(contests_.begin(), contests_.begin() + contests_used_, [](const Contest& a, const Contest& b) {
         return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser);
     });
     known_.clear();
-    for (std::uint32_t i = 0; i < contests_used_;) {
-        const std::uint32_t sample = contests_[i].sample;
-        const std::uint32_t winner = samples_.ids[sample] >> 1;
+    for (std::uint32_t begin = 0, end = 0; begin < contests_used_; begin = end) {
+        const std::uint32_t sample = contests_[begin].sample;
+        std::uint32_t winner = samples_.ids[sample] >> 1;
+        while (end < contests_used_ && contests_[end].sample == sample) ++end;
+        const auto for_losers = [&](const auto& wins) {  // in the order of their numbers
+            for (std::uint32_t i = begin; i < end; ++i) {
+                const std::uint32_t loser = contests_[i].loser >> 1;
+                if (loser == winner || !wins(loser)) continue;
+                winner = loser;
+                samples_.ids[sample] = loser << 1;
+            }
+        };
+        const auto put_folds_in_front = [&] { for_losers([&](std::uint32_t loser) { return is_fold_over(loser, winner); }); };
+        put_folds_in_front();
         bool settled = false;
-        for (; i < contests_used_ && contests_[i].sample == sample; ++i) {
-            const std::uint32_t loser = contests_[i].loser >> 1;
-            if (settled || loser >= winner) continue;
+        for_losers([&](std::uint32_t loser) {
+            if (settled || loser > winner) return false;
             const auto [it, is_new] = known_.try_emplace(std::uint64_t{loser} << 32 | winner, false);
             if (is_new) it->second = coincide(loser, winner);
-            if (!it->second) continue;
-            samples_.ids[sample] = loser << 1;
-            settled = true;
+            settled = it->second;
+            return settled;
+        });
+        if (settled) put_folds_in_front();
+    }
+}
+
+/// Whether two neighbours lie on one side of their common edge, and `front` in front of the other one.
+bool LineTile::is_fold_over(std::uint32_t front, std::uint32_t back) const {
+    const SurfaceId a = screen_.surface_of(front), b = screen_.surface_of(back);
+    if (a.instance != b.instance || a.triangle == b.triangle) return false;
+    const auto& s = frame_.surfaces.mesh_of(a).triangles[a.triangle];
+    const auto& t = frame_.surfaces.mesh_of(a).triangles[b.triangle];
+    const ScreenVertex* const vertices = screen_.vertices(a.instance);
+    ScreenTriangle own;
+    std::array<ScreenVertex, 2> edge;
+    std::size_t common = 0;
+    std::uint32_t apex = 0, other_apex = t[0] ^ t[1] ^ t[2];
+    for (std::size_t k = 0; k < 3; ++k) {
+        own.corners[k] = vertices[s[k]];
+        if (own.corners[k].x == ScreenVertex::kOffScreen) return false;
+        if (std::find(t.begin(), t.end(), s[k]) == t.end()) {
+            apex = s[k];
+        } else {
+            if (common < 2) edge[common] = own.corners[k];
+            ++common;
+            other_apex ^= s[k];
         }
     }
+    if (common != 2 || vertices[other_apex].x == ScreenVertex::kOffScreen) return false;
+    const ScreenVertex& beyond = vertices[other_apex];
+    const std::int64_t side = doubled_area(edge[0], edge[1], vertices[apex]), other_side = doubled_area(edge[0], edge[1], beyond);
+    if ((side < 0) != (other_side < 0) || side == 0 || other_side == 0) return false;
+    return extended_nearness(own, beyond.x, beyond.y) > static_cast<double>(beyond.nearness);
 }
 
 bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner) const {

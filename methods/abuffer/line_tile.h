@@ -36,6 +36,7 @@ class LineTile {
     SampleView view();
     void draw_all(std::size_t tile);
     void settle_contests();
+    bool is_fold_over(std::uint32_t front, std::uint32_t back) const;
     bool coincide(std::uint32_t loser, std::uint32_t winner) const;
     void order_runs(std::size_t tile);
     void draw_large_ones(std::size_t tile);

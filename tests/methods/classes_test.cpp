@@ -337,6 +337,32 @@ TEST(Wall, OfASmoothBossIsAnOutline) {
     }
 }
 
+// Boxes with common faces, in one mesh: nothing passes through anything. On their edges, what lies within the solid is
+// level with what is seen.
+TEST(TouchingBoxes, HaveNoIntersections) {
+    const glm::dvec3 middles[] = {{0, 0, 0}, {1, 0, 0}, {2, 0.5, 0}, {0, 1, 0.25}, {1.5, -1, 0.2}};
+    std::vector<glm::dvec3> positions;
+    std::vector<std::vector<std::uint32_t>> polygons;
+    for (const glm::dvec3& middle : middles) {
+        const PolygonSoup box = make_box({1, 1, 1});
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const glm::dvec3& p : box.positions) positions.push_back(p + middle);
+        for (std::size_t k = 0; k < box.polygon_count(); ++k) {
+            polygons.emplace_back();
+            for (const std::uint32_t v : box.polygon(k)) polygons.back().push_back(first + v);
+        }
+    }
+    const Scene scene = scene_of({soup_of(positions, polygons)});
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        CameraSettings settings;
+        settings.direction = seed == 0 ? glm::dvec3(-0.7, -0.5, 0.6) : random.direction();
+        const Camera camera = resolve_camera(settings, scene_points(scene), 4.0 / 3);
+        const Drawing d(scene, camera, 400, 300, {0, 0, 400, 300}, 1, render_abuffer);
+        EXPECT_EQ(d.sum(LineClass::intersection), 0) << "seed " << seed;
+    }
+}
+
 TEST(GrazingFloor, HasNoFalseLines) {
     PolygonSoup floor = make_plane(400, 400, 40, 40);
     Camera camera = perspective_camera({0, 3, 60}, {0, 0, 0});  // under 3 degrees
