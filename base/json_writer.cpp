@@ -7,9 +7,35 @@
 namespace burin {
 namespace {
 
+/// How many bytes the character of UTF-8 takes that `text` begins with; 0: it begins with none.
+std::size_t length_of_character(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    const unsigned lead = byte(0);
+    const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+    }
+    const bool is_too_long = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xF0 && byte(1) < 0x90);
+    const bool is_none = (lead == 0xED && byte(1) >= 0xA0) || (lead == 0xF4 && byte(1) >= 0x90);  // surrogates; too large
+    return is_too_long || is_none ? 0 : length;
+}
+
+/// Names in old files are no UTF-8, which JSON is: their bytes are taken for Latin-1.
 void append_quoted(std::string& out, std::string_view text) {
     out += '"';
-    for (const char c : text) {
+    for (; !text.empty(); text.remove_prefix(1)) {
+        const char c = text.front();
+        const std::size_t length = length_of_character(text);
+        if (length == 0) {
+            out += static_cast<char>(0xC0 | static_cast<unsigned char>(c) >> 6);
+            out += static_cast<char>(0x80 | (c & 0x3F));
+            continue;
+        }
+        if (length > 1) {
+            out += text.substr(0, length);
+            text.remove_prefix(length - 1);
+            continue;
+        }
         switch (c) {
             case '"': out += "\\\""; break;
             case '\\': out += "\\\\"; break;

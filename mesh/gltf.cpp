@@ -28,7 +28,9 @@ class GltfReader {
         if (!json_.is_object() || !root_.has("asset")) {
             throw InputError(path_ + ": this is no glTF file (it has no 'asset')");
         }
-        const std::string version = root_.at("asset").text_or("version", "2.0");
+        const auto asset = root_.at("asset");
+        // A text, but a number in some files of glTF 1.0.
+        const std::string version = asset.has("version") ? asset.at("version").text_or_number() : "2.0";
         if (!version.starts_with("2")) {
             throw InputError(path_ + ": glTF version " + printable(version) +
                              " is not read; re-export the model as glTF 2.0");

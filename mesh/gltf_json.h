@@ -80,6 +80,8 @@ class JsonPlace {
         if (!value_->is_string()) fail("must be a text");
         return value_->get<std::string>();
     }
+    /// A text, or a number as it is written.
+    std::string text_or_number() const { return value_->is_number() ? value_->dump() : text(); }
     std::string text_or(const char* key, const std::string& fallback) const {
         return has(key) ? at(key).text() : fallback;
     }

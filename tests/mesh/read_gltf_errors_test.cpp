@@ -216,6 +216,7 @@ TEST_F(ReadGltfErrors, SparseValuesMustFit) {
 
 TEST_F(ReadGltfErrors, UnknownVersionsAndExtensionsAreRefused) {
     EXPECT_TRUE(refuses([](auto& p) { p.asset = R"({"version": "1.0"})"; }, {"glTF version 1.0 is not read"}));
+    EXPECT_TRUE(refuses([](auto& p) { p.asset = R"({"version": 1})"; }, {"glTF version 1 is not read"}));
     EXPECT_TRUE(refuses([](auto& p) { p.asset = ""; }, {"no 'asset'"}));
     EXPECT_TRUE(refuses([](auto& p) { p.required = R"(["KHR_materials_unlit", "KHR_draco_mesh_compression"])"; },
                         {"needs the glTF extension KHR_draco_mesh_compression"}));
