@@ -51,7 +51,7 @@ class Walker {
         if (!slice.is_cut) return result;
         Place current{start, slice.crossings[slice.crossings[0].fraction < slice.crossings[1].fraction]};
         Place farthest = current;      // where the walk got farthest
-        Place before_wall = current;   // where it last got farther by more than what is negligible
+        Place before_wall = current;   // where it last got farther at all
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
         bool over_slivers = false;     // there were others since
         const double negligible_fold = kNegligibleFoldPx / length_;
@@ -77,10 +77,9 @@ class Walker {
                 (unfolds && !is_level(farthest.surface, next.place.surface, farthest.exit.fraction))) {
                 return ended(result, WalkEnd::fold, farthest);  // over a seam, too
             }
-            const bool goes_on = reached > before_wall.exit.fraction + negligible_fold;
+            const bool goes_on = reached > before_wall.exit.fraction + kNoAdvance;
             if (goes_on && current.surface != before_wall.surface &&
-                !is_level(before_wall.surface, next.place.surface, before_wall.exit.fraction,
-                          least_wall_depth_px(current.exit.fraction - before_wall.exit.fraction))) {
+                !is_level(before_wall.surface, next.place.surface, before_wall.exit.fraction)) {
                 return ended(result, WalkEnd::fold, before_wall);
             }
             const SurfaceEdge edge{current.surface, current.exit.half_edge};
@@ -236,13 +235,13 @@ class Walker {
     }
 
     /// Whether two triangles are equally far from the eye at a place, as far as lines care.
-    bool is_level(SurfaceId a, SurfaceId b, double fraction, double pixels = 2) const {
+    bool is_level(SurfaceId a, SurfaceId b, double fraction) const {
         const Projection& p = surfaces_.projection;
         const glm::dvec2 place = at(fraction);
         const DepthPlane plane_b = surfaces_.plane(b);
         const double distance_a = distance_of(p, surfaces_.plane(a).nearness(place));
         const double distance_b = distance_of(p, plane_b.nearness(place));
-        return std::abs(distance_a - distance_b) <= depth_tolerance(surfaces_, distance_a, plane_b, pixels);
+        return std::abs(distance_a - distance_b) <= depth_tolerance(surfaces_, distance_a, plane_b);
     }
 
     bool is_border(const Place& place) const {
@@ -343,8 +342,6 @@ bool is_sliver(const SurfaceSet& surfaces, SurfaceId s) {
     const double pixel = surfaces.projection.pixel_size(std::abs(c[0].z));
     return height < kSliverHeightPart * longest && height < kSliverHeightPx * pixel;
 }
-
-double least_wall_depth_px(double advance) { return advance > 1e-9 ? 8 : 2; }
 
 double distance_of(const Projection& projection, double nearness) {
     if (!projection.orthographic && nearness <= 0) return kInfinity;

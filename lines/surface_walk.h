@@ -50,8 +50,8 @@ struct SurfaceWalk {
 ///
 /// Folds that turn back by less than 1/64 pixel, and not by more than the depth tolerance, are
 /// walked over: they are slivers between the triangles of one surface, not contours.
-/// A wall that is seen edge-on, or nearly (less than 1/64 pixel wide), is a fold if the surface goes on
-/// behind it deeper by more than the depth tolerance, for least_wall_depth_px().
+/// A wall that is seen edge-on, to the snapping of corners, is a fold if the surface goes on behind it deeper
+/// by more than the depth tolerance.
 SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from,
                          glm::dvec2 to, const LineCriteria& criteria);
 
@@ -76,9 +76,8 @@ bool is_sliver(const SurfaceSet& surfaces, SurfaceId triangle);
 /// How far two surfaces must be apart in distance from the eye to be two: two pixels' width at that
 /// distance, and what the rounding of screen positions does to a steep plane.
 double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane, double pixels = 2);
-/// What a wall must hide to be a fold. One that leans towards the eye, by part `advance` of the way, must be deep: next to where
-/// contours end, surfaces are as steep over little depth.
-double least_wall_depth_px(double advance);
+/// A walk that gets farther by no more than this part of its way has met a wall that is seen edge-on.
+constexpr double kNoAdvance = 1e-9;
 /// Two surfaces that are further apart than this many pixels' widths, in depth_tolerance(), are so for
 /// certain, not by rounding.
 constexpr double kCertainlyApartPx = 1.0 / 16;

@@ -51,8 +51,9 @@ class ObjParser {
         const char* const p = rest.data();
         if (p - text_.data() < kRowReachBack || rest.size() < 2 + kRowReach || p[1] != ' ') return false;
         const auto pass = [&](const char* q) {
-            while (is_blank(*q)) ++q;
-            if (*q != '\n') return false;
+            const char* const end = p + rest.size();
+            while (q < end && is_blank(*q)) ++q;
+            if (q == end || *q != '\n') return false;
             lines_.pass(q);
             return true;
         };

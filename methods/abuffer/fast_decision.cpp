@@ -4,24 +4,8 @@
 #include <cmath>
 
 namespace burin {
-namespace {
 
-/// A wall that hides 8 pixels' widths (least_wall_depth_px()) has samples beside it that differ by so much, unless the surfaces
-/// there are steep as well.
-constexpr double kDeepPx = 4;
-
-/// Whether a triangle is lower than about 1/64 pixel.
-inline bool is_thin(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
-    const auto longer = [](std::int64_t p, std::int64_t q) { return p > q ? p : q; };
-    const std::int64_t ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
-    const std::int64_t longest = longer(longer(std::abs(ux), std::abs(uy)), longer(std::abs(vx), std::abs(vy)));
-    // At 45 degrees, the longer side is 0.7 of the length.
-    return 4 * std::abs(ux * vy - uy * vx) <= 23 * kSubpixelsPerPixel / 256 * longest;
-}
-
-}  // namespace
-
-bool FastDecision::is_smooth(const NeighbourSamples& pair, bool is_deep) const {
+bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
     const SurfaceId start = pair.surfaces[0];
     if (start.instance != pair.surfaces[1].instance || start.is_background()) return false;
     const ScreenMesh& mesh = screen_.mesh(start.instance);
@@ -44,10 +28,6 @@ bool FastDecision::is_smooth(const NeighbourSamples& pair, bool is_deep) const {
             const ScreenVertex& p = mesh.vertices[corners[k]];
             side[k] = (pair.down ? p.x : p.y) > across;
         }
-        // Maybe a wall, see walk_surface().
-        if (is_deep && step > 0 && is_thin(mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]])) {
-            return false;
-        }
         const std::uint32_t k = exit_edge(side, from_side);
         // An edge that is not sharp has one partner.
         if (k > 2 || (mesh.sharp[t] >> k & 1) != 0) return false;
@@ -55,14 +35,6 @@ bool FastDecision::is_smooth(const NeighbourSamples& pair, bool is_deep) const {
         if (mesh.facing[t] != facing) return false;
     }
     return false;
-}
-
-bool FastDecision::are_apart(float nearness, float other) const {
-    const auto [deeper, nearer] = std::minmax(nearness, other);
-    const Projection& p = surfaces_.projection;
-    // In perspective, a pixel's width grows with the distance.
-    const double width = p.orthographic ? 1.0 : surfaces_.farthest_nearness + static_cast<double>(deeper);
-    return static_cast<double>(nearer - deeper) * p.focal_px > kDeepPx * width;
 }
 
 double FastDecision::nearness_at(SurfaceId s, glm::dvec2 subpixel) const {

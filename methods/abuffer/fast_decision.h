@@ -12,11 +12,9 @@ class FastDecision {
     FastDecision(const ScreenSurfaces& screen, const LineCriteria& criteria)
         : screen_(screen), surfaces_(screen.surfaces()), criteria_(criteria), walker_(screen, criteria) {}
 
-    /// Whether two samples differ in depth by pixels' widths, so that a wall may hide what lies between. Nearness as in ScreenVertex.
-    bool are_apart(float nearness, float other) const;
     /// Whether only triangles that face as the first one, and edges that are no lines, lie between. This
-    /// settles most pairs. Where `is_deep`, a wall that is seen nearly edge-on may make a line there.
-    bool is_smooth(const NeighbourSamples& pair, bool is_deep) const;
+    /// settles most pairs.
+    bool is_smooth(const NeighbourSamples& pair) const;
 
     /// For pairs that are not known to be smooth. False where the case is not ordinary; then `decision` means
     /// nothing. Otherwise `decision` is what decide_line() says, as far as classes asked for go, and `nearness`

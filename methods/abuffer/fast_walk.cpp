@@ -105,7 +105,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     const FastWalk::Step* current = &(result.steps[0] = way.first_step(start.triangle));
     if (current->exit == kNoHalfEdge) return;
     const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
-    const FastWalk::Step* before_wall = current;  // where it last got farther by more than a trifle
+    const FastWalk::Step* before_wall = current;  // where it last got farther at all
     const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
     std::uint32_t last_solid = start.triangle;
     bool over_slivers = false;
@@ -141,10 +141,9 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             (unfolds && !is_level({instance, farthest->triangle}, {instance, next.triangle}, way.at(farthest->left)))) {
             return end_at(FastWalk::fold, *farthest);
         }
-        const bool goes_on = next.left > before_wall->left + negligible_fold;
+        const bool goes_on = next.left > before_wall->left + kNoAdvance;
         if (goes_on && current != before_wall &&
-            !is_level({instance, before_wall->triangle}, {instance, next.triangle}, way.at(before_wall->left),
-                      least_wall_depth_px(current->left - before_wall->left))) {
+            !is_level({instance, before_wall->triangle}, {instance, next.triangle}, way.at(before_wall->left))) {
             return end_at(FastWalk::fold, *before_wall);
         }
         const bool sliver = !is_surely_solid(mesh, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
@@ -237,12 +236,12 @@ DepthPlane FastWalker::plane(SurfaceId s) const {
     return plane;
 }
 
-bool FastWalker::is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel, double pixels) const {
+bool FastWalker::is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const {
     const glm::dvec2 at = subpixel / double{kSubpixelsPerPixel};
     const DepthPlane plane_b = plane(b);
     const double distance = distance_of(surfaces_.projection, plane(a).nearness(at));
     const double other = distance_of(surfaces_.projection, plane_b.nearness(at));
-    return std::abs(distance - other) <= depth_tolerance(surfaces_, distance, plane_b, pixels);
+    return std::abs(distance - other) <= depth_tolerance(surfaces_, distance, plane_b);
 }
 
 }  // namespace burin

@@ -329,10 +329,9 @@ void LineTile::find_crossings() {
     for (std::size_t i = 0; i < count; ++i) {
         const SamplePair pair = pairs_[i];
         const std::size_t at = pair.row * stride + pair.column;
-        const std::size_t other = at + (pair.down ? stride : 1);
         const NeighbourSamples neighbours{origin_x + pair.column * pitch, origin_y + pair.row * pitch, pitch, pair.down,
-                                          {surface_at(at), surface_at(other)}};
-        if (fast_.is_smooth(neighbours, fast_.are_apart(samples_.nearness[at], samples_.nearness[other]))) continue;
+                                          {surface_at(at), surface_at(at + (pair.down ? stride : 1))}};
+        if (fast_.is_smooth(neighbours)) continue;
         if (!decide(pair, neighbours, crossings_.emplace_back())) {
             crossings_.pop_back();
             continue;

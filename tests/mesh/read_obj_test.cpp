@@ -90,6 +90,16 @@ TEST_F(ReadObj, ErrorsOfUsualLinesNameTheLine) {
     EXPECT_TRUE(refuses(vertices + "f 1 2 3\nf 1 0 3\n" + behind, {":5:", "vertex 0 does not exist"}));
 }
 
+// The text ends behind blanks, at the end of a page of memory: what is behind it must not be looked at.
+TEST_F(ReadObj, AFileMayEndInBlanks) {
+    for (const std::string last : {"v 1.0 2.0 3.0", "f 1 2 3"}) {
+        const std::string head = "v 0.0 0.0 0.0\nv 1.0 0.0 0.0\nv 0.0 1.0 0.0\nf 1 2 3\n#";
+        const std::string tail = "\n" + last + std::string(100, ' ');
+        const std::string text = head + std::string(4096 * 513 - head.size() - tail.size(), 'x') + tail;
+        EXPECT_EQ(read(text).polygon_count(), last[0] == 'f' ? 2u : 1u);
+    }
+}
+
 TEST_F(ReadObj, CoordinatesAreReadInDoublePrecision) {
     const PolygonSoup soup = read("v 5000000.001 -1e-3 +.5 0.25 0.5 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_EQ(soup.positions[0], glm::dvec3(5000000.001, -1e-3, 0.5));

@@ -164,7 +164,7 @@ Comparison compare_decisions(const Scene& scene, int samples) {
                                     {tile.surface_at(a), tile.surface_at(b)}};
         LineDecision decision;
         double nearness = 0;
-        if (!fast.is_smooth(pair, true) && !fast.decide(pair, decision, nearness)) return;
+        if (!fast.is_smooth(pair) && !fast.decide(pair, decision, nearness)) return;
         ++result.answered;
         const glm::dvec2 trifle(0x1p-14, 0x1p-20);  // LineTile's
         const glm::dvec2 from = (glm::dvec2(column, row) + 0.5) / double(samples) + trifle;
