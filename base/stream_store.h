@@ -23,9 +23,9 @@ inline void finish_stream_stores() {
 #endif
 }
 
-/// Writes whole cache lines: `line(to)` writes one, `value(to)` a single value.
+/// Goes over memory by whole cache lines, and by single values before and behind them.
 template <typename T, typename PutLine, typename PutValue>
-void for_each_line(T* to, std::size_t count, const PutLine& put_line, const PutValue& put_value) {
+void for_each_cache_line(T* to, std::size_t count, const PutLine& put_line, const PutValue& put_value) {
     constexpr std::size_t kLineBytes = 64, kPerLine = kLineBytes / sizeof(T);
     static_assert(std::is_trivially_copyable_v<T> && kLineBytes % sizeof(T) == 0);
     T* const end = to + count;
@@ -38,7 +38,7 @@ template <typename T>
 void stream_copy(const T* from, std::size_t count, T* to) {
 #ifdef __SSE2__
     const auto source = [&](const T* at) { return from + (at - to); };
-    for_each_line(
+    for_each_cache_line(
         to, count,
         [&](T* line) {
             const auto* const p = reinterpret_cast<const __m128i*>(source(line));
@@ -56,7 +56,7 @@ void stream_fill(T* to, std::size_t count, T value) {
     alignas(16) T part[16 / sizeof(T)];
     std::fill(std::begin(part), std::end(part), value);
     const __m128i values = _mm_load_si128(reinterpret_cast<const __m128i*>(part));
-    for_each_line(
+    for_each_cache_line(
         to, count,
         [&](T* line) {
             for (int k = 0; k < 4; ++k) _mm_stream_si128(reinterpret_cast<__m128i*>(line) + k, values);

@@ -22,12 +22,10 @@ namespace {
 class EdgeTable {
   public:
     explicit EdgeTable(std::size_t vertex_count)
-        : memory_(std::calloc(vertex_count + 1, sizeof(Bucket))) {
-        if (memory_ == nullptr) throw std::bad_alloc();
-        advise_huge_pages(memory_.get(), vertex_count * sizeof(Bucket));
-        void* p = memory_.get();
-        std::size_t room = (vertex_count + 1) * sizeof(Bucket);
-        buckets_ = static_cast<Bucket*>(std::align(sizeof(Bucket), vertex_count * sizeof(Bucket), p, room));
+        : buckets_(static_cast<Bucket*>(
+              std::calloc(std::max<std::size_t>(1, vertex_count), sizeof(Bucket)))) {
+        if (buckets_ == nullptr) throw std::bad_alloc();
+        advise_huge_pages(buckets_.get(), vertex_count * sizeof(Bucket));
     }
 
     static constexpr HalfEdge kFull = kNoHalfEdge;
@@ -41,7 +39,7 @@ class EdgeTable {
         return before == kFull ? exchange_in(other, owner, h) : before;
     }
     void prefetch(std::uint32_t u, std::uint32_t v) const {
-        __builtin_prefetch(&buckets_[owner_of(u, v)], 1);
+        __builtin_prefetch(&buckets_.get()[owner_of(u, v)], 1);
     }
 
   private:
@@ -55,36 +53,33 @@ class EdgeTable {
     /// Without branches, which would guess wrong half of the time.
     HalfEdge exchange_in(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
         const std::uint32_t key = other + 1;  // 0 = free
-        Bucket& bucket = buckets_[owner];
+        Bucket& bucket = buckets_.get()[owner];
+        const std::uint32_t is_known = slots_with(bucket.keys, key);
         // The slot of the edge, else the first one that is free.
-        const int place = find_place(bucket.keys, key);
-        if (place == kNowhere) return kFull;
-        const int slot = place % static_cast<int>(kSlots);
+        const std::uint32_t places = is_known | slots_with(bucket.keys, 0) << kSlots;
+        if (places == 0) return kFull;
+        const int slot = std::countr_zero(places) % static_cast<int>(kSlots);
         const HalfEdge newest = bucket.half_edges[slot];
         put_key(bucket.keys, slot, key);
         bucket.half_edges[slot] = h;
-        return place < static_cast<int>(kSlots) ? newest : h;
+        return is_known != 0 ? newest : h;
     }
 
     static constexpr std::uint32_t kSlots = 4;
-    struct alignas(32) Bucket {
+    struct alignas(16) Bucket {
         std::uint32_t keys[kSlots];
         HalfEdge half_edges[kSlots];
     };
-    static constexpr int kNowhere = 2 * kSlots;
-    /// The slot with `key`, or kSlots plus the first slot with 0, or kNowhere.
-    static int find_place(const std::uint32_t (&keys)[kSlots], std::uint32_t key) {
+    /// Bit i: keys[i] is `key`.
+    static std::uint32_t slots_with(const std::uint32_t (&keys)[kSlots], std::uint32_t key) {
 #ifdef __SSE2__
         const __m128i all = _mm_load_si128(reinterpret_cast<const __m128i*>(keys));
-        const __m128i is_key = _mm_cmpeq_epi32(all, _mm_set1_epi32(static_cast<int>(key)));
-        const __m128i is_free = _mm_cmpeq_epi32(all, _mm_setzero_si128());
-        const int bytes = _mm_movemask_epi8(_mm_packs_epi32(is_key, is_free));
-        return std::countr_zero(static_cast<std::uint32_t>(bytes) | 1u << 2 * kNowhere) / 2;
+        const __m128i equal = _mm_cmpeq_epi32(all, _mm_set1_epi32(static_cast<int>(key)));
+        return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(equal)));
 #else
-        int place = kNowhere;
-        for (int i = kSlots - 1; i >= 0; --i) place = keys[i] == 0 ? static_cast<int>(kSlots) + i : place;
-        for (int i = kSlots - 1; i >= 0; --i) place = keys[i] == key ? i : place;
-        return place;
+        std::uint32_t slots = 0;
+        for (std::uint32_t i = 0; i < kSlots; ++i) slots |= (keys[i] == key ? 1u : 0u) << i;
+        return slots;
 #endif
     }
     /// keys[slot] = key where there is 0 or the same. All are written, for what is soon read at once would
@@ -92,10 +87,7 @@ class EdgeTable {
     static void put_key(std::uint32_t (&keys)[kSlots], int slot, std::uint32_t key) {
 #ifdef __SSE2__
         auto* const all = reinterpret_cast<__m128i*>(keys);
-        static constexpr std::uint32_t kOnes = ~std::uint32_t{0};
-        alignas(16) static constexpr std::uint32_t kAt[kSlots][kSlots] = {
-            {kOnes, 0, 0, 0}, {0, kOnes, 0, 0}, {0, 0, kOnes, 0}, {0, 0, 0, kOnes}};
-        const __m128i at = _mm_load_si128(reinterpret_cast<const __m128i*>(kAt[slot]));
+        const __m128i at = _mm_cmpeq_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(slot));
         const __m128i put = _mm_and_si128(at, _mm_set1_epi32(static_cast<int>(key)));
         _mm_store_si128(all, _mm_or_si128(_mm_load_si128(all), put));
 #else
@@ -103,10 +95,9 @@ class EdgeTable {
 #endif
     }
     struct Free {
-        void operator()(void* p) const { std::free(p); }
+        void operator()(Bucket* p) const { std::free(p); }
     };
-    Bucket* buckets_;  // in memory_, none of them in two cache lines
-    std::unique_ptr<void, Free> memory_;  // from calloc: fresh pages are zero without being written
+    std::unique_ptr<Bucket, Free> buckets_;  // from calloc: fresh pages are zero without being written
 };
 
 /// A half-edge that found no place in the table.
@@ -174,7 +165,7 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
             table.prefetch(b, c);
             table.prefetch(c, a);
         }
-        const auto& [a, b, c] = triangles[t];
+        const auto [a, b, c] = triangles[t];
         const auto h = static_cast<HalfEdge>(3 * t);
         next_on_edge.insert(next_on_edge.end(), {h, h + 1, h + 2});
         const bool ab = link(a, b, h), bc = link(b, c, h + 1), ca = link(c, a, h + 2);
@@ -189,17 +180,8 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
 
 BorderIndex index_borders(const Mesh& mesh) {
     std::vector<BorderIndex::Segment> segments;
-    const auto is_border = [&](std::size_t h) { return mesh.next_on_edge[h] == h; };
-    // Nearly all edges have two sides: some at once are asked.
-    constexpr std::size_t kGroup = 16;
-    const auto has_border = [&](std::size_t first) {
-        bool any = false;
-        for (std::size_t h = first; h < first + kGroup; ++h) any |= is_border(h);
-        return any;
-    };
     for (HalfEdge h = 0; h < mesh.next_on_edge.size(); ++h) {
-        while (h + kGroup <= mesh.next_on_edge.size() && !has_border(h)) h += kGroup;
-        if (h == mesh.next_on_edge.size() || !is_border(h)) continue;
+        if (mesh.next_on_edge[h] != h) continue;
         const auto& t = mesh.triangles[h / 3];
         segments.push_back(
             {h, mesh.polygon_of(h / 3), mesh.positions[t[h % 3]], mesh.positions[t[(h + 1) % 3]]});

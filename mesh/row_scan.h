@@ -39,9 +39,7 @@ RowMarks find_marks(const char* p) {
     }
     return marks;
 }
-#endif
 
-#ifdef __SSE2__
 /// 0xFF for the last `count` of sixteen bytes.
 inline __m128i last_bytes(int count) {
     static constexpr std::uint64_t kTable[] = {0, 0, ~std::uint64_t{0}, ~std::uint64_t{0}};

@@ -10,7 +10,6 @@
 #include <limits>
 #include <numeric>
 
-#include "abuffer/projection.h"
 #include "abuffer/sample_tile.h"
 #include "abuffer/scan_convert.h"
 #include "tests/support/kernels.h"
@@ -489,85 +488,6 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
         expected += std::popcount(rows[i] & ~hidden[i]);
     }
     for (const TileKernels* set : kernels) EXPECT_EQ(set->count_bits(rows, hidden), expected);
-}
-
-TEST(TileKernels, CoveredSamplesAreCounted) {
-    Random random(5);
-    for (const int s : {2, 4, 8}) {
-        SampleTile tile;
-        tile.reset(0, 0, 65, 65, s);
-        for (std::uint32_t& id : tile.ids) id = random.integer(0, 1) == 0 ? SampleTile::kBackground : random.bits() >> 1;
-        for (const TileKernels* kernels : all_kernels()) {
-            std::uint8_t counts[64 + 3];
-            kernels->count_covered(tile.ids.data(), tile.stride, s, 64 / s, counts);
-            for (int x = 0; x < 64 / s; ++x) {
-                int expected = 0;
-                for (int i = 0; i < s * s; ++i) {
-                    expected += tile.ids[tile.index(x * s + i % s, i / s)] != SampleTile::kBackground;
-                }
-                EXPECT_EQ(counts[x], expected) << kernels->name;
-            }
-        }
-    }
-}
-
-// As PixelFiller once did it, pixel by pixel.
-double distance_along_ray(const Projection& projection, const TriangleLook& look, glm::dvec2 pixel) {
-    glm::dvec3 origin, ray;
-    projection.view_ray(pixel, origin, ray);
-    const glm::dvec3 normal(look.normal[0], look.normal[1], look.normal[2]);
-    const double at = (look.offset - glm::dot(normal, origin)) / glm::dot(normal, ray);
-    return std::isfinite(at) ? std::clamp(at, look.nearest, look.farthest) : look.nearest;
-}
-
-TEST(TileKernels, PixelsLieInThePlanesOfTheirTriangles) {
-    constexpr std::size_t kCount = 61;
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        Random random(seed);
-        Projection projection;
-        projection.orthographic = seed % 2 == 1;
-        projection.focal_px = random.real(50, 900);
-        projection.center_px = {random.real(0, 640), random.real(0, 480)};
-        std::vector<TriangleLook> looks(20);
-        looks[0].nearest = looks[0].farthest = std::numeric_limits<double>::infinity();  // the background
-        for (std::size_t i = 1; i < looks.size(); ++i) {
-            TriangleLook& look = looks[i];
-            for (double& n : look.normal) n = random.real(-1, 1);
-            if (i == 1) look.normal[0] = look.normal[1] = look.normal[2] = 0;  // never met
-            look.offset = random.real(-5, 0.5);
-            look.nearest = random.real(0.1, 2);
-            look.farthest = look.nearest + random.real(0, 5);
-            for (float& n : look.world_normal) n = static_cast<float>(random.real(-1, 1));
-            look.object_id = static_cast<std::uint32_t>(3 * i);
-            look.material_id = look.object_id + 1;
-            look.polygon_id = look.object_id + 2;
-        }
-        std::array<std::uint16_t, kCount> look_at;
-        for (std::uint16_t& l : look_at) l = static_cast<std::uint16_t>(random.integer(0, 19));
-        const int x0 = random.integer(0, 600), y = random.integer(0, 479);
-        const glm::dvec2 first = glm::dvec2(x0 + 0.5, y + 0.5) - projection.center_px;
-        for (const TileKernels* kernels : all_kernels()) {
-            std::array<float, kCount + 3> distance, normal[3];
-            std::array<std::uint32_t, kCount + 3> ids[3];
-            kernels->put_geometry({projection.orthographic, first.x, first.y, projection.focal_px}, looks.data(), look_at.data(), kCount,
-                                  {distance.data(),
-                                   {normal[0].data(), normal[1].data(), normal[2].data()},
-                                   {ids[0].data(), ids[1].data(), ids[2].data()}});
-            for (std::size_t i = 0; i < kCount; ++i) {
-                const TriangleLook& look = looks[look_at[i]];
-                const double expected = distance_along_ray(projection, look, glm::dvec2(x0 + 0.5 + static_cast<double>(i), y + 0.5));
-                if (look_at[i] == 0) {
-                    ASSERT_EQ(distance[i], std::numeric_limits<float>::infinity());
-                } else {
-                    ASSERT_NEAR(distance[i], expected, 1e-6 * expected) << kernels->name << ", seed " << seed << ", pixel " << i;
-                }
-                for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(normal[c][i], look.world_normal[c]);
-                ASSERT_EQ(ids[0][i], look.object_id);
-                ASSERT_EQ(ids[1][i], look.material_id);
-                ASSERT_EQ(ids[2][i], look.polygon_id);
-            }
-        }
-    }
 }
 
 TEST(TileKernels, FindPairsOfSurfacesThatAreNotPlainOrNotLevel) {

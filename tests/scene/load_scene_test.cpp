@@ -167,6 +167,21 @@ TEST(LoadScene, BareModels) {
     EXPECT_EQ(message.find("a b/missing.obj: "), 0u) << message;
 }
 
+// They come some at a time.
+TEST(LoadScene, ScenePointsAreAllVertices) {
+    const Scene scene = test::loaded("[[object]]\nshape='sphere'\n[[object.instance]]\ntranslate=[3,0,0]\n");
+    const Mesh& mesh = scene.meshes[0];
+    ASSERT_GT(mesh.positions.size(), 600u);
+    std::vector<glm::dvec3> expected, points;
+    for (const SceneObject& object : scene.objects) {
+        for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+            expected.emplace_back(object.to_world * glm::dvec4(mesh.position(v), 1.0));
+        }
+    }
+    for_each_point(scene_points(scene), [&](const glm::dvec3& p) { points.push_back(p); });
+    EXPECT_EQ(points, expected);
+}
+
 TEST(LoadScene, ScenePointsAreInWorldSpace) {
     const Scene scene = test::loaded(
         "[[object]]\nshape='box'\nscale=2\ntranslate=[10,0,0]\n[[object.instance]]\ntranslate=[1,0,"
