@@ -235,6 +235,15 @@ TEST(BuildMeshes, NearZeroCoordinatesKeepTheirValues) {
     EXPECT_EQ(mesh.positions[0], glm::vec3(15.1f, 15.3f, 15.7f));
 }
 
+// Not farther than 16 half sizes, or just farther; a vertex that no triangle uses tells nothing.
+TEST(BuildMeshes, TheOriginMovesWhereTheModelIsFarFromIt) {
+    for (const double distance : {15.0, 17.0}) {
+        const glm::dvec3 at(2 * distance, 0, 0);
+        const Mesh mesh = build_one(soup_of({at + glm::dvec3(-2, 0, 0), at + glm::dvec3(2, 0, 0), at + glm::dvec3(0, 1, 0), {-900, 0, 0}}, {{0, 1, 2}}));
+        EXPECT_EQ(mesh.origin.x, distance > 16 ? at.x : 0.0) << distance;
+    }
+}
+
 TEST(BuildMeshes, TrianglesKnowTheirPolygon) {
     const Mesh mesh = build_one(soup_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {0, 0, 5}},
                                         {{0, 1, 5}, {0, 1, 2, 3, 4}, {0, 5, 4}, {1, 2, 3, 5}}));

@@ -298,6 +298,7 @@ TEST(Wall, SeenEdgeOnIsAnOutline) {
     const auto drawn_share = [&](double lean, RenderFunction render) {
         Scene scene = scene_of({step(lean)});
         scene.lines.classes = LineClass::silhouette;
+        scene.abuffer.samples = 2;  // decisions of samples alone
         const Drawing d(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100}, 1, render);
         return d.drawn_share({a.x, 100 - a.y}, {b.x, 100 - b.y});
     };
