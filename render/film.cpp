@@ -84,7 +84,7 @@ bool Film::has_geometry() const {
 void Film::put_background(int x0, int x1, int y) {
     const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
     const auto clear = [&](auto* plane, auto value) {
-        if (plane != nullptr) stream_fill(plane + begin, count, value);
+        if (plane != nullptr) std::fill_n(plane + begin, count, value);
     };
     for (std::size_t c = 0; c < 4; ++c) {
         for (std::uint16_t* plane : {planes_.beauty[c], planes_.lines[c], planes_.surface[c]}) {
@@ -99,27 +99,28 @@ void Film::put_background(int x0, int x1, int y) {
     }
 }
 
-void Film::put_row(int x0, int x1, int y, const SurfaceRow& row) {
+void Film::put_surface(int x0, int x1, int y, const HalfColor& color) {
     const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
-    const auto copy = [&](auto* plane, const auto* values) {
-        if (plane != nullptr) std::copy_n(values, count, plane + begin);
+    const auto fill = [&](std::uint16_t* plane, std::uint16_t value) {
+        if (plane != nullptr) std::fill_n(plane + begin, count, value);
     };
     for (std::size_t c = 0; c < 4; ++c) {
-        copy(planes_.beauty[c], row.color[c]);
-        copy(planes_.surface[c], row.color[c]);
-        if (planes_.lines[c] != nullptr) std::fill_n(planes_.lines[c] + begin, count, std::uint16_t{0});
+        fill(planes_.beauty[c], color[c]);
+        fill(planes_.surface[c], color[c]);
+        fill(planes_.lines[c], 0);
     }
-    for (std::uint16_t* plane : planes_.coverage) {
-        if (plane != nullptr) std::fill_n(plane + begin, count, std::uint16_t{0});
-    }
-    // Nothing is drawn over these.
-    const auto stream = [&](auto* plane, const auto* values) {
+    for (std::uint16_t* plane : planes_.coverage) fill(plane, 0);
+}
+
+void Film::put_geometry(int x0, int x1, int y, const GeometryPixels& pixels) {
+    const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
+    const auto stream = [&](auto* plane, const auto* values) {  // nothing is drawn over these
         if (plane != nullptr) stream_copy(values, count, plane + begin);
     };
-    stream(planes_.depth, row.distance);
+    stream(planes_.depth, pixels.distance);
     for (std::size_t c = 0; c < 3; ++c) {
-        stream(planes_.normal[c], row.normal[c]);
-        stream(planes_.ids[c], row.ids[c]);
+        stream(planes_.normal[c], pixels.normal[c]);
+        stream(planes_.ids[c], pixels.ids[c]);
     }
 }
 

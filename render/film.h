@@ -36,9 +36,11 @@ struct PixelResult {
     std::uint32_t polygon_id = 0;
 };
 
-/// Part of a row of pixels without lines, channel by channel.
-struct SurfaceRow {
-    const std::uint16_t* color[4];  ///< half precision, linear, premultiplied
+/// A colour as it is kept: half precision, linear, premultiplied.
+using HalfColor = std::array<std::uint16_t, 4>;
+
+/// Depth, normals and ids of a part of a row of pixels, channel by channel.
+struct GeometryPixels {
     const float* distance;
     const float* normal[3];
     const std::uint32_t* ids[3];  ///< object, material, polygon
@@ -61,9 +63,10 @@ class Film {
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
     bool has_geometry() const;
-    /// The same as put() for pixels [x0, x1) of a row, without lines. Without geometry, only colours are read. Before other
-    /// threads read or change pixels of rows, finish_stream_stores() is due.
-    void put_row(int x0, int x1, int y, const SurfaceRow& row);
+    /// The same as put() for pixels [x0, x1) of a row, without lines: put_surface() once for each of their colours, and
+    /// put_geometry() if there is any. Before other threads read or change them, finish_stream_stores() is due.
+    void put_surface(int x0, int x1, int y, const HalfColor& color);
+    void put_geometry(int x0, int x1, int y, const GeometryPixels& pixels);
     /// Puts the background into pixels [x0, x1) of a row.
     void put_background(int x0, int x1, int y);
     /// Has the memory fetched that draw_over() will change of a pixel and of those to its right, up to 32 pixels in all.

@@ -13,6 +13,10 @@ namespace {
 
 glm::dvec3 vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
+HalfColor half_color(const glm::vec4& color) {
+    return {Film::to_half(color.r), Film::to_half(color.g), Film::to_half(color.b), Film::to_half(color.a)};
+}
+
 }  // namespace
 
 PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels)
@@ -22,7 +26,7 @@ PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const
     for (int covered = 0; covered <= per_pixel * per_pixel; ++covered) {
         const glm::vec4 sum = glm::vec4(frame.scene->surfaces.paper_color, 1.0f) * static_cast<float>(covered);
         const glm::vec4 color = sum / samples;
-        paper_.push_back({Film::to_half(color.r), Film::to_half(color.g), Film::to_half(color.b), Film::to_half(color.a)});
+        paper_.push_back(half_color(color));
     }
 }
 
@@ -119,7 +123,7 @@ TriangleLook PixelFiller::look_of(std::uint32_t number) const {
     return look;
 }
 
-void PixelFiller::put_geometry(PixelRect rect, int y) {
+void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
     const auto width = static_cast<std::size_t>(rect.width());
     const Projection& p = frame_.surfaces.projection;
     const glm::dvec2 first = glm::dvec2(rect.x0 + 0.5, y + 0.5) - p.center_px;
@@ -128,17 +132,22 @@ void PixelFiller::put_geometry(PixelRect rect, int y) {
                           {row_.distance,
                            {row_.normal[0], row_.normal[1], row_.normal[2]},
                            {row_.ids[0], row_.ids[1], row_.ids[2]}});
+    film.put_geometry(rect.x0, rect.x1, y,
+                      {row_.distance,
+                       {row_.normal[0], row_.normal[1], row_.normal[2]},
+                       {row_.ids[0], row_.ids[1], row_.ids[2]}});
 }
 
-void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, int y) {
+void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& film) {
     const int s = samples.samples_per_pixel;
     std::uint8_t covered[kWidth + 8];
-    const std::size_t first = samples.index(rect.x0 * s, y * s);
-    kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
-    const auto width = static_cast<std::size_t>(rect.width());
-    for (std::size_t begin = 0, end; begin < width; begin = end) {  // a few runs of equal counts
-        for (end = begin + 1; end < width && covered[end] == covered[begin];) ++end;
-        for (std::size_t c = 0; c < 4; ++c) std::fill(row_.color[c] + begin, row_.color[c] + end, paper_[covered[begin]][c]);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        const std::size_t first = samples.index(rect.x0 * s, y * s);
+        kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
+        for (int begin = 0, end; begin < rect.width(); begin = end) {  // a few runs of equal counts
+            for (end = begin + 1; end < rect.width() && covered[end] == covered[begin];) ++end;
+            film.put_surface(rect.x0 + begin, rect.x0 + end, y, paper_[covered[begin]]);
+        }
     }
 }
 
@@ -154,7 +163,7 @@ glm::vec4 PixelFiller::color(std::uint32_t number, int x, int y) {
                          -glm::normalize(ray));
 }
 
-void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y) {
+void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y, Film& film) {
     const int s = samples.samples_per_pixel;
     for (int x = rect.x0; x < rect.x1; ++x) {
         glm::vec4 sum(0.0f);
@@ -171,7 +180,7 @@ void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y) {
             }
         }
         sum /= static_cast<float>(s * s);
-        for (int c = 0; c < 4; ++c) row_.color[c][x - rect.x0] = Film::to_half(sum[c]);
+        film.put_surface(x, x + 1, y, half_color(sum));
     }
 }
 
@@ -199,14 +208,10 @@ void PixelFiller::fill(const LineTile& tile, Film& film) {
         make_looks();
     }
     const bool is_paper = frame_.scene->surfaces.shading == SurfaceShading::paper;
-    const SurfaceRow row{{row_.color[0], row_.color[1], row_.color[2], row_.color[3]},
-                         row_.distance,
-                         {row_.normal[0], row_.normal[1], row_.normal[2]},
-                         {row_.ids[0], row_.ids[1], row_.ids[2]}};
+    if (is_paper) put_paper(samples, rect, film);
     for (int y = rect.y0; y < rect.y1; ++y) {
-        if (has_geometry) put_geometry(rect, y);
-        is_paper ? put_paper(samples, rect, y) : put_shaded(samples, rect, y);
-        film.put_row(rect.x0, rect.x1, y, row);
+        if (has_geometry) put_geometry(rect, y, film);
+        if (!is_paper) put_shaded(samples, rect, y, film);
     }
     finish_stream_stores();
 }

@@ -30,9 +30,9 @@ class PixelFiller {
     TriangleLook look_of(std::uint32_t number) const;
     void fill_ids(std::uint32_t number, TriangleLook& look) const;
 
-    void put_geometry(PixelRect rect, int y);
-    void put_paper(const SampleTile& samples, PixelRect rect, int y);
-    void put_shaded(const SampleTile& samples, PixelRect rect, int y);
+    void put_geometry(PixelRect rect, int y, Film& film);
+    void put_paper(const SampleTile& samples, PixelRect rect, Film& film);
+    void put_shaded(const SampleTile& samples, PixelRect rect, int y, Film& film);
     glm::vec4 color(std::uint32_t number, int x, int y);
 
     const Frame& frame_;
@@ -41,11 +41,10 @@ class PixelFiller {
     std::vector<std::uint32_t> numbers_;  // of triangles; the first one is none
     std::vector<TriangleLook> looks_;     // of them
     std::vector<std::uint16_t> look_at_;  // per pixel of the tile, which of them
-    std::vector<std::array<std::uint16_t, 4>> paper_;  // by the number of covered samples
+    std::vector<HalfColor> paper_;  // by the number of covered samples
     std::uint32_t shaded_number_ = 0xFFFFFFFFu;        // whose look is:
     TriangleLook shaded_look_{};
     struct Row {
-        std::uint16_t color[4][kWidth];
         static_assert(kWidth % 4 == 0);  // see GeometryRow
         float distance[kWidth], normal[3][kWidth];
         std::uint32_t ids[3][kWidth];
