@@ -22,16 +22,6 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
     }
 }
 
-void StrokeCanvas::draw_row(int sub_row, int begin, int end) {
-    const int row = sub_row % StrokeMask::kRows;
-    const int first_pixel = sub_row / StrokeMask::kRows * width_;
-    StrokeMask::for_pixels(begin, end, [&](int pixel, std::uint32_t bits) {
-        const auto i = static_cast<std::size_t>(first_pixel + pixel);
-        masks_[i].rows[static_cast<std::size_t>(row)] |= bits;
-        touched_[i] = 1;
-    });
-}
-
 void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
     const glm::dvec2 a = from - glm::dvec2(x0_, y0_), b = to - glm::dvec2(x0_, y0_);
     const double r = radius_px;
@@ -49,9 +39,15 @@ void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
     }
     kernels_->stroke_spans({a.x, a.y, b.x, b.y, u.x, u.y, length, r}, begin, end - begin,
                            width_ * StrokeMask::kColumns, begin_.data(), end_.data());
-    for (int i = begin; i < end; ++i) {
-        const auto k = static_cast<std::size_t>(i - begin);
-        draw_row(i, begin_[k], end_[k]);
+    for (int sub_row = begin; sub_row < end; ++sub_row) {
+        const auto row = static_cast<std::size_t>(sub_row % StrokeMask::kRows);
+        const auto first_pixel = static_cast<std::size_t>(sub_row / StrokeMask::kRows * width_);
+        const auto k = static_cast<std::size_t>(sub_row - begin);
+        StrokeMask::for_pixels(begin_[k], end_[k], [&](int pixel, std::uint32_t bits) {
+            const std::size_t i = first_pixel + static_cast<std::size_t>(pixel);
+            masks_[i].rows[row] |= bits;
+            touched_[i] = 1;
+        });
     }
 }
 

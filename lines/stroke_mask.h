@@ -63,8 +63,6 @@ class StrokeCanvas {
     }
 
   private:
-    void draw_row(int sub_row, int begin, int end);
-
     const TileKernels* kernels_;
     std::vector<std::int32_t> begin_, end_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
