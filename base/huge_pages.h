@@ -11,8 +11,8 @@ namespace burin {
 void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 
 /// Reserves place in an empty vector that may become large, and is filled at once.
-template <typename T>
-void reserve_large(std::vector<T>& v, std::size_t count) {
+template <typename T, typename Allocator>
+void reserve_large(std::vector<T, Allocator>& v, std::size_t count) {
     v.reserve(count);
     advise_huge_pages(v.data(), count * sizeof(T));
 }

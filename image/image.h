@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/unfilled_vector.h"
+
 namespace burin {
 
 enum class PixelType : std::uint8_t { float16, float32, uint32 };
@@ -26,7 +28,7 @@ struct PixelRect {
 struct Channel {
     std::string name;  ///< as in the EXR file: "R", "lines.A", "id.object"
     PixelType type = PixelType::float32;
-    std::vector<std::byte> bytes;
+    UnfilledVector<std::byte> bytes;
 
     template <typename T>
     std::span<T> as() {
@@ -55,6 +57,8 @@ class Image {
 
     /// Adds a channel of zeros.
     Channel& add(std::string name, PixelType type);
+    /// Adds a channel whose pixels mean nothing before they are written.
+    Channel& add_unfilled(std::string name, PixelType type);
     /// nullptr when there is no channel of that name.
     const Channel* find(std::string_view name) const;
     Channel* find(std::string_view name);

@@ -36,22 +36,23 @@ Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassS
     : image_(display, crop) {
     std::size_t bytes = 0;
     std::vector<std::function<void()>> bindings;  // channel memory stands still only at the end
-    const auto add = [&](const std::string& name, PixelType type, auto*& plane) {
+    using Add = Channel& (Image::*)(std::string, PixelType);
+    const auto add = [&](const std::string& name, PixelType type, auto*& plane, Add how = &Image::add_unfilled) {
         bytes += size_of(type);
         auto** const target = &plane;
-        bindings.push_back([this, name, type, target] {
+        bindings.push_back([this, name, type, target, how] {
             using Value = std::remove_pointer_t<std::remove_reference_t<decltype(*target)>>;
-            *target = image_.add(name, type).as<Value>().data();
+            *target = (image_.*how)(name, type).template as<Value>().data();
         });
     };
-    const auto add_rgba = [&](const std::string& prefix, std::uint16_t* (&planes)[4]) {
+    const auto add_rgba = [&](const std::string& prefix, std::uint16_t* (&planes)[4], Add how = &Image::add_unfilled) {
         const char* const names[4] = {"R", "G", "B", "A"};
-        for (int c = 0; c < 4; ++c) add(prefix + names[c], PixelType::float16, planes[c]);
+        for (int c = 0; c < 4; ++c) add(prefix + names[c], PixelType::float16, planes[c], how);
     };
     if (layers.beauty) add_rgba("", planes_.beauty);
     if (layers.lines) add_rgba("lines.", planes_.lines);
     if (layers.surface) add_rgba("surface.", planes_.surface);
-    if (layers.lines_hidden) add_rgba("lines_hidden.", planes_.lines_hidden);
+    if (layers.lines_hidden) add_rgba("lines_hidden.", planes_.lines_hidden, &Image::add);
     for (std::size_t i = 0; i < kLineClassCount && layers.coverage; ++i) {
         if (!classes.has(static_cast<LineClass>(i))) continue;
         add("coverage." + std::string(kLineClassNames[i]), PixelType::float16, planes_.coverage[i]);

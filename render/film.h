@@ -56,7 +56,7 @@ struct LinePixel {
 /// pixels at the same time.
 class Film {
   public:
-    /// `display` is the whole picture, `crop` the part that pixels are put for. Throws InputError
+    /// `display` is the whole picture, `crop` the part that pixels are put for: each of them must be. Throws InputError
     /// when this machine has not enough memory for it.
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "mesh/shapes.h"
+#include "methods/method_table.h"
 #include "tests/support/drawing.h"
 
 namespace burin {
@@ -79,6 +80,33 @@ TEST(Layers, InvisibleSurfacesStillHide) {
     EXPECT_EQ(paper.coverage(), none.coverage());
     EXPECT_NEAR(none.sum("A"), none.sum("lines.A"), 0.5);
     EXPECT_GT(paper.sum("A"), 5 * none.sum("A"));
+}
+
+/// What a method draws over memory that holds some byte.
+Image drawn_over(const Method& method, const Scene& scene, PixelRect crop, std::uint8_t garbage) {
+    const Frame frame = make_frame(scene, perspective_camera({2, 1.5, 3}, {0, 0, 0}), 150, 140, crop);
+    const LayerSet layers{true, true, true, true, true, true, true};
+    Film film({0, 0, 150, 140}, crop, layers, frame.criteria.classes);
+    for (const Channel& channel : film.image().channels()) {
+        auto& bytes = const_cast<Channel&>(channel).bytes;
+        std::fill(bytes.begin(), bytes.end(), std::byte{garbage});
+    }
+    method.render(frame, {}, film);
+    return film.image();
+}
+
+TEST(Layers, EveryPixelIsPut) {
+    Scene scene = scene_of({make_box({1, 1, 1})});
+    std::vector<Scene> scenes(3, scene);
+    scenes[1].surfaces.shading = SurfaceShading::lambert;
+    scenes[2].materials.front().opacity = 0.5f;
+    for (const Method& method : methods()) {
+        for (const Scene& s : scenes) {
+            for (const PixelRect crop : {PixelRect{0, 0, 150, 140}, PixelRect{3, 5, 144, 131}}) {
+                EXPECT_TRUE(same_bits(drawn_over(method, s, crop, 0x00), drawn_over(method, s, crop, 0xA5))) << method.name;
+            }
+        }
+    }
 }
 
 TEST(Layers, AnImageThatDoesNotFitTheMachineIsRefused) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace burin {
+
+/// As std::allocator, but what a vector grows by is left as the memory was.
+template <typename T>
+struct UnfilledAllocator : std::allocator<T> {
+    static_assert(std::is_trivial_v<T>);
+    template <typename U>
+    struct rebind {
+        using other = UnfilledAllocator<U>;
+    };
+
+    template <typename U>
+    void construct(U* at) noexcept {
+        ::new (static_cast<void*>(at)) U;
+    }
+    template <typename U, typename... Arguments>
+    void construct(U* at, Arguments&&... arguments) {
+        ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+    }
+};
+
+/// For memory that is filled once, and large.
+template <typename T>
+using UnfilledVector = std::vector<T, UnfilledAllocator<T>>;
+
+}  // namespace burin
