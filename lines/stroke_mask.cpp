@@ -11,7 +11,8 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
     if (width_ != width || height_ != height) {
         width_ = width;
         height_ = height;
-        masks_.assign(static_cast<std::size_t>(width * height), StrokeMask{});
+        stride_ = width / 8 * 8 + 8;
+        masks_.assign(static_cast<std::size_t>(stride_ * height), StrokeMask{});
         touched_.assign(masks_.size(), 0);
         return;
     }
@@ -41,13 +42,21 @@ void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
                            width_ * StrokeMask::kColumns, begin_.data(), end_.data());
     for (int sub_row = begin; sub_row < end; ++sub_row) {
         const auto row = static_cast<std::size_t>(sub_row % StrokeMask::kRows);
-        const auto first_pixel = static_cast<std::size_t>(sub_row / StrokeMask::kRows * width_);
-        const auto k = static_cast<std::size_t>(sub_row - begin);
-        StrokeMask::for_pixels(begin_[k], end_[k], [&](int pixel, std::uint32_t bits) {
-            const std::size_t i = first_pixel + static_cast<std::size_t>(pixel);
+        const int first = begin_[static_cast<std::size_t>(sub_row - begin)], count = end_[static_cast<std::size_t>(sub_row - begin)] - first;
+        const std::size_t start = index(0, sub_row / StrokeMask::kRows);
+        const auto add = [&](std::size_t i, std::uint32_t bits) {
             masks_[i].rows[row] |= bits;
-            touched_[i] = 1;
-        });
+            touched_[i] = static_cast<std::uint8_t>(touched_[i] | (bits != 0 ? 1 : 0));
+        };
+        if (count <= StrokeMask::kColumns) {  // two pixels: as most are, and which of them is not to be guessed
+            const std::uint64_t bits = ((std::uint64_t{1} << std::max(count, 0)) - 1) << first % StrokeMask::kColumns;
+            const std::size_t i = start + static_cast<std::size_t>(first / StrokeMask::kColumns);
+            add(i, static_cast<std::uint32_t>(bits));
+            add(i + 1, static_cast<std::uint32_t>(bits >> StrokeMask::kColumns));
+        } else {
+            StrokeMask::for_pixels(first, first + count,
+                                   [&](int pixel, std::uint32_t bits) { add(start + static_cast<std::size_t>(pixel), bits); });
+        }
     }
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -41,18 +43,32 @@ class StrokeCanvas {
 
     /// Adds samples of one pixel.
     void add(int column, int row, const StrokeMask& mask) {
-        const auto i = static_cast<std::size_t>(row * width_ + column);
+        const std::size_t i = index(column, row);
         for (std::size_t r = 0; r < mask.rows.size(); ++r) masks_[i].rows[r] |= mask.rows[r];
         touched_[i] = 1;
     }
 
     int width() const { return width_; }
     int height() const { return height_; }
-    const StrokeMask& at(int column, int row) const {
-        return masks_[static_cast<std::size_t>(row * width_ + column)];
+    const StrokeMask& at(int column, int row) const { return masks_[index(column, row)]; }
+    bool is_touched(int column, int row) const { return touched_[index(column, row)] != 0; }
+    /// Whether eight pixels from a multiple of eight on are touched, those beyond the canvas not: a byte each, 0 or 1.
+    std::uint64_t eight_touched(int column, int row) const {
+        std::uint64_t bytes;
+        std::memcpy(&bytes, &touched_[index(column, row)], sizeof bytes);
+        return bytes;
     }
-    bool is_touched(int column, int row) const {
-        return touched_[static_cast<std::size_t>(row * width_ + column)] != 0;
+    /// Calls visit(column, row) for the pixels that are touched, row by row.
+    template <typename Visit>
+    void for_touched(const Visit& visit) const {
+        for (int row = 0; row < height_; ++row) {
+            for (int column = 0; column < width_; column += 8) visit_touched(eight_touched(column, row), column, row, visit);
+        }
+    }
+    /// The same for those of eight pixels.
+    template <typename Visit>
+    static void visit_touched(std::uint64_t eight, int column, int row, const Visit& visit) {
+        for (; eight != 0; eight &= eight - 1) visit(column + std::countr_zero(eight) / 8, row);
     }
     /// Whether nothing can be added any more.
     bool is_full(int column, int row) const {
@@ -63,9 +79,12 @@ class StrokeCanvas {
     }
 
   private:
+    std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
+
     const TileKernels* kernels_;
     std::vector<std::int32_t> begin_, end_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
+    int stride_ = 0;  // a multiple of eight with room for at least one pixel more, which stays untouched
     std::vector<StrokeMask> masks_;
     std::vector<std::uint8_t> touched_;
 };

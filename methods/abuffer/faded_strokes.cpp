@@ -20,12 +20,9 @@ void FadedStrokes::draw(std::span<const LineSegment* const> segments, PixelRect 
         for (std::size_t i = 0; i < segments.size(); ++i) {
             if (segments[i]->is_drawn && segments[i]->opacity == opacity) draw_stroke(i, canvas_);
         }
-        for (int row = 0; row < rect.height(); ++row) {
-            for (int column = 0; column < rect.width(); ++column) {
-                if (!canvas_.is_touched(column, row)) continue;
-                masks_.push_back({static_cast<std::uint32_t>(row * width_ + column), opacity, canvas_.at(column, row)});
-            }
-        }
+        canvas_.for_touched([&](int column, int row) {
+            masks_.push_back({static_cast<std::uint32_t>(row * width_ + column), opacity, canvas_.at(column, row)});
+        });
     }
     std::stable_sort(masks_.begin(), masks_.end(),
                      [](const PixelMask& a, const PixelMask& b) { return a.pixel < b.pixel; });

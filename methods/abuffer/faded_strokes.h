@@ -24,6 +24,14 @@ class FadedStrokes {
 
     /// Whether there is any in a pixel of the rectangle.
     bool is_touched(int column, int row) const { return !masks_.empty() && !masks_of(column, row).empty(); }
+    /// As StrokeCanvas::eight_touched().
+    std::uint64_t eight_touched(int column, int row) const {
+        std::uint64_t eight = 0;
+        for (int k = 0; k < 8 && column + k < width_ && !masks_.empty(); ++k) {
+            eight |= (is_touched(column + k, row) ? std::uint64_t{1} : 0) << 8 * k;
+        }
+        return eight;
+    }
     /// Calls use(mask, samples taken, opacity 0..1) for what there is in a pixel, the most opaque one first.
     template <typename Use>
     void for_masks(int column, int row, StrokeMask taken, const Use& use) const {

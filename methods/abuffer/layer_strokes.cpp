@@ -53,7 +53,6 @@ class TileStrokes {
         used_.clear();
         pixels_.resize(static_cast<std::size_t>(rect.width() * rect.height()));
     }
-    std::size_t count() const { return pixels_.size(); }
     Pixel& pixel(std::size_t i) {
         Pixel& p = pixels_[i];
         if (!p.is_used) used_.push_back(i);
@@ -70,11 +69,7 @@ class TileStrokes {
         for (const Segment* s : segments) {
             if (choose(*s)) canvas_.draw(s->from, s->to, radius_px);
         }
-        for (int row = 0; row < rect_.height(); ++row) {
-            for (int column = 0; column < rect_.width(); ++column) {
-                if (canvas_.is_touched(column, row)) use(index(column, row), canvas_.at(column, row));
-            }
-        }
+        canvas_.for_touched([&](int column, int row) { use(index(column, row), canvas_.at(column, row)); });
     }
 
     /// Calls add(pixel, share) for the pixels that see samples of pixel `i`.
@@ -182,9 +177,8 @@ void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<Line
         strokes.reset(rect);
         VisibleStrokes& visible_strokes = in_front[static_cast<std::size_t>(worker)];
         visible_strokes.draw(visible_in.of(tile), rect);
-        for (std::size_t i = 0; i < strokes.count(); ++i) {
-            const int column = static_cast<int>(i) % rect.width(), row = static_cast<int>(i) / rect.width();
-            if (!visible_strokes.is_touched(column, row)) continue;
+        visible_strokes.for_touched([&](int column, int row) {
+            const auto i = static_cast<std::size_t>(row * rect.width() + column);
             TileStrokes::Pixel& own = strokes.pixel(i);
             visible_strokes.for_classes(column, row, [&](LineClass, const StrokeMask& mask, const StrokeMask&, float opacity) {
                 if (opacity == 1.0f) unite(own.visible, mask);  // hidden lines shine through what fades
@@ -192,7 +186,7 @@ void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<Line
             strokes.spread(i, own.visible, [&](TileStrokes::Pixel& pixel, float share) {
                 pixel.ink += visible_strokes.pen().strength * share;
             });
-        }
+        });
         // The least weakened ones first: they cover the others.
         std::vector<int> transmissions;
         for (const LayerSegment* s : list) transmissions.push_back(s->transmission);

@@ -89,13 +89,10 @@ class StrokePrinter {
     void print(std::span<const LineSegment* const> segments, PixelRect rect, Film& film) {
         strokes_.draw(segments, rect);
         touched_.clear();
-        for (int row = 0; row < rect.height(); ++row) {
-            const std::size_t before = touched_.size();
-            for (int column = 0; column < rect.width(); ++column) {
-                if (strokes_.is_touched(column, row)) touched_.push_back({column, row});
-            }
-            if (touched_.size() > before) film.prefetch(rect.x0 + touched_[before].column, rect.y0 + row);
-        }
+        strokes_.for_touched([&](int column, int row) {
+            if (touched_.empty() || touched_.back().row != row) film.prefetch(rect.x0 + column, rect.y0 + row);
+            touched_.push_back({column, row});
+        });
         for (const auto [column, row] : touched_) {
             Coverages coverages{};
             strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {

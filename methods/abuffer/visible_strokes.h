@@ -23,11 +23,16 @@ class VisibleStrokes {
 
     const Pen& pen() const { return pen_; }
     PixelRect rect() const { return rect_; }
-    bool is_touched(int column, int row) const {
-        for (const LineClass c : classes_) {
-            if (canvas_of(c).is_touched(column, row)) return true;
+    /// Calls visit(column, row) for the pixels that have any strokes, row by row.
+    template <typename Visit>
+    void for_touched(const Visit& visit) const {
+        for (int row = 0; row < rect_.height(); ++row) {
+            for (int column = 0; column < rect_.width(); column += 8) {
+                std::uint64_t eight = faded_.eight_touched(column, row);
+                for (const LineClass c : classes_) eight |= canvas_of(c).eight_touched(column, row);
+                StrokeCanvas::visit_touched(eight, column, row, visit);
+            }
         }
-        return faded_.is_touched(column, row);
     }
     /// Calls use(class, mask, samples taken by others, opacity 0..1) for the strokes at a pixel, class by class;
     /// what fades comes last. Where several overlap, the first one counts.
