@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "base/heap.h"
 #include "base/json_writer.h"
 #include "base/stopwatch.h"
 #include "bench/embree_view.h"
@@ -270,6 +271,7 @@ int main(int argc, char** argv) {
         std::fputs("usage: frame_bench MODEL WIDTH HEIGHT RUNS [scaling]\n", stderr);
         return 2;
     }
+    burin::keep_freed_memory();  // as the program does
     try {
         std::fputs(burin::bench::measure_frames(argv[1], width, height, runs, has_scaling).c_str(),
                    stdout);

@@ -11,7 +11,7 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
     if (width_ != width || height_ != height) {
         width_ = width;
         height_ = height;
-        stride_ = width / 8 * 8 + 8;
+        stride_ = (width + 9) / 8 * 8;
         masks_.assign(static_cast<std::size_t>(stride_ * height), StrokeMask{});
         touched_.assign(masks_.size(), 0);
         return;
@@ -40,22 +40,35 @@ void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
     }
     kernels_->stroke_spans({a.x, a.y, b.x, b.y, u.x, u.y, length, r}, begin, end - begin,
                            width_ * StrokeMask::kColumns, begin_.data(), end_.data());
-    for (int sub_row = begin; sub_row < end; ++sub_row) {
-        const auto row = static_cast<std::size_t>(sub_row % StrokeMask::kRows);
-        const int first = begin_[static_cast<std::size_t>(sub_row - begin)], count = end_[static_cast<std::size_t>(sub_row - begin)] - first;
-        const std::size_t start = index(0, sub_row / StrokeMask::kRows);
-        const auto add = [&](std::size_t i, std::uint32_t bits) {
-            masks_[i].rows[row] |= bits;
-            touched_[i] = static_cast<std::uint8_t>(touched_[i] | (bits != 0 ? 1 : 0));
-        };
-        if (count <= StrokeMask::kColumns) {  // two pixels: as most are, and which of them is not to be guessed
-            const std::uint64_t bits = ((std::uint64_t{1} << std::max(count, 0)) - 1) << first % StrokeMask::kColumns;
-            const std::size_t i = start + static_cast<std::size_t>(first / StrokeMask::kColumns);
-            add(i, static_cast<std::uint32_t>(bits));
-            add(i + 1, static_cast<std::uint32_t>(bits >> StrokeMask::kColumns));
+    add_spans(begin, end);
+}
+
+/// Adds the columns [begin_[i], end_[i]) of row `from` + i.
+void StrokeCanvas::add_spans(int from, int end) {
+    constexpr unsigned kRows = StrokeMask::kRows, kColumns = StrokeMask::kColumns;
+    // As bytes may stand for anything, members would be read again after each that is written.
+    StrokeMask* const masks = masks_.data();
+    std::uint8_t* const touched = touched_.data();
+    const auto stride = static_cast<unsigned>(stride_);
+    const auto add = [=](std::size_t pixel, unsigned row, std::uint32_t bits) {
+        masks[pixel].rows[row] |= bits;
+        touched[pixel] = static_cast<std::uint8_t>(touched[pixel] | (bits != 0));
+    };
+    const std::int32_t *span_begin = begin_.data(), *span_end = end_.data();
+    for (auto sub_row = static_cast<unsigned>(from); sub_row < static_cast<unsigned>(end); ++sub_row) {
+        const auto first = static_cast<unsigned>(*span_begin++);
+        const int count = *span_end++ - static_cast<int>(first);
+        const unsigned row = sub_row % kRows;
+        const std::size_t start = sub_row / kRows * stride + first / kColumns;
+        if (count <= static_cast<int>(kColumns)) {  // in two pixels: most are, and which of them is not to be guessed
+            const std::uint64_t bits = ((std::uint64_t{1} << std::max(count, 0)) - 1) << first % kColumns;
+            add(start, row, static_cast<std::uint32_t>(bits));
+            add(start + 1, row, static_cast<std::uint32_t>(bits >> kColumns));
         } else {
-            StrokeMask::for_pixels(first, first + count,
-                                   [&](int pixel, std::uint32_t bits) { add(start + static_cast<std::size_t>(pixel), bits); });
+            const auto beyond = first % kColumns + static_cast<unsigned>(count);  // counted from the first pixel's left
+            add(start, row, ~0u << first % kColumns);
+            for (unsigned pixel = 1; pixel < beyond / kColumns; ++pixel) add(start + pixel, row, ~0u);
+            add(start + beyond / kColumns, row, static_cast<std::uint32_t>((std::uint64_t{1} << beyond % kColumns) - 1));
         }
     }
 }
