@@ -14,6 +14,15 @@ constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr double kBehindBorder = 64;
 /// What rounding may do to places. 1/256 pixel.
 constexpr double kReach = 1;
+/// 1/256 pixel. Four times as far as any place on the screen.
+constexpr float kFar = 1 << 24;
+constexpr FlatTriangle kAllOfTheScreen = {{-kFar, 3 * kFar, -kFar}, {-kFar, -kFar, 3 * kFar}, kNothing};
+
+/// Of corners that run clockwise.
+FlatTriangle flat_triangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
+    const auto real = [](std::int32_t subpixels) { return static_cast<float>(subpixels); };
+    return {{real(a.x), real(b.x), real(c.x)}, {real(a.y), real(b.y), real(c.y)}, std::max({a.nearness, b.nearness, c.nearness})};
+}
 
 }  // namespace
 
@@ -102,17 +111,21 @@ void FineBlocks::add_small(const TriangleRun& run) {
         const std::uint32_t t = nearer_[i];
         const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
         const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
-        sort_triangle({mesh.first_number + t, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
-                       std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}),
-                       std::max({a.nearness, b.nearness, c.nearness})});
+        sort_triangle({mesh.first_number + t, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
+                       std::max({a.y, b.y, c.y}),
+                       mesh.facing[t] == clockwise ? flat_triangle(a, b, c) : flat_triangle(a, c, b)});
     }
 }
 
 void FineBlocks::add_large(const LargePolygon& large) {
     const ScreenPolygon& polygon = large.polygon;
-    HidingTriangle t{screen_.number_of(large.surface), false, 0, 0, -1, -1, large.plane.high};
-    t.is_clipped = screen_.facing(t.number) == off_screen;
-    if (t.is_clipped) t.nearest = kNothing;
+    HidingTriangle t{screen_.number_of(large.surface), false, 0, 0, -1, -1, kAllOfTheScreen};
+    const Facing facing = screen_.facing(t.number);
+    t.is_clipped = facing == off_screen;
+    if (!t.is_clipped) {
+        const auto [a, b, c] = screen_.triangle(large.surface).corners;
+        t.flat = facing == clockwise ? flat_triangle(a, b, c) : flat_triangle(a, c, b);
+    }
     t.x0 = t.x1 = polygon.corners[0].x;
     t.y0 = t.y1 = polygon.corners[0].y;
     for (int i = 1; i < polygon.count; ++i) {
@@ -134,7 +147,7 @@ void FineBlocks::sort_triangle(const HidingTriangle& t) {
         const int y0 = std::max(cell_of(t.y0) - origin_y, 0), y1 = std::min(cell_of(t.y1) - origin_y, kCells - 1);
         for (int cell_y = y0; cell_y <= y1; ++cell_y) {
             for (int cell_x = x0; cell_x <= x1; ++cell_x) {
-                if (t.nearest > farthest_[cell_at(kCells * x + cell_x, kCells * y + cell_y)]) return true;
+                if (t.flat.highest > farthest_[cell_at(kCells * x + cell_x, kCells * y + cell_y)]) return true;
             }
         }
         return false;

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "abuffer/tile_kernels.h"
+#include "abuffer/screen_triangles.h"
 #include "methods/abuffer/fine_parts.h"
 #include "methods/abuffer/layer_line.h"
 #include "methods/abuffer/triangle_bins.h"
@@ -16,12 +16,12 @@ struct FineCandidate {
     LayerLine line;
 };
 
-/// A triangle that may hide candidates, by its box on the screen in 1/256 pixel.
+/// A triangle that may hide candidates, and its box on the screen in 1/256 pixel.
 struct HidingTriangle {
     std::uint32_t number;
-    bool is_clipped;  ///< by the near plane or the guard band
+    bool is_clipped;  ///< by the near plane or the guard band; then `flat` covers the whole screen
     std::int32_t x0, y0, x1, y1;
-    float nearest;
+    FlatTriangle flat;
 };
 
 /// The blocks of a tile that have candidates, and the triangles that may hide them there: all that touch

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "abuffer/screen_boxes.h"
 #include "methods/abuffer/fold_width.h"
 #include "methods/abuffer/layer_triangle.h"
 #include "methods/abuffer/sampling.h"
@@ -19,7 +18,6 @@ constexpr double kNegligibleFoldSubpixels = 4;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
-constexpr float kFarNearness = 3e38f;
 /// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many layers, lines are left to
 /// the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 22;
@@ -66,15 +64,14 @@ class FineLines::BlockClipper {
         }
         for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
         in_cells_.resize(cell_end_.back());
-        boxes_.resize(cell_end_.back());
+        triangles_.resize(cell_end_.back());
         beside_.resize(cell_end_.back());
         for (std::uint32_t i = 0; i < triangles.size(); ++i) {
             const HidingTriangle& t = triangles[i];
             for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
                 const std::size_t at = cell_end_[cell + 1]++;
                 in_cells_[at] = i;
-                boxes_.set(at, {static_cast<float>(t.x0), static_cast<float>(t.y0), static_cast<float>(t.x1),
-                                static_cast<float>(t.y1), -kFarNearness, t.nearest});
+                triangles_.set(at, t.flat);
             });
         }
         places_.assign(triangles.size(), {});
@@ -171,12 +168,12 @@ class FineLines::BlockClipper {
     template <typename Use>
     void for_triangles(const LayerLine& line, double begin, double end, double least, const Use& use) {
         const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
-        const glm::vec2 low(glm::floor(glm::min(a, b))), high(glm::ceil(glm::max(a, b)));
-        const ScreenBox box{low.x, low.y, high.x, high.y, static_cast<float>(std::max(least, -1e30)), kFarNearness};
+        const ScreenLine part{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
+                              static_cast<float>(std::max(least, -1e30))};
         bool goes_on = true;
-        for_cells(glm::ivec2(low), glm::ivec2(high), [&](std::size_t cell) {
-            const std::size_t count = kernels_.find_touching(boxes_.view(), cell_end_[cell], cell_end_[cell + 1], box,
-                                                             -kFarNearness, -kFarNearness, beside_.data());
+        for_cells(glm::ivec2(glm::floor(glm::min(a, b))), glm::ivec2(glm::ceil(glm::max(a, b))), [&](std::size_t cell) {
+            const std::size_t count =
+                kernels_.find_hiding(triangles_.view(), cell_end_[cell], cell_end_[cell + 1], part, beside_.data());
             for (std::size_t at = 0; at < count && goes_on; ++at) {
                 const std::uint32_t i = in_cells_[beside_[at]];
                 if (places_[i].count == 0) set_up(i);
@@ -315,7 +312,7 @@ class FineLines::BlockClipper {
     glm::ivec2 corner_{0};
     int cells_ = 1, cell_shift_ = SampleBlocks::kShift;  // along each side, and log2 of a cell's width in 1/256 pixel
     std::vector<std::uint32_t> cell_end_, in_cells_;  // lists of given triangles, one per cell
-    ScreenBoxes boxes_;                               // what most of them are left out by
+    ScreenTriangles triangles_;                       // of them, which tell of most that they hide nothing
     std::vector<std::uint32_t> beside_;
     std::vector<Place> places_;  // of given triangles in set_up_
     std::vector<LayerTriangle> set_up_;

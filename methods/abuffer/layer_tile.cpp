@@ -65,10 +65,10 @@ void LayerTile::fill(std::size_t tile) {
         const bool is_clockwise = screen_.facing(number) == clockwise;
         const ScreenVertex &p = is_clockwise ? b : c, &q = is_clockwise ? c : b;
         const auto real = [](std::int32_t subpixels) { return static_cast<float>(subpixels); };
+        const float nearest = highest(a.nearness, b.nearness, c.nearness);
         add({{real(lowest(a.x, b.x, c.x)), real(lowest(a.y, b.y, c.y)), real(highest(a.x, b.x, c.x)), real(highest(a.y, b.y, c.y)),
-              lowest(a.nearness, b.nearness, c.nearness), highest(a.nearness, b.nearness, c.nearness)},
-             {real(a.x), real(p.x), real(q.x)},
-             {real(a.y), real(p.y), real(q.y)},
+              lowest(a.nearness, b.nearness, c.nearness), nearest},
+             {{real(a.x), real(p.x), real(q.x)}, {real(a.y), real(p.y), real(q.y)}, nearest},
              {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]},
              number},
             kNotSetUp);
@@ -94,13 +94,14 @@ void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
         triangles_.push_back(triangle);
         Entry entry;
         for (std::size_t k = 0; k < 3; ++k) {
-            entry.x[k] = static_cast<float>(triangle.x[k]);
-            entry.y[k] = static_cast<float>(triangle.y[k]);
+            entry.flat.x[k] = static_cast<float>(triangle.x[k]);
+            entry.flat.y[k] = static_cast<float>(triangle.y[k]);
             entry.vertices[k] = first_vertex + triangle.vertices[k];
         }
-        const auto &x = entry.x, &y = entry.y;
+        const auto &x = entry.flat.x, &y = entry.flat.y;
         entry.box = {std::min({x[0], x[1], x[2]}), std::min({y[0], y[1], y[2]}), std::max({x[0], x[1], x[2]}),
                      std::max({y[0], y[1], y[2]}), static_cast<float>(plane.lowest - zero), static_cast<float>(plane.highest - zero)};
+        entry.flat.highest = entry.box.high;
         entry.number = number;
         add(entry, static_cast<std::uint32_t>(triangles_.size() - 1));
     }
@@ -159,7 +160,7 @@ void LayerTile::sort_into_cells() {
         for_cells(cell_ranges_[i], [&](std::size_t c) {
             const std::size_t at = cell_end_[c + 1]++;
             cell_entries_[at] = i;
-            cell_triangles_.set(at, entries_[i]);
+            cell_triangles_.set(at, entries_[i].flat);
             if (!finds_pairs_) return;
             cell_boxes_.set(at, entries_[i].box);
             cell_vertices_[at] = entries_[i].vertices;

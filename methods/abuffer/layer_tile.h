@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "abuffer/screen_boxes.h"
+#include "abuffer/screen_triangles.h"
 #include "methods/abuffer/intersecting_pairs.h"
 #include "methods/abuffer/intersection_lines.h"
 #include "methods/abuffer/layer_bins.h"
@@ -54,27 +55,9 @@ class LayerTile {
     };
     struct Entry {
         ScreenBox box;
-        std::array<float, 3> x, y;  ///< corners, clockwise
+        FlatTriangle flat;
         Corners vertices;
         std::uint32_t number;
-    };
-    /// A TriangleView of the triangles in the cells.
-    struct CellTriangles {
-        std::array<std::vector<float>, 7> numbers;
-        void resize(std::size_t count) {
-            for (auto& list : numbers) list.resize(std::max(list.size(), count + 7));  // what find_hiding() may read too far
-        }
-        void set(std::size_t i, const Entry& e) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                numbers[k][i] = e.x[k];
-                numbers[3 + k][i] = e.y[k];
-            }
-            numbers[6][i] = e.box.high;
-        }
-        TriangleView view() const {
-            const auto at = [this](std::size_t k) { return numbers[k].data(); };
-            return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6)};
-        }
     };
     struct CellRange {
         std::uint8_t first_column, last_column, first_row, last_row;
@@ -122,7 +105,7 @@ class LayerTile {
     std::vector<std::uint32_t> set_up_;   // per entry: which of triangles_, or kNotSetUp
     std::vector<LayerTriangle> triangles_;
     std::vector<std::uint32_t> cell_end_, cell_entries_;  // numbers of entries
-    CellTriangles cell_triangles_;
+    ScreenTriangles cell_triangles_;
     ScreenBoxes cell_boxes_;                              // where pairs are wanted
     std::vector<Corners> cell_vertices_;                  // likewise
     std::vector<std::uint32_t> found_;  // by a kernel
