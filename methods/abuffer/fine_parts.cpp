@@ -74,7 +74,7 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
         const int x0 = blocks.at(static_cast<int>(low.x)), x1 = blocks.at(static_cast<int>(high.x));
         const int y0 = blocks.at(static_cast<int>(low.y)), y1 = blocks.at(static_cast<int>(high.y));
         const bool is_in_one = x0 == x1 && y0 == y1;
-        if (is_in_one && is_behind_blocks(samples, edge, 0, 1)) continue;
+        if (is_behind(is_in_one ? blocks_ : areas_, samples, edge, 0, 1)) continue;
         const Owners owners = owners_of(e, edge);
         const HalfEdge partner = screen_.surfaces().instances[e.instance].mesh->next_on_edge[e.half_edge];
         const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
@@ -86,7 +86,7 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
             if (!is_in_one) {
                 const glm::dvec2 from(blocks.begin(x), blocks.begin(y)), to(blocks.begin(x + 1), blocks.begin(y + 1));
                 if (!clip_to_rect(line, from, to, begin, end)) return;
-                if (is_behind_blocks(samples, edge, begin, end)) return;
+                if (is_behind(blocks_, samples, edge, begin, end)) return;
             }
             const std::uint32_t block =
                 static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
@@ -125,8 +125,16 @@ void FineParts::find_farthest(const SampleTile& samples) {
                           nullptr,
                           nullptr,
                           0};
-    farthest_.resize(BlockTable::kSize);
-    kernels_.find_farthest(view, farthest_.data());
+    blocks_.farthest.resize(BlockTable::kSize);
+    kernels_.find_farthest(view, blocks_.farthest.data());
+    areas_.farthest.assign(kAreaPitch * kAreaPitch, std::numeric_limits<float>::infinity());
+    const auto blocks_along = [](int count) { return static_cast<std::size_t>((count + kBlockSamples - 1) >> kBlockShift); };
+    for (std::size_t y = 0; y < blocks_along(samples.rows); ++y) {
+        for (std::size_t x = 0; x < blocks_along(samples.columns); ++x) {
+            float& farthest = areas_.farthest[(y >> (kAreaShift - kBlockShift)) * kAreaPitch + (x >> (kAreaShift - kBlockShift))];
+            farthest = std::min(farthest, blocks_.farthest[y * BlockTable::kPitch + x]);
+        }
+    }
 }
 
 double FineParts::level(double nearness) const {
@@ -153,22 +161,22 @@ FineParts::Owners FineParts::owners_of(FineEdge edge, const EdgeOnScreen& on_scr
 }
 
 /// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.
-bool FineParts::is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin,
-                                 double end) const {
+bool FineParts::is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin,
+                          double end) const {
     const double per_sample = samples.samples_per_pixel / 256.0;
     const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
     const glm::dvec2 a = edge.at(begin) * per_sample - first, b = edge.at(end) * per_sample - first;
-    const auto block_from = [](double sample) { return static_cast<int>(std::max(sample, 0.0)) >> kBlockShift; };
-    const auto block_to = [](double sample, int count) {
-        return std::min(static_cast<int>(std::max(sample, 0.0)) + 1, count - 1) >> kBlockShift;
+    const auto square_at = [&](double sample, int more, int count) {
+        return std::min(static_cast<int>(std::max(sample, 0.0)) + more, count - 1) >> squares.shift;
     };
-    const int x0 = block_from(std::min(a.x, b.x)), x1 = block_to(std::max(a.x, b.x), samples.columns);
-    const int y0 = block_from(std::min(a.y, b.y)), y1 = block_to(std::max(a.y, b.y), samples.rows);
+    const int x0 = square_at(std::min(a.x, b.x), 0, samples.columns), x1 = square_at(std::max(a.x, b.x), 1, samples.columns);
+    const int y0 = square_at(std::min(a.y, b.y), 0, samples.rows), y1 = square_at(std::max(a.y, b.y), 1, samples.rows);
     const double nearest = std::max(edge.nearness_at(begin), edge.nearness_at(end));
     const double limit = nearest + kFarInFront * level(nearest);
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
-            if (!(static_cast<double>(farthest_[static_cast<std::size_t>(y * BlockTable::kPitch + x)]) > limit)) return false;
+            const std::size_t i = static_cast<std::size_t>(y) * squares.pitch + static_cast<std::size_t>(x);
+            if (!(static_cast<double>(squares.farthest[i]) > limit)) return false;
         }
     }
     return true;

@@ -55,8 +55,13 @@ class FineParts {
     };
     void find_farthest(const SampleTile& samples);
     Owners owners_of(FineEdge edge, const EdgeOnScreen& on_screen) const;
-    bool is_behind_blocks(const SampleTile& samples, const EdgeOnScreen& edge, double begin,
-                          double end) const;
+    /// Squares of samples, and the least nearness in each of them.
+    struct Squares {
+        int shift;  // log2 of a square's width in samples
+        std::size_t pitch;
+        std::vector<float> farthest;
+    };
+    bool is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const;
     void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
                    glm::ivec2 block, Interval part);
     bool is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
@@ -73,7 +78,10 @@ class FineParts {
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
     bool takes_rests_;
-    std::vector<float> farthest_;  // per block of kBlockSamples^2 samples
+    static constexpr int kAreaShift = kBlockShift + 2;
+    static constexpr std::size_t kAreaPitch = BlockTable::kPitch >> (kAreaShift - kBlockShift);
+    Squares blocks_{kBlockShift, BlockTable::kPitch, {}};
+    Squares areas_{kAreaShift, kAreaPitch, {}};  // most edges lie behind whole ones
     std::vector<Interval> undrawn_, open_;
 };
 
