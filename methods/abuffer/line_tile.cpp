@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 
 #include "abuffer/scan_convert.h"
 #include "lines/cell_tracer.h"
@@ -12,6 +13,11 @@
 namespace burin {
 
 namespace {
+
+/// The nearest that may be level with something of a given nearness.
+float highest_level_with(float nearness, const SampleView& tile) {
+    return nearness + (nearness * tile.level_per_nearness + tile.level);
+}
 
 bool is_occluding(const LineDecision& decision) {
     return decision.reason == LineReason::turns_away || decision.reason == LineReason::ends_at_border ||
@@ -194,15 +200,30 @@ void LineTile::draw_large_ones(std::size_t tile) {
     const int worth_a_look = samples_.columns * samples_.rows / 2;
     int since_look = 0;
     bool has_look = false;
+    const SampleView samples = view();
+    float farthest = -std::numeric_limits<float>::infinity();  // of all samples
     for (const PlacedPolygon& placed : large_) {
         if (since_look >= worth_a_look) {
-            kernels_.find_farthest(view(), farthest_.data());
+            kernels_.find_farthest(samples, farthest_.data());
+            farthest = farthest_in_blocks();
             since_look = 0;
             has_look = true;
         }
+        if (highest_level_with(placed.highest, samples) < farthest) break;  // and so are all that come
         const LargePolygon& large = bins_.large(placed.number);
         since_look += draw_large(large, screen_.is_plain(large.plane.id >> 1), has_look);
     }
+}
+
+/// The least nearness in the tile, by the last look.
+float LineTile::farthest_in_blocks() const {
+    const auto along = [](int count) { return (count + kBlockSamples - 1) >> kBlockShift; };
+    float farthest = std::numeric_limits<float>::infinity();
+    for (int row = 0; row < along(samples_.rows); ++row) {
+        const float* const first = farthest_.data() + row * BlockTable::kPitch;
+        farthest = std::min(farthest, *std::min_element(first, first + along(samples_.columns)));
+    }
+    return farthest;
 }
 
 /// The greatest nearness that draw_span() may find in a rectangle of samples: at one of its corners, for its
@@ -238,8 +259,7 @@ int LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
         const int first_row = std::max(strip, top), end_row = std::min(strip + kBlockSamples, bottom);
         int begin = left >> kBlockShift, end = ((right - 1) >> kBlockShift) + 1;
         if (has_look) {
-            const float highest = highest_in(plane, left, right, first_row, end_row);
-            const float high = highest + (highest * tile.level_per_nearness + tile.level);
+            const float high = highest_level_with(highest_in(plane, left, right, first_row, end_row), tile);
             const float* const farthest = farthest_.data() + (strip >> kBlockShift) * BlockTable::kPitch;
             while (begin < end && high < farthest[begin]) ++begin;
             while (begin < end && high < farthest[end - 1]) --end;

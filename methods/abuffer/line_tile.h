@@ -41,6 +41,7 @@ class LineTile {
     void order_runs(std::size_t tile);
     void draw_large_ones(std::size_t tile);
     int draw_large(const LargePolygon& large, bool plain, bool has_look);
+    float farthest_in_blocks() const;
     float highest_in(const SpanPlane& plane, int from, int to, int first_row, int end_row) const;
     glm::dvec2 position(int column, int row) const;
     void find_crossings();
