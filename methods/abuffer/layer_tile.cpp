@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace burin {
@@ -217,6 +218,9 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
 
 /// Joins what a triangle hides from cell to cell, so that nothing depends on where cells end.
 void LayerTile::merge_intervals() {
+    const auto is_before = [](const Interval& a, const Interval& b) { return a.triangle < b.triangle; };
+    // A cell's triangles are in order: nothing is to be done for a line in one cell.
+    if (std::adjacent_find(intervals_.begin(), intervals_.end(), std::not_fn(is_before)) == intervals_.end()) return;
     std::sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) {
         return a.triangle != b.triangle ? a.triangle < b.triangle : a.begin < b.begin;
     });
@@ -236,14 +240,18 @@ void LayerTile::merge_intervals() {
 void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                       std::vector<LayerPiece>& pieces) {
     events_.clear();
+    int opaque = 0;  // in front where the line begins
     for (const Interval& i : intervals_) {
-        const int opaque = i.transmission == 0 ? 1 : 0;
-        events_.push_back({i.begin, opaque});
-        events_.push_back({i.end, -opaque});
+        const int more = i.transmission == 0 ? 1 : 0;
+        if (i.begin <= begin) {
+            opaque += more;
+        } else {
+            events_.push_back({i.begin, more});
+        }
+        if (i.end < end) events_.push_back({i.end, -more});
     }
     std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
     const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
-    int opaque = 0;
     double start = begin;
     const std::size_t first_piece = pieces.size();
     const auto emit = [&](double to) {
