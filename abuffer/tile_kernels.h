@@ -155,7 +155,7 @@ struct TileTriangle {
 enum TriangleKind : std::uint32_t { wound_counterclockwise, wound_clockwise, thin, kTriangleKinds };
 
 /// The inner loops of the production A-buffer. There is one set per instruction set; all give equal
-/// results to the bit, because they are the same source compiled twice and floating point is not
+/// results to the bit: they are one source, but for what is one instruction in some of them, and floating point is not
 /// contracted.
 struct TileKernels {
     std::string_view name;

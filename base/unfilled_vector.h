@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -15,6 +16,9 @@ struct UnfilledAllocator : std::allocator<T> {
     struct rebind {
         using other = UnfilledAllocator<U>;
     };
+    UnfilledAllocator() = default;
+    template <typename U>
+    UnfilledAllocator(const UnfilledAllocator<U>&) noexcept {}
 
     template <typename U>
     void construct(U* at) noexcept {

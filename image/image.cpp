@@ -10,13 +10,13 @@
 namespace burin {
 
 Channel& Image::add(std::string name, PixelType type) {
-    throw_if_interrupted();  // the first touch of a large channel takes a while
     Channel& channel = add_unfilled(std::move(name), type);
     std::fill(channel.bytes.begin(), channel.bytes.end(), std::byte{0});
     return channel;
 }
 
 Channel& Image::add_unfilled(std::string name, PixelType type) {
+    throw_if_interrupted();  // filling a large channel takes a while
     Channel channel;
     channel.name = std::move(name);
     channel.type = type;

@@ -6,6 +6,18 @@
 namespace burin {
 namespace {
 
+/// Calls visit(pixel, bits) for the pixels of a row that columns [begin, end) lie in, counted from the row's start.
+template <typename Visit>
+void for_pixels(int begin, int end, const Visit& visit) {
+    constexpr int kColumns = StrokeMask::kColumns;
+    for (int column = begin; column < end;) {
+        const int pixel = column / kColumns, from = column % kColumns;
+        const int to = std::min(end - pixel * kColumns, kColumns);
+        visit(pixel, (0xFFFFFFFFu << from) & (0xFFFFFFFFu >> (kColumns - to)));
+        column = (pixel + 1) * kColumns;
+    }
+}
+
 /// Conventions: a farther surface.
 constexpr double kFartherPx = 2;
 /// Lines that end at a boundary may end a little beyond it.
@@ -122,7 +134,7 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
             }
         }
         if (!(low < high)) continue;
-        StrokeMask::for_pixels(static_cast<int>(low), static_cast<int>(high), [&](int pixel, std::uint32_t bits) {
+        for_pixels(static_cast<int>(low), static_cast<int>(high), [&](int pixel, std::uint32_t bits) {
             visit(row / StrokeMask::kRows * width_ + pixel, static_cast<std::size_t>(row % StrokeMask::kRows), bits);
         });
     }

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -18,17 +17,6 @@ struct StrokeMask {
     static constexpr int kRows = 16;
     static constexpr int kColumns = 32;
     std::array<std::uint32_t, kRows> rows{};
-
-    /// Calls visit(pixel, bits) for the pixels of a row that columns [begin, end) lie in, counted from the row's start.
-    template <typename Visit>
-    static void for_pixels(int begin, int end, const Visit& visit) {
-        for (int column = begin; column < end;) {
-            const int pixel = column / kColumns, from = column % kColumns;
-            const int to = std::min(end - pixel * kColumns, kColumns);
-            visit(pixel, (0xFFFFFFFFu << from) & (0xFFFFFFFFu >> (kColumns - to)));
-            column = (pixel + 1) * kColumns;
-        }
-    }
 };
 
 /// Coverage masks of a rectangle of pixels, into which strokes are drawn. Pieces that overlap or meet
@@ -54,8 +42,12 @@ class StrokeCanvas {
     bool is_touched(int column, int row) const { return touched_[index(column, row)] != 0; }
     /// Whether eight pixels from a multiple of eight on are touched, those beyond the canvas not: a byte each, 0 or 1.
     std::uint64_t eight_touched(int column, int row) const {
-        std::uint64_t bytes;
-        std::memcpy(&bytes, &touched_[index(column, row)], sizeof bytes);
+        return eight_bytes(&touched_[index(column, row)]);
+    }
+    /// The first byte in the lowest bits.
+    static std::uint64_t eight_bytes(const std::uint8_t* first) {
+        std::uint64_t bytes = 0;  // compilers make one load of this
+        for (unsigned k = 0; k < 8; ++k) bytes |= std::uint64_t{first[k]} << 8 * k;
         return bytes;
     }
     /// Calls visit(column, row) for the pixels that are touched, row by row.

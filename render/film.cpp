@@ -85,7 +85,7 @@ bool Film::has_geometry() const {
 void Film::put_background(int x0, int x1, int y) {
     const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
     const auto clear = [&](auto* plane, auto value) {
-        if (plane != nullptr) std::fill_n(plane + begin, count, value);
+        if (plane != nullptr) stream_fill(plane + begin, count, value);
     };
     for (std::size_t c = 0; c < 4; ++c) {
         for (std::uint16_t* plane : {planes_.beauty[c], planes_.lines[c], planes_.surface[c]}) {
@@ -100,7 +100,7 @@ void Film::put_background(int x0, int x1, int y) {
     }
 }
 
-void Film::put_surface(int x0, int x1, int y, const HalfColor& color) {
+void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
     const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
     const auto fill = [&](std::uint16_t* plane, std::uint16_t value) {
         if (plane != nullptr) std::fill_n(plane + begin, count, value);
@@ -113,15 +113,29 @@ void Film::put_surface(int x0, int x1, int y, const HalfColor& color) {
     for (std::uint16_t* plane : planes_.coverage) fill(plane, 0);
 }
 
-void Film::put_geometry(int x0, int x1, int y, const GeometryPixels& pixels) {
+void Film::put_colors(int x0, int x1, int y, const std::array<const std::uint16_t*, 4>& colors) {
+    const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
+    const auto clear = [&](std::uint16_t* plane) {
+        if (plane != nullptr) std::fill_n(plane + begin, count, std::uint16_t{0});
+    };
+    for (std::size_t c = 0; c < 4; ++c) {
+        for (std::uint16_t* plane : {planes_.beauty[c], planes_.surface[c]}) {
+            if (plane != nullptr) std::copy_n(colors[c], count, plane + begin);
+        }
+        clear(planes_.lines[c]);
+    }
+    for (std::uint16_t* plane : planes_.coverage) clear(plane);
+}
+
+void Film::put_geometry(int x0, int x1, int y, const GeometryRow& row) {
     const std::size_t begin = index_of(x0, y), count = static_cast<std::size_t>(x1 - x0);
     const auto stream = [&](auto* plane, const auto* values) {  // nothing is drawn over these
         if (plane != nullptr) stream_copy(values, count, plane + begin);
     };
-    stream(planes_.depth, pixels.distance);
+    stream(planes_.depth, row.distance);
     for (std::size_t c = 0; c < 3; ++c) {
-        stream(planes_.normal[c], pixels.normal[c]);
-        stream(planes_.ids[c], pixels.ids[c]);
+        stream(planes_.normal[c], row.normal[c]);
+        stream(planes_.ids[c], row.ids[c]);
     }
 }
 
@@ -146,7 +160,7 @@ void Film::draw_over(int x, int y, const LinePixel& lines) {
     }
 }
 
-void Film::put_surface(int x, int y, const glm::vec4& color) {
+void Film::replace_surface(int x, int y, const glm::vec4& color) {
     const std::size_t i = index_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
         const std::uint16_t value = to_half(color[static_cast<int>(c)]);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "abuffer/tile_kernels.h"
 #include "image/image.h"
 #include "lines/line_class.h"
 
@@ -39,13 +40,6 @@ struct PixelResult {
 /// A colour as it is kept: half precision, linear, premultiplied.
 using HalfColor = std::array<std::uint16_t, 4>;
 
-/// Depth, normals and ids of a part of a row of pixels, channel by channel.
-struct GeometryPixels {
-    const float* distance;
-    const float* normal[3];
-    const std::uint32_t* ids[3];  ///< object, material, polygon
-};
-
 /// Lines of one pixel, to be drawn over what is there.
 struct LinePixel {
     glm::vec4 color{0.0f};  ///< linear, premultiplied; a = coverage of all lines
@@ -63,11 +57,12 @@ class Film {
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
     bool has_geometry() const;
-    /// The same as put() for pixels [x0, x1) of a row, without lines: put_surface() once for each of their colours, and
-    /// put_geometry() if there is any. Before other threads read or change them, finish_stream_stores() is due.
-    void put_surface(int x0, int x1, int y, const HalfColor& color);
-    void put_geometry(int x0, int x1, int y, const GeometryPixels& pixels);
-    /// Puts the background into pixels [x0, x1) of a row.
+    /// Puts pixels [x0, x1) of a row without lines: colours, one for all or one for each, channel by channel;
+    void put_color(int x0, int x1, int y, const HalfColor& color);
+    void put_colors(int x0, int x1, int y, const std::array<const std::uint16_t*, 4>& colors);
+    /// and depth, normals and ids, if has_geometry(). Before other threads read these, finish_stream_stores() is due.
+    void put_geometry(int x0, int x1, int y, const GeometryRow& row);
+    /// Puts the background into pixels [x0, x1) of a row; then finish_stream_stores() is due, too.
     void put_background(int x0, int x1, int y);
     /// Has the memory fetched that draw_over() will change of a pixel and of those to its right, up to 32 pixels in all.
     void prefetch(int x, int y) const;
@@ -77,7 +72,7 @@ class Film {
     /// number.
     static std::uint16_t to_half(float value);
     /// Replaces the surface of a pixel that was put without lines.
-    void put_surface(int x, int y, const glm::vec4& color);
+    void replace_surface(int x, int y, const glm::vec4& color);
     /// Before draw_over(): puts the hidden lines' own channels, and draws `seen` over the pixel: the
     /// part of the hidden lines that no visible line will cover, as share of what will be left.
     void draw_hidden(int x, int y, const glm::vec4& hidden, const glm::vec4& seen);

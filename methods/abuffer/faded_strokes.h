@@ -23,14 +23,12 @@ class FadedStrokes {
               const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke);
 
     /// Whether there is any in a pixel of the rectangle.
-    bool is_touched(int column, int row) const { return !masks_.empty() && !masks_of(column, row).empty(); }
+    bool is_touched(int column, int row) const {
+        return !masks_.empty() && touched_[static_cast<std::size_t>(row * width_ + column)] != 0;
+    }
     /// As StrokeCanvas::eight_touched().
     std::uint64_t eight_touched(int column, int row) const {
-        std::uint64_t eight = 0;
-        for (int k = 0; k < 8 && column + k < width_ && !masks_.empty(); ++k) {
-            eight |= (is_touched(column + k, row) ? std::uint64_t{1} : 0) << 8 * k;
-        }
-        return eight;
+        return masks_.empty() ? 0 : StrokeCanvas::eight_bytes(&touched_[static_cast<std::size_t>(row * width_ + column)]);
     }
     /// Calls use(mask, samples taken, opacity 0..1) for what there is in a pixel, the most opaque one first.
     template <typename Use>
@@ -51,7 +49,8 @@ class FadedStrokes {
 
     StrokeCanvas canvas_;
     std::vector<PixelMask> masks_;  // by pixel, and in each the most opaque ones first
-    int width_ = 0;
+    std::vector<std::uint8_t> touched_;  // pixels that have masks, and room to read eight at once
+    int width_ = 0;                      // of the rectangle, rounded up to eights
 };
 
 }  // namespace burin

@@ -127,15 +127,10 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
     const auto width = static_cast<std::size_t>(rect.width());
     const Projection& p = frame_.surfaces.projection;
     const glm::dvec2 first = glm::dvec2(rect.x0 + 0.5, y + 0.5) - p.center_px;
+    const GeometryRow row{row_.distance, {row_.normal[0], row_.normal[1], row_.normal[2]}, {row_.ids[0], row_.ids[1], row_.ids[2]}};
     kernels_.put_geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(),
-                          &look_at_[static_cast<std::size_t>(y - rect.y0) * width], width,
-                          {row_.distance,
-                           {row_.normal[0], row_.normal[1], row_.normal[2]},
-                           {row_.ids[0], row_.ids[1], row_.ids[2]}});
-    film.put_geometry(rect.x0, rect.x1, y,
-                      {row_.distance,
-                       {row_.normal[0], row_.normal[1], row_.normal[2]},
-                       {row_.ids[0], row_.ids[1], row_.ids[2]}});
+                          &look_at_[static_cast<std::size_t>(y - rect.y0) * width], width, row);
+    film.put_geometry(rect.x0, rect.x1, y, row);
 }
 
 void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& film) {
@@ -146,7 +141,7 @@ void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& fil
         kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
         for (int begin = 0, end; begin < rect.width(); begin = end) {  // a few runs of equal counts
             for (end = begin + 1; end < rect.width() && covered[end] == covered[begin];) ++end;
-            film.put_surface(rect.x0 + begin, rect.x0 + end, y, paper_[covered[begin]]);
+            film.put_color(rect.x0 + begin, rect.x0 + end, y, paper_[covered[begin]]);
         }
     }
 }
@@ -180,8 +175,9 @@ void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y, F
             }
         }
         sum /= static_cast<float>(s * s);
-        film.put_surface(x, x + 1, y, half_color(sum));
+        for (int c = 0; c < 4; ++c) row_.color[c][x - rect.x0] = Film::to_half(sum[c]);
     }
+    film.put_colors(rect.x0, rect.x1, y, {row_.color[0], row_.color[1], row_.color[2], row_.color[3]});
 }
 
 PixelRect PixelFiller::in_crop(PixelRect r) const {

@@ -41,10 +41,11 @@ class PixelFiller {
     std::vector<std::uint32_t> numbers_;  // of triangles; the first one is none
     std::vector<TriangleLook> looks_;     // of them
     std::vector<std::uint16_t> look_at_;  // per pixel of the tile, which of them
-    std::vector<HalfColor> paper_;  // by the number of covered samples
-    std::uint32_t shaded_number_ = 0xFFFFFFFFu;        // whose look is:
+    std::vector<HalfColor> paper_;               // by the number of covered samples
+    std::uint32_t shaded_number_ = 0xFFFFFFFFu;  // whose look is:
     TriangleLook shaded_look_{};
     struct Row {
+        std::uint16_t color[4][kWidth];
         static_assert(kWidth % 4 == 0);  // see GeometryRow
         float distance[kWidth], normal[3][kWidth];
         std::uint32_t ids[3][kWidth];

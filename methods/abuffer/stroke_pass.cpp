@@ -109,14 +109,12 @@ class StrokePrinter {
         constexpr int kReach = FilterTable::kReach;
         strokes_.draw(segments, {rect.x0 - kReach, rect.y0 - kReach, rect.x1 + kReach, rect.y1 + kReach});
         filtered_.assign(static_cast<std::size_t>(rect.width() * rect.height()), Coverages{});
-        for (int row = 0; row < rect.height() + 2 * kReach; ++row) {
-            for (int column = 0; column < rect.width() + 2 * kReach; ++column) {
-                strokes_.for_classes(column, row, [&](LineClass c, StrokeMask mask, const StrokeMask& taken, float opacity) {
-                    for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
-                    spread(filter.shares_of(mask), opacity * strokes_.pen().strength, c, column, row, rect);
-                });
-            }
-        }
+        strokes_.for_touched([&](int column, int row) {
+            strokes_.for_classes(column, row, [&](LineClass c, StrokeMask mask, const StrokeMask& taken, float opacity) {
+                for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
+                spread(filter.shares_of(mask), opacity * strokes_.pen().strength, c, column, row, rect);
+            });
+        });
         for (std::size_t i = 0; i < filtered_.size(); ++i) {
             if (filtered_[i] == Coverages{}) continue;
             clamp(filtered_[i]);

@@ -131,7 +131,7 @@ class TransparentTile {
                         sum += sample_color(static_cast<std::uint32_t>(row * samples_.stride + column), x, y, any);
                     }
                 }
-                if (any) film.put_surface(x, y, sum / static_cast<float>(s * s));
+                if (any) film.replace_surface(x, y, sum / static_cast<float>(s * s));
             }
         }
     }

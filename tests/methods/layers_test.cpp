@@ -100,6 +100,7 @@ TEST(Layers, EveryPixelIsPut) {
     std::vector<Scene> scenes(3, scene);
     scenes[1].surfaces.shading = SurfaceShading::lambert;
     scenes[2].materials.front().opacity = 0.5f;
+    for (Scene& s : scenes) s.reference.samples = 4;
     for (const Method& method : methods()) {
         for (const Scene& s : scenes) {
             for (const PixelRect crop : {PixelRect{0, 0, 150, 140}, PixelRect{3, 5, 144, 131}}) {
