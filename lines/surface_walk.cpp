@@ -156,26 +156,32 @@ class Walker {
             side[k] = glm::dot(line_, h[k]);
         }
         Slice slice;
-        int found = 0;
+        std::array<glm::dvec3, 2> points;
+        std::size_t found = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
             // A corner exactly on the line counts to one side, in all triangles alike.
             if ((side[k] >= 0) == (side[next] >= 0)) continue;
             const glm::dvec3 point =
                 (h[k] * side[next] - h[next] * side[k]) / (side[next] - side[k]);
-            Crossing& crossing = slice.crossings[found++];
+            Crossing& crossing = slice.crossings[found];
             crossing.half_edge = 3 * s.triangle + static_cast<HalfEdge>(k);
-            crossing.fraction = fraction_of(point);
             crossing.along_edge = side[k] / (side[k] - side[next]);
+            points[found++] = point;
         }
         slice.is_cut = found == 2;
+        if (!slice.is_cut) return slice;
+        slice.crossings[0].fraction = fraction_of(points[0], points[1]);
+        slice.crossings[1].fraction = fraction_of(points[1], points[0]);
         return slice;
     }
 
-    /// Where along the line a point on it lies; infinitely far if it is behind the eye.
-    double fraction_of(const glm::dvec3& h) const {
-        if (!(h.z > 0)) return kInfinity;
-        return glm::dot(glm::dvec2(h) / h.z - from_, along_) / (length_ * length_);
+    /// Where along the line a point on it lies. If it is behind the eye, infinitely far, where the way to it from
+    /// `other` leaves the picture.
+    double fraction_of(const glm::dvec3& h, const glm::dvec3& other) const {
+        if (h.z > 0) return glm::dot(glm::dvec2(h) / h.z - from_, along_) / (length_ * length_);
+        const glm::dvec2 beside_eye = glm::dvec2(h) * other.z - glm::dvec2(other) * h.z;
+        return other.z > 0 && glm::dot(beside_eye, along_) < 0 ? -kInfinity : kInfinity;
     }
     glm::dvec2 at(double fraction) const { return from_ + along_ * fraction; }
 

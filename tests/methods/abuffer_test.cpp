@@ -279,5 +279,27 @@ TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
     EXPECT_EQ(segments[0].to, glm::dvec2(3, 1.5));
 }
 
+/// A floor that goes on behind the eye ends where its borders are, not where samples are.
+TEST(Abuffer, BordersThatPassTheEyeAreWhereTheyAre) {
+    constexpr int kColumns = 240, kRows = 180;
+    const Scene scene = scene_of({soup_of({{-250, 0, -250}, {250, 0, -250}, {250, 0, 250}, {-250, 0, 250}}, {{0, 1, 2, 3}})});
+    const Camera camera = perspective_camera({0, 1, 2}, {0, 1, -10}, 90);
+    const Drawing d(scene, camera, kColumns, kRows, {0, 0, kColumns, kRows}, 1, render_abuffer);
+    EXPECT_EQ(d.sum(LineClass::silhouette), 0) << "it is open";
+    const double focal_px = 0.5 * kRows;
+    for (int x = 2; x < kColumns - 2; ++x) {
+        double ink = 0, moment = 0;
+        for (int y = 0; y < kRows; ++y) {
+            ink += d.line(LineClass::border, x, y);
+            moment += d.line(LineClass::border, x, y) * (y + 0.5);
+        }
+        const double beside = std::abs(x + 0.5 - 0.5 * kColumns);  // the far border, and those at the sides
+        const double depth = std::min(252.0, 250 * focal_px / beside);
+        ASSERT_NEAR(ink, 1, 0.02) << x;
+        constexpr double kHalfARow = 1.0 / 32;  // of a stroke's mask
+        ASSERT_NEAR(moment / ink, 0.5 * kRows + focal_px / depth, 1.1 * kHalfARow) << x;
+    }
+}
+
 }  // namespace
 }  // namespace burin
