@@ -51,6 +51,7 @@ class Walker {
         if (!slice.is_cut) return result;
         Place current{start, slice.crossings[slice.crossings[0].fraction < slice.crossings[1].fraction]};
         Place farthest = current;      // where the walk got farthest
+        SurfaceId solid_there = start;  // the last triangle up to there that is more than a sliver
         Place before_wall = current;   // where it last got farther at all
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
         bool over_slivers = false;     // there were others since
@@ -73,18 +74,19 @@ class Walker {
             const bool turned_back = reached < farthest.exit.fraction - negligible_fold;
             const bool unfolds = current.exit.fraction < farthest.exit.fraction &&
                                  reached >= farthest.exit.fraction;
+            // Slivers say nothing about where the surface is.
+            const bool sliver = is_sliver(surfaces_, next.place.surface);
             if (turned_back ||
-                (unfolds && !is_level(farthest.surface, next.place.surface, farthest.exit.fraction))) {
+                (unfolds && !sliver && !is_level(solid_there, next.place.surface, farthest.exit.fraction))) {
                 return ended(result, WalkEnd::fold, farthest);  // over a seam, too
             }
-            const bool goes_on = reached > before_wall.exit.fraction + kNoAdvance;
+            const bool goes_on = !sliver && reached > before_wall.exit.fraction + kNoAdvance;
             if (goes_on && current.surface != before_wall.surface &&
                 !is_level(before_wall.surface, next.place.surface, before_wall.exit.fraction)) {
                 return ended(result, WalkEnd::fold, before_wall);
             }
             const SurfaceEdge edge{current.surface, current.exit.half_edge};
             const double at_edge = current.exit.fraction;
-            const bool sliver = is_sliver(surfaces_, next.place.surface);
             if (sliver) {
                 over_slivers = true;
                 note(result, mark_of(edge), edge, at_edge);
@@ -97,7 +99,10 @@ class Walker {
             }
             if (!sliver) last_solid = next.place.surface;
             current = next.place;
-            if (reached >= farthest.exit.fraction) farthest = current;
+            if (reached >= farthest.exit.fraction) {
+                farthest = current;
+                if (!sliver) solid_there = current.surface;
+            }
             if (goes_on) before_wall = current;
         }
         return result;

@@ -105,6 +105,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     const FastWalk::Step* current = &(result.steps[0] = way.first_step(start.triangle));
     if (current->exit == kNoHalfEdge) return;
     const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
+    std::uint32_t solid_there = start.triangle;  // the last one up to there that is more than a sliver
     const FastWalk::Step* before_wall = current;  // where it last got farther at all
     const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
     std::uint32_t last_solid = start.triangle;
@@ -137,16 +138,16 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             next = way.step_from(entry, current->left);
         }
         const bool unfolds = current->left < farthest->left && next.left >= farthest->left;
+        const bool sliver = !is_surely_solid(mesh, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
         if (next.left < farthest->left - negligible_fold ||
-            (unfolds && !is_level({instance, farthest->triangle}, {instance, next.triangle}, way.at(farthest->left)))) {
+            (unfolds && !sliver && !is_level({instance, solid_there}, {instance, next.triangle}, way.at(farthest->left)))) {
             return end_at(FastWalk::fold, *farthest);
         }
-        const bool goes_on = next.left > before_wall->left + kNoAdvance;
+        const bool goes_on = !sliver && next.left > before_wall->left + kNoAdvance;
         if (goes_on && current != before_wall &&
             !is_level({instance, before_wall->triangle}, {instance, next.triangle}, way.at(before_wall->left))) {
             return end_at(FastWalk::fold, *before_wall);
         }
-        const bool sliver = !is_surely_solid(mesh, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
         if (sliver) {
             over_slivers = true;
             const bool is_mark = surfaces_.instances[instance].mesh->is_marked(current->exit);
@@ -159,7 +160,10 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         }
         if (!sliver) last_solid = next.triangle;
         current = &next;
-        if (next.left >= farthest->left) farthest = current;
+        if (next.left >= farthest->left) {
+            farthest = current;
+            if (!sliver) solid_there = next.triangle;
+        }
         if (goes_on) before_wall = current;
     }
 }

@@ -301,5 +301,29 @@ TEST(Abuffer, BordersThatPassTheEyeAreWhereTheyAre) {
     }
 }
 
+/// The corners in the middle of a fan are often equal but for rounding. Triangles between them face any way.
+TEST(Abuffer, AFlatFanHasNoContours) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Random random(seed);
+        const int spokes = random.integer(5, 40);
+        const double inner = std::pow(10.0, random.real(-9, -4));
+        PolygonSoup soup;
+        for (int i = 0; i < spokes; ++i) {
+            const double angle = 2 * std::numbers::pi * i / spokes;
+            const glm::dvec3 out(std::cos(angle), 0, std::sin(angle));
+            soup.positions.insert(soup.positions.end(), {inner * out, 0.65 * out});
+            const auto near = static_cast<std::uint32_t>(2 * i), next = static_cast<std::uint32_t>(2 * ((i + 1) % spokes));
+            soup.corners.insert(soup.corners.end(), {near, near + 1, next + 1, next});
+            soup.polygon_ends.push_back(static_cast<std::uint32_t>(soup.corners.size()));
+        }
+        soup.object_names = {"fan"};
+        const glm::dvec3 eye = 3.0 * random.direction();
+        const Drawing d(scene_of({soup}), perspective_camera({eye.x, 0.5 + std::abs(eye.y), eye.z}, {0, 0, 0}), 180, 160,
+                        {0, 0, 180, 160}, 1, render_abuffer);
+        EXPECT_LT(d.sum(LineClass::silhouette), 0.05) << "seed " << seed;  // a trace of a dot in the middle
+        EXPECT_GT(d.sum(LineClass::border), 100) << "seed " << seed;
+    }
+}
+
 }  // namespace
 }  // namespace burin
