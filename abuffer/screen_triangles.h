@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "abuffer/screen_triangle.h"
 #include "abuffer/tile_kernels.h"
 
 namespace burin {
@@ -14,6 +15,15 @@ struct FlatTriangle {
     std::array<float, 3> x, y;
     float highest;
 };
+
+/// `facing`: the way the corners are wound, clockwise or counterclockwise.
+inline FlatTriangle flat_triangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, Facing facing) {
+    const ScreenVertex &p = facing == clockwise ? b : c, &q = facing == clockwise ? c : b;
+    const auto real = [](std::int32_t subpixels) { return static_cast<float>(subpixels); };
+    return {{real(a.x), real(p.x), real(q.x)},
+            {real(a.y), real(p.y), real(q.y)},
+            std::max(std::max(a.nearness, b.nearness), c.nearness)};
+}
 
 /// Triangles, an array per number as the kernels want them.
 class ScreenTriangles {

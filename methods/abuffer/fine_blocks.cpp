@@ -18,12 +18,6 @@ constexpr double kReach = 1;
 constexpr float kFar = 1 << 24;
 constexpr FlatTriangle kAllOfTheScreen = {{-kFar, 3 * kFar, -kFar}, {-kFar, -kFar, 3 * kFar}, kNothing};
 
-/// Of corners that run clockwise.
-FlatTriangle flat_triangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
-    const auto real = [](std::int32_t subpixels) { return static_cast<float>(subpixels); };
-    return {{real(a.x), real(b.x), real(c.x)}, {real(a.y), real(b.y), real(c.y)}, std::max({a.nearness, b.nearness, c.nearness})};
-}
-
 }  // namespace
 
 void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidates) {
@@ -62,7 +56,7 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
             triangles_[index].clear();
         }
         candidates_[index].push_back(i);
-        double lowest = std::min(line.nearness_from, line.nearness_to) - line_slack(screen_.surfaces(), line);
+        double lowest = line.lowest_in(part.begin, part.end) - line_slack(screen_.surfaces(), line, part.begin, part.end);
         if (line.classes.has(LineClass::border))
             lowest -= kBehindBorder * level_slack(screen_.surfaces(), lowest);
         const glm::dvec2 a = glm::mix(line.from, line.to, part.begin), b = glm::mix(line.from, line.to, part.end);
@@ -113,7 +107,7 @@ void FineBlocks::add_small(const TriangleRun& run) {
         const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
         sort_triangle({mesh.first_number + t, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
                        std::max({a.y, b.y, c.y}),
-                       mesh.facing[t] == clockwise ? flat_triangle(a, b, c) : flat_triangle(a, c, b)});
+                       flat_triangle(a, b, c, static_cast<Facing>(mesh.facing[t]))});
     }
 }
 
@@ -124,7 +118,7 @@ void FineBlocks::add_large(const LargePolygon& large) {
     t.is_clipped = facing == off_screen;
     if (!t.is_clipped) {
         const auto [a, b, c] = screen_.triangle(large.surface).corners;
-        t.flat = facing == clockwise ? flat_triangle(a, b, c) : flat_triangle(a, c, b);
+        t.flat = flat_triangle(a, b, c, facing);
     }
     t.x0 = t.x1 = polygon.corners[0].x;
     t.y0 = t.y1 = polygon.corners[0].y;

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "lines/line_segment.h"
+#include "methods/abuffer/edge_on_screen.h"
 #include "methods/abuffer/layer_edges.h"
 
 namespace burin {
@@ -28,22 +29,27 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
         std::vector<HalfEdge> edges;
         for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
             const HalfEdge g = mesh.partners[h];
-            const bool is_cut = mesh.facing[h / 3] == off_screen || mesh.facing[g / 3] == off_screen;
-            if (mesh.partners[g] == h && !is_cut) edges.push_back(h);
+            if (mesh.partners[g] == h) edges.push_back(h);
         });
-        const auto vertex = [&](std::size_t i, HalfEdge k) -> const ScreenVertex& {
+        const auto corner = [&](std::size_t i, HalfEdge k) {
             const HalfEdge h = edges[i];
-            return mesh.vertices[mesh.corners[h - h % 3 + (h + k) % 3]];
+            return mesh.corners[h - h % 3 + (h + k) % 3];
         };
+        const auto vertex = [&](std::size_t i, HalfEdge k) -> const ScreenVertex& { return mesh.vertices[corner(i, k)]; };
         constexpr std::size_t kAhead = 16;
         for (std::size_t i = 0; i < edges.size(); ++i) {
             if (i + kAhead < edges.size()) {
                 __builtin_prefetch(&vertex(i + kAhead, 0));
                 __builtin_prefetch(&vertex(i + kAhead, 1));
             }
-            const ScreenVertex &a = vertex(i, 0), &b = vertex(i, 1);
-            if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) continue;
-            if (a.x == b.x && a.y == b.y) continue;
+            glm::ivec2 a(vertex(i, 0).x, vertex(i, 0).y), b(vertex(i, 1).x, vertex(i, 1).y);
+            if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) {
+                const auto cut = clipped_edge(screen, chunks[c].instance, corner(i, 0), corner(i, 1));
+                if (!cut) continue;
+                a = glm::floor(cut->from);
+                b = glm::floor(cut->to);
+            }
+            if (a == b) continue;
             const auto [x0, x1] = std::minmax(a.x, b.x);
             const auto [y0, y1] = std::minmax(a.y, b.y);
             const int left = std::max(blocks.at(x0) - first_x, 0),

@@ -26,8 +26,7 @@ struct SampleBlocks {
 };
 
 /// The edges on the screen that may be lines in this view, seen or not, tile by tile: what samples may
-/// miss. Left to the samples are edges of more than two triangles (which of them is seen makes the line), and
-/// edges of triangles that leave the screen's guard band or pass the near plane.
+/// miss. Left to the samples are edges of more than two triangles: which of them is seen makes the line.
 class FineEdges {
   public:
     /// Of the instances shown; the facing of their triangles must be known.

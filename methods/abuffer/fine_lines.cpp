@@ -83,12 +83,12 @@ class FineLines::BlockClipper {
     void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
         const LayerLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
-        const double slack = line_slack(screen_.surfaces(), line);
-        const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_from);
+        const double slack = line_slack(screen_.surfaces(), line, begin, end);
+        const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
         const bool is_border = line.owners[0] == line.owners[1];
         hidden_.clear();
         bool is_hidden = false;
-        for_triangles(line, begin, end, std::min(line.nearness_from, line.nearness_to) - slack,
+        for_triangles(line, begin, end, line.lowest_in(begin, end) - slack,
                       [&](const LayerTriangle& t) {
                           double from = begin, to = end;
                           if (lies_on(line, t)) return true;
@@ -140,8 +140,7 @@ class FineLines::BlockClipper {
     bool is_seen_instead(const FineCandidate& candidate, const LayerTriangle& t, double level) const {
         const LayerLine& line = candidate.line;
         const auto gap_at = [&](double part) {
-            return std::abs(t.nearness_at(glm::mix(line.from, line.to, part)) -
-                            glm::mix(line.nearness_from, line.nearness_to, part));
+            return std::abs(t.nearness_at(glm::mix(line.from, line.to, part)) - line.nearness_at(part));
         };
         const double begin = gap_at(candidate.part.begin), end = gap_at(candidate.part.end);
         if (std::min(begin, end) > level) return false;
@@ -149,15 +148,30 @@ class FineLines::BlockClipper {
         for (const std::uint32_t owner : line.owners) {
             const SurfaceId s = screen_.surface_of(owner);
             if (s.instance == t.instance && have_vertex_in_common(s, t)) return false;
-            const ScreenTriangle own = screen_.triangle(s);
-            const ScreenVertex &a = own.corners[0], &b = own.corners[1], &c = own.corners[2];
-            if (doubled_area(a, b, c) == 0) continue;
-            const glm::dvec2 inward = (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y) + glm::dvec2(c.x, c.y)) / 3.0 - at;
+            if (screen_.facing(owner) == edge_on) continue;
+            const auto centre = centre_of(s, owner);
+            if (!centre) continue;
+            const glm::dvec2 inward = *centre - at;
             const glm::dvec2 beside = at + inward * std::min(1.0, kBesideSubpixels / glm::length(inward));
-            const double gap = extended_nearness(own, beside.x, beside.y) - t.nearness_at(beside);
+            const double gap = screen_.nearness_of(owner, beside) - t.nearness_at(beside);
             if (gap > level || (gap >= -level && is_seen_first(owner, t.number, gap))) return false;
         }
         return true;
+    }
+    /// A place within what is on the screen of a triangle.
+    std::optional<glm::dvec2> centre_of(SurfaceId s, std::uint32_t number) const {
+        if (screen_.facing(number) != off_screen) {
+            const auto [a, b, c] = screen_.triangle(s).corners;
+            return (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y) + glm::dvec2(c.x, c.y)) / 3.0;
+        }
+        const ScreenPolygon polygon = screen_.surfaces().screen_polygon(s);
+        if (polygon.count == 0) return std::nullopt;
+        glm::dvec2 sum(0.0);
+        for (int i = 0; i < polygon.count; ++i) {
+            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+            sum += glm::dvec2(p.x, p.y);
+        }
+        return sum / static_cast<double>(polygon.count);
     }
     struct Place {
         std::uint32_t first = 0, count = 0;
@@ -230,7 +244,7 @@ class FineLines::BlockClipper {
         const glm::dvec2 at = glm::mix(candidate.line.from, candidate.line.to, t);
         const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
         const HalfEdge h = candidate.part.edge.half_edge, partner = mesh.partners[h];
-        const double nearness = glm::mix(candidate.line.nearness_from, candidate.line.nearness_to, t);
+        const double nearness = candidate.line.nearness_at(t);
         const double level = 32 * level_slack(screen_.surfaces(), nearness);
         // Along rows and columns, as samples would see it.
         for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
@@ -262,10 +276,8 @@ class FineLines::BlockClipper {
         s.block = static_cast<std::uint32_t>(candidate.part.block_y & 0xFFFF) << 16 |
                   static_cast<std::uint32_t>(candidate.part.block_x & 0xFFFF);
         const double zero = screen_.surfaces().farthest_nearness;
-        s.nearness_from =
-            static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * begin);
-        s.nearness_to =
-            static_cast<float>(zero + line.nearness_from + (line.nearness_to - line.nearness_from) * end);
+        s.nearness_from = static_cast<float>(zero + line.nearness_at(begin));
+        s.nearness_to = static_cast<float>(zero + line.nearness_at(end));
         s.occludes = occludes;
         s.front_on_left = is_owner_on_left(candidate);
         segments.push_back(s);
@@ -274,7 +286,7 @@ class FineLines::BlockClipper {
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
     std::optional<LineClassSet> contact_behind(const LayerLine& line, double t) {
         const glm::dvec2 at = glm::mix(line.from, line.to, t);
-        const double nearness = glm::mix(line.nearness_from, line.nearness_to, t);
+        const double nearness = line.nearness_at(t);
         std::optional<LayerTriangle> behind;
         double nearest = -kFar;
         for_triangles(line, t, t, -kFar, [&](const LayerTriangle& triangle) {
@@ -297,12 +309,11 @@ class FineLines::BlockClipper {
 
     /// Of the way from the line's beginning to its end.
     bool is_owner_on_left(const FineCandidate& candidate) const {
+        const std::uint32_t instance = candidate.part.edge.instance;
         const HalfEdge h = candidate.part.edge.half_edge;
-        const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
-        const ScreenVertex& apex = mesh.vertices[mesh.corners[h - h % 3 + (h + 2) % 3]];
-        const glm::dvec2 along = candidate.line.to - candidate.line.from;
-        const glm::dvec2 across = glm::dvec2(apex.x, apex.y) - candidate.line.from;
-        return along.x * across.y - along.y * across.x < 0;  // y runs down
+        const auto corner = [&](HalfEdge k) { return screen_.mesh(instance).corners[h - h % 3 + (h + k) % 3]; };
+        const auto [from, to] = std::minmax({corner(0), corner(1)});
+        return side_of_edge(screen_, instance, from, to, corner(2)) < 0;  // y runs down
     }
 
     const ScreenSurfaces& screen_;

@@ -49,16 +49,6 @@ std::pair<int, int> columns_beside(const EdgeOnScreen& edge, double top, double 
 
 }  // namespace
 
-EdgeOnScreen::EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge) {
-    const auto& t = screen.surfaces().instances[edge.instance].mesh->triangles[edge.half_edge / 3];
-    const auto [low, high] = std::minmax(t[edge.half_edge % 3], t[(edge.half_edge + 1) % 3]);
-    const ScreenVertex &a = screen.vertices(edge.instance)[low], &b = screen.vertices(edge.instance)[high];
-    from = {a.x, a.y};
-    to = {b.x, b.y};
-    nearness_from = static_cast<double>(a.nearness);
-    nearness_to = static_cast<double>(b.nearness);
-}
-
 void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
                      std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
     if (edges.empty()) return;
@@ -69,13 +59,17 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
               last_x = (samples.first_column + samples.columns - 2) >> shift;
     const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
     for (const FineEdge& e : edges) {
-        const EdgeOnScreen edge(screen_, e);
+        const auto& corners = screen_.surfaces().instances[e.instance].mesh->triangles[e.half_edge / 3];
+        const auto [first, second] = std::minmax(corners[e.half_edge % 3], corners[(e.half_edge + 1) % 3]);
+        const auto on_screen = edge_on_screen(screen_, e.instance, first, second);
+        if (!on_screen) continue;
+        const EdgeOnScreen& edge = *on_screen;
         const glm::dvec2 low = glm::min(edge.from, edge.to), high = glm::max(edge.from, edge.to);
-        const int x0 = blocks.at(static_cast<int>(low.x)), x1 = blocks.at(static_cast<int>(high.x));
-        const int y0 = blocks.at(static_cast<int>(low.y)), y1 = blocks.at(static_cast<int>(high.y));
+        const int x0 = blocks.at(floor_to_int(low.x)), x1 = blocks.at(floor_to_int(high.x));
+        const int y0 = blocks.at(floor_to_int(low.y)), y1 = blocks.at(floor_to_int(high.y));
         const bool is_in_one = x0 == x1 && y0 == y1;
         if (is_behind(is_in_one ? blocks_ : areas_, samples, edge, 0, 1)) continue;
-        const Owners owners = owners_of(e, edge);
+        const Owners owners = owners_of(e);
         const HalfEdge partner = screen_.surfaces().instances[e.instance].mesh->next_on_edge[e.half_edge];
         const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
         LayerLine line;
@@ -144,17 +138,17 @@ double FineParts::level(double nearness) const {
 }
 
 /// The triangles at an edge, and whether each of them shows where the edge is a line.
-FineParts::Owners FineParts::owners_of(FineEdge edge, const EdgeOnScreen& on_screen) const {
+FineParts::Owners FineParts::owners_of(FineEdge edge) const {
     const ScreenMesh mesh = screen_.mesh(edge.instance);
     const HalfEdge h = edge.half_edge, partner = mesh.partners[h];
-    const std::uint32_t a = screen_.number_of({edge.instance, h / 3});
-    const std::uint32_t b = screen_.number_of({edge.instance, partner / 3});
-    Owners owners{{a, b}, screen_.facing(a) == screen_.facing(b), 0};
-    if (owners.needs_both && a != b) return owners;
-    const auto side_of = [&](HalfEdge g) {
-        const ScreenVertex& apex = mesh.vertices[mesh.corners[g - g % 3 + (g + 2) % 3]];
-        return on_screen.side_of({apex.x, apex.y});
-    };
+    const auto corner = [&](HalfEdge g, std::uint32_t k) { return mesh.corners[g - g % 3 + (g + k) % 3]; };
+    const auto [first, second] = std::minmax({corner(h, 0), corner(h, 1)});
+    const auto side_of = [&](HalfEdge g) { return side_of_edge(screen_, edge.instance, first, second, corner(g, 2)); };
+    const Facing own = screen_.facing(mesh.first_number + h / 3), other = screen_.facing(mesh.first_number + partner / 3);
+    Owners owners{{mesh.first_number + h / 3, mesh.first_number + partner / 3}, false, 0};
+    const bool is_cut = own == off_screen || other == off_screen;  // and has no facing
+    if (h != partner) owners.needs_both = is_cut ? side_of(h) * side_of(partner) < 0 : own == other;
+    if (owners.needs_both) return owners;
     owners.inner_side = side_of(h);
     if (owners.inner_side == 0) owners.inner_side = side_of(partner);
     return owners;
@@ -258,12 +252,7 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
 
 /// Whether the plane of a triangle beside a place is clearly in front there.
 bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const {
-    const SurfaceId s = screen_.surface_of(number);
-    const double at =
-        screen_.facing(number) == off_screen
-            ? screen_.surfaces().plane(s).extended_to(subpixel / 256.0) - screen_.surfaces().farthest_nearness
-            : extended_nearness(screen_.triangle(s), subpixel.x, subpixel.y);
-    return at > nearness + level(nearness);
+    return screen_.nearness_of(number, subpixel) > nearness + level(nearness);
 }
 
 /// The pieces of a line in a block.

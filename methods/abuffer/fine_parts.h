@@ -5,6 +5,7 @@
 
 #include "abuffer/sample_tile.h"
 #include "lines/line_segment.h"
+#include "methods/abuffer/edge_on_screen.h"
 #include "methods/abuffer/fine_edges.h"
 
 namespace burin {
@@ -13,21 +14,7 @@ namespace burin {
 struct FinePart {
     FineEdge edge;
     std::int32_t block_x, block_y;
-    double begin, end;  ///< shares of the way from the edge's vertex with the smaller number to the other
-};
-
-/// An edge between its vertices, that with the smaller number first, on the screen in 1/256 pixel.
-struct EdgeOnScreen {
-    EdgeOnScreen(const ScreenSurfaces& screen, FineEdge edge);
-    glm::dvec2 at(double t) const { return from + (to - from) * t; }
-    /// Positive on one side of the edge, negative on the other. `p` in 1/256 pixel.
-    double side_of(glm::dvec2 p) const {
-        return (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
-    }
-    double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
-
-    glm::dvec2 from, to;
-    double nearness_from, nearness_to;
+    double begin, end;  ///< shares of edge_on_screen(), which begins at the vertex with the smaller number
 };
 
 /// Finds where along edges the samples of a tile do not tell whether there is a line: no line of the edge
@@ -48,13 +35,13 @@ class FineParts {
     struct Owners {
         std::uint32_t numbers[2];
         bool needs_both;    // the line runs between two polygons that are seen
-        double inner_side;  // of an edge at which the surface ends or turns away: where it is. 0: it goes on
+        int inner_side;     // of an edge at which the surface ends or turns away: where it is. 0: it goes on
     };
     struct Interval {
         double begin, end;
     };
     void find_farthest(const SampleTile& samples);
-    Owners owners_of(FineEdge edge, const EdgeOnScreen& on_screen) const;
+    Owners owners_of(FineEdge edge) const;
     /// Squares of samples, and the least nearness in each of them.
     struct Squares {
         int shift;  // log2 of a square's width in samples

@@ -101,18 +101,18 @@ void IntersectionLines::add_pair(const SurfacePair& pair, std::vector<LayerLine>
 }
 
 void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {
-    // How much nearer a is than b, where corners of either are.
-    double low = 0, high = 0;
+    // Whether the corners of one lie on both sides of the other's plane, for certain. What counts as certain grows with
+    // the nearness, which is great at corners that are cut off beside the eye.
     const auto reaches_through = [&](const LayerTriangle& plane, const LayerTriangle& corners) {
-        low = high = 0;
+        bool is_behind = false, is_in_front = false;
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec2 p(corners.x[k], corners.y[k]);
-            const double gap = plane.nearness_at(p) - corners.nearness_at(p);
-            low = std::min(low, gap);
-            high = std::max(high, gap);
+            const double nearness = corners.nearness_at(p), gap = plane.nearness_at(p) - nearness;
+            const double slack = plane.slack + corners.slack + level_slack(frame_.surfaces, nearness);
+            is_behind |= gap > slack;
+            is_in_front |= gap < -slack;
         }
-        const double slack = plane.slack + corners.slack + level_slack(frame_.surfaces, std::max(plane.nearness, corners.nearness));
-        return low < -slack && high > slack;
+        return is_behind && is_in_front;
     };
     if (!reaches_through(a, b) || !reaches_through(b, a)) return;
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "methods/abuffer/edge_on_screen.h"
 
 namespace burin {
 namespace {
@@ -16,11 +17,6 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr double kThinSubpixels = 4;
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = 256;
-
-struct ScreenPoint {
-    glm::dvec2 at{0.0};  // in 1/256 pixel
-    double nearness = 0;
-};
 
 }  // namespace
 
@@ -77,22 +73,6 @@ class LayerEdgeFinder::Rules {
 
     bool is_on_screen(std::uint32_t instance, std::uint32_t vertex) const {
         return screen_.vertices(instance)[vertex].x != ScreenVertex::kOffScreen;
-    }
-
-    /// On which side of the way from a to b the vertex c is seen: -1, 0, 1.
-    int side(std::uint32_t instance, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        const ScreenVertex* const v = screen_.vertices(instance);
-        if (is_on_screen(instance, a) && is_on_screen(instance, b) && is_on_screen(instance, c)) {
-            const std::int64_t area = doubled_area(v[a], v[b], v[c]);
-            return area > 0 ? 1 : area < 0 ? -1 : 0;
-        }
-        const glm::dvec3 p = surfaces_.view_position(instance, a), q = surfaces_.view_position(instance, b),
-                         r = surfaces_.view_position(instance, c);
-        // In space the eye's plane through a and b decides; the screen's y axis points the other way.
-        const double volume = surfaces_.projection.orthographic
-                                  ? -((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x))
-                                  : glm::dot(glm::cross(p, q), r);
-        return volume > 0 ? 1 : volume < 0 ? -1 : 0;
     }
 
     /// The longest edge of a triangle that is lower than a negligible fold.
@@ -156,7 +136,7 @@ class LayerEdgeFinder::Rules {
             return glm::dot(along, own) < 0;
         };
         if (p == b || q == a || (p != a && q != b && runs_against())) std::swap(p, q);
-        return side(instance, p, q, apex_of(mesh, h));
+        return side_of_edge(screen_, instance, p, q, apex_of(mesh, h));
     }
 
     /// Whether the surface ends for the eye at half-edge h, with a wall beyond it that is seen edge-on: where it goes
@@ -240,8 +220,8 @@ class LayerEdgeFinder::Rules {
             const SurfaceId beyond = triangle_of(s, *partner);
             owners[1] = screen_.number_of(beyond);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
-            const int side_h = side(s.instance, a, b, apex_of(mesh, h));
-            const int side_g = side(s.instance, a, b, apex_of(mesh, *partner));
+            const int side_h = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, h));
+            const int side_g = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, *partner));
             if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
             classes |= contact_classes(surfaces_, s, beyond, middle_px(s, h), criteria_, &crease_cosine);
         } else {
@@ -261,11 +241,11 @@ class LayerEdgeFinder::Rules {
         const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
         const auto partner = mesh.borders.seam_partner(h, 0.5 * (a + b));
         if (!partner) return std::nullopt;
-        const auto own = on_screen(s.instance, start_of(mesh, h), end_of(mesh, h));
-        const auto other = on_screen(s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
-        if (!own || !other) return partner;
-        const glm::dvec2 middle = 0.5 * ((*own)[0].at + (*own)[1].at);
-        const glm::dvec2 p = (*other)[0].at, along = (*other)[1].at - p;
+        const auto own = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
+        const auto other = edge_on_screen(screen_, s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
+        if (!own || !other) return std::nullopt;
+        const glm::dvec2 middle = own->at(0.5);
+        const glm::dvec2 p = other->from, along = other->to - p;
         const double square = glm::dot(along, along);
         const double t = square > 0 ? std::clamp(glm::dot(middle - p, along) / square, 0.0, 1.0) : 0.0;
         if (glm::distance(middle, p + along * t) > kWidestCrackSubpixels) return std::nullopt;
@@ -274,40 +254,8 @@ class LayerEdgeFinder::Rules {
 
     glm::dvec2 middle_px(SurfaceId s, HalfEdge h) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
-        const auto ends = on_screen(s.instance, start_of(mesh, h), end_of(mesh, h));
-        return ends ? ((*ends)[0].at + (*ends)[1].at) / 512.0 : glm::dvec2(0.0);
-    }
-
-    ScreenPoint point(const ScreenVertex& v) const { return {{v.x, v.y}, static_cast<double>(v.nearness)}; }
-    ScreenPoint project(const glm::dvec3& view) const {
-        return {surfaces_.projection.to_pixel(view) * 256.0,
-                surfaces_.projection.nearness(view) - surfaces_.farthest_nearness};
-    }
-
-    /// The part of an edge in front of the near plane and within the guard band.
-    std::optional<std::array<ScreenPoint, 2>> on_screen(std::uint32_t instance, std::uint32_t a,
-                                                        std::uint32_t b) const {
-        const ScreenVertex* const v = screen_.vertices(instance);
-        const bool has_a = is_on_screen(instance, a), has_b = is_on_screen(instance, b);
-        if (has_a && has_b) return std::array{point(v[a]), point(v[b])};
-        const glm::dvec3 p = surfaces_.view_position(instance, a), q = surfaces_.view_position(instance, b);
-        double t0 = 0, t1 = 1;
-        const auto keep = [&](double at_p, double at_q) {  // where the affine function is positive
-            if (at_p < 0 && at_q < 0) t1 = -1;
-            else if (at_p < 0) t0 = std::max(t0, at_p / (at_p - at_q));
-            else if (at_q < 0) t1 = std::min(t1, at_p / (at_p - at_q));
-        };
-        const Projection& projection = surfaces_.projection;
-        const auto depth = [&](const glm::dvec3& view) { return projection.orthographic ? 1.0 : -view.z; };
-        if (!projection.orthographic) keep(-p.z - projection.near_distance, -q.z - projection.near_distance);
-        const double reach = kGuardBandPx / projection.focal_px;
-        for (int axis = 0; axis < 2; ++axis) {
-            keep(reach * depth(p) - p[axis], reach * depth(q) - q[axis]);
-            keep(reach * depth(p) + p[axis], reach * depth(q) + q[axis]);
-        }
-        if (!(t0 < t1)) return std::nullopt;
-        return std::array{has_a ? point(v[a]) : project(glm::mix(p, q, t0)),
-                          has_b ? point(v[b]) : project(glm::mix(p, q, t1))};
+        const auto ends = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
+        return ends ? ends->at(0.5) / double{kSubpixelsPerPixel} : glm::dvec2(0.0);
     }
 
     void add(SurfaceId s, HalfEdge h, LineClassSet classes, double crease_cosine,
@@ -320,15 +268,15 @@ class LayerEdgeFinder::Rules {
         // One direction, whichever triangle asks.
         const std::uint32_t a = std::min(start_of(mesh, h), end_of(mesh, h));
         const std::uint32_t b = std::max(start_of(mesh, h), end_of(mesh, h));
-        const auto ends = on_screen(s.instance, a, b);
+        const auto ends = edge_on_screen(screen_, s.instance, a, b);
         if (!ends) return;
         LayerLine line;
-        line.from = (*ends)[0].at;
-        line.to = (*ends)[1].at;
+        line.from = ends->from;
+        line.to = ends->to;
         const glm::dvec2 low = glm::min(line.from, line.to), high = glm::max(line.from, line.to);
         if (line.from == line.to || high.x < low_.x || high.y < low_.y || low.x > high_.x || low.y > high_.y) return;
-        line.nearness_from = (*ends)[0].nearness;
-        line.nearness_to = (*ends)[1].nearness;
+        line.nearness_from = ends->nearness_from;
+        line.nearness_to = ends->nearness_to;
         line.owners = owners;
         line.has_more_owners = has_more;
         line.classes = classes;

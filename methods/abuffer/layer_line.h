@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -32,6 +33,9 @@ struct LayerLine {
     std::uint8_t opacity_behind(std::uint8_t transmission) const {
         return static_cast<std::uint8_t>((opacity * transmission + 127) / 255);
     }
+    double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
+    /// The least nearness in a part of it.
+    double lowest_in(double begin, double end) const { return std::min(nearness_at(begin), nearness_at(end)); }
     double length_px() const { return glm::distance(from, to) / 256; }
 };
 

@@ -16,7 +16,7 @@ constexpr float kFar = 1e30f;
 
 ScreenLine part_of(const LayerLine& line, double begin, double end) {
     const glm::vec2 a(glm::mix(line.from, line.to, begin)), b(glm::mix(line.from, line.to, end));
-    return {a.x, a.y, b.x, b.y, static_cast<float>(std::min(line.nearness_from, line.nearness_to))};
+    return {a.x, a.y, b.x, b.y, static_cast<float>(line.lowest_in(begin, end))};
 }
 
 }  // namespace
@@ -60,16 +60,14 @@ void LayerTile::fill(std::size_t tile) {
         const auto& v = frame_.surfaces.mesh_of(s).triangles[s.triangle];
         const ScreenVertex* const vertices = screen_.vertices(s.instance);
         const ScreenVertex &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]];
-        const auto lowest = [](auto p, auto q, auto r) { return std::min(std::min(p, q), r); };
-        const auto highest = [](auto p, auto q, auto r) { return std::max(std::max(p, q), r); };
         const auto first_vertex = static_cast<std::uint32_t>(vertices - screen_.vertices(0));
-        const bool is_clockwise = screen_.facing(number) == clockwise;
-        const ScreenVertex &p = is_clockwise ? b : c, &q = is_clockwise ? c : b;
-        const auto real = [](std::int32_t subpixels) { return static_cast<float>(subpixels); };
-        const float nearest = highest(a.nearness, b.nearness, c.nearness);
-        add({{real(lowest(a.x, b.x, c.x)), real(lowest(a.y, b.y, c.y)), real(highest(a.x, b.x, c.x)), real(highest(a.y, b.y, c.y)),
-              lowest(a.nearness, b.nearness, c.nearness), nearest},
-             {{real(a.x), real(p.x), real(q.x)}, {real(a.y), real(p.y), real(q.y)}, nearest},
+        const FlatTriangle flat = flat_triangle(a, b, c, screen_.facing(number));
+        const auto lowest = [](float p, float q, float r) { return std::min(std::min(p, q), r); };
+        const auto highest = [](float p, float q, float r) { return std::max(std::max(p, q), r); };
+        const auto &x = flat.x, &y = flat.y;
+        add({{lowest(x[0], x[1], x[2]), lowest(y[0], y[1], y[2]), highest(x[0], x[1], x[2]), highest(y[0], y[1], y[2]),
+              lowest(a.nearness, b.nearness, c.nearness), flat.highest},
+             flat,
              {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]},
              number},
             kNotSetUp);
@@ -194,7 +192,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     double begin = 0, end = 1;
     if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
     intervals_.clear();
-    line_slack_ = line_slack(frame_.surfaces, line);
+    line_slack_ = line_slack(frame_.surfaces, line, begin, end);
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
     const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
     const int last_row = row_at(static_cast<float>(std::max(a.y, b.y)));

@@ -116,8 +116,8 @@ double level_slack(const SurfaceSet& surfaces, double nearness) {
     return absolute * (kLevelPx / p.focal_px + surfaces.coordinate_error * absolute);
 }
 
-double line_slack(const SurfaceSet& surfaces, const LayerLine& line) {
-    return level_slack(surfaces, std::max(line.nearness_from, line.nearness_to)) +
+double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end) {
+    return level_slack(surfaces, std::max(line.nearness_at(begin), line.nearness_at(end))) +
            std::abs(line.nearness_to - line.nearness_from) / glm::distance(line.from, line.to);
 }
 

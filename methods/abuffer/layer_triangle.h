@@ -50,8 +50,8 @@ bool lies_on(const LayerLine& line, const LayerTriangle& triangle);
 /// How much nearer something is, at a nearness less farthest_nearness, that is in front and not level: 1/16
 /// of a pixel's width.
 double level_slack(const SurfaceSet& surfaces, double nearness);
-/// The same for a line, with what snapping does to it.
-double line_slack(const SurfaceSet& surfaces, const LayerLine& line);
+/// The same for the part [begin, end] of a line, with what snapping does to it.
+double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end);
 
 /// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`.
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin,

@@ -134,6 +134,12 @@ ScreenMesh ScreenSurfaces::make_mesh(std::uint32_t instance) const {
     return result;
 }
 
+double ScreenSurfaces::nearness_of(std::uint32_t number, glm::dvec2 subpixel) const {
+    const SurfaceId s = surface_of(number);
+    if (facing(number) != off_screen) return extended_nearness(triangle(s), subpixel.x, subpixel.y);
+    return surfaces_.plane(s).extended_to(subpixel / double{kSubpixelsPerPixel}) - surfaces_.farthest_nearness;
+}
+
 void ScreenSurfaces::find_line_edges(const TriangleChunk& chunk) {
     constexpr std::uint8_t kAll = 7;
     std::uint8_t* const line_edges = line_edges_.get() + first_triangle_[chunk.instance];

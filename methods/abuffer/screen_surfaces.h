@@ -57,6 +57,8 @@ class ScreenSurfaces {
         const ScreenVertex* const v = vertices(s.instance);
         return {{v[t[0]], v[t[1]], v[t[2]]}};
     }
+    /// Of a triangle's plane, extended to a place in 1/256 pixel, less farthest_nearness. It must not be edge-on.
+    double nearness_of(std::uint32_t number, glm::dvec2 subpixel) const;
     /// An instance that is shown, as the kernels see it.
     const ScreenMesh& mesh(std::uint32_t instance) const { return meshes_[instance]; }
     std::uint32_t triangle_count(std::uint32_t instance) const {
