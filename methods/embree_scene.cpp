@@ -88,10 +88,15 @@ RTCRayHit ray_through(const RayGeometry& geometry, double scale, glm::dvec2 pixe
     return ray;
 }
 
-/// Collects the first of all facets that a short ray meets.
+/// Collects the first of all facets that a short ray meets and that coincide with the nearest one.
 struct FirstFacet {
     RTCIntersectContext context;  // first: Embree hands out a pointer to it
-    Facet facet;
+    Facet facet, nearest;
+    const RayGeometry* geometry;
+    glm::dvec2 pixel;
+    double error;  // of distances
+
+    bool coincides(Facet other) const { return geometry->are_one_around(other, nearest, pixel, 2 * error); }
 };
 
 void keep_first(const RTCFilterFunctionNArguments* arguments) {
@@ -100,7 +105,7 @@ void keep_first(const RTCFilterFunctionNArguments* arguments) {
         if (arguments->valid[i] != -1) continue;
         const Facet facet{RTCHitN_geomID(arguments->hit, arguments->N, i),
                           RTCHitN_primID(arguments->hit, arguments->N, i)};
-        first->facet = std::min(first->facet, facet);
+        if (facet < first->facet && first->coincides(facet)) first->facet = facet;
         arguments->valid[i] = 0;  // go on
     }
 }
@@ -173,7 +178,8 @@ Facet EmbreeScene::cast(glm::dvec2 pixel) const {
     const double error = 2 * geometry_.coordinate_error() / std::max(static_cast<double>(across), 1e-9);
     const double pixel_size = geometry_.projection().pixel_size(distance / scale_);
     const double reach = std::min(error, pixel_size) * scale_ + 4e-7 * std::abs(distance);
-    FirstFacet first{{}, {ray.hit.geomID, ray.hit.primID}};
+    const Facet nearest{ray.hit.geomID, ray.hit.primID};
+    FirstFacet first{{}, nearest, nearest, &geometry_, pixel, error};
     rtcInitIntersectContext(&first.context);
     first.context.filter = keep_first;
     again.ray.tnear = std::max(again.ray.tnear, static_cast<float>(distance - reach));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace burin {
@@ -97,13 +98,21 @@ glm::dvec3 RayGeometry::normal_towards_eye(Facet f, glm::dvec2 pixel) const {
     return glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), ray) > 0 ? -normal : normal;
 }
 
+bool RayGeometry::are_one_around(Facet a, Facet b, glm::dvec2 pixel, double error) const {
+    const glm::dvec2 ways[] = {{0.5, 0.0}, {-0.5, 0.0}, {0.0, 0.5}, {0.0, -0.5}};
+    return std::all_of(std::begin(ways), std::end(ways), [&](glm::dvec2 way) {
+        return std::abs(plane_distance(a, pixel + way) - plane_distance(b, pixel + way)) <= error;
+    });
+}
+
 bool RayGeometry::is_sliver(Facet f) const {
     glm::dvec3 c[3];
     corners(f, c);
     double longest = 0;
     for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(c[k], c[(k + 1) % 3]));
     const double height = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / longest;
-    return height < longest / 1024 && height < projection_.pixel_size(std::abs(c[0].z)) / 64;
+    const double nearest = std::max(-std::max({c[0].z, c[1].z, c[2].z}), projection_.near_distance);
+    return height < longest / 1024 && height < projection_.pixel_size(nearest) / 64;
 }
 
 }  // namespace burin

@@ -40,6 +40,9 @@ class RayGeometry {
     double plane_distance(Facet f, glm::dvec2 pixel) const;
     /// The same, kept within the distances of the facet's corners: what a ray hits there.
     double distance(Facet f, glm::dvec2 pixel) const;
+    /// Whether the planes of two facets are one, but for an error of distances, half a pixel from a position to all
+    /// sides: where surfaces pass through each other they are not.
+    bool are_one_around(Facet a, Facet b, glm::dvec2 pixel, double error) const;
     /// A distance counted in pixel widths: two of them differ by how many pixel widths (there) the places
     /// are apart.
     double depth_px(double distance) const {

@@ -14,6 +14,12 @@ constexpr double kWidestCrackPx = 1;
 constexpr int kMaxRays = 96;   // between two samples
 constexpr int kMaxFacets = 48;  // on the way over a surface
 
+/// A position on the screen, times the distance in perspective: negative behind the eye.
+glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view) {
+    const double w = p.orthographic ? 1.0 : -view.z;
+    return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
+}
+
 }  // namespace
 
 /// The straight way between two samples, parametrised from 0 to 1.
@@ -87,25 +93,31 @@ ReferenceLines::Slice ReferenceLines::slice_of(const Way& way, Facet f) const {
     geometry_.corners(f, c);
     const Projection& p = geometry_.projection();
     for (int k = 0; k < 3; ++k) {
-        const double w = p.orthographic ? 1.0 : -c[k].z;
-        h[k] = {p.center_px.x * w + p.focal_px * c[k].x, p.center_px.y * w - p.focal_px * c[k].y, w};
+        h[k] = homogeneous(p, c[k]);
         side[k] = glm::dot(way.line, h[k]);
     }
     Slice slice;
+    glm::dvec3 points[2];
     int found = 0;
     for (int k = 0; k < 3; ++k) {
         const int next = (k + 1) % 3;
         if ((side[k] >= 0) == (side[next] >= 0)) continue;
-        const glm::dvec3 point = (h[k] * side[next] - h[next] * side[k]) / (side[next] - side[k]);
+        points[found] = (h[k] * side[next] - h[next] * side[k]) / (side[next] - side[k]);
         slice.edge[found] = 3 * f.triangle + static_cast<HalfEdge>(k);
         slice.along_edge[found] = side[k] / (side[k] - side[next]);
-        slice.t[found] = point.z > 0 ? glm::dot(glm::dvec2(point) / point.z - way.from, way.along) /
-                                           (way.length * way.length)
-                                     : kInfinity;
         ++found;
     }
     slice.is_cut = found == 2;
+    for (int i = 0; i < found; ++i) slice.t[i] = place_on(way, points[i], points[1 - i]);
     return slice;
+}
+
+/// Where on a way a point of it is seen, both homogeneous. Of one behind the eye: the end of the way to which the
+/// surface between it and `other`, in front of the eye, goes on.
+double ReferenceLines::place_on(const Way& way, const glm::dvec3& point, const glm::dvec3& other) {
+    const auto ahead = [&](const glm::dvec3& p) { return glm::dot(glm::dvec2(p) - way.from * p.z, way.along); };
+    if (point.z > 0) return ahead(point) / point.z / (way.length * way.length);
+    return ahead(point) * other.z - ahead(other) * point.z < 0 && other.z > 0 ? -kInfinity : kInfinity;
 }
 
 std::optional<ReferenceLines::Transition> ReferenceLines::shared_edge(const Way& way, Facet a, Facet b) const {
@@ -261,19 +273,14 @@ LineCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
         return crossing;
     }
     // Both go on behind each other, or lie in one plane.
-    const double steps_px[] = {-0.5, 0.5};
-    double gaps[2], allowed = 0;
-    for (int i = 0; i < 2; ++i) {
-        const glm::dvec2 place = at + way.along / way.length * steps_px[i];
-        gaps[i] = geometry_.plane_distance(t.a, place) - geometry_.plane_distance(t.b, place);
-    }
+    double allowed = 0;
     for (const Facet f : {t.a, t.b}) {
         glm::dvec3 origin, ray;
         geometry_.projection().view_ray(at, origin, ray);
         const double across = std::abs(glm::dot(geometry_.normal_towards_eye(f, at), ray));
         allowed += geometry_.coordinate_error() / std::max(across, 1e-9);
     }
-    const bool coincident = std::max(std::abs(gaps[0]), std::abs(gaps[1])) <= 2 * allowed;
+    const bool coincident = geometry_.are_one_around(t.a, t.b, at, 2 * allowed);
     const bool lost = ways[0].end == Follow::End::lost || ways[1].end == Follow::End::lost;
     if (coincident || lost) {
         if (!lost || t.a.object != t.b.object) crossing.classes = contact;
@@ -372,13 +379,13 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const auto& u = mesh.triangles[*seam / 3];
     glm::dvec3 c[3];
     for (std::size_t k = 0; k < 3; ++k) c[k] = geometry_.position(f.object, u[(*seam % 3 + k) % 3]);
-    for (const glm::dvec3& corner : c) {
-        if (!p.orthographic && -corner.z <= p.near_distance) {
-            partner = {f.object, *seam / 3};
-            return true;
-        }
+    // Of an edge that passes the near plane, what lies in front.
+    const double before[2] = {-c[0].z - p.near_distance, -c[1].z - p.near_distance};
+    if (before[0] <= 0 && before[1] <= 0) return false;
+    if (before[0] <= 0 || before[1] <= 0) {
+        c[before[0] <= 0 ? 0 : 1] = glm::mix(c[0], c[1], before[0] / (before[0] - before[1]));
     }
-    const glm::dvec2 at = p.to_pixel(place), a = p.to_pixel(c[0]), b = p.to_pixel(c[1]), third = p.to_pixel(c[2]);
+    const glm::dvec2 at = p.to_pixel(place), a = p.to_pixel(c[0]), b = p.to_pixel(c[1]);
     const glm::dvec2 d = b - a;
     const double s = std::clamp(glm::dot(at - a, d) / std::max(glm::dot(d, d), 1e-300), 0.0, 1.0);
     if (glm::distance(at, a + s * d) > kWidestCrackPx) return false;
@@ -388,8 +395,8 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
                              (geometry_.slope_per_px(candidate, at) + geometry_.slope_per_px(f, at)) / 256;
     if (std::abs(distance - other) > tolerance) return false;
     partner = candidate;
-    const auto side = [&d](glm::dvec2 q) { return d.x * q.y - d.y * q.x; };
-    return (side(third - a) > 0) == (side(way.along) > 0);
+    const double third_side = glm::dot(glm::cross(glm::dvec3(a, 1), glm::dvec3(b, 1)), homogeneous(p, c[2]));
+    return (third_side > 0) == (d.x * way.along.y - d.y * way.along.x > 0);
 }
 
 /// A sliver's normal is noise; what counts is the surface on its other side.

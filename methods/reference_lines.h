@@ -51,6 +51,7 @@ class ReferenceLines {
     LineCrossing decide(const Way& way, const Transition& transition) const;
     LineCrossing decide_touching(const Way& way, const Transition& t, LineCrossing crossing) const;
     Slice slice_of(const Way& way, Facet f) const;
+    static double place_on(const Way& way, const glm::dvec3& point, const glm::dvec3& other);
     Follow follow(const Way& way, Facet start, double from, Facet goal) const;
     bool seam_goes_on(const Way& way, Facet f, HalfEdge border, double at, Facet& partner) const;
     LineClassSet edge_classes(Facet a, HalfEdge ha, Facet b, HalfEdge hb, glm::dvec2 at) const;
