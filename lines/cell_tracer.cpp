@@ -52,6 +52,14 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 c
 }
 
 bool has_edge(const LineCrossing& c) { return c.edge_ends[0] != c.edge_ends[1]; }
+/// Whether the lines of two edges cannot be told apart between two crossings: neighbours on a finely rounded surface.
+bool are_one(const LineCrossing& a, const LineCrossing& b) {
+    constexpr double kApartPx = 1.0 / 32;
+    const auto is_on = [&](const LineCrossing& line, glm::dvec2 p) {
+        return std::abs(cross(line.along, p - line.pixel)) < kApartPx * glm::length(line.along);
+    };
+    return is_on(a, b.pixel) && is_on(b, a.pixel);
+}
 bool has_direction(const LineCrossing& c) { return c.along != glm::dvec2(0.0); }
 
 }  // namespace
@@ -79,7 +87,7 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
                     return;
                 }
             }
-            if (!has_bridges && (a.occludes || b.occludes) && runs_through(a) && runs_through(b)) return;
+            if (!has_bridges && (a.occludes || b.occludes) && runs_through(a) && runs_through(b) && !are_one(a, b)) return;
             // No corner: half of the way looks like one, half like the other.
             const glm::dvec2 middle = 0.5 * (a.pixel + b.pixel);
             add(a, a.pixel, middle, center, segments);

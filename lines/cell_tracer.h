@@ -17,7 +17,7 @@ namespace burin {
 ///
 /// `low` and `high` are the positions of the cell's upper left and lower right sample. `has_bridges`: two lines that
 /// run through the cell, of which one ends a surface, are joined though they do not meet. Else what is missing of
-/// them is expected to be found along their edges.
+/// them is expected to be found along their edges, if they can be told apart.
 void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high, bool has_bridges,
                 std::vector<LineSegment>& segments);
 

@@ -20,7 +20,7 @@ class Decider {
         for (const int i : {0, 1}) {
             if (other(i).surface.is_background()) {
                 walks_[i] = walk(i);
-                return ended(walks_[i]) ? end_of_surface(i, kInfinity, false) : unexplained(i, kInfinity);
+                return ended(walks_[i]) || ends_at_point(i) ? end_of_surface(i, kInfinity, false) : unexplained(i, kInfinity);
             }
         }
         for (const int i : {0, 1}) {
@@ -197,6 +197,7 @@ class Decider {
             // The other's surface reaches this point in front of what is visible there: it ends
             // within a rounding error before it.
             if (gap[i] >= -apart || ended(walks_[1 - i])) continue;
+            if (ends_at_point(1 - i)) return end_of_surface(1 - i, -gap[i], false);
             LineDecision ends_here = unexplained(1 - i, -gap[i]);
             ends_here.fraction = i;
             return ends_here;

@@ -8,7 +8,8 @@
 namespace burin {
 namespace {
 
-constexpr int kMaxSteps = 96;
+/// More triangles than lie between two samples of any mesh; walks end at the first fold.
+constexpr int kMaxSteps = 4096;
 /// A fold that turns back by less than this is no contour. Pixels.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
 /// A triangle lower than this (in pixels) and than kSliverHeightPart of its length is a sliver: rounding
@@ -17,21 +18,16 @@ constexpr double kSliverHeightPx = 1.0 / 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an
-/// orthographic view. Linear in view space, also behind the eye. Corners that can be seen are
-/// snapped as the rasterizer snaps them.
-glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view) {
+/// orthographic view. Linear in view space, also behind the eye. Corners are snapped as the rasterizer snaps them: not
+/// those of triangles that are cut, for what snapping moves grows beyond a corner on the way to one behind the eye.
+glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view, bool is_snapped) {
     const double w = p.orthographic ? 1.0 : -view.z;
-    const bool in_front = -view.z > p.near_distance;
-    if (in_front || p.orthographic) {
-        const glm::dvec2 pixel = p.to_pixel(view);
-        if (std::abs(pixel.x - p.center_px.x) <= kGuardBandPx &&
-            std::abs(pixel.y - p.center_px.y) <= kGuardBandPx) {
-            return glm::dvec3(snap_to_subpixels(pixel.x) / kSubpixelsPerPixel,
-                              snap_to_subpixels(pixel.y) / kSubpixelsPerPixel, 1.0) * w;
-        }
-    }
-    return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
+    if (!is_snapped) return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
+    const glm::dvec2 pixel = p.to_pixel(view);
+    return glm::dvec3(snap_to_subpixels(pixel.x) / kSubpixelsPerPixel, snap_to_subpixels(pixel.y) / kSubpixelsPerPixel, 1.0) * w;
 }
+
+double nearness_of(const Projection& p, double distance) { return p.orthographic ? -distance : 1 / distance; }
 
 class Walker {
   public:
@@ -51,15 +47,14 @@ class Walker {
         if (!slice.is_cut) return result;
         Place current{start, slice.crossings[slice.crossings[0].fraction < slice.crossings[1].fraction]};
         Place farthest = current;      // where the walk got farthest
-        SurfaceId solid_there = start;  // the last triangle up to there that is more than a sliver
         Place before_wall = current;   // where it last got farther at all
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
-        bool over_slivers = false;     // there were others since
+        int slivers = 0;               // there were so many others since
         const double negligible_fold = kNegligibleFoldPx / length_;
 
         for (int step = 0; step < kMaxSteps; ++step) {
             if (current.exit.fraction >= 1) {
-                if (over_slivers) note_contact(result, last_solid, current.surface, 1);
+                if (slivers > 0) note_contact(result, last_solid, current.surface, 1);
                 result.end = WalkEnd::arrived;
                 result.surface = current.surface;
                 return result;
@@ -74,35 +69,34 @@ class Walker {
             const bool turned_back = reached < farthest.exit.fraction - negligible_fold;
             const bool unfolds = current.exit.fraction < farthest.exit.fraction &&
                                  reached >= farthest.exit.fraction;
-            // Slivers say nothing about where the surface is.
-            const bool sliver = is_sliver(surfaces_, next.place.surface);
+            // Slivers say nothing about how steep the surface is.
+            const bool sliver = slivers < kMostSlivers && is_sliver(surfaces_, next.place.surface);
+            const SurfaceId solid = sliver ? last_solid : next.place.surface;
             if (turned_back ||
-                (unfolds && !sliver && !is_level(solid_there, next.place.surface, farthest.exit.fraction))) {
+                (unfolds && !is_level(distance_at(farthest), distance_between(current, next.place, farthest.exit.fraction),
+                                      solid))) {
                 return ended(result, WalkEnd::fold, farthest);  // over a seam, too
             }
-            const bool goes_on = !sliver && reached > before_wall.exit.fraction + kNoAdvance;
+            const bool goes_on = reached > before_wall.exit.fraction + kNoAdvance;
             if (goes_on && current.surface != before_wall.surface &&
-                !is_level(before_wall.surface, next.place.surface, before_wall.exit.fraction)) {
+                !is_level(distance_at(before_wall), distance_at(current), solid)) {
                 return ended(result, WalkEnd::fold, before_wall);
             }
             const SurfaceEdge edge{current.surface, current.exit.half_edge};
             const double at_edge = current.exit.fraction;
             if (sliver) {
-                over_slivers = true;
+                ++slivers;
                 note(result, mark_of(edge), edge, at_edge);
-            } else if (over_slivers || next.over_seam) {
+            } else if (slivers > 0 || next.over_seam) {
                 note_contact(result, last_solid, next.place.surface, at_edge);
-                over_slivers = false;
+                slivers = 0;
             } else {
                 note(result, edge_classes_between(edge, {next.place.surface, next.entry}, &result.crease_cosine), edge,
                      at_edge);
             }
             if (!sliver) last_solid = next.place.surface;
             current = next.place;
-            if (reached >= farthest.exit.fraction) {
-                farthest = current;
-                if (!sliver) solid_there = current.surface;
-            }
+            if (reached >= farthest.exit.fraction) farthest = current;
             if (goes_on) before_wall = current;
         }
         return result;
@@ -153,11 +147,15 @@ class Walker {
     }
 
     Slice slice_of(SurfaceId s) const {
-        const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
+        const Projection& projection = surfaces_.projection;
+        glm::dvec3 corners[3];
+        surfaces_.view_corners(s, corners);
+        const bool is_whole = std::all_of(std::begin(corners), std::end(corners),
+                                          [&](const glm::dvec3& corner) { return needs_no_clipping(projection, corner); });
         std::array<glm::dvec3, 3> h;
         std::array<double, 3> side;
         for (std::size_t k = 0; k < 3; ++k) {
-            h[k] = homogeneous(surfaces_.projection, surfaces_.view_position(s.instance, t[k]));
+            h[k] = homogeneous(projection, corners[k], is_whole);
             side[k] = glm::dot(line_, h[k]);
         }
         Slice slice;
@@ -237,7 +235,7 @@ class Walker {
         const Crossing& exit = slice.other_than(*partner);
         constexpr double kWidestCrackPx = 1;
         if (std::abs(entry.fraction - from.exit.fraction) * length_ > kWidestCrackPx ||
-            !is_level(from.surface, neighbour, from.exit.fraction)) {
+            !is_level_at(from.exit.fraction, from.surface, neighbour)) {
             return none;
         }
         const bool forward = exit.fraction > entry.fraction;
@@ -245,14 +243,32 @@ class Walker {
         return {goal_in_gap ? WalkEnd::crack : WalkEnd::arrived, {neighbour, exit}, *partner, true};
     }
 
-    /// Whether two triangles are equally far from the eye at a place, as far as lines care.
-    bool is_level(SurfaceId a, SurfaceId b, double fraction) const {
+    /// Where a walk leaves a triangle: on an edge, so that not even a sliver's plane is extended.
+    double distance_at(const Place& place) const {
+        const auto& t = surfaces_.mesh_of(place.surface).triangles[place.surface.triangle];
+        const HalfEdge k = place.exit.half_edge % 3;
+        const auto depth = [&](HalfEdge corner) { return -surfaces_.view_position(place.surface.instance, t[corner % 3]).z; };
+        return glm::mix(depth(k), depth(k + 1), place.exit.along_edge);
+    }
+    /// On the way from where one triangle is left to where the next one is.
+    double distance_between(const Place& entry, const Place& exit, double fraction) const {
         const Projection& p = surfaces_.projection;
-        const glm::dvec2 place = at(fraction);
-        const DepthPlane plane_b = surfaces_.plane(b);
-        const double distance_a = distance_of(p, surfaces_.plane(a).nearness(place));
-        const double distance_b = distance_of(p, plane_b.nearness(place));
-        return std::abs(distance_a - distance_b) <= depth_tolerance(surfaces_, distance_a, plane_b);
+        const double from = entry.exit.fraction, to = exit.exit.fraction;
+        if (!(to < kInfinity)) return distance_at(entry);
+        const double nearness = glm::mix(nearness_of(p, distance_at(entry)), nearness_of(p, distance_at(exit)),
+                                         (fraction - from) / (to - from));
+        return p.distance(nearness);
+    }
+    /// Whether two distances are one, as far as lines care, where a surface is as steep as a triangle.
+    bool is_level(double a, double b, SurfaceId steep) const {
+        return std::abs(a - b) <= depth_tolerance(surfaces_, a, surfaces_.plane(steep));
+    }
+    /// Whether the planes of two triangles are.
+    bool is_level_at(double fraction, SurfaceId a, SurfaceId b) const {
+        const auto distance = [&](SurfaceId s) {
+            return distance_of(surfaces_.projection, surfaces_.plane(s).nearness(at(fraction)));
+        };
+        return is_level(distance(a), distance(b), b);
     }
 
     bool is_border(const Place& place) const {
@@ -350,7 +366,8 @@ bool is_sliver(const SurfaceSet& surfaces, SurfaceId s) {
     double longest = 0;
     for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(c[k], c[(k + 1) % 3]));
     const double height = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / longest;
-    const double pixel = surfaces.projection.pixel_size(std::abs(c[0].z));
+    const double nearest = std::max(-std::max({c[0].z, c[1].z, c[2].z}), surfaces.projection.near_distance);
+    const double pixel = surfaces.projection.pixel_size(nearest);
     return height < kSliverHeightPart * longest && height < kSliverHeightPx * pixel;
 }
 

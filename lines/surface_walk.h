@@ -51,7 +51,8 @@ struct SurfaceWalk {
 /// Folds that turn back by less than 1/64 pixel, and not by more than the depth tolerance, are
 /// walked over: they are slivers between the triangles of one surface, not contours.
 /// A wall that is seen edge-on, to the snapping of corners, is a fold if the surface goes on behind it deeper
-/// by more than the depth tolerance.
+/// by more than the depth tolerance. Depths are compared where the walk crosses edges of the mesh: no plane is extended,
+/// and slivers do no harm.
 SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from,
                          glm::dvec2 to, const LineCriteria& criteria);
 
@@ -69,9 +70,12 @@ LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId 
 /// A triangle lower than this part of its length may be a sliver.
 constexpr double kSliverHeightPart = 1.0 / 1024;
 
-/// Whether a triangle is so thin (in its own proportions, and less than 1/64 pixel high) that rounding
-/// decides its normal.
+/// Whether a triangle is so thin (in its own proportions, and less than 1/64 pixel high where it is nearest to the eye)
+/// that rounding decides its normal.
 bool is_sliver(const SurfaceSet& surfaces, SurfaceId triangle);
+
+/// A walk over more slivers in a row than this is on a finely rounded edge: they are the surface.
+constexpr int kMostSlivers = 4;
 
 /// How far two surfaces must be apart in distance from the eye to be two: two pixels' width at that
 /// distance, and what the rounding of screen positions does to a steep plane.

@@ -95,7 +95,8 @@ class InstanceEdges {
             }
         }
         const double height = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / length;
-        const double pixel = surfaces_.projection.pixel_size(std::abs(c[0].z));
+        const double nearest = std::max(-std::max({c[0].z, c[1].z, c[2].z}), surfaces_.projection.near_distance);
+        const double pixel = surfaces_.projection.pixel_size(nearest);
         const bool is_sliver = height < kSliverHeightPart * length && height < kSliverHeightPx * pixel;
         return is_sliver ? 3 * t + longest : kNoHalfEdge;
     }

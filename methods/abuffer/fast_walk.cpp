@@ -44,6 +44,21 @@ class FastWalker::Way {
     }
     /// The same along the edge: 0 = at corner k.
     double along_edge(std::uint32_t k) const { return static_cast<double>(across_ - v_[k]) / (v_[next(k)] - v_[k]); }
+    /// On an edge that the line crosses, of any triangle.
+    double nearness_at(HalfEdge h) const {
+        const auto vertex = [&](HalfEdge k) -> const ScreenVertex& {
+            return mesh_.vertices[mesh_.corners[h - h % 3 + k % 3]];
+        };
+        const ScreenVertex &p = vertex(h % 3), &q = vertex(h % 3 + 1);
+        const std::int32_t from = down_ ? p.x : p.y, to = down_ ? q.x : q.y;
+        return glm::mix(static_cast<double>(p.nearness), static_cast<double>(q.nearness),
+                        static_cast<double>(across_ - from) / (to - from));
+    }
+    /// On the way through a triangle, from where the one before is left to where it is.
+    double nearness_between(const FastWalk::Step& before, const FastWalk::Step& step, double fraction_of_way) const {
+        return glm::mix(nearness_at(before.exit), nearness_at(step.exit),
+                        (fraction_of_way - before.left) / (step.left - before.left));
+    }
     /// Through the triangle that is entered over half-edge `entry`.
     FastWalk::Step step_from(HalfEdge entry, double entered) const {
         const std::uint32_t t = entry / 3, k = entry - 3 * t, n = next(k), apex = next(n);
@@ -105,11 +120,10 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     const FastWalk::Step* current = &(result.steps[0] = way.first_step(start.triangle));
     if (current->exit == kNoHalfEdge) return;
     const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
-    std::uint32_t solid_there = start.triangle;  // the last one up to there that is more than a sliver
     const FastWalk::Step* before_wall = current;  // where it last got farther at all
     const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
     std::uint32_t last_solid = start.triangle;
-    bool over_slivers = false;
+    int slivers = 0;  // since then
     const auto end_at = [&result](FastWalk::End end, const FastWalk::Step& at) {
         result.end = end;
         result.triangle = at.triangle;
@@ -118,7 +132,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     };
     for (result.step_count = 1; result.step_count < FastWalk::kMaxSteps; ++result.step_count) {
         if (current->left >= 1) {
-            if (over_slivers) note_contact(instance, last_solid, current->triangle, way.at(1), 1, result);
+            if (slivers > 0) note_contact(instance, last_solid, current->triangle, way.at(1), 1, result);
             return end_at(FastWalk::arrived, *current);
         }
         FastWalk::Step& next = result.steps[result.step_count];
@@ -138,32 +152,32 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             next = way.step_from(entry, current->left);
         }
         const bool unfolds = current->left < farthest->left && next.left >= farthest->left;
-        const bool sliver = !is_surely_solid(mesh, next.triangle) && is_sliver(surfaces_, {instance, next.triangle});
+        const bool sliver = !is_surely_solid(mesh, next.triangle) && slivers < kMostSlivers &&
+                            is_sliver(surfaces_, {instance, next.triangle});
+        const SurfaceId solid{instance, sliver ? last_solid : next.triangle};
         if (next.left < farthest->left - negligible_fold ||
-            (unfolds && !sliver && !is_level({instance, solid_there}, {instance, next.triangle}, way.at(farthest->left)))) {
+            (unfolds &&
+             !is_level(way.nearness_at(farthest->exit), way.nearness_between(*current, next, farthest->left), solid))) {
             return end_at(FastWalk::fold, *farthest);
         }
-        const bool goes_on = !sliver && next.left > before_wall->left + kNoAdvance;
+        const bool goes_on = next.left > before_wall->left + kNoAdvance;
         if (goes_on && current != before_wall &&
-            !is_level({instance, before_wall->triangle}, {instance, next.triangle}, way.at(before_wall->left))) {
+            !is_level(way.nearness_at(before_wall->exit), way.nearness_at(current->exit), solid)) {
             return end_at(FastWalk::fold, *before_wall);
         }
         if (sliver) {
-            over_slivers = true;
+            ++slivers;
             const bool is_mark = surfaces_.instances[instance].mesh->is_marked(current->exit);
             if (is_mark) note(LineClass::mark, {{instance, current->triangle}, current->exit}, current->left, result);
-        } else if (over_slivers || over_seam) {
+        } else if (slivers > 0 || over_seam) {
             note_contact(instance, last_solid, next.triangle, way.at(current->left), current->left, result);
-            over_slivers = false;
+            slivers = 0;
         } else if (mesh.sharp == nullptr || (mesh.sharp[current->triangle] >> current->exit % 3 & 1) != 0) {
             note_edge(instance, *current, result);
         }
         if (!sliver) last_solid = next.triangle;
         current = &next;
-        if (next.left >= farthest->left) {
-            farthest = current;
-            if (!sliver) solid_there = next.triangle;
-        }
+        if (next.left >= farthest->left) farthest = current;
         if (goes_on) before_wall = current;
     }
 }
@@ -176,8 +190,10 @@ FastWalk::End FastWalker::step_over_seam(const Way& way, std::uint32_t instance,
     if (!beyond.look_at(*entry / 3)) return FastWalk::unsure;
     if (!beyond.crosses(*entry % 3)) return FastWalk::border;
     const double entered = beyond.fraction(*entry % 3);
+    const glm::dvec2 border_px = way.at(from.left) / double{kSubpixelsPerPixel};
+    const auto nearness = [&](SurfaceId s) { return plane(s).nearness(border_px) - surfaces_.farthest_nearness; };
     if (std::abs(entered - from.left) * way.length_px() > kWidestCrackPx ||
-        !is_level({instance, from.triangle}, {instance, *entry / 3}, way.at(from.left))) {
+        !is_level(nearness({instance, from.triangle}), nearness({instance, *entry / 3}), {instance, *entry / 3})) {
         return FastWalk::border;
     }
     next = beyond.step_from(*entry, entered);
@@ -240,12 +256,13 @@ DepthPlane FastWalker::plane(SurfaceId s) const {
     return plane;
 }
 
-bool FastWalker::is_level(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const {
-    const glm::dvec2 at = subpixel / double{kSubpixelsPerPixel};
-    const DepthPlane plane_b = plane(b);
-    const double distance = distance_of(surfaces_.projection, plane(a).nearness(at));
-    const double other = distance_of(surfaces_.projection, plane_b.nearness(at));
-    return std::abs(distance - other) <= depth_tolerance(surfaces_, distance, plane_b);
+/// Whether two places are equally far from the eye, as far as lines care, where a surface is as steep as a triangle.
+bool FastWalker::is_level(double nearness_a, double nearness_b, SurfaceId steep) const {
+    const auto distance = [&](double nearness) {
+        return distance_of(surfaces_.projection, surfaces_.farthest_nearness + nearness);
+    };
+    const double a = distance(nearness_a);
+    return std::abs(a - distance(nearness_b)) <= depth_tolerance(surfaces_, a, plane(steep));
 }
 
 }  // namespace burin

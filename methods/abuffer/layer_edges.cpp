@@ -112,7 +112,7 @@ class LayerEdgeFinder::Rules {
     /// triangle's longest edge, if the two others stand for it: they do not where what lies behind faces alike.
     std::optional<HalfEdge> solid_behind(std::uint32_t instance, HalfEdge h) const {
         const Mesh& mesh = *surfaces_.instances[instance].mesh;
-        for (int step = 0; step < 4; ++step) {
+        for (int step = 0; step < kMostSlivers; ++step) {
             const auto base = base_of_thin({instance, h / 3});
             if (!base) return h;
             const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base;

@@ -325,5 +325,84 @@ TEST(Abuffer, AFlatFanHasNoContours) {
     }
 }
 
+/// A profile drawn out along x, in so many pieces.
+PolygonSoup drawn_out(const std::vector<glm::dvec2>& profile, double half_length, std::uint32_t pieces) {
+    PolygonSoup soup;
+    const auto rows = static_cast<std::uint32_t>(profile.size());
+    for (std::uint32_t i = 0; i <= pieces; ++i) {
+        for (const glm::dvec2 p : profile) soup.positions.emplace_back(half_length * (2.0 * i / pieces - 1), p.x, p.y);
+    }
+    for (std::uint32_t i = 0; i < pieces; ++i) {
+        for (std::uint32_t k = i * rows; k + 1 < (i + 1) * rows; ++k) {
+            soup.add_polygon(std::vector<std::uint32_t>{k, k + 1, k + 1 + rows, k + rows});
+        }
+    }
+    soup.object_names = {"profile"};
+    return soup;
+}
+
+/// A rounding narrower than a sample has no crease, though its strips are so low that each alone says nothing, and it is
+/// no contour where both sides are seen.
+TEST(Abuffer, FinelyRoundedEdgesHaveNoLine) {
+    constexpr double kPixel = 3.0 / 120;
+    for (const int strips : {60, 100, 150}) {
+        for (const double radius_px : {0.3, 1.0}) {
+            for (const double elevation : {2.0, 45.0, 80.0}) {
+                const double r = radius_px * kPixel;
+                std::vector<glm::dvec2> profile = {{0, -1}};
+                for (int i = 0; i <= strips; ++i) {
+                    const double a = 0.5 * std::numbers::pi * i / strips;
+                    profile.emplace_back(r * std::cos(a) - r, r * std::sin(a) - r);
+                }
+                profile.emplace_back(-1, 0);
+                const double e = glm::radians(elevation);
+                const glm::dvec3 target(0, -0.2, -0.3), eye = target + 10.0 * glm::dvec3(0.3 * std::cos(e), std::sin(e), std::cos(e));
+                const Drawing d(scene_of({drawn_out(profile, 1.5, 1)}), perspective_camera(eye, target, 17), 160, 120, {0, 0, 160, 120},
+                                1, render_abuffer);
+                EXPECT_LT(d.sum("lines.A") - d.sum(LineClass::border), 0.5) << strips << " " << radius_px << " " << elevation;
+                EXPECT_GT(d.sum(LineClass::border), 100);
+            }
+        }
+    }
+}
+
+/// Half of its facets lie between two samples.
+TEST(Abuffer, RodsOfManyFacetsAreAsThickAsTheyAre) {
+    constexpr double kPixel = 3.0 / 120;
+    for (const int facets : {100, 400, 800}) {
+        for (const double radius_px : {0.32, 0.8}) {
+            const PolygonSoup rod = make_cylinder(radius_px * kPixel, radius_px * kPixel, 2, facets);
+            const Drawing d(scene_of({rod}), perspective_camera({6.6, 2.4, 7.1}, {0, 0, 0}, 17), 160, 120,
+                            {0, 0, 160, 120}, 1, render_abuffer);
+            for (int y = 40; y < 80; ++y) {
+                double ink = 0;
+                for (int x = 0; x < 160; ++x) ink += d.line(x, y);
+                ASSERT_NEAR(ink, std::min(2 * radius_px + 1, 2.0), 0.03) << facets << " " << radius_px << " row " << y;
+            }
+        }
+    }
+}
+
+/// Whether a triangle is thin hangs on where it is seen best, not on its first corner.
+TEST(Abuffer, ALongStepIsDrawnLikeOneInPieces) {
+    constexpr double kLength = 266;
+    const std::vector<glm::dvec2> step = {{0, -kLength}, {0, 0}, {0.03, 0}, {0.03, kLength}};
+    for (const double x : {-8.0, 8.0, 2.0}) {
+        for (const double eye_x : {0.0, 150.0, -150.0}) {
+            const auto draw_in = [&](std::uint32_t pieces) {
+                const Camera camera = perspective_camera({eye_x, 0.8, -3}, {eye_x + x, 0, 0}, 60);
+                return Drawing(scene_of({drawn_out(step, kLength, pieces)}), camera, 160, 120, {0, 0, 160, 120}, 1, render_abuffer);
+            };
+            const Drawing one = draw_in(1), many = draw_in(20);
+            double missed = 0;
+            for (int y = 0; y < 120; ++y) {
+                for (int k = 0; k < 160; ++k) missed += std::abs(one.line(k, y) - many.line(k, y));
+            }
+            EXPECT_LT(missed, 0.02 * many.sum("lines.A")) << x << " " << eye_x;
+            EXPECT_GT(many.sum("lines.A"), 200);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace burin
