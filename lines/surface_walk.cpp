@@ -8,8 +8,8 @@
 namespace burin {
 namespace {
 
-/// More triangles than lie between two samples of any mesh; walks end at the first fold.
-constexpr int kMaxSteps = 4096;
+/// More triangles than lie between two samples, but for meshes of a hundred thousand in a pixel. Walks end at the first fold.
+constexpr int kMaxSteps = 1024;
 /// A fold that turns back by less than this is no contour. Pixels.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
 /// A triangle lower than this (in pixels) and than kSliverHeightPart of its length is a sliver: rounding

@@ -14,7 +14,7 @@ bool is_surface_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, 
     const glm::dvec2 along = corner(half_edge, 1) - corner(half_edge, 0);
     if ((cross(along, way) < 0) != (cross(along, corner(half_edge, 2) - corner(half_edge, 0)) < 0))
         way = -way;
-    constexpr int kMaxTriangles = 256;
+    constexpr int kMaxTriangles = 64;
     HalfEdge entry = half_edge;
     double entered = 0, nearness_there = nearness;
     for (int step = 0; step < kMaxTriangles; ++step) {
