@@ -83,6 +83,16 @@ struct ScreenLine {
     float ax, ay, bx, by, low;
 };
 
+/// How far away something is in a picture: square blocks, row by row, each with the least nearness in it, the one to the
+/// right, the one below, and the one between these.
+struct DepthGrid {
+    const float* least;
+    std::int32_t first_x, first_y, last_x, last_y;  ///< of the picture, in 1/256 pixel
+    std::int32_t block_shift;                       ///< log2 of a block's width in 1/256 pixel
+    std::int32_t columns, first_row, rows;          ///< of blocks; rows from the first one on
+    std::int32_t tile_shift;                        ///< log2 of a tile's width in blocks; columns and rows fill whole tiles
+};
+
 /// What all pixels of a triangle have in common.
 struct TriangleLook {
     double normal[3];       ///< unit length, in view space, towards the eye
@@ -170,6 +180,11 @@ struct TileKernels {
     /// Once the facing of all triangles is known: sets ScreenMesh::line_edges for triangles [begin, end) of a
     /// mesh (`line_edges`: that of the mesh's first one). Other bits of `sharp` are kept there.
     void (*find_line_edges)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint8_t* line_edges);
+    /// Lists the triangles [begin, end) of a mesh that may be nearer than what is noted where they are: all of them, and
+    /// some others. Returns their number. `tiles`: of each, or kSeveralTiles; not looked at are those that touch more than two
+    /// by two blocks or are not all on the screen, which have that, too.
+    std::size_t (*find_in_front)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const DepthGrid& grid,
+                                 std::uint32_t* found, std::uint32_t* tiles);
     /// Draws triangles of a mesh into a tile: nearest wins, then the smaller id. They must be smaller than
     /// kLargestSmallTriangle in both directions.
     /// `farthest` (from find_farthest()) lets it leave out what is hidden; nullptr: nothing is known.

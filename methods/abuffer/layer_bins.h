@@ -16,7 +16,8 @@ class LayerBins {
     static constexpr std::uint32_t kClipped = 1u << 31;
 
     LayerBins() = default;
-    LayerBins(const ScreenSurfaces& screen, const PixelTiles& grid, int threads, const LineDepths* lines = nullptr);
+    LayerBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
+              const LineDepths* lines = nullptr);
     std::span<const std::uint32_t> triangles(std::size_t tile) const { return lists_.of(tile); }
 
   private:

@@ -124,7 +124,7 @@ void LayerPass::sort(TileRows rows) {
     const bool needs_all = may_intersect_ || has_transparent_surfaces(*frame_.scene);
     std::optional<LineDepths> depths;
     if (!needs_all) depths.emplace(lines_, tiles_);
-    bins_ = LayerBins(screen_, tiles_, threads_, depths ? &*depths : nullptr);
+    bins_ = LayerBins(screen_, kernels_, tiles_, threads_, depths ? &*depths : nullptr);
 }
 
 void LayerPass::composite(Film& film) const {

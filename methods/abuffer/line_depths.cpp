@@ -23,6 +23,25 @@ LineDepths::LineDepths(std::span<const LayerLine> lines, const PixelTiles& tiles
     of_tile_.assign(tiles.count(), kNoLine);
     of_block_.assign(tiles.count() << (2 * kTileShift), kNoLine);
     for (const LayerLine& line : lines) add(line);
+    combine_blocks();
+}
+
+void LineDepths::combine_blocks() {
+    of_four_.resize(of_block_.size());
+    const auto of_block = [this](int x, int y) {
+        x = std::min(x, columns_ - 1);
+        y = std::min(y, end_row_ - 1);
+        return of_block_[place(tile_at(x, y), x, y)];
+    };
+    float* of_four = of_four_.data();
+    for (int y = begin_row_; y < end_row_; ++y) {
+        float left = std::min(of_block(0, y), of_block(0, y + 1));
+        for (int x = 0; x < columns_; ++x) {
+            const float right = std::min(of_block(x + 1, y), of_block(x + 1, y + 1));
+            *of_four++ = std::min(left, right);
+            left = right;
+        }
+    }
 }
 
 void LineDepths::add(const LayerLine& line) {

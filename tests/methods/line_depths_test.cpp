@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "tests/support/kernels.h"
 #include "tests/support/random.h"
 
 namespace burin {
@@ -67,6 +68,69 @@ TEST(LineDepths, TellWhereALineMayBeHidden) {
     }
     EXPECT_GT(visited, 100);
     EXPECT_GT(left_out, 200);
+}
+
+/// The kernel leaves out no triangle that for_tiles() finds, and knows its tile.
+TEST(LineDepths, KernelsFindWhatMayHideALine) {
+    std::size_t found_count = 0, left_out = 0, in_one_tile = 0;
+    for (std::uint64_t trial = 0; trial < 300; ++trial) {
+        Random random(trial);
+        const PixelTiles all({-32, 0, 160, 96}, 32);
+        const PixelTiles tiles = trial % 2 == 0 ? all : all.only({1, 3});
+        std::vector<LayerLine> lines(static_cast<std::size_t>(random.integer(1, 12)));
+        for (LayerLine& l : lines) {
+            l.from = glm::dvec2(random.real(-60, 190), random.real(-30, 130)) * 256.0;
+            l.to = l.from + glm::dvec2(random.real(-40, 40), random.real(-40, 40)) * 256.0;
+            l.nearness_from = l.nearness_to = random.real(0, 1);
+        }
+        const LineDepths depths(lines, tiles);
+        std::vector<ScreenVertex> vertices;
+        std::vector<std::uint32_t> corners;
+        const auto count = static_cast<std::uint32_t>(random.integer(1, 300));
+        for (std::uint32_t t = 0; t < count; ++t) {
+            const int x = random.integer(-60 * 256, 190 * 256), y = random.integer(-30 * 256, 130 * 256);
+            const int size = 1 << random.integer(2, 11);
+            for (int k = 0; k < 3; ++k) {
+                corners.push_back(static_cast<std::uint32_t>(vertices.size()));
+                vertices.push_back({x + random.integer(-size, size), y + random.integer(-size, size), static_cast<float>(random.real(0, 1))});
+            }
+            if (random.integer(0, 20) == 0) vertices.back().x = ScreenVertex::kOffScreen;
+        }
+        ScreenMesh mesh;
+        mesh.vertices = vertices.data();
+        mesh.corners = corners.data();
+        const auto begin = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(count) - 1));
+        std::vector<std::vector<std::uint32_t>> found, of_tile;
+        for (const TileKernels* kernels : all_kernels()) {
+            found.emplace_back(count - begin);
+            of_tile.emplace_back(count - begin);
+            const std::size_t n = kernels->find_in_front(mesh, begin, count, depths.grid(), found.back().data(), of_tile.back().data());
+            found.back().resize(n);
+            of_tile.back().resize(n);
+            EXPECT_EQ(found.back(), found[0]) << kernels->name << " trial " << trial;
+            EXPECT_EQ(of_tile.back(), of_tile[0]) << kernels->name << " trial " << trial;
+        }
+        for (std::uint32_t t = begin; t < count; ++t) {
+            const ScreenVertex &a = vertices[3 * t], &b = vertices[3 * t + 1], &c = vertices[3 * t + 2];
+            const auto at = std::find(found[0].begin(), found[0].end(), t);
+            const bool is_found = at != found[0].end();
+            const std::uint32_t tile = is_found ? of_tile[0][static_cast<std::size_t>(at - found[0].begin())] : kSeveralTiles;
+            if (c.x == ScreenVertex::kOffScreen) {
+                EXPECT_TRUE(is_found && tile == kSeveralTiles) << "trial " << trial;
+                continue;
+            }
+            const glm::ivec2 low(std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})), high(std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}));
+            depths.for_tiles(low, high, std::max({a.nearness, b.nearness, c.nearness}), [&](std::uint32_t must) {
+                EXPECT_TRUE(is_found && (tile == kSeveralTiles || tile == must)) << "trial " << trial << " triangle " << t;
+            });
+            found_count += is_found;
+            left_out += !is_found;
+            in_one_tile += tile != kSeveralTiles;
+        }
+    }
+    EXPECT_GT(found_count, 500u);
+    EXPECT_GT(left_out, 500u);
+    EXPECT_GT(in_one_tile, 200u);
 }
 
 }  // namespace
