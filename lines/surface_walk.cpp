@@ -8,8 +8,6 @@
 namespace burin {
 namespace {
 
-/// More triangles than lie between two samples, but for meshes of a hundred thousand in a pixel. Walks end at the first fold.
-constexpr int kMaxSteps = 1024;
 /// A fold that turns back by less than this is no contour. Pixels.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
 /// A triangle lower than this (in pixels) and than kSliverHeightPart of its length is a sliver: rounding
@@ -40,7 +38,7 @@ class Walker {
           along_(to - from),
           length_(glm::length(along_)) {}
 
-    SurfaceWalk walk(SurfaceId start) {
+    SurfaceWalk walk(SurfaceId start, int most_triangles) {
         SurfaceWalk result;
         result.surface = start;
         const Slice slice = slice_of(start);
@@ -52,7 +50,7 @@ class Walker {
         int slivers = 0;               // there were so many others since
         const double negligible_fold = kNegligibleFoldPx / length_;
 
-        for (int step = 0; step < kMaxSteps; ++step) {
+        for (int step = 0; step < most_triangles; ++step) {
             if (current.exit.fraction >= 1) {
                 if (slivers > 0) note_contact(result, last_solid, current.surface, 1);
                 result.end = WalkEnd::arrived;
@@ -329,9 +327,9 @@ LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b, double* 
 
 }  // namespace
 
-SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from,
-                         glm::dvec2 to, const LineCriteria& criteria) {
-    return Walker(surfaces, from, to, criteria).walk(start);
+SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
+                         const LineCriteria& criteria, int most_triangles) {
+    return Walker(surfaces, from, to, criteria).walk(start, most_triangles);
 }
 
 LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,

@@ -20,6 +20,10 @@ struct SurfaceEdge {
     HalfEdge half_edge = kNoHalfEdge;  ///< of surface's mesh; kNoHalfEdge: none
 };
 
+/// A walk goes over so many triangles at most: more than lie between two samples, but for meshes with hundreds of
+/// thousands in a pixel.
+constexpr int kMostTrianglesOfWalk = 1024;
+
 /// How a walk over a surface ended.
 enum class WalkEnd : std::uint8_t {
     arrived,  ///< the surface goes on to the goal
@@ -53,8 +57,8 @@ struct SurfaceWalk {
 /// A wall that is seen edge-on, to the snapping of corners, is a fold if the surface goes on behind it deeper
 /// by more than the depth tolerance. Depths are compared where the walk crosses edges of the mesh: no plane is extended,
 /// and slivers do no harm.
-SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from,
-                         glm::dvec2 to, const LineCriteria& criteria);
+SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
+                         const LineCriteria& criteria, int most_triangles = kMostTrianglesOfWalk);
 
 /// The classes of the edge between two polygons as such: mark, material, crease, polygon. For a
 /// border edge that can only be mark. Where it is a crease, `crease_cosine` is lowered to the cosine
@@ -74,7 +78,7 @@ constexpr double kSliverHeightPart = 1.0 / 1024;
 /// that rounding decides its normal.
 bool is_sliver(const SurfaceSet& surfaces, SurfaceId triangle);
 
-/// A walk over more slivers in a row than this is on a finely rounded edge: they are the surface.
+/// A walk over more slivers in a row than this is on a finely rounded edge: the next one counts as a part of the surface.
 constexpr int kMostSlivers = 4;
 
 /// How far two surfaces must be apart in distance from the eye to be two: two pixels' width at that

@@ -45,9 +45,18 @@ std::optional<EdgeOnScreen> clipped_edge(const ScreenSurfaces& screen, std::uint
         nearness = is_on_screen(v) ? static_cast<double>(v.nearness) : projection.nearness(cut) - surfaces.farthest_nearness;
     };
     EdgeOnScreen edge;
+    edge.begin = part.t0;
+    edge.end = part.t1;
     end(from, part.t0, edge.from, edge.nearness_from);
     end(to, part.t1, edge.to, edge.nearness_to);
     return edge;
+}
+
+double share_at_middle(const ScreenSurfaces& screen, const EdgeOnScreen& edge) {
+    const SurfaceSet& surfaces = screen.surfaces();
+    if (surfaces.projection.orthographic) return 0.5 * (edge.begin + edge.end);
+    const double from = surfaces.farthest_nearness + edge.nearness_from, to = surfaces.farthest_nearness + edge.nearness_to;
+    return glm::mix(edge.begin, edge.end, to / (from + to));
 }
 
 int side_of_edge(const ScreenSurfaces& screen, std::uint32_t instance, std::uint32_t from, std::uint32_t to,

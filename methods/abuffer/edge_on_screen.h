@@ -19,6 +19,7 @@ struct EdgeOnScreen {
 
     glm::dvec2 from{0.0}, to{0.0};
     double nearness_from = 0, nearness_to = 0;
+    double begin = 0, end = 1;  ///< the part that is left, as shares of the way in space
 };
 
 /// The same where an end is cut off.
@@ -30,8 +31,11 @@ inline std::optional<EdgeOnScreen> edge_on_screen(const ScreenSurfaces& screen, 
                                                   std::uint32_t from, std::uint32_t to) {
     const ScreenVertex &a = screen.vertices(instance)[from], &b = screen.vertices(instance)[to];
     if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) return clipped_edge(screen, instance, from, to);
-    return EdgeOnScreen{{a.x, a.y}, {b.x, b.y}, static_cast<double>(a.nearness), static_cast<double>(b.nearness)};
+    return EdgeOnScreen{{a.x, a.y}, {b.x, b.y}, static_cast<double>(a.nearness), static_cast<double>(b.nearness), 0, 1};
 }
+
+/// The share of the way in space at which the middle of what is left is seen.
+double share_at_middle(const ScreenSurfaces& screen, const EdgeOnScreen& edge);
 
 /// On which side of the edge between two vertices a third one is seen, or would be if it lay on the screen:
 /// the sign of EdgeOnScreen::side_of(), -1, 0 or 1.

@@ -17,6 +17,8 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr double kThinSubpixels = 4;
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = 256;
+/// Where there are more on the way to a wall, it is one of very many in a pixel.
+constexpr int kMostTrianglesToWall = 96;
 
 }  // namespace
 
@@ -162,7 +164,7 @@ class LayerEdgeFinder::Rules {
         glm::dvec2 out = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
         if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
         // To both sides, as far as the triangles go or a pixel.
-        const SurfaceWalk walk = walk_surface(surfaces_, own, middle - out, middle + out, criteria_);
+        const SurfaceWalk walk = walk_surface(surfaces_, own, middle - out, middle + out, criteria_, kMostTrianglesToWall);
         return walk.end == WalkEnd::fold && walk.half_edge == h;
     }
 
@@ -235,15 +237,16 @@ class LayerEdgeFinder::Rules {
                              glm::dvec3(mesh.positions[end_of(mesh, h)]));
     }
 
-    /// The border of another patch that runs along, nearer than a pixel.
+    /// The border of another patch that runs along, nearer than a pixel, in the middle of what is seen of this one.
     std::optional<HalfEdge> seam_partner(SurfaceId s, HalfEdge h) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
-        const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
-        const auto partner = mesh.borders.seam_partner(h, 0.5 * (a + b));
-        if (!partner) return std::nullopt;
         const auto own = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
+        if (!own) return std::nullopt;
+        const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
+        const auto partner = mesh.borders.seam_partner(h, glm::mix(a, b, share_at_middle(screen_, *own)));
+        if (!partner) return std::nullopt;
         const auto other = edge_on_screen(screen_, s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
-        if (!own || !other) return std::nullopt;
+        if (!other) return std::nullopt;
         const glm::dvec2 middle = own->at(0.5);
         const glm::dvec2 p = other->from, along = other->to - p;
         const double square = glm::dot(along, along);
