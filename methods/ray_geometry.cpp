@@ -99,9 +99,14 @@ glm::dvec3 RayGeometry::normal_towards_eye(Facet f, glm::dvec2 pixel) const {
 }
 
 bool RayGeometry::are_one_around(Facet a, Facet b, glm::dvec2 pixel, double error) const {
+    const double here = distance(a, pixel);
     const glm::dvec2 ways[] = {{0.5, 0.0}, {-0.5, 0.0}, {0.0, 0.5}, {0.0, -0.5}};
     return std::all_of(std::begin(ways), std::end(ways), [&](glm::dvec2 way) {
-        return std::abs(plane_distance(a, pixel + way) - plane_distance(b, pixel + way)) <= error;
+        const double one = plane_distance(a, pixel + way), other = plane_distance(b, pixel + way);
+        if (!std::isfinite(one) || !std::isfinite(other)) return true;  // beyond the horizon
+        // Towards it errors grow with the distance, twice.
+        const double farther = std::max(std::abs(one) / here, 1.0);
+        return std::abs(one - other) <= error * farther * farther;
     });
 }
 

@@ -112,6 +112,44 @@ TEST(BehindTheEye, MarkingsOfARoad) {
     }
 }
 
+/// A floor of two patches that are not stitched, one long edge along several short ones.
+TEST(BehindTheEye, SeamsOfAFloorAreNoBorders) {
+    const auto floor_with = [](int pieces) {
+        PolygonSoup soup = soup_of({{-20, 0, 10}, {0, 0, 10}, {0, 0, -20}, {-20, 0, -20}}, {{0, 1, 2, 3}});
+        for (int i = 0; i < pieces; ++i) {
+            const double begin = 10 - 30.0 * i / pieces, end = 10 - 30.0 * (i + 1) / pieces;
+            const auto first = static_cast<std::uint32_t>(soup.positions.size());
+            for (const auto& [x, z] : {std::pair(0.0, begin), {20.0, begin}, {20.0, end}, {0.0, end}}) soup.positions.emplace_back(x, 0, z);
+            soup.add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
+        }
+        Scene scene = scene_of({soup});
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        return scene;
+    };
+    const Scene whole = scene_of({soup_of({{-20, 0, 10}, {20, 0, 10}, {20, 0, -20}, {-20, 0, -20}}, {{0, 1, 2, 3}})});
+    for (const glm::dvec3 target : {glm::dvec3(0.1, 0, -2), {-0.3, 0.2, -2}, {0.5, 0, -4}}) {
+        const Camera camera = perspective_camera({0.47, 0.44, 1.1}, target, 60);
+        const auto ink = [&](const Scene& scene) {
+            const Drawing d(scene, camera, 160, 120, {0, 0, 160, 120}, 1, render_abuffer);
+            return d.sum("lines.A");
+        };
+        for (const int pieces : {1, 2, 5, 7, 8}) EXPECT_NEAR(ink(floor_with(pieces)), ink(whole), 0.5) << pieces;
+        EXPECT_GT(ink(whole), 100);
+    }
+}
+
+/// Towards the horizon distances grow without bounds, and so do their errors.
+TEST(BehindTheEye, GroundsInOnePlaneAreOneUpToTheHorizon) {
+    const auto ground = [](double half) { return soup_of({{-half, 0, -half}, {half, 0, -half}, {half, 0, half}, {-half, 0, half}}, {{0, 1, 2, 3}}); };
+    const Scene scene = scene_of({ground(400), ground(390)});
+    const Camera camera = perspective_camera({0.1, 0.05, 0}, {0.15, 0, -20}, 40);
+    for (const RenderFunction render : {render_abuffer, render_reference}) {
+        const Drawing d(scene, camera, 160, 120, {0, 0, 160, 120}, 1, render);
+        EXPECT_EQ(d.sum(LineClass::intersection), 0);
+        EXPECT_GT(d.sum(LineClass::border), 100);
+    }
+}
+
 /// Near the eye, coordinates far away are not exact in pixels: where two walls pass through each other is a line all the same.
 TEST(BehindTheEye, WallsPassThroughEachOtherNearTheEye) {
     for (const RenderFunction render : {render_abuffer, render_reference}) {
