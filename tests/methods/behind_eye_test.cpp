@@ -140,8 +140,10 @@ TEST(BehindTheEye, SeamsOfAFloorAreNoBorders) {
 
 /// Towards the horizon distances grow without bounds, and so do their errors.
 TEST(BehindTheEye, GroundsInOnePlaneAreOneUpToTheHorizon) {
-    const auto ground = [](double half) { return soup_of({{-half, 0, -half}, {half, 0, -half}, {half, 0, half}, {-half, 0, half}}, {{0, 1, 2, 3}}); };
-    const Scene scene = scene_of({ground(400), ground(390)});
+    const auto ground = [](double left, double right, double begin) {
+        return soup_of({{left, 0, begin}, {right, 0, begin}, {right, 0, -400}, {left, 0, -400}}, {{0, 1, 2, 3}});
+    };
+    const Scene scene = scene_of({ground(-400, 400, 5), ground(-2, 3, -3)});
     const Camera camera = perspective_camera({0.1, 0.05, 0}, {0.15, 0, -20}, 40);
     for (const RenderFunction render : {render_abuffer, render_reference}) {
         const Drawing d(scene, camera, 160, 120, {0, 0, 160, 120}, 1, render);
