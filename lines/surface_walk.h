@@ -20,8 +20,8 @@ struct SurfaceEdge {
     HalfEdge half_edge = kNoHalfEdge;  ///< of surface's mesh; kNoHalfEdge: none
 };
 
-/// A walk goes over so many triangles at most: more than lie between two samples, but for meshes with hundreds of
-/// thousands in a pixel.
+/// A walk goes over so many triangles at most. Only meshes with thousands of them along a pixel have more between two
+/// samples.
 constexpr int kMostTrianglesOfWalk = 1024;
 
 /// How a walk over a surface ended.
@@ -55,8 +55,8 @@ struct SurfaceWalk {
 /// Folds that turn back by less than 1/64 pixel, and not by more than the depth tolerance, are
 /// walked over: they are slivers between the triangles of one surface, not contours.
 /// A wall that is seen edge-on, to the snapping of corners, is a fold if the surface goes on behind it deeper
-/// by more than the depth tolerance. Depths are compared where the walk crosses edges of the mesh: no plane is extended,
-/// and slivers do no harm.
+/// by more than the depth tolerance. But for seams, depths are compared where the walk crosses edges of the mesh: no plane
+/// is extended, and slivers do no harm.
 SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
                          const LineCriteria& criteria, int most_triangles = kMostTrianglesOfWalk);
 

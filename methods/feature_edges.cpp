@@ -3,14 +3,10 @@
 #include <map>
 
 #include "base/parallel.h"
+#include "lines/surface_walk.h"
 
 namespace burin {
 namespace {
-
-/// A triangle lower than this part of its longest edge: rounding decides its facing.
-constexpr double kSliverHeightPart = 1.0 / 1024;
-/// ... if it is also lower than this on the screen. Pixels.
-constexpr double kSliverHeightPx = 1.0 / 64;
 
 /// The edges of one instance.
 class InstanceEdges {
@@ -94,11 +90,7 @@ class InstanceEdges {
                 longest = k;
             }
         }
-        const double height = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / length;
-        const double nearest = std::max(-std::max({c[0].z, c[1].z, c[2].z}), surfaces_.projection.near_distance);
-        const double pixel = surfaces_.projection.pixel_size(nearest);
-        const bool is_sliver = height < kSliverHeightPart * length && height < kSliverHeightPx * pixel;
-        return is_sliver ? 3 * t + longest : kNoHalfEdge;
+        return is_sliver(surfaces_, {instance_, t}) ? 3 * t + longest : kNoHalfEdge;
     }
 
     /// The edge has one polygon: a border, or a seam that another patch continues.

@@ -22,7 +22,7 @@ struct EdgeOnScreen {
     double begin = 0, end = 1;  ///< the part that is left, as shares of the way in space
 };
 
-/// The same where an end is cut off.
+/// edge_on_screen() where an end is cut off.
 std::optional<EdgeOnScreen> clipped_edge(const ScreenSurfaces& screen, std::uint32_t instance, std::uint32_t from,
                                          std::uint32_t to);
 

@@ -71,10 +71,10 @@ class LineDepths {
     }
     void add(const LayerLine& line);
     void note(const Blocks& blocks, float nearness);
+    void combine_blocks();
 
     glm::ivec2 first_, last_;  // of the picture, in 1/256 pixel
     int columns_, rows_, begin_row_, end_row_;  // of blocks
-    void combine_blocks();
     std::vector<float> of_tile_, of_block_;     // tile by tile
     std::vector<float> of_four_;                // DepthGrid::least
 };
