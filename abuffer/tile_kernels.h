@@ -6,6 +6,7 @@
 
 #include "abuffer/scan_edge.h"
 #include "abuffer/screen_triangle.h"
+#include "abuffer/stroke_samples.h"
 
 namespace burin {
 
@@ -52,6 +53,7 @@ struct PenStroke {
     double ax, ay, bx, by;
     double ux, uy, length;  ///< unit direction from a to b
     double radius;
+    std::int32_t first_row;  ///< of the canvas, in the picture: rows of samples, for their shifts
 };
 
 /// What takes the positions of a mesh to the screen: SurfaceSet::view_position() and Projection.
@@ -241,12 +243,6 @@ struct TileKernels {
     /// Of such pairs of triangles, those that have no corner in common. `corners`: an array for each corner.
     std::uint64_t (*find_unconnected)(const std::uint32_t* const corners[3], std::size_t a, std::size_t b, std::uint64_t pairs);
 };
-
-/// By how many columns the samples in the rows of a StrokeMask lie further right. Rows take turns, in the
-/// order of van der Corput's sequence: a stroke in step with the samples, as at 45 degrees, would be up to
-/// a column too wide or too narrow all along.
-constexpr double kStrokeRowShift[16] = {-15.0 / 32, 1.0 / 32, -7.0 / 32, 9.0 / 32, -11.0 / 32, 5.0 / 32, -3.0 / 32, 13.0 / 32,
-                                        -13.0 / 32, 3.0 / 32, -5.0 / 32, 11.0 / 32, -9.0 / 32, 7.0 / 32, -1.0 / 32, 15.0 / 32};
 
 /// A tile's key for triangles of one kind.
 constexpr std::uint32_t tile_key(std::uint32_t tile, TriangleKind kind) { return kTriangleKinds * tile + kind; }

@@ -12,9 +12,9 @@ namespace burin {
 struct Pen {
     /// Narrower strokes are drawn this wide and as much lighter: masks have no finer samples.
     static constexpr double kFinestWidthPx = 0.25;
-    /// Below a pixel, widths are whole rows of a mask, and lighter by what that adds: else a stroke along
-    /// the rows would have the energy of one row more or less.
-    static constexpr double kRowsPerPx = StrokeMask::kRows;
+    /// Below a pixel, widths are whole steps of the samples along the rows, and lighter by what that adds: else such a stroke
+    /// would have the energy of one step more or less.
+    static constexpr double kStepsPerPx = kStrokeRows * kStrokeColumnSets;
 
     double radius_px;
     float strength;
@@ -24,7 +24,7 @@ struct Pen {
         const double share = side == StrokeSide::both ? 1.0 : 0.5;
         const double wanted = share * width_px;
         const double drawn =
-            wanted < 1 ? std::max(std::ceil(wanted * kRowsPerPx) / kRowsPerPx, kFinestWidthPx) : wanted;
+            wanted < 1 ? std::max(std::ceil(wanted * kStepsPerPx) / kStepsPerPx, kFinestWidthPx) : wanted;
         radius_px = 0.5 * drawn / share;
         strength = static_cast<float>(wanted / drawn);
     }

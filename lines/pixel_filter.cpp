@@ -42,7 +42,7 @@ FilterTable::FilterTable(PixelFilter filter) {
             std::array<double, kSide> sum{};
             for (std::size_t bit = 0; bit < 8; ++bit) {
                 if ((value >> bit & 1) == 0) continue;
-                // Without kStrokeRowShift: half a column at most, to either side in turns.
+                // Without stroke_row_shift(): half a column at most, to either side in turns.
                 const auto w = weights_at(filter, (static_cast<double>(8 * byte + bit) + 0.5) / StrokeMask::kColumns);
                 for (std::size_t d = 0; d < kSide; ++d) sum[d] += w[d] / StrokeMask::kColumns;
             }

@@ -83,20 +83,31 @@ bool StrokeClipper::may_hide(const ClipPiece& boundary, const ClipPiece& piece, 
            std::max(piece.depth_from_px, piece.depth_to_px) - kFartherPx;
 }
 
+/// Calls visit(pixel, row, bits) for the samples within all sides. The last one is a boundary that is seen.
 template <typename Visit>
 void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& visit) const {
+    const glm::dvec2 normal = sides.back().normal;
+    if (!is_level(normal.y, normal.x)) return for_spans_of(sides, 0, ~0u, visit);
+    for (int set = 0; set < kStrokeColumnSets; ++set)
+        for_spans_of(sides, kStrokeColumnShifts[static_cast<std::size_t>(set)], static_cast<std::uint32_t>(columns_of_set(set)), visit);
+}
+
+/// Of some columns, with samples so many rows further down.
+template <typename Visit>
+void StrokeClipper::for_spans_of(std::span<const HalfPlane> sides, double down, std::uint32_t columns, const Visit& visit) const {
+    const double middle = 0.5 + down;  // of a row
     // Each side bounds the columns of a row, linearly in the row, or the rows.
     struct Bound {
         double column, per_row;
         bool is_low;
     };
-    std::array<Bound, 4> bounds;
+    std::array<Bound, 4> bounds{};
     std::size_t count = 0;
     double first = first_row_, last = end_row_;  // rows in [first, last)
     const double left = x0_ + (first_column_ - 1.0) / StrokeMask::kColumns, right = x0_ + (end_column_ + 1.0) / StrokeMask::kColumns;
     for (const HalfPlane& side : sides) {
         if (side.normal.x == 0) {
-            const double row = (side.offset / side.normal.y - y0_) * StrokeMask::kRows - 0.5;
+            const double row = (side.offset / side.normal.y - y0_) * StrokeMask::kRows - middle;
             if (side.normal.y > 0) {
                 first = std::max(first, std::ceil(row));
             } else {
@@ -107,7 +118,7 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
         // The rows in which it has any of the columns, one more to either side for the shift of rows; and one more row.
         const double most = std::max(side.normal.x * left, side.normal.x * right);
         if (side.normal.y != 0) {
-            const double row = ((side.offset - most) / side.normal.y - y0_) * StrokeMask::kRows - 0.5;
+            const double row = ((side.offset - most) / side.normal.y - y0_) * StrokeMask::kRows - middle;
             if (side.normal.y > 0) {
                 first = std::max(first, std::floor(row) - 1);
             } else {
@@ -117,14 +128,14 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
             return;
         }
         const double per_row = -side.normal.y / side.normal.x / StrokeMask::kRows * StrokeMask::kColumns;
-        const double y = y0_ + 0.5 / StrokeMask::kRows;
+        const double y = y0_ + middle / StrokeMask::kRows;
         const double column = ((side.offset - side.normal.y * y) / side.normal.x - x0_) * StrokeMask::kColumns - 0.5;
         bounds[count++] = {column, per_row, side.normal.x > 0};
     }
     if (!(first < last)) return;
     for (int row = static_cast<int>(first); row < last; ++row) {
         double low = first_column_, high = end_column_;  // columns in [low, high)
-        const double shift = kStrokeRowShift[static_cast<std::uint32_t>(row) % StrokeMask::kRows];
+        const double shift = stroke_row_shift(y0_ * StrokeMask::kRows + row);
         for (std::size_t i = 0; i < count; ++i) {
             const double column = bounds[i].column + bounds[i].per_row * row - shift;
             if (bounds[i].is_low) {
@@ -135,7 +146,8 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
         }
         if (!(low < high)) continue;
         for_pixels(static_cast<int>(low), static_cast<int>(high), [&](int pixel, std::uint32_t bits) {
-            visit(row / StrokeMask::kRows * width_ + pixel, static_cast<std::size_t>(row % StrokeMask::kRows), bits);
+            if ((bits & columns) == 0) return;
+            visit(row / StrokeMask::kRows * width_ + pixel, static_cast<std::size_t>(row % StrokeMask::kRows), bits & columns);
         });
     }
 }

@@ -61,6 +61,8 @@ class StrokeClipper {
                      StrokeSide side);
     template <typename Visit>
     void for_spans(std::span<const HalfPlane> sides, const Visit& visit) const;
+    template <typename Visit>
+    void for_spans_of(std::span<const HalfPlane> sides, double down, std::uint32_t columns, const Visit& visit) const;
     void apply(const Shadow& shadow, bool blocks_outside);
     /// Cuts the stroke's rows and columns to pixels of the canvas that are not full yet. False if all are.
     bool cut_to_open(const StrokeCanvas& onto);

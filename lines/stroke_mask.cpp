@@ -28,8 +28,10 @@ void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
     const double r = radius_px;
     const double rows = StrokeMask::kRows;
     const double last = height_ * rows;
-    const int begin = static_cast<int>(std::ceil(std::clamp((std::min(a.y, b.y) - r) * rows - 0.5, 0.0, last)));
-    const int end = static_cast<int>(std::ceil(std::clamp((std::max(a.y, b.y) + r) * rows - 0.5, 0.0, last)));
+    const bool has_sets = is_level(to.x - from.x, to.y - from.y);  // not by a and b: their roundings differ between tiles
+    const double reach = has_sets ? kStrokeColumnShifts.back() : 0;
+    const int begin = static_cast<int>(std::ceil(std::clamp((std::min(a.y, b.y) - r) * rows - 0.5 - reach, 0.0, last)));
+    const int end = static_cast<int>(std::ceil(std::clamp((std::max(a.y, b.y) + r) * rows - 0.5 + reach, 0.0, last)));
     if (begin >= end) return;
     const double length = glm::distance(a, b);
     const glm::dvec2 u = length > 0 ? (b - a) / length : glm::dvec2(1, 0);
@@ -38,13 +40,18 @@ void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
         begin_.resize(count + 3);
         end_.resize(count + 3);
     }
-    kernels_->stroke_spans({a.x, a.y, b.x, b.y, u.x, u.y, length, r}, begin, end - begin,
-                           width_ * StrokeMask::kColumns, begin_.data(), end_.data());
-    add_spans(begin, end);
+    const auto add = [&](double shift, std::uint64_t columns) {
+        const double up = shift / rows;
+        kernels_->stroke_spans({a.x, a.y - up, b.x, b.y - up, u.x, u.y, length, r, y0_ * StrokeMask::kRows}, begin, end - begin,
+                               width_ * StrokeMask::kColumns, begin_.data(), end_.data());
+        add_spans(begin, end, columns);
+    };
+    if (!has_sets) return add(0, ~std::uint64_t{0});
+    for (int set = 0; set < kStrokeColumnSets; ++set) add(kStrokeColumnShifts[static_cast<std::size_t>(set)], columns_of_set(set));
 }
 
-/// Adds the columns [begin_[i], end_[i]) of row `from` + i.
-void StrokeCanvas::add_spans(int from, int end) {
+/// Adds those of `columns` that are in [begin_[i], end_[i]) of row `from` + i.
+void StrokeCanvas::add_spans(int from, int end, std::uint64_t columns) {
     constexpr unsigned kRows = StrokeMask::kRows, kColumns = StrokeMask::kColumns;
     // As bytes may stand for anything, members would be read again after each that is written.
     StrokeMask* const masks = masks_.data();
@@ -61,14 +68,15 @@ void StrokeCanvas::add_spans(int from, int end) {
         const unsigned row = sub_row % kRows;
         const std::size_t start = sub_row / kRows * stride + first / kColumns;
         if (count <= static_cast<int>(kColumns)) {  // in two pixels: most are, and which of them is not to be guessed
-            const std::uint64_t bits = ((std::uint64_t{1} << std::max(count, 0)) - 1) << first % kColumns;
+            const std::uint64_t bits = ((std::uint64_t{1} << std::max(count, 0)) - 1) << first % kColumns & columns;
             add(start, row, static_cast<std::uint32_t>(bits));
             add(start + 1, row, static_cast<std::uint32_t>(bits >> kColumns));
         } else {
             const auto beyond = first % kColumns + static_cast<unsigned>(count);  // counted from the first pixel's left
-            add(start, row, ~0u << first % kColumns);
-            for (unsigned pixel = 1; pixel < beyond / kColumns; ++pixel) add(start + pixel, row, ~0u);
-            add(start + beyond / kColumns, row, static_cast<std::uint32_t>((std::uint64_t{1} << beyond % kColumns) - 1));
+            const auto all = static_cast<std::uint32_t>(columns);
+            add(start, row, all & ~0u << first % kColumns);
+            for (unsigned pixel = 1; pixel < beyond / kColumns; ++pixel) add(start + pixel, row, all);
+            add(start + beyond / kColumns, row, all & static_cast<std::uint32_t>((std::uint64_t{1} << beyond % kColumns) - 1));
         }
     }
 }

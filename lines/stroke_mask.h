@@ -7,15 +7,16 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "abuffer/stroke_samples.h"
 #include "abuffer/tile_kernels.h"
 
 namespace burin {
 
-/// A pixel's coverage mask for strokes: 16 rows of 32 samples, bit c of row r at
-/// ((c + 1/2 + kStrokeRowShift[r]) / 32, (r + 1/2) / 16) of the pixel.
+/// A pixel's coverage mask for strokes: 16 rows of 32 samples, bit c of row r at ((c + 1/2 + shift) / 32, (r + 1/2) / 16) of
+/// the pixel with the row's stroke_row_shift(); for level boundaries, see kStrokeColumnShifts.
 struct StrokeMask {
-    static constexpr int kRows = 16;
-    static constexpr int kColumns = 32;
+    static constexpr int kRows = kStrokeRows;
+    static constexpr int kColumns = kStrokeColumns;
     std::array<std::uint32_t, kRows> rows{};
 };
 
@@ -71,7 +72,7 @@ class StrokeCanvas {
     }
 
   private:
-    void add_spans(int from, int end);
+    void add_spans(int from, int end, std::uint64_t columns);
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
 
     const TileKernels* kernels_;

@@ -410,6 +410,7 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
         s.bx = s.ax + s.ux * s.length;
         s.by = s.ay + s.uy * s.length;
         s.radius = random.real(0.1, 2);
+        s.first_row = random.integer(-100, 100);
         constexpr int kRows = 4 * 16, kColumns = 8 * 32;
         std::vector<std::int32_t> begin(kRows + 3), end(kRows + 3);
         baseline_kernels().stroke_spans(s, 0, kRows, kColumns, begin.data(), end.data());
@@ -421,7 +422,7 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
         }
         for (int row = 0; row < kRows; ++row) {
             for (int column = 0; column < kColumns; ++column) {
-                const double x = (column + 0.5 + kStrokeRowShift[row % 16]) / 32 - s.ax, y = (row + 0.5) / 16 - s.ay;
+                const double x = (column + 0.5 + stroke_row_shift(s.first_row + row)) / 32 - s.ax, y = (row + 0.5) / 16 - s.ay;
                 const double along = std::clamp(x * s.ux + y * s.uy, 0.0, s.length);
                 const double distance = std::hypot(x - along * s.ux, y - along * s.uy);
                 if (std::abs(distance - s.radius) < 1e-9) continue;

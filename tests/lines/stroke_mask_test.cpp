@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -28,10 +29,12 @@ struct Stroke {
 };
 
 /// 1: some stroke covers the sample, 0: none, -1: rounding decides.
-int expected(const std::vector<Stroke>& strokes, glm::dvec2 sample) {
+int expected(const std::vector<Stroke>& strokes, int column, glm::dvec2 sample) {
     bool is_close = false;
     for (const Stroke& s : strokes) {
-        const double beyond = s.distance(sample) - s.radius;
+        const glm::dvec2 along = s.to - s.from;
+        const double down = std::abs(along.y) * 16 <= std::abs(along.x) ? kStrokeColumnShifts[static_cast<std::size_t>(column % 8)] / 16 : 0.0;
+        const double beyond = s.distance(sample + glm::dvec2(0, down)) - s.radius;
         if (beyond < -1e-9) return 1;
         is_close = is_close || beyond < 1e-9;
     }
@@ -44,10 +47,11 @@ std::vector<Stroke> some_strokes(Random& random, glm::dvec2 low, glm::dvec2 size
         const auto place = [&] { return low + size * glm::dvec2(random.real(-0.3, 1.3), random.real(-0.3, 1.3)); };
         s.from = place();
         s.to = place();
-        const int kind = random.integer(0, 5);
+        const int kind = random.integer(0, 6);
         if (kind == 0) s.to = s.from;
         if (kind == 1) s.to.y = s.from.y;  // in one row: as wide as the canvas
         if (kind == 2) s.to.x = s.from.x;
+        if (kind == 4) s.to.y = s.from.y + random.real(-0.1, 0.1) * (s.to.x - s.from.x);  // level, or nearly
         if (kind == 3) s.to = s.from + glm::dvec2(random.real(-1, 1), random.real(-1, 1));
         s.radius = std::pow(10.0, random.real(-1.5, 1.3));
     }
@@ -63,8 +67,9 @@ void expect_samples(const StrokeCanvas& canvas, const std::vector<Stroke>& strok
                 const std::uint32_t bits = canvas.at(column, row).rows[static_cast<std::size_t>(r)];
                 any |= bits;
                 for (int c = 0; c < StrokeMask::kColumns; ++c) {
-                    const glm::dvec2 sample((c + 0.5 + kStrokeRowShift[r]) / StrokeMask::kColumns, (r + 0.5) / StrokeMask::kRows);
-                    const int wanted = expected(strokes, glm::dvec2(origin) + glm::dvec2(column, row) + sample);
+                    const double shift = stroke_row_shift((origin.y + row) * StrokeMask::kRows + r);
+                    const glm::dvec2 sample((c + 0.5 + shift) / StrokeMask::kColumns, (r + 0.5) / StrokeMask::kRows);
+                    const int wanted = expected(strokes, c, glm::dvec2(origin) + glm::dvec2(column, row) + sample);
                     if (wanted < 0) continue;
                     ASSERT_EQ(bits >> c & 1u, static_cast<unsigned>(wanted))
                         << "seed " << seed << ", pixel " << column << "," << row << ", sample " << c << "," << r;
@@ -93,6 +98,60 @@ TEST(StrokeCanvas, HasTheSamplesNearTheLines) {
             if (seed % 4 != 0) continue;
             canvas.reset(origin.x, origin.y, size.x, size.y);  // only what was touched is cleared
             expect_samples(canvas, {}, origin, seed);
+        }
+    }
+}
+
+int count_bits(const StrokeMask& mask) {
+    int count = 0;
+    for (const std::uint32_t bits : mask.rows) count += std::popcount(bits);
+    return count;
+}
+
+constexpr double kSamples = StrokeMask::kRows * StrokeMask::kColumns;
+
+/// The samples are in step with some slopes: 1/2, 3/4, whole numbers of columns in a row.
+TEST(StrokeCanvas, StrokesAreAsWideAtAnyAngle) {
+    constexpr int kSize = 72;
+    constexpr double kLength = 60, kWidth = 0.25;
+    std::vector<double> angles;
+    for (int degree = 0; degree < 180; ++degree) angles.push_back(glm::radians(static_cast<double>(degree)));
+    for (int rows = 1; rows <= 16; ++rows) {
+        for (int columns = -48; columns <= 48; ++columns) angles.push_back(std::atan2(rows / 16.0, columns / 32.0));
+    }
+    Random random(11);
+    StrokeCanvas canvas;
+    for (const double angle : angles) {
+        const glm::dvec2 half = 0.5 * kLength * glm::dvec2(std::cos(angle), std::sin(angle));
+        const int y0 = random.integer(-100, 100);
+        canvas.reset(0, y0, kSize, kSize);
+        const glm::dvec2 middle = glm::dvec2(0.5 * kSize, y0 + 0.5 * kSize) + glm::dvec2(random.real(-1, 1), random.real(-1, 1));
+        canvas.draw(middle - half, middle + half, 0.5 * kWidth);
+        int count = 0;
+        canvas.for_touched([&](int column, int row) { count += count_bits(canvas.at(column, row)); });
+        const double area = kLength * kWidth + glm::radians(45.0) * kWidth * kWidth;
+        EXPECT_NEAR(count / kSamples / area, 1, 0.015) << glm::degrees(angle) << " degrees";
+    }
+}
+
+TEST(StrokeCanvas, LevelStrokesHaveTheirCoverageInEachPixel) {
+    Random random(12);
+    StrokeCanvas canvas;
+    for (int trial = 0; trial < 200; ++trial) {
+        const double radius = random.real(0.1, 2), y = random.real(4, 8), fall = trial % 2 == 0 ? 0 : random.real(-0.06, 0.06);
+        canvas.reset(0, 0, 8, 12);
+        canvas.draw({-10, y - 14 * fall}, {18, y + 14 * fall}, radius);
+        const double reach = radius * std::hypot(1, fall);
+        for (int row = 0; row < 12; ++row) {
+            for (int column = 0; column < 8; ++column) {
+                constexpr int kSteps = 64;
+                double expected = 0;
+                for (int i = 0; i < kSteps; ++i) {
+                    const double middle = y + fall * (column + (i + 0.5) / kSteps - 4);
+                    expected += std::max(std::min(middle + reach, row + 1.0) - std::max(middle - reach, 1.0 * row), 0.0) / kSteps;
+                }
+                ASSERT_NEAR(count_bits(canvas.at(column, row)) / kSamples, expected, 0.01) << "trial " << trial << ", fall " << fall;
+            }
         }
     }
 }
