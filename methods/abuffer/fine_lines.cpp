@@ -28,6 +28,8 @@ constexpr std::size_t kTrianglesPerCell = 128;
 constexpr std::size_t kMostPlaces = 4;
 /// So far from an edge its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
+/// A surface that covers a place so far beyond an edge is in contact there. 1/64 pixel.
+constexpr double kBeyondSubpixels = 4;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 
@@ -88,7 +90,7 @@ class FineLines::BlockClipper {
         const bool is_border = line.owners[0] == line.owners[1];
         hidden_.clear();
         bool is_hidden = false;
-        for_triangles(line, begin, end, line.lowest_in(begin, end) - slack,
+        for_triangles(glm::mix(line.from, line.to, begin), glm::mix(line.from, line.to, end), line.lowest_in(begin, end) - slack,
                       [&](const LayerTriangle& t) {
                           double from = begin, to = end;
                           if (lies_on(line, t)) return true;
@@ -177,11 +179,9 @@ class FineLines::BlockClipper {
         std::uint32_t first = 0, count = 0;
     };
 
-    /// Calls use(triangle) for those beside a part of a line that are nearer than `least`, until it says
-    /// false.
+    /// Calls use(triangle) for those beside the way from a to b that are nearer than `least`, until it says false.
     template <typename Use>
-    void for_triangles(const LayerLine& line, double begin, double end, double least, const Use& use) {
-        const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+    void for_triangles(glm::dvec2 a, glm::dvec2 b, double least, const Use& use) {
         const ScreenLine part{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
                               static_cast<float>(std::max(least, -1e30))};
         bool goes_on = true;
@@ -260,8 +260,9 @@ class FineLines::BlockClipper {
         const LayerLine& line = candidate.line;
         LineClassSet classes = line.classes;
         bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
+        if (candidate.part.is_beside_gap && contact_behind(line, 0.5 * (begin + end), outward(candidate))) return;
         if (classes.has(LineClass::border)) {
-            if (const auto contact = contact_behind(line, 0.5 * (begin + end))) {
+            if (const auto contact = contact_behind(line, 0.5 * (begin + end), outward(candidate))) {
                 classes = (classes & LineClass::mark) | (*contact & criteria_.classes);
                 occludes = false;
                 if (classes.empty()) return;
@@ -284,12 +285,12 @@ class FineLines::BlockClipper {
     }
 
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
-    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t) {
-        const glm::dvec2 at = glm::mix(line.from, line.to, t);
+    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t, glm::dvec2 beside = glm::dvec2(0.0)) {
+        const glm::dvec2 at = glm::mix(line.from, line.to, t) + beside;
         const double nearness = line.nearness_at(t);
         std::optional<LayerTriangle> behind;
         double nearest = -kFar;
-        for_triangles(line, t, t, -kFar, [&](const LayerTriangle& triangle) {
+        for_triangles(at, at, -kFar, [&](const LayerTriangle& triangle) {
             const double other = triangle.nearness_at(at);
             const bool is_nearest = other > nearest || (behind && other == nearest && triangle.number < behind->number);
             if (lies_on(line, triangle) || !triangle.covers(at) || !is_nearest) return true;
@@ -305,6 +306,12 @@ class FineLines::BlockClipper {
         const double gap = distance_of(p, surfaces.farthest_nearness + nearest) - distance;
         if (gap > depth_tolerance(surfaces, distance, surfaces.plane(other))) return std::nullopt;
         return contact_classes(surfaces, own, other, at / 256.0, criteria_);
+    }
+
+    /// From the edge of the surface to beyond it. 1/256 pixel.
+    glm::dvec2 outward(const FineCandidate& candidate) const {
+        const glm::dvec2 along = glm::normalize(candidate.line.to - candidate.line.from), right(-along.y, along.x);
+        return kBeyondSubpixels * (is_owner_on_left(candidate) ? right : -right);
     }
 
     /// Of the way from the line's beginning to its end.

@@ -94,7 +94,7 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
                 }
             }
             if (!takes_rests_ && !open_.empty() && is_drawn_by_another(edge, drawn, block)) return;
-            for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
+            for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end, i.is_beside_gap});
         };
         for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
             const auto [left, right] = columns_beside(edge, blocks.begin(y), blocks.begin(y + 1));
@@ -198,11 +198,19 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
         const glm::dvec2 place = origin + along * middle;
         const glm::ivec2 at(floor_to_int(place.x), floor_to_int(place.y));
         const glm::ivec2 square = glm::clamp(at, block, block + last);
-        if (to > t && is_open(samples, square, edge, middle, owners)) {
-            if (!open_.empty() && open_.back().end == t) {
+        Openness found = to > t ? openness(samples, square, edge, middle, owners) : Openness::closed;
+        // An edge along a row or column of samples has squares on both sides.
+        for (int k = 0; k < 2; ++k) {
+            glm::ivec2 other = square;
+            if (found != Openness::closed || along[k] != 0 || place[k] != at[k] || --other[k] < block[k] || to <= t) continue;
+            found = openness(samples, other, edge, middle, owners);
+        }
+        if (found != Openness::closed) {
+            const bool is_beside_gap = found == Openness::beside_gap;
+            if (!open_.empty() && open_.back().end == t && open_.back().is_beside_gap == is_beside_gap) {
                 open_.back().end = to;
             } else {
-                open_.push_back({t, to});
+                open_.push_back({t, to, is_beside_gap});
             }
         }
         t = std::max(t, to);
@@ -210,8 +218,8 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
     }
 }
 
-bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
-                        const Owners& owners) const {
+FineParts::Openness FineParts::openness(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
+                                        const Owners& owners) const {
     const std::size_t i = samples.index(square.x, square.y);
     const std::size_t corners[4] = {i, i + 1, i + static_cast<std::size_t>(samples.stride),
                                     i + static_cast<std::size_t>(samples.stride) + 1};
@@ -223,9 +231,9 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
     const auto [a, b] = owners.numbers;
     const double nearness = edge.nearness_at(t), clearly = level(nearness);
     if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) {
-        if (owners.inner_side == 0 || !takes_rests_) return false;
-        // Of two lines with a narrow gap between them the samples tell of one only. At contacts of surfaces they
-        // know whether there is a line at all.
+        if (owners.inner_side == 0 || !takes_rests_) return Openness::closed;
+        // Of two lines with a narrow gap between them the samples tell of one only. At contacts of surfaces, which are level,
+        // they know whether there is a line at all.
         bool has_beyond = false;
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec2 corner(square.x + static_cast<int>(k % 2), square.y + static_cast<int>(k / 2));
@@ -233,21 +241,21 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
             if (numbers[k] == a || numbers[k] == b || edge.side_of(at) * owners.inner_side > 0) continue;
             has_beyond = true;
             const double gap = static_cast<double>(samples.nearness[corners[k]]) - nearness;
-            if (std::abs(gap) <= kLevelPart * clearly) return false;
+            if (std::abs(gap) <= kLevelPart * clearly) return Openness::beside_gap;
         }
-        return has_beyond;
+        return has_beyond ? Openness::open : Openness::closed;
     }
     const float farthest = std::min(std::min(samples.nearness[corners[0]], samples.nearness[corners[1]]),
                                     std::min(samples.nearness[corners[2]], samples.nearness[corners[3]]));
     const double gap = static_cast<double>(farthest) - nearness;
-    if (!(gap > clearly)) return true;
+    if (!(gap > clearly)) return Openness::open;
     // Samples lie on steep surfaces beside the edge, or on something else.
-    if (gap > kFarInFront * clearly) return false;
+    if (gap > kFarInFront * clearly) return Openness::closed;
     for (int k = 0; k < 4; ++k) {
         const bool is_known = std::find(numbers, numbers + k, numbers[k]) != numbers + k;
-        if (!is_known && !is_in_front(numbers[k], edge.at(t), nearness)) return true;
+        if (!is_known && !is_in_front(numbers[k], edge.at(t), nearness)) return Openness::open;
     }
-    return false;
+    return Openness::closed;
 }
 
 /// Whether the plane of a triangle beside a place is clearly in front there.

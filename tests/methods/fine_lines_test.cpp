@@ -167,7 +167,44 @@ TEST(FineLines, BothSidesOfANarrowGapAreDrawn) {
         };
         const Scene scene = scene_of({half(1), half(-1), wall()});
         const Camera camera = pixel_camera(kSize, kSize);
-        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.2) << angle;
+        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.06) << angle;
+    }
+}
+
+// The surface beyond the gap is as near as the one that ends at it.
+TEST(FineLines, BothSidesOfNarrowGapsBetweenPlanksAreDrawn) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Random random(seed);
+        const bool is_solid = random.integer(0, 1) == 0;
+        const double angle = random.integer(0, 1) == 0 ? 90.0 * random.integer(0, 3) : random.real(0, 180);
+        std::vector<PolygonSoup> planks{wall()};
+        double y = -15;
+        if (seed % 4 == 0) y = -15.25;  // edges along rows of samples
+        while (y < 12) {
+            const double height = seed % 4 == 0 ? random.integer(1, 4) : random.real(1, 6);
+            const auto rise = [=](glm::dvec3 p) { return p + glm::dvec3(0, y + 0.5 * height, 0); };
+            const PolygonSoup sheet = soup_of({{-11, -0.5 * height, 0}, {11, -0.5 * height, 0}, {11, 0.5 * height, 0}, {-11, 0.5 * height, 0}},
+                                              {{0, 1, 2, 3}});
+            planks.push_back(placed(transformed(is_solid ? make_box({22, height, 4}) : sheet, rise), angle));
+            y += height + (seed % 4 == 0 ? 0.125 * random.integer(1, 3) : random.real(0.05, 0.45));
+        }
+        Scene scene = scene_of(planks);
+        scene.lines.style.width_px = random.integer(0, 1) == 0 ? 0.3 : 1;
+        const Camera camera = pixel_camera(kSize, kSize);
+        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize, 32)), 0.12) << "seed " << seed;
+    }
+}
+
+// No gap: the line beyond belongs to the surface in contact.
+TEST(FineLines, AContactBesideALineHasNone) {
+    for (const double angle : kAngles_deg) {
+        const auto at = [&](double low, double high) {
+            return placed(transformed(make_box({24, high - low, 5}), [=](glm::dvec3 p) { return p + glm::dvec3(0, 0.5 * (low + high), 0); }), angle);
+        };
+        Scene scene = scene_of({at(-10, 0.13), at(0.13, 0.41), wall()});
+        scene.lines.classes = LineClassSet(LineClass::silhouette) | LineClass::border | LineClass::crease;
+        const Camera camera = pixel_camera(kSize, kSize);
+        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.1) << angle;
     }
 }
 
