@@ -51,7 +51,7 @@ class Walker {
         int slivers = 0;               // there were so many others since
         const double negligible_fold = kNegligibleFoldPx / length_;
 
-        for (int step = 0; step < most_triangles; ++step) {
+        for (int steps = 0, steps_on_wall = 0; steps < most_triangles && steps_on_wall < kMostTrianglesOfWall;) {
             if (current.exit.fraction >= 1) {
                 if (slivers > 0) note_contact(result, last_solid, current.surface, 1);
                 result.end = WalkEnd::arrived;
@@ -77,6 +77,7 @@ class Walker {
                 return ended(result, WalkEnd::fold, farthest);  // over a seam, too
             }
             const bool goes_on = reached > before_wall.exit.fraction + kNoAdvance;
+            ++(std::abs(reached - current.exit.fraction) <= kNoAdvance ? steps_on_wall : steps);
             if (goes_on && current.surface != before_wall.surface &&
                 !is_level(distance_at(before_wall), distance_at(current), solid)) {
                 return ended(result, WalkEnd::fold, before_wall);

@@ -23,6 +23,8 @@ struct SurfaceEdge {
 /// A walk goes over so many triangles at most. Only meshes with thousands of them along a pixel have more between two
 /// samples.
 constexpr int kMostTrianglesOfWalk = 1024;
+/// And over so many of walls that are seen edge-on, which may have many rows and bring it nowhere.
+constexpr int kMostTrianglesOfWall = 1 << 14;
 
 /// How a walk over a surface ended.
 enum class WalkEnd : std::uint8_t {

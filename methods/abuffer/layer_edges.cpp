@@ -165,7 +165,9 @@ class LayerEdgeFinder::Rules {
         if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
         // To both sides, as far as the triangles go or a pixel.
         const SurfaceWalk walk = walk_surface(surfaces_, own, middle - out, middle + out, criteria_, kMostTrianglesToWall);
-        return walk.end == WalkEnd::fold && walk.half_edge == h;
+        // Where it turns back behind the wall, it gets farthest anywhere on that.
+        constexpr double kMiddle = 0.5;
+        return walk.end == WalkEnd::fold && std::abs(walk.fraction - kMiddle) <= kNoAdvance;
     }
 
     void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
