@@ -83,11 +83,10 @@ bool StrokeClipper::may_hide(const ClipPiece& boundary, const ClipPiece& piece, 
            std::max(piece.depth_from_px, piece.depth_to_px) - kFartherPx;
 }
 
-/// Calls visit(pixel, row, bits) for the samples within all sides. The last one is a boundary that is seen.
+/// Calls visit(pixel, row, bits) for the samples within all sides.
 template <typename Visit>
 void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& visit) const {
-    const glm::dvec2 normal = sides.back().normal;
-    if (!is_level(normal.y, normal.x)) return for_spans_of(sides, 0, ~0u, visit);
+    if (!in_sets_) return for_spans_of(sides, 0, ~0u, visit);
     for (int set = 0; set < kStrokeColumnSets; ++set)
         for_spans_of(sides, kStrokeColumnShifts[static_cast<std::size_t>(set)], static_cast<std::uint32_t>(columns_of_set(set)), visit);
 }
@@ -271,6 +270,9 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
         onto.draw(piece.from, piece.to, radius_px);
         return;
     }
+    // All that cuts a stroke is sampled alike.
+    const auto is_level_at_its_end = [](const Shadow& s) { return is_level(s.sides.back().normal.y, s.sides.back().normal.x); };
+    in_sets_ = is_level(piece.to.x - piece.from.x, piece.to.y - piece.from.y) || std::any_of(shadows_.begin(), shadows_.end(), is_level_at_its_end);
     std::sort(shadows_.begin(), shadows_.end(), [](const Shadow& a, const Shadow& b) {
         return a.distance_px != b.distance_px ? a.distance_px < b.distance_px : a.enters > b.enters;
     });
@@ -294,7 +296,7 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     }
 
     canvas_.reset(x0_, y0_, width_, height_);
-    canvas_.draw(piece.from, piece.to, radius_px);
+    canvas_.draw(piece.from, piece.to, radius_px, in_sets_);
     for (int y = first_y; y < end_y; ++y) {
         for (int x = first_x; x < end_x; ++x) {
             if (!canvas_.is_touched(x, y)) continue;

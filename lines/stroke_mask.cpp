@@ -23,13 +23,12 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
     }
 }
 
-void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
+void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px, bool in_sets) {
     const glm::dvec2 a = from - glm::dvec2(x0_, y0_), b = to - glm::dvec2(x0_, y0_);
     const double r = radius_px;
     const double rows = StrokeMask::kRows;
     const double last = height_ * rows;
-    const bool has_sets = is_level(to.x - from.x, to.y - from.y);  // not by a and b: their roundings differ between tiles
-    const double reach = has_sets ? kStrokeColumnShifts.back() : 0;
+    const double reach = in_sets ? kStrokeColumnShifts.back() : 0;
     const int begin = static_cast<int>(std::ceil(std::clamp((std::min(a.y, b.y) - r) * rows - 0.5 - reach, 0.0, last)));
     const int end = static_cast<int>(std::ceil(std::clamp((std::max(a.y, b.y) + r) * rows - 0.5 + reach, 0.0, last)));
     if (begin >= end) return;
@@ -46,7 +45,7 @@ void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
                                width_ * StrokeMask::kColumns, begin_.data(), end_.data());
         add_spans(begin, end, columns);
     };
-    if (!has_sets) return add(0, ~std::uint64_t{0});
+    if (!in_sets) return add(0, ~std::uint64_t{0});
     for (int set = 0; set < kStrokeColumnSets; ++set) add(kStrokeColumnShifts[static_cast<std::size_t>(set)], columns_of_set(set));
 }
 

@@ -28,7 +28,11 @@ class StrokeCanvas {
     void reset(int x0, int y0, int width, int height);
 
     /// Adds all that is closer than `radius_px` to a segment: a round pen's stroke.
-    void draw(glm::dvec2 from, glm::dvec2 to, double radius_px);
+    void draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
+        draw(from, to, radius_px, is_level(to.x - from.x, to.y - from.y));
+    }
+    /// `in_sets`: sampled as level boundaries are, see kStrokeColumnShifts.
+    void draw(glm::dvec2 from, glm::dvec2 to, double radius_px, bool in_sets);
 
     /// Adds samples of one pixel.
     void add(int column, int row, const StrokeMask& mask) {

@@ -37,6 +37,7 @@ class BorderIndex {
     class SeamCandidates {
       public:
         std::optional<HalfEdge> nearest(const glm::dvec3& at) const;
+        std::span<const Segment> segments() const { return segments_; }
 
       private:
         friend class BorderIndex;

@@ -52,11 +52,19 @@ std::optional<EdgeOnScreen> clipped_edge(const ScreenSurfaces& screen, std::uint
     return edge;
 }
 
-double share_at_middle(const ScreenSurfaces& screen, const EdgeOnScreen& edge) {
+double share_in_space(const ScreenSurfaces& screen, const EdgeOnScreen& edge, double on_screen) {
     const SurfaceSet& surfaces = screen.surfaces();
-    if (surfaces.projection.orthographic) return 0.5 * (edge.begin + edge.end);
+    if (surfaces.projection.orthographic) return glm::mix(edge.begin, edge.end, on_screen);
     const double from = surfaces.farthest_nearness + edge.nearness_from, to = surfaces.farthest_nearness + edge.nearness_to;
-    return glm::mix(edge.begin, edge.end, to / (from + to));
+    return glm::mix(edge.begin, edge.end, on_screen * to / glm::mix(from, to, on_screen));
+}
+
+double share_on_screen(const ScreenSurfaces& screen, const EdgeOnScreen& edge, double in_space) {
+    const SurfaceSet& surfaces = screen.surfaces();
+    const double part = (in_space - edge.begin) / (edge.end - edge.begin);
+    if (surfaces.projection.orthographic) return part;
+    const double from = surfaces.farthest_nearness + edge.nearness_from, to = surfaces.farthest_nearness + edge.nearness_to;
+    return part * from / glm::mix(to, from, part);
 }
 
 int side_of_edge(const ScreenSurfaces& screen, std::uint32_t instance, std::uint32_t from, std::uint32_t to,

@@ -34,8 +34,9 @@ inline std::optional<EdgeOnScreen> edge_on_screen(const ScreenSurfaces& screen, 
     return EdgeOnScreen{{a.x, a.y}, {b.x, b.y}, static_cast<double>(a.nearness), static_cast<double>(b.nearness), 0, 1};
 }
 
-/// The share of the way in space at which the middle of what is left is seen.
-double share_at_middle(const ScreenSurfaces& screen, const EdgeOnScreen& edge);
+/// The share of the way in space at which a share of what is left is seen, and the other way round.
+double share_in_space(const ScreenSurfaces& screen, const EdgeOnScreen& edge, double on_screen);
+double share_on_screen(const ScreenSurfaces& screen, const EdgeOnScreen& edge, double in_space);
 
 /// On which side of the edge between two vertices a third one is seen, or would be if it lay on the screen:
 /// the sign of EdgeOnScreen::side_of(), -1, 0 or 1.

@@ -285,15 +285,15 @@ class FineLines::BlockClipper {
     }
 
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
-    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t, glm::dvec2 beside = glm::dvec2(0.0)) {
-        const glm::dvec2 at = glm::mix(line.from, line.to, t) + beside;
+    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t, glm::dvec2 outward) {
+        const glm::dvec2 at = glm::mix(line.from, line.to, t), beyond = at + outward;
         const double nearness = line.nearness_at(t);
         std::optional<LayerTriangle> behind;
         double nearest = -kFar;
-        for_triangles(at, at, -kFar, [&](const LayerTriangle& triangle) {
+        for_triangles(beyond, beyond, -kFar, [&](const LayerTriangle& triangle) {
             const double other = triangle.nearness_at(at);
             const bool is_nearest = other > nearest || (behind && other == nearest && triangle.number < behind->number);
-            if (lies_on(line, triangle) || !triangle.covers(at) || !is_nearest) return true;
+            if (lies_on(line, triangle) || !triangle.covers(beyond) || !is_nearest) return true;
             behind = triangle;
             nearest = other;
             return true;

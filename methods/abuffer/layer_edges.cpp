@@ -210,28 +210,97 @@ class LayerEdgeFinder::Rules {
         add(s, h, classes, crease_cosine, {number, number}, true, lines);
     }
 
+    /// A part of a border, as shares of edge_on_screen() from its start, and what runs along it.
+    struct BorderPart {
+        double begin = 0, end = 1;
+        std::optional<HalfEdge> partner;
+    };
+
     void visit_border(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const auto edge = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
+        if (!edge) return;
+        if (has_both_of_seam_) return visit_border_part(s, h, *edge, {0, 1, seam_partner(s, h, *edge, 0.5)}, lines);
+        for (const BorderPart& part : parts_of_border(s, h, *edge)) visit_border_part(s, h, *edge, part, lines);
+    }
+
+    void visit_border_part(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, const BorderPart& part, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         LineClassSet classes;
         double crease_cosine = 1;
         if (mesh.is_marked(h)) classes |= LineClass::mark;
         const std::uint32_t number = screen_.number_of(s);
         std::array<std::uint32_t, 2> owners{number, number};
-        if (const auto partner = seam_partner(s, h)) {
-            const double own = length_of(mesh, h), other = length_of(mesh, *partner);
-            const bool is_drawn_as_partner = own < other || (own == other && *partner < h);
+        if (part.partner) {
+            const double own = length_of(mesh, h), other = length_of(mesh, *part.partner);
+            const bool is_drawn_as_partner = own < other || (own == other && *part.partner < h);
             if (!has_both_of_seam_ && classes.empty() && is_drawn_as_partner) return;
-            const SurfaceId beyond = triangle_of(s, *partner);
+            const SurfaceId beyond = triangle_of(s, *part.partner);
             owners[1] = screen_.number_of(beyond);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             const int side_h = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, h));
-            const int side_g = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, *partner));
+            const int side_g = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, *part.partner));
             if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
-            classes |= contact_classes(surfaces_, s, beyond, middle_px(s, h), criteria_, &crease_cosine);
+            const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
+            classes |= contact_classes(surfaces_, s, beyond, middle, criteria_, &crease_cosine);
         } else {
             classes |= LineClass::border;
         }
+        const std::size_t count = lines.size();
         add(s, h, classes, crease_cosine, owners, false, lines);
+        if (lines.size() == count || (part.begin == 0 && part.end == 1)) return;
+        const bool is_reversed = start_of(mesh, h) > end_of(mesh, h);
+        cut(lines.back(), is_reversed ? 1 - part.end : part.begin, is_reversed ? 1 - part.begin : part.end);
+    }
+
+    static void cut(LayerLine& line, double begin, double end) {
+        const LayerLine whole = line;
+        if (begin > 0) {
+            line.from = glm::mix(whole.from, whole.to, begin);
+            line.nearness_from = whole.nearness_at(begin);
+            line.nodes[0] = LayerLine::kNoNode;
+        }
+        if (end < 1) {
+            line.to = glm::mix(whole.from, whole.to, end);
+            line.nearness_to = whole.nearness_at(end);
+            line.nodes[1] = LayerLine::kNoNode;
+        }
+    }
+
+    /// Where other patches begin and end beside a border, what runs along it may change.
+    std::vector<BorderPart> parts_of_border(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        BorderIndex::SeamCandidates candidates;
+        mesh.borders.find_candidates(h, candidates);
+        if (candidates.segments().empty()) return {{}};
+        const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), along = glm::dvec3(mesh.positions[end_of(mesh, h)]) - a;
+        const double square = glm::dot(along, along);
+        std::vector<double> ends;
+        for (const BorderIndex::Segment& other : candidates.segments()) {
+            for (const glm::vec3& end : {other.a, other.b}) {
+                const double in_space = glm::dot(glm::dvec3(end) - a, along) / square;
+                if (in_space > edge.begin && in_space < edge.end) ends.push_back(share_on_screen(screen_, edge, in_space));
+            }
+        }
+        std::sort(ends.begin(), ends.end());
+        const double shortest = kWidestCrackSubpixels / glm::distance(edge.from, edge.to);  // a crack is no part of its own
+        std::vector<BorderPart> parts;
+        const auto add_part = [&](double begin, double end) {
+            const auto partner = seam_partner(s, h, edge, 0.5 * (begin + end));
+            if (!parts.empty() && parts.back().partner == partner) {
+                parts.back().end = end;
+            } else {
+                parts.push_back({begin, end, partner});
+            }
+        };
+        double begin = 0;
+        for (const double end : ends) {
+            if (end - begin <= shortest || 1 - end <= shortest) continue;
+            add_part(begin, end);
+            begin = end;
+        }
+        add_part(begin, 1);
+        return parts;
     }
 
     double length_of(const Mesh& mesh, HalfEdge h) const {
@@ -239,21 +308,19 @@ class LayerEdgeFinder::Rules {
                              glm::dvec3(mesh.positions[end_of(mesh, h)]));
     }
 
-    /// The border of another patch that runs along, nearer than a pixel, in the middle of what is seen of this one.
-    std::optional<HalfEdge> seam_partner(SurfaceId s, HalfEdge h) const {
+    /// The border of another patch that runs along, nearer than a pixel, at a share of edge_on_screen().
+    std::optional<HalfEdge> seam_partner(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, double on_screen) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
-        const auto own = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
-        if (!own) return std::nullopt;
         const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
-        const auto partner = mesh.borders.seam_partner(h, glm::mix(a, b, share_at_middle(screen_, *own)));
+        const auto partner = mesh.borders.seam_partner(h, glm::mix(a, b, share_in_space(screen_, edge, on_screen)));
         if (!partner) return std::nullopt;
         const auto other = edge_on_screen(screen_, s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
         if (!other) return std::nullopt;
-        const glm::dvec2 middle = own->at(0.5);
+        const glm::dvec2 place = edge.at(on_screen);
         const glm::dvec2 p = other->from, along = other->to - p;
         const double square = glm::dot(along, along);
-        const double t = square > 0 ? std::clamp(glm::dot(middle - p, along) / square, 0.0, 1.0) : 0.0;
-        if (glm::distance(middle, p + along * t) > kWidestCrackSubpixels) return std::nullopt;
+        const double t = square > 0 ? std::clamp(glm::dot(place - p, along) / square, 0.0, 1.0) : 0.0;
+        if (glm::distance(place, p + along * t) > kWidestCrackSubpixels) return std::nullopt;
         return partner;
     }
 

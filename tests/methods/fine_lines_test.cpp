@@ -208,6 +208,27 @@ TEST(FineLines, AContactBesideALineHasNone) {
     }
 }
 
+// In its middle nothing runs along it.
+TEST(FineLines, ABorderThatIsASeamInPartIsNoneThere) {
+    for (const double share : {0.3, 0.45, 0.7}) {
+        PolygonSoup floor = soup_of({{-5, 0, 0}, {5, 0, 0}, {5, 0, 3}, {-5, 0, 3}}, {{0, 1, 2, 3}});
+        constexpr int kPatches = 4;
+        for (int i = 0; i < kPatches; ++i) {
+            const double from = -5 + 10 * share * i / kPatches, to = -5 + 10 * share * (i + 1) / kPatches;
+            const auto first = static_cast<std::uint32_t>(floor.positions.size());
+            for (const auto& [x, z] : {std::pair(from, -3 + 0.2 * (i % 2)), {to, -3 + 0.2 * (i % 2)}, {to, 0.0}, {from, 0.0}}) floor.positions.emplace_back(x, 0, z);
+            floor.add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
+        }
+        for (const double height : {4.0, 10.0}) {
+            const Camera camera = perspective_camera({4.48288, height, 16.7303}, {0, 0, 0}, 35);
+            const auto ink = [&](RenderFunction render) {
+                return Drawing(scene_of({floor}), camera, 120, 120, {0, 0, 120, 120}, 2, render).sum("lines.A");
+            };
+            EXPECT_NEAR(ink(render_abuffer) / ink(render_reference), 1, 0.01) << share << ", " << height;
+        }
+    }
+}
+
 /// Where two edges cross at a small angle the gap between them gets narrower than any sample.
 TEST(FineLines, BothLinesOfASlenderCornerAreDrawn) {
     for (const double depth : {-1.5, -6.0}) {

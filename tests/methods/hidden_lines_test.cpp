@@ -336,6 +336,56 @@ TEST(HiddenLines, OutlineOverAWallThatIsSeenEdgeOn) {
     EXPECT_NEAR(layers.hidden_px(1), layers.all_hidden_px(), 1e-9);
 }
 
+// However many rows the wall has: it brings a walk nowhere. Behind it the surface goes on deeper, or turns back.
+TEST(HiddenLines, OutlineOfABodySeenAlongItsWalls) {
+    for (const int rows : {1, 3, 20, 60, 600}) {
+        for (const bool turns_back : {false, true}) {
+            PolygonSoup body;
+            const auto corner = [](std::size_t k) { return glm::dvec2(k == 0 || k == 3 ? 60.3 : 180.6, k < 2 ? 60.2 : 170.7); };
+            for (int row = 0; row <= rows; ++row) {
+                for (std::size_t k = 0; k < 4; ++k) body.positions.emplace_back(corner(k).x, corner(k).y, 30 - 30.0 * row / rows);
+            }
+            body.add_polygon(std::vector<std::uint32_t>{0, 1, 2, 3});
+            for (std::uint32_t first = 0; first < 4 * static_cast<std::uint32_t>(rows); first += 4) {
+                for (std::uint32_t k = 0; k < 4; ++k)
+                    body.add_polygon(std::vector<std::uint32_t>{first + k, first + 4 + k, first + 4 + (k + 1) % 4, first + (k + 1) % 4});
+            }
+            const auto last = static_cast<std::uint32_t>(4 * rows), around = last + 4;
+            if (turns_back) {
+                body.add_polygon(std::vector<std::uint32_t>{last + 3, last + 2, last + 1, last});
+            } else {
+                for (const auto& [x, y] : {std::pair(20.0, 20.0), {220.0, 20.0}, {220.0, 220.0}, {20.0, 220.0}}) body.positions.emplace_back(x, y, 0);
+                for (std::uint32_t k = 0; k < 4; ++k)
+                    body.add_polygon(std::vector<std::uint32_t>{around + k, around + (k + 1) % 4, last + (k + 1) % 4, last + k});
+            }
+            Scene scene = scene_of({body, soup_of({{10, 10, 100}, {230, 10, 100}, {230, 230, 100}, {10, 230, 100}}, {{0, 1, 2, 3}})});
+            scene.lines.classes = LineClass::silhouette;
+            scene.lines.style.hidden.style = HiddenStyle::solid;
+            // In the picture: rows that stand for one another may be drawn in one place.
+            const double ink = sum(draw(scene, pixel_camera(kSize, kSize)), "lines_hidden.A");
+            EXPECT_NEAR(ink, 2 * (120.3 + 110.5), 1) << rows << " rows" << (turns_back ? ", and back" : "");
+        }
+    }
+}
+
+TEST(HiddenLines, ABorderThatIsASeamInPart) {
+    for (const double length : {60.0, 90.0, 110.0, 160.0, 200.0}) {
+        std::vector<PolygonSoup> objects{soup_of({{20, 100, 0}, {220, 100, 0}, {220, 160, 0}, {20, 160, 0}}, {{0, 1, 2, 3}})};
+        constexpr int kPatches = 4;
+        for (int i = 0; i < kPatches; ++i) {
+            const double from = 20 + length * i / kPatches, to = 20 + length * (i + 1) / kPatches, low = i % 2 == 0 ? 60 : 40;
+            const auto first = static_cast<std::uint32_t>(objects[0].positions.size());
+            for (const auto& [x, y] : {std::pair(from, low), {to, low}, {to, 100.0}, {from, 100.0}}) objects[0].positions.emplace_back(x, y, 0);
+            objects[0].add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
+        }
+        objects.push_back(soup_of({{10, 10, 100}, {230, 10, 100}, {230, 230, 100}, {10, 230, 100}}, {{0, 1, 2, 3}}));
+        const Layers layers(scene_of(objects), pixel_camera(kSize, kSize));
+        // Three sides and what is left of the fourth; the patches' lower sides, their first and last, and three steps.
+        const double expected = (200 + 60 + 60) + (200 - length) + length + 40 + 60 + 3 * 20;
+        EXPECT_NEAR(layers.hidden_px(1, LineClass::border), expected, 0.5) << length;
+    }
+}
+
 TEST(HiddenLines, GoToTheirOwnChannels) {
     Scene scene = crossing_behind_wall();
     scene.lines.style.hidden.color = {0.5f, 0.25f, 0.0f};
