@@ -110,7 +110,7 @@ void StrokeClipper::for_spans_of(std::span<const HalfPlane> sides, double down, 
             if (side.normal.y > 0) {
                 first = std::max(first, std::ceil(row));
             } else {
-                last = std::min(last, std::floor(row) + 1);
+                last = std::min(last, std::ceil(row));  // what lies on it belongs to the other side
             }
             continue;
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace burin {
 
@@ -24,6 +25,7 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
 }
 
 void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px, bool in_sets) {
+    if (to.x < from.x) std::swap(from, to);  // samples exactly on a side belong to one, whichever way a stroke is drawn
     const glm::dvec2 a = from - glm::dvec2(x0_, y0_), b = to - glm::dvec2(x0_, y0_);
     const double r = radius_px;
     const double rows = StrokeMask::kRows;

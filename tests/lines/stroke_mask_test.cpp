@@ -108,6 +108,21 @@ int count_bits(const StrokeMask& mask) {
     return count;
 }
 
+/// As lines from snapped vertices are: their sides lie on the samples' grid.
+TEST(StrokeCanvas, SnappedLevelStrokesAreAsWideAsAsked) {
+    StrokeCanvas canvas;
+    for (int place = 0; place < 256; ++place) {
+        for (const int width : {32, 39, 128, 200, 384}) {  // 1/128 pixel
+            canvas.reset(0, 0, 1, 8);
+            const glm::dvec2 ends[2] = {{-4, 4 + place / 256.0}, {5, 4 + place / 256.0}};
+            canvas.draw(ends[place % 2], ends[1 - place % 2], width / 256.0);
+            int count = 0;
+            canvas.for_touched([&](int column, int row) { count += count_bits(canvas.at(column, row)); });
+            ASSERT_EQ(count, 4 * width) << place;
+        }
+    }
+}
+
 constexpr double kSamples = StrokeMask::kRows * StrokeMask::kColumns;
 
 /// The samples are in step with some slopes: 1/2, 3/4, whole numbers of columns in a row.
