@@ -270,9 +270,8 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
         onto.draw(piece.from, piece.to, radius_px);
         return;
     }
-    // All that cuts a stroke is sampled alike.
-    const auto is_level_at_its_end = [](const Shadow& s) { return is_level(s.sides.back().normal.y, s.sides.back().normal.x); };
-    in_sets_ = is_level(piece.to.x - piece.from.x, piece.to.y - piece.from.y) || std::any_of(shadows_.begin(), shadows_.end(), is_level_at_its_end);
+    // All that cuts a stroke is sampled as it is itself: what else lies around it hangs on the crop.
+    in_sets_ = is_level(piece.to.x - piece.from.x, piece.to.y - piece.from.y);
     std::sort(shadows_.begin(), shadows_.end(), [](const Shadow& a, const Shadow& b) {
         return a.distance_px != b.distance_px ? a.distance_px < b.distance_px : a.enters > b.enters;
     });
