@@ -24,7 +24,7 @@ struct SurfaceEdge {
 /// samples.
 constexpr int kMostTrianglesOfWalk = 1024;
 /// And over so many of walls that are seen edge-on, which may have many rows and bring it nowhere.
-constexpr int kMostTrianglesOfWall = 1 << 14;
+constexpr int kMostTrianglesOfWall = 1 << 12;
 
 /// How a walk over a surface ended.
 enum class WalkEnd : std::uint8_t {

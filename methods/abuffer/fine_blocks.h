@@ -10,7 +10,8 @@
 
 namespace burin {
 
-/// A part of an edge that is a line if it is visible.
+/// A part of an edge that is a line if it is visible. The part's begin and end are shares of `line`, which may be a part
+/// of the edge itself.
 struct FineCandidate {
     FinePart part;
     LayerLine line;

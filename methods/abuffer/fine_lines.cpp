@@ -260,7 +260,6 @@ class FineLines::BlockClipper {
         const LayerLine& line = candidate.line;
         LineClassSet classes = line.classes;
         bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
-        if (candidate.part.is_beside_gap && contact_behind(line, 0.5 * (begin + end), outward(candidate))) return;
         if (classes.has(LineClass::border)) {
             if (const auto contact = contact_behind(line, 0.5 * (begin + end), outward(candidate))) {
                 classes = (classes & LineClass::mark) | (*contact & criteria_.classes);
@@ -363,15 +362,24 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
 
 void FineLines::find_candidates(std::span<const FinePart> parts) {
     candidates_.clear();
+    const FinePart* before = nullptr;
     for (const FinePart& part : parts) {
+        const std::uint32_t instance = part.edge.instance;
         const HalfEdge h = part.edge.half_edge;
-        lines_.clear();
-        finder_.find({part.edge.instance, h / 3}, h, lines_);
-        if (lines_.empty()) continue;
-        LayerLine& line = lines_.front();
-        if (screen_.mesh(part.edge.instance).partners[h] == h)
-            line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
-        candidates_.push_back({part, line});
+        if (before == nullptr || before->edge.instance != instance || before->edge.half_edge != h) {
+            lines_.clear();
+            finder_.find({instance, h / 3}, h, lines_);
+        }
+        before = &part;
+        for (LayerLine line : lines_) {
+            FinePart own = part;
+            own.begin = (std::max(part.begin, line.edge_begin) - line.edge_begin) / (line.edge_end - line.edge_begin);
+            own.end = (std::min(part.end, line.edge_end) - line.edge_begin) / (line.edge_end - line.edge_begin);
+            if (own.begin >= own.end) continue;
+            if (screen_.mesh(instance).partners[h] == h)
+                line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
+            candidates_.push_back({own, line});
+        }
     }
 }
 

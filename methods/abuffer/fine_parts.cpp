@@ -21,8 +21,6 @@ constexpr double kOffSubpixels = 8;
 constexpr double kSlackSubpixels = 1;
 /// Something is clearly in front if it is nearer by this many pixels' widths.
 constexpr double kClearlyInFrontPx = 2;
-/// And at one level by less than this part of that.
-constexpr double kLevelPart = 1.0 / 8;
 /// No surface beside an edge is so steep that a sample on it is in front by so many times that.
 constexpr double kFarInFront = 8;
 
@@ -94,7 +92,7 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
                 }
             }
             if (!takes_rests_ && !open_.empty() && is_drawn_by_another(edge, drawn, block)) return;
-            for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end, i.is_beside_gap});
+            for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
         };
         for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
             const auto [left, right] = columns_beside(edge, blocks.begin(y), blocks.begin(y + 1));
@@ -198,19 +196,18 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
         const glm::dvec2 place = origin + along * middle;
         const glm::ivec2 at(floor_to_int(place.x), floor_to_int(place.y));
         const glm::ivec2 square = glm::clamp(at, block, block + last);
-        Openness found = to > t ? openness(samples, square, edge, middle, owners) : Openness::closed;
+        bool found = to > t && is_open(samples, square, edge, middle, owners);
         // An edge along a row or column of samples has squares on both sides.
         for (int k = 0; k < 2; ++k) {
             glm::ivec2 other = square;
-            if (found != Openness::closed || along[k] != 0 || place[k] != at[k] || --other[k] < block[k] || to <= t) continue;
-            found = openness(samples, other, edge, middle, owners);
+            if (found || to <= t || along[k] != 0 || place[k] != at[k] || --other[k] < block[k]) continue;
+            found = is_open(samples, other, edge, middle, owners);
         }
-        if (found != Openness::closed) {
-            const bool is_beside_gap = found == Openness::beside_gap;
-            if (!open_.empty() && open_.back().end == t && open_.back().is_beside_gap == is_beside_gap) {
+        if (found) {
+            if (!open_.empty() && open_.back().end == t) {
                 open_.back().end = to;
             } else {
-                open_.push_back({t, to, is_beside_gap});
+                open_.push_back({t, to});
             }
         }
         t = std::max(t, to);
@@ -218,8 +215,8 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
     }
 }
 
-FineParts::Openness FineParts::openness(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
-                                        const Owners& owners) const {
+bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
+                        const Owners& owners) const {
     const std::size_t i = samples.index(square.x, square.y);
     const std::size_t corners[4] = {i, i + 1, i + static_cast<std::size_t>(samples.stride),
                                     i + static_cast<std::size_t>(samples.stride) + 1};
@@ -231,31 +228,27 @@ FineParts::Openness FineParts::openness(const SampleTile& samples, glm::ivec2 sq
     const auto [a, b] = owners.numbers;
     const double nearness = edge.nearness_at(t), clearly = level(nearness);
     if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) {
-        if (owners.inner_side == 0 || !takes_rests_) return Openness::closed;
-        // Of two lines with a narrow gap between them the samples tell of one only. At contacts of surfaces, which are level,
-        // they know whether there is a line at all.
-        bool has_beyond = false;
+        if (owners.inner_side == 0 || !takes_rests_) return false;
+        // Of two lines with a narrow gap between them the samples tell of one only. Whether what they see beyond is in contact
+        // instead, its triangles tell.
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec2 corner(square.x + static_cast<int>(k % 2), square.y + static_cast<int>(k / 2));
             const glm::dvec2 at = (corner + 0.5) * (256.0 / samples.samples_per_pixel);
-            if (numbers[k] == a || numbers[k] == b || edge.side_of(at) * owners.inner_side > 0) continue;
-            has_beyond = true;
-            const double gap = static_cast<double>(samples.nearness[corners[k]]) - nearness;
-            if (std::abs(gap) <= kLevelPart * clearly) return Openness::beside_gap;
+            if (numbers[k] != a && numbers[k] != b && edge.side_of(at) * owners.inner_side <= 0) return true;
         }
-        return has_beyond ? Openness::open : Openness::closed;
+        return false;
     }
     const float farthest = std::min(std::min(samples.nearness[corners[0]], samples.nearness[corners[1]]),
                                     std::min(samples.nearness[corners[2]], samples.nearness[corners[3]]));
     const double gap = static_cast<double>(farthest) - nearness;
-    if (!(gap > clearly)) return Openness::open;
+    if (!(gap > clearly)) return true;
     // Samples lie on steep surfaces beside the edge, or on something else.
-    if (gap > kFarInFront * clearly) return Openness::closed;
+    if (gap > kFarInFront * clearly) return false;
     for (int k = 0; k < 4; ++k) {
         const bool is_known = std::find(numbers, numbers + k, numbers[k]) != numbers + k;
-        if (!is_known && !is_in_front(numbers[k], edge.at(t), nearness)) return Openness::open;
+        if (!is_known && !is_in_front(numbers[k], edge.at(t), nearness)) return true;
     }
-    return Openness::closed;
+    return false;
 }
 
 /// Whether the plane of a triangle beside a place is clearly in front there.

@@ -15,7 +15,6 @@ struct FinePart {
     FineEdge edge;
     std::int32_t block_x, block_y;
     double begin, end;  ///< shares of edge_on_screen(), which begins at the vertex with the smaller number
-    bool is_beside_gap;  ///< somewhere in it, a surface beyond is as near, and the edge is a line only if that is not in contact
 };
 
 /// Finds where along edges the samples of a tile do not tell whether there is a line: no line of the edge
@@ -40,9 +39,7 @@ class FineParts {
     };
     struct Interval {
         double begin, end;
-        bool is_beside_gap = false;
     };
-    enum class Openness { closed, open, beside_gap };
     void find_farthest(const SampleTile& samples);
     Owners owners_of(FineEdge edge) const;
     /// Squares of samples, and the least nearness in each of them.
@@ -54,8 +51,8 @@ class FineParts {
     bool is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const;
     void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
                    glm::ivec2 block, Interval part);
-    Openness openness(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
-                      const Owners& owners) const;
+    bool is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
+                 const Owners& owners) const;
     bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
     static std::span<const LineSegment> pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
                                                   std::uint32_t block);

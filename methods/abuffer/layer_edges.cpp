@@ -220,7 +220,6 @@ class LayerEdgeFinder::Rules {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const auto edge = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
         if (!edge) return;
-        if (has_both_of_seam_) return visit_border_part(s, h, *edge, {0, 1, seam_partner(s, h, *edge, 0.5)}, lines);
         for (const BorderPart& part : parts_of_border(s, h, *edge)) visit_border_part(s, h, *edge, part, lines);
     }
 
@@ -255,6 +254,8 @@ class LayerEdgeFinder::Rules {
 
     static void cut(LayerLine& line, double begin, double end) {
         const LayerLine whole = line;
+        line.edge_begin = begin;
+        line.edge_end = end;
         if (begin > 0) {
             line.from = glm::mix(whole.from, whole.to, begin);
             line.nearness_from = whole.nearness_at(begin);

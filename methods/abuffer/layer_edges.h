@@ -49,8 +49,7 @@ class LayerEdgeFinder {
                     bool has_both_of_seam = false);
     ~LayerEdgeFinder();
 
-    /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams, or, with both of
-    /// a seam, the whole edge as it is in the middle.
+    /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
     void find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const;
 
   private:

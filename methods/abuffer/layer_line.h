@@ -22,6 +22,8 @@ struct LayerLine {
     std::array<std::uint32_t, 2> owners{};
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;
+    /// Of a border that is a seam elsewhere, the part of edge_on_screen() that the line is, as shares.
+    double edge_begin = 0, edge_end = 1;
     std::uint64_t line_key = ~std::uint64_t{0};  ///< of an edge: LineCrossing::line_key
     LineClassSet classes;  ///< all that apply, among those asked for
     LineClass drawn_as = LineClass::silhouette;

@@ -229,6 +229,22 @@ TEST(FineLines, ABorderThatIsASeamInPartIsNoneThere) {
     }
 }
 
+TEST(FineLines, ACrackBesideAPartOfABorderIsNoLine) {
+    for (const double crack : {0.004, 0.02, 0.1, 0.2, 0.4}) {
+        for (const double share : {0.3, 0.45, 0.7}) {
+            for (const double y : {0.0, 0.13, 0.25}) {
+                const double end = -12 + 24 * share;
+                const PolygonSoup patches = soup_of({{-12, y, 0}, {12, y, 0}, {12, 9, 0}, {-12, 9, 0}, {-12, -9, 0}, {end, -9, 0}, {end, y - crack, 0}, {-12, y - crack, 0}},
+                                                    {{0, 1, 2, 3}, {4, 5, 6, 7}});
+                const Scene scene = scene_of({placed(patches, 0), wall()});
+                const Camera camera = pixel_camera(kSize, kSize);
+                EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.4)
+                    << "crack " << crack << ", share " << share << ", y " << y;
+            }
+        }
+    }
+}
+
 /// Where two edges cross at a small angle the gap between them gets narrower than any sample.
 TEST(FineLines, BothLinesOfASlenderCornerAreDrawn) {
     for (const double depth : {-1.5, -6.0}) {
