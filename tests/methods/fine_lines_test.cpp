@@ -195,19 +195,6 @@ TEST(FineLines, BothSidesOfNarrowGapsBetweenPlanksAreDrawn) {
     }
 }
 
-// No gap: the line beyond belongs to the surface in contact.
-TEST(FineLines, AContactBesideALineHasNone) {
-    for (const double angle : kAngles_deg) {
-        const auto at = [&](double low, double high) {
-            return placed(transformed(make_box({24, high - low, 5}), [=](glm::dvec3 p) { return p + glm::dvec3(0, 0.5 * (low + high), 0); }), angle);
-        };
-        Scene scene = scene_of({at(-10, 0.13), at(0.13, 0.41), wall()});
-        scene.lines.classes = LineClassSet(LineClass::silhouette) | LineClass::border | LineClass::crease;
-        const Camera camera = pixel_camera(kSize, kSize);
-        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.1) << angle;
-    }
-}
-
 // In its middle nothing runs along it.
 TEST(FineLines, ABorderThatIsASeamInPartIsNoneThere) {
     for (const double share : {0.3, 0.45, 0.7}) {
