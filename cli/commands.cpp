@@ -18,6 +18,7 @@
 #include "methods/explain.h"
 #include "methods/gbuffer.h"
 #include "methods/patel.h"
+#include "render/close_cracks.h"
 #include "render/output.h"
 
 namespace burin {
@@ -346,8 +347,10 @@ void run_render(const Arguments& a) {
     StageTimes times;
     Scene scene = load_input(a);
     refuse_hidden_lines(a, method, scene);
+    const Camera camera = camera_of(scene, a);
+    close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     if (method.name == "abuffer") prepare_for_abuffer(scene, a.threads, a.memory_bytes > 0);
-    const Frame frame = frame_of(scene, a);
+    const Frame frame = frame_of(scene, camera, a);
     times.load_s = watch.lap();
     note_limits(a, frame, method, output);
 
@@ -395,8 +398,10 @@ void run_explain(const Arguments& a) {
     if (!a.method.empty() && a.method != "abuffer" && a.method != "patel") {
         throw UsageError("--method: only the masks of abuffer and patel can be explained, not those of " + a.method);
     }
-    const Scene scene = load_input(a);
-    const Frame frame = frame_of(scene, a);
+    Scene scene = load_input(a);
+    const Camera camera = camera_of(scene, a);
+    close_cracks(scene, camera, scene.picture.width, scene.picture.height);
+    const Frame frame = frame_of(scene, camera, a);
     const auto [x, y] = *a.pixel;
     if (x < 0 || y < 0 || x >= frame.width || y >= frame.height) {
         throw UsageError("--pixel: must lie within the image of " + std::to_string(frame.width) + "x" +

@@ -9,6 +9,7 @@
 #include "compare/report.h"
 #include "compare/run_comparison.h"
 #include "compare/truth.h"
+#include "render/close_cracks.h"
 
 namespace burin {
 namespace {
@@ -95,7 +96,9 @@ void run_compare(const Arguments& a) {
     draw_what_all_can(scene, a.quiet);
     View view;
     {
-        const Frame frame = frame_of(scene, a);
+        const Camera camera = camera_of(scene, a);
+        close_cracks(scene, camera, scene.picture.width, scene.picture.height);
+        const Frame frame = frame_of(scene, camera, a);
         view = {frame.camera, frame.width, frame.height, frame.crop};
     }
     make_folder(a.output);

@@ -98,19 +98,22 @@ Scene load_input(const Arguments& a) {
     return scene;
 }
 
-Frame frame_of(const Scene& scene, const Arguments& a) {
-    const int width = scene.picture.width, height = scene.picture.height;
-    const PixelRect crop = crop_of(a, width, height);
+Camera camera_of(const Scene& scene, const Arguments& a) {
     const CameraSettings settings = camera_settings(scene, a);
     const std::string place = settings.where.line > 0 ? to_string(settings.where) : a.input;
-    Camera camera;
+    const double aspect = static_cast<double>(scene.picture.width) / scene.picture.height;
     try {
-        camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
+        return resolve_camera(settings, scene_points(scene), aspect);
     } catch (const InputError& error) {
         if (changes_view(a))
             throw UsageError("--eye, --target, --up, --fov, --ortho: " + std::string(error.what()));
         throw InputError(place + ": " + error.what());
     }
+}
+
+Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& a) {
+    const int width = scene.picture.width, height = scene.picture.height;
+    const PixelRect crop = crop_of(a, width, height);
     try {
         return make_frame(scene, camera, width, height, crop);
     } catch (const InputError& error) {

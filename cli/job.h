@@ -12,7 +12,10 @@ namespace burin {
 /// A scene with the command line's wishes worked in. Throws InputError and UsageError.
 Scene load_input(const Arguments& arguments);
 
-/// The frame that the arguments ask for. The scene must outlive it.
-Frame frame_of(const Scene& scene, const Arguments& arguments);
+/// The camera that the arguments ask for. Throws InputError and UsageError.
+Camera camera_of(const Scene& scene, const Arguments& arguments);
+
+/// The frame that the arguments ask for. The scene must outlive it. Throws InputError and UsageError.
+Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& arguments);
 
 }  // namespace burin

@@ -95,9 +95,7 @@ const BorderIndex::Segment* BorderIndex::find(HalfEdge half_edge) const {
 }
 
 template <typename MayBeNear, typename Visit>
-void BorderIndex::search(const Segment& own, const MayBeNear& may_be_near, const Visit& visit) const {
-    const glm::dvec3 along = direction_of(own);
-    const double length = glm::length(along);
+void BorderIndex::visit_leaves(const MayBeNear& may_be_near, const Visit& visit) const {
     std::uint32_t stack[64];  // halving 2^32 segments takes 32 levels
     int top = 0;
     stack[top++] = 0;
@@ -109,11 +107,28 @@ void BorderIndex::search(const Segment& own, const MayBeNear& may_be_near, const
             stack[top++] = node.first + 1;
             continue;
         }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Segment& other = segments_[order_[i]];
-            if (other.polygon != own.polygon && are_nearly_parallel(along, length, other)) visit(other);
-        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(order_[i]);
     }
+}
+
+template <typename MayBeNear, typename Visit>
+void BorderIndex::search(const Segment& own, const MayBeNear& may_be_near, const Visit& visit) const {
+    const glm::dvec3 along = direction_of(own);
+    const double length = glm::length(along);
+    visit_leaves(may_be_near, [&](std::uint32_t i) {
+        const Segment& other = segments_[i];
+        if (other.polygon != own.polygon && are_nearly_parallel(along, length, other)) visit(other);
+    });
+}
+
+void BorderIndex::find_in_box(const glm::dvec3& low, const glm::dvec3& high, std::vector<std::uint32_t>& found) const {
+    if (nodes_.empty()) return;
+    visit_leaves(
+        [&](const glm::vec3& other_low, const glm::vec3& other_high) {
+            return glm::all(glm::lessThanEqual(glm::dvec3(other_low), high)) &&
+                   glm::all(glm::lessThanEqual(low, glm::dvec3(other_high)));
+        },
+        [&](std::uint32_t i) { found.push_back(i); });
 }
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {

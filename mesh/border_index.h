@@ -46,6 +46,9 @@ class BorderIndex {
     };
     void find_candidates(HalfEdge half_edge, SeamCandidates& candidates) const;
 
+    /// Adds the numbers of the segments whose boxes may touch a box, in no order that means anything.
+    void find_in_box(const glm::dvec3& low, const glm::dvec3& high, std::vector<std::uint32_t>& found) const;
+
   private:
     /// A box around segments: those at [first, first + count) of order_ (a leaf), or all of its
     /// children's, which are nodes `first` and `first + 1` (count 0).
@@ -54,6 +57,9 @@ class BorderIndex {
         std::uint32_t first = 0, count = 0;
     };
     const Segment* find(HalfEdge half_edge) const;
+    /// Calls visit(number of a segment) for all in boxes that may_be_near(low, high).
+    template <typename MayBeNear, typename Visit>
+    void visit_leaves(const MayBeNear& may_be_near, const Visit& visit) const;
     /// Calls visit(segment) for those of other polygons that are nearly parallel to `own`, in boxes that
     /// may_be_near(low, high).
     template <typename MayBeNear, typename Visit>

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace burin {
+
+/// How far apart the two sides of a crack may be at a place, in units of the mesh; 0 or less: not at all.
+using CrackReach = std::function<double(const glm::dvec3& position)>;
+
+/// The borders of a mesh, as sides of cracks.
+class CrackSides {
+  public:
+    CrackSides(const Mesh& mesh, const CrackReach& reach);
+
+    const Mesh& mesh() const { return mesh_; }
+    std::span<const BorderIndex::Segment> segments() const { return segments_; }
+    double length(std::uint32_t segment) const { return lengths_[segment]; }
+    /// How wide a crack between two sides of this length may be.
+    double widest(std::uint32_t segment, double length) const;
+    /// The vertices that a border runs between.
+    std::pair<std::uint32_t, std::uint32_t> ends(std::uint32_t segment) const;
+    /// Whether two borders may be the sides of one crack, as far as their polygons say.
+    bool are_beside(std::uint32_t s, std::uint32_t t) const;
+
+  private:
+    glm::dvec3 inward(std::uint32_t segment) const;
+
+    const Mesh& mesh_;
+    std::span<const BorderIndex::Segment> segments_;
+    std::vector<double> lengths_, reach_;  // per segment
+};
+
+}  // namespace burin

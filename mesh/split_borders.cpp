@@ -1,0 +1,133 @@
+#include "mesh/split_borders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "mesh/edge_links.h"
+
+namespace burin {
+namespace {
+
+/// Borders run along each other if the cosine of the angle between them is larger.
+constexpr double kCosParallel = 0.7;
+
+using Segment = BorderIndex::Segment;
+
+/// Where a border is cut.
+struct Cut {
+    HalfEdge half_edge;
+    double share;  // of the way along it, 0..1
+};
+
+/// Cuts of one border, in order along it.
+void find_cuts(const CrackSides& sides, std::uint32_t i, std::vector<std::uint32_t>& near, std::vector<Cut>& cuts) {
+    const Segment& s = sides.segments()[i];
+    const double length = sides.length(i), most = sides.widest(i, length);
+    if (!(most > 0)) return;
+    const glm::dvec3 a(s.a), b(s.b), along = (b - a) / length;
+    near.clear();
+    sides.mesh().borders.find_in_box(glm::min(a, b) - most, glm::max(a, b) + most, near);
+    const std::size_t first = cuts.size();
+    for (const std::uint32_t j : near) {
+        const Segment& t = sides.segments()[j];
+        const glm::dvec3 way = glm::dvec3(t.b) - glm::dvec3(t.a);
+        if (std::abs(glm::dot(along, way)) < kCosParallel * sides.length(j) || !sides.are_beside(i, j)) continue;
+        const double widest = std::min(most, std::max(sides.widest(i, sides.length(j)), 0.05 * length));
+        for (const glm::dvec3 corner : {glm::dvec3(t.a), glm::dvec3(t.b)}) {
+            const double at = glm::dot(corner - a, along);
+            const bool is_inside = at > 0 && at < length && glm::distance(corner, a) > widest && glm::distance(corner, b) > widest;
+            if (is_inside && glm::distance(corner, a + at * along) <= widest) cuts.push_back({s.half_edge, at / length});
+        }
+    }
+    const auto begin = cuts.begin() + static_cast<std::ptrdiff_t>(first);
+    std::sort(begin, cuts.end(), [](const Cut& p, const Cut& q) { return p.share < q.share; });
+    // Corners of several polygons in one place are one.
+    constexpr double kSamePlace = 1e-4;
+    const auto end = std::unique(begin, cuts.end(), [](const Cut& p, const Cut& q) { return q.share - p.share < kSamePlace; });
+    cuts.erase(end, cuts.end());
+}
+
+/// A triangle, or a part of one, and which edges of the whole one its own three are (3: none).
+struct Part {
+    std::array<std::uint32_t, 3> corners;
+    std::array<std::uint8_t, 3> edges;
+};
+
+/// Cuts the part that has edge `edge` into a fan.
+void cut_fan(std::vector<Part>& parts, std::uint8_t edge, std::span<const std::uint32_t> points) {
+    for (Part& part : parts) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (part.edges[k] != edge) continue;
+            const Part whole = part;
+            const std::size_t n = (k + 1) % 3, apex = (k + 2) % 3;
+            std::vector<Part> fan;
+            std::uint32_t from = whole.corners[k];
+            for (const std::uint32_t point : points) {
+                fan.push_back({{from, point, whole.corners[apex]}, {edge, 3, fan.empty() ? whole.edges[apex] : std::uint8_t{3}}});
+                from = point;
+            }
+            fan.push_back({{from, whole.corners[n], whole.corners[apex]}, {edge, whole.edges[n], 3}});
+            part = fan.front();
+            parts.insert(parts.end(), fan.begin() + 1, fan.end());
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
+    const CrackSides sides(mesh, reach);
+    std::vector<Cut> cuts;
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
+        if ((i & 0xFFF) == 0) throw_if_interrupted();
+        find_cuts(sides, i, near, cuts);  // half-edges are in order
+    }
+    if (cuts.empty()) return std::nullopt;
+    Mesh result;
+    result.name = mesh.name;
+    result.origin = mesh.origin;
+    result.positions = mesh.positions;
+    result.polygon_count = mesh.polygon_count;
+    result.polygon_material = mesh.polygon_material;
+    result.repairs = mesh.repairs;
+    // Polygons have more than one triangle now, so that their normals no longer follow from these.
+    result.polygon_normals = mesh.polygon_normals;
+    if (result.polygon_normals.empty()) {
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            const glm::dvec3 normal = mesh.polygon_area_vector(t);
+            const double length = glm::length(normal);
+            result.polygon_normals.emplace_back(length > 0 ? normal / length : normal);
+        }
+    }
+    std::vector<Part> parts;
+    std::vector<std::uint32_t> points;
+    auto cut = cuts.begin();
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        parts.assign(1, {mesh.triangles[t], {0, 1, 2}});
+        while (cut != cuts.end() && cut->half_edge / 3 == t) {
+            const HalfEdge h = cut->half_edge;
+            const glm::dvec3 a(mesh.positions[mesh.triangles[t][h % 3]]), b(mesh.positions[mesh.triangles[t][(h + 1) % 3]]);
+            points.clear();
+            for (; cut != cuts.end() && cut->half_edge == h; ++cut) {
+                points.push_back(static_cast<std::uint32_t>(result.positions.size()));
+                result.positions.emplace_back(glm::mix(a, b, cut->share));
+            }
+            cut_fan(parts, static_cast<std::uint8_t>(h % 3), points);
+        }
+        for (const Part& part : parts) {
+            result.triangles.push_back(part.corners);
+            result.triangle_polygon.push_back(mesh.polygon_of(t));
+            if (mesh.marked.empty()) continue;
+            for (const std::uint8_t edge : part.edges) result.marked.push_back(edge < 3 && mesh.marked[3 * t + edge]);
+        }
+    }
+    result.next_on_edge = link_edges(result.triangles, result.positions.size());
+    result.borders = index_borders(result);
+    return result;
+}
+
+}  // namespace burin
