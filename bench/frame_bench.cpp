@@ -29,6 +29,7 @@
 #include "mesh/build_meshes.h"
 #include "methods/abuffer/abuffer.h"
 #include "methods/abuffer/intersecting_pairs.h"
+#include "render/close_cracks.h"
 #include "render/output.h"
 #include "scene/scene_description.h"
 
@@ -67,6 +68,7 @@ struct View {
         settings.fit = 0.95;
         const Camera camera =
             resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
+        close_cracks(scene, camera, width, height);
         prepare_for_abuffer(scene, 1);
         frame = make_frame(scene, camera, width, height, {0, 0, width, height});
     }
