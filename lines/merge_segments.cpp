@@ -21,6 +21,7 @@ void put_in_order(LineSegment& s) {
 struct SortKey {
     std::uint64_t line_key;
     std::uint32_t block, index;
+    double from_x;
 };
 
 bool is_before(const LineSegment& a, const LineSegment& b) {
@@ -45,11 +46,12 @@ void merge_segments(std::vector<LineSegment>& segments) {
     std::vector<SortKey> order(segments.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) {
         put_in_order(segments[i]);
-        order[i] = {segments[i].line_key, segments[i].block, i};
+        order[i] = {segments[i].line_key, segments[i].block, i, segments[i].from.x};
     }
     std::sort(order.begin(), order.end(), [&](const SortKey& a, const SortKey& b) {
         if (a.line_key != b.line_key) return a.line_key < b.line_key;
-        return a.block != b.block ? a.block < b.block : is_before(segments[a.index], segments[b.index]);
+        if (a.block != b.block) return a.block < b.block;
+        return a.from_x != b.from_x ? a.from_x < b.from_x : is_before(segments[a.index], segments[b.index]);
     });
     std::vector<LineSegment> merged;
     merged.reserve(segments.size());

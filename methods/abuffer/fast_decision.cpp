@@ -81,8 +81,7 @@ FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i)
 }
 
 /// `touched`: what it is in contact with, else nullptr.
-LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk,
-                                          const End* touched) const {
+LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched) {
     LineDecision decision;
     const std::uint32_t instance = pair.surfaces[i].instance;
     const HalfEdge h = walk.half_edge;
@@ -96,7 +95,7 @@ LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, c
     };
     const std::uint8_t* const sharp = screen_.sharp_edges(instance);
     if (sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0) {
-        decision.classes = edge_classes(surfaces_, decision.edge, criteria_, &decision.crease_cosine);
+        decision.classes = walker_.edge_classes(decision.edge, &decision.crease_cosine);
     }
     if (touched != nullptr) add_contact(touched->behind);
     if (walk.end == FastWalk::fold) {

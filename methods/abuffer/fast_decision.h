@@ -30,7 +30,7 @@ class FastDecision {
         SurfaceId behind;        // the other one's triangle
     };
     End look_behind(const NeighbourSamples& pair, int i) const;
-    LineDecision end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched) const;
+    LineDecision end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched);
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
 
     const ScreenSurfaces& screen_;

@@ -211,9 +211,21 @@ void FastWalker::note(LineClassSet classes, SurfaceEdge edge, double fraction, F
     result.crossed |= wanted;
 }
 
-void FastWalker::note_edge(std::uint32_t instance, const FastWalk::Step& left, FastWalk& result) const {
+LineClassSet FastWalker::edge_classes(SurfaceEdge edge, double* crease_cosine) {
+    constexpr std::size_t kKnownEdges = 256;
+    if (known_edges_.empty()) known_edges_.resize(kKnownEdges, {{kBackground, kNoHalfEdge}, {}, 1});
+    KnownEdge& known = known_edges_[edge.half_edge % kKnownEdges];
+    if (known.edge.half_edge != edge.half_edge || known.edge.surface != edge.surface) {
+        known = {edge, {}, 1};
+        known.classes = burin::edge_classes(surfaces_, edge, criteria_, &known.crease_cosine);
+    }
+    *crease_cosine = std::min(*crease_cosine, known.crease_cosine);
+    return known.classes;
+}
+
+void FastWalker::note_edge(std::uint32_t instance, const FastWalk::Step& left, FastWalk& result) {
     const SurfaceEdge edge{{instance, left.triangle}, left.exit};
-    note(edge_classes(surfaces_, edge, criteria_, &result.crease_cosine), edge, left.left, result);
+    note(edge_classes(edge, &result.crease_cosine), edge, left.left, result);
 }
 
 void FastWalker::note_contact(std::uint32_t instance, std::uint32_t a, std::uint32_t b, glm::dvec2 subpixel,

@@ -83,12 +83,14 @@ class FastWalker {
     }
     /// Nearness as a function of the position in pixels.
     DepthPlane plane(SurfaceId s) const;
+    /// burin::edge_classes(); an edge is asked for where it lies between many pairs of samples.
+    LineClassSet edge_classes(SurfaceEdge edge, double* crease_cosine);
 
   private:
     class Way;
     FastWalk::End step_over_seam(const Way& way, std::uint32_t instance, const FastWalk::Step& from, Way& beyond,
                                  FastWalk::Step& next);
-    void note_edge(std::uint32_t instance, const FastWalk::Step& left, FastWalk& result) const;
+    void note_edge(std::uint32_t instance, const FastWalk::Step& left, FastWalk& result);
     void note_contact(std::uint32_t instance, std::uint32_t a, std::uint32_t b, glm::dvec2 subpixel, double fraction,
                       FastWalk& result) const;
     void note(LineClassSet classes, SurfaceEdge edge, double fraction, FastWalk& result) const;
@@ -99,6 +101,12 @@ class FastWalker {
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
     SeamMemory seams_;
+    struct KnownEdge {
+        SurfaceEdge edge;
+        LineClassSet classes;
+        double crease_cosine;
+    };
+    std::vector<KnownEdge> known_edges_;
 };
 
 }  // namespace burin
