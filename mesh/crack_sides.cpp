@@ -7,6 +7,8 @@ namespace {
 
 /// How wide a crack may be, in lengths of its sides: at full reach, and at kNarrowPart of it.
 constexpr double kWidestPart = 1.0 / 20, kWidestNarrowPart = 1.0 / 3, kNarrowPart = 1.0 / 2;
+/// The short end of a needle: in parts of the reach, and of the needle's other edges.
+constexpr double kNeedleEnd = 1.0 / 8, kNeedleEndPart = 1.0 / 3;
 /// Of the directions from the edge into the polygons on both sides: beyond that one folds back on the other.
 constexpr double kCosLeastAngle = 0.94;
 
@@ -19,9 +21,16 @@ CrackSides::CrackSides(const Mesh& mesh, const CrackReach& reach) : mesh_(mesh),
         lengths_.push_back(glm::distance(glm::dvec3(s.a), glm::dvec3(s.b)));
         reach_.push_back(std::min(reach(glm::dvec3(s.a)), reach(glm::dvec3(s.b))));
     }
+    is_end_of_needle_.resize(segments_.size());
+    for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+        if (lengths_[i] > kNeedleEnd * reach_[i]) continue;
+        const glm::dvec3 far = apex(i), a(segments_[i].a), b(segments_[i].b);
+        is_end_of_needle_[i] = lengths_[i] <= kNeedleEndPart * std::min(glm::distance(a, far), glm::distance(b, far));
+    }
 }
 
 double CrackSides::widest(std::uint32_t segment, double length) const {
+    if (is_end_of_needle_[segment]) return 0;
     const double reach = reach_[segment];
     return std::max(std::min(reach, kWidestPart * length), std::min(kNarrowPart * reach, kWidestNarrowPart * length));
 }
@@ -32,11 +41,16 @@ std::pair<std::uint32_t, std::uint32_t> CrackSides::ends(std::uint32_t segment) 
     return {t[h % 3], t[(h + 1) % 3]};
 }
 
+/// The triangle's other corner.
+glm::dvec3 CrackSides::apex(std::uint32_t segment) const {
+    const HalfEdge h = segments_[segment].half_edge;
+    return glm::dvec3(mesh_.positions[mesh_.triangles[h / 3][(h % 3 + 2) % 3]]);
+}
+
 /// From the edge into the polygon.
 glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
     const BorderIndex::Segment& s = segments_[segment];
-    const glm::dvec3 apex(mesh_.positions[mesh_.triangles[s.half_edge / 3][(s.half_edge + 2) % 3]]);
-    const glm::dvec3 a(s.a), along = glm::dvec3(s.b) - a, to_apex = apex - a;
+    const glm::dvec3 a(s.a), along = glm::dvec3(s.b) - a, to_apex = apex(segment) - a;
     const glm::dvec3 across = to_apex - along * (glm::dot(to_apex, along) / std::max(glm::dot(along, along), 1e-300));
     return across / std::max(glm::length(across), 1e-300);
 }

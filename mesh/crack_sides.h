@@ -20,6 +20,9 @@ class CrackSides {
     const Mesh& mesh() const { return mesh_; }
     std::span<const BorderIndex::Segment> segments() const { return segments_; }
     double length(std::uint32_t segment) const { return lengths_[segment]; }
+    /// Whether a border is as short as 1/8 of the reach and 1/3 of its triangle's other edges: no side of a crack, but a corner
+    /// that was two equal ones before they were moved apart.
+    bool is_end_of_needle(std::uint32_t segment) const { return is_end_of_needle_[segment]; }
     /// How wide a crack between two sides of this length may be.
     double widest(std::uint32_t segment, double length) const;
     /// The vertices that a border runs between.
@@ -29,10 +32,12 @@ class CrackSides {
 
   private:
     glm::dvec3 inward(std::uint32_t segment) const;
+    glm::dvec3 apex(std::uint32_t segment) const;
 
     const Mesh& mesh_;
     std::span<const BorderIndex::Segment> segments_;
     std::vector<double> lengths_, reach_;  // per segment
+    std::vector<bool> is_end_of_needle_;
 };
 
 }  // namespace burin

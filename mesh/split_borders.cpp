@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "mesh/edge_links.h"
+#include "mesh/vertex_clusters.h"
 
 namespace burin {
 namespace {
@@ -87,22 +88,8 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
         find_cuts(sides, i, near, cuts);  // half-edges are in order
     }
     if (cuts.empty()) return std::nullopt;
-    Mesh result;
-    result.name = mesh.name;
-    result.origin = mesh.origin;
+    Mesh result = with_polygons_of(mesh);
     result.positions = mesh.positions;
-    result.polygon_count = mesh.polygon_count;
-    result.polygon_material = mesh.polygon_material;
-    result.repairs = mesh.repairs;
-    // Polygons have more than one triangle now, so that their normals no longer follow from these.
-    result.polygon_normals = mesh.polygon_normals;
-    if (result.polygon_normals.empty()) {
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            const glm::dvec3 normal = mesh.polygon_area_vector(t);
-            const double length = glm::length(normal);
-            result.polygon_normals.emplace_back(length > 0 ? normal / length : normal);
-        }
-    }
     std::vector<Part> parts;
     std::vector<std::uint32_t> points;
     auto cut = cuts.begin();

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+
+#include "mesh/crack_sides.h"
+
+namespace burin {
+
+/// Leaves out triangles with a short border, see CrackSides::is_end_of_needle(), which becomes a point in its middle. nullopt:
+/// there are none.
+std::optional<Mesh> collapse_needles(const Mesh& mesh, const CrackReach& reach);
+
+}  // namespace burin
