@@ -65,19 +65,23 @@ void BorderIndex::build(std::uint32_t node, std::uint32_t first, std::uint32_t c
     Node box;
     box.low = glm::min(segments_[*begin].a, segments_[*begin].b);
     box.high = glm::max(segments_[*begin].a, segments_[*begin].b);
+    const auto middle = [&](std::uint32_t i) { return segments_[i].a + segments_[i].b; };  // twice that
+    glm::vec3 low = middle(*begin), high = low;  // of middles: long segments say nothing about where to cut
     for (auto it = begin; it != begin + count; ++it) {
         const Segment& s = segments_[*it];
         box.low = glm::min(box.low, glm::min(s.a, s.b));
         box.high = glm::max(box.high, glm::max(s.a, s.b));
+        low = glm::min(low, middle(*it));
+        high = glm::max(high, middle(*it));
     }
     box.first = first;
     box.count = count;
     if (count > kLeafSize) {
-        const glm::vec3 size = box.high - box.low;
+        const glm::vec3 size = high - low;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
         const std::uint32_t half = count / 2;
         std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t i, std::uint32_t j) {
-            return segments_[i].a[axis] + segments_[i].b[axis] < segments_[j].a[axis] + segments_[j].b[axis];
+            return middle(i)[axis] < middle(j)[axis];
         });
         box.first = static_cast<std::uint32_t>(nodes_.size());
         box.count = 0;

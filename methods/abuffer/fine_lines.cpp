@@ -363,15 +363,14 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
 void FineLines::find_candidates(std::span<const FinePart> parts) {
     candidates_.clear();
     const FinePart* before = nullptr;
+    std::span<const LayerLine> lines;
     for (const FinePart& part : parts) {
         const std::uint32_t instance = part.edge.instance;
         const HalfEdge h = part.edge.half_edge;
-        if (before == nullptr || before->edge.instance != instance || before->edge.half_edge != h) {
-            lines_.clear();
-            finder_.find({instance, h / 3}, h, lines_);
-        }
+        const bool is_same = before != nullptr && before->edge.instance == instance && before->edge.half_edge == h;
+        if (!is_same) lines = lines_of(instance, h);
         before = &part;
-        for (LayerLine line : lines_) {
+        for (LayerLine line : lines) {
             FinePart own = part;
             own.begin = (std::max(part.begin, line.edge_begin) - line.edge_begin) / (line.edge_end - line.edge_begin);
             own.end = (std::min(part.end, line.edge_end) - line.edge_begin) / (line.edge_end - line.edge_begin);
@@ -381,6 +380,26 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
             candidates_.push_back({own, line});
         }
     }
+}
+
+/// Those that an edge is, until the next call.
+std::span<const LayerLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
+    constexpr std::size_t kKnownBorders = 1 << 14;
+    const SurfaceId s{instance, h / 3};
+    if (screen_.mesh(instance).partners[h] != h) {
+        lines_.clear();
+        finder_.find(s, h, lines_);
+        return lines_;
+    }
+    if (known_borders_.empty()) known_borders_.resize(kKnownBorders);
+    KnownBorder& known = known_borders_[(h + 7919 * instance) % kKnownBorders];
+    if (known.half_edge != h || known.instance != instance) {
+        known.instance = instance;
+        known.half_edge = h;
+        known.lines.clear();
+        finder_.find(s, h, known.lines);
+    }
+    return known.lines;
 }
 
 }  // namespace burin

@@ -27,6 +27,7 @@ class FineLines {
   private:
     class BlockClipper;
     void find_candidates(std::span<const FinePart> parts);
+    std::span<const LayerLine> lines_of(std::uint32_t instance, HalfEdge h);
 
     const ScreenSurfaces& screen_;
     SampleBlocks grid_;
@@ -35,6 +36,13 @@ class FineLines {
     std::unique_ptr<BlockClipper> clipper_;
     std::vector<FineCandidate> candidates_;
     std::vector<LayerLine> lines_;
+    /// What was found for borders: long ones are in many tiles, and may have many others beside them.
+    struct KnownBorder {
+        std::uint32_t instance = 0;
+        HalfEdge half_edge = kNoHalfEdge;
+        std::vector<LayerLine> lines;
+    };
+    std::vector<KnownBorder> known_borders_;
 };
 
 }  // namespace burin

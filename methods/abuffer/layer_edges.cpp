@@ -278,6 +278,7 @@ class LayerEdgeFinder::Rules {
         const double square = glm::dot(along, along);
         std::vector<double> ends;
         for (const BorderIndex::Segment& other : candidates.segments()) {
+            if (!is_crack_beside(s.instance, edge, other.half_edge)) continue;
             for (const glm::vec3& end : {other.a, other.b}) {
                 const double in_space = glm::dot(glm::dvec3(end) - a, along) / square;
                 if (in_space > edge.begin && in_space < edge.end) ends.push_back(share_on_screen(screen_, edge, in_space));
@@ -302,6 +303,16 @@ class LayerEdgeFinder::Rules {
         }
         add_part(begin, 1);
         return parts;
+    }
+
+    /// Whether another border is nearer than a crack is wide, somewhere on the screen; true also for some that are not.
+    bool is_crack_beside(std::uint32_t instance, const EdgeOnScreen& edge, HalfEdge h) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        const auto other = edge_on_screen(screen_, instance, start_of(mesh, h), end_of(mesh, h));
+        if (!other) return false;
+        const double length = glm::distance(edge.from, edge.to), p = edge.side_of(other->from), q = edge.side_of(other->to);
+        const bool is_beyond = std::min(std::abs(p), std::abs(q)) > kWidestCrackSubpixels * length && (p < 0) == (q < 0);
+        return !is_beyond;
     }
 
     double length_of(const Mesh& mesh, HalfEdge h) const {

@@ -15,9 +15,11 @@ class SeamMemory {
 
   private:
     static constexpr std::size_t kEntries = 512;
+    enum class Use : std::uint8_t { once, has_list, has_many };
     struct Entry {
         const BorderIndex* borders = nullptr;
         HalfEdge half_edge = 0;
+        Use use = Use::once;
         BorderIndex::SeamCandidates candidates;
     };
     std::vector<Entry> entries_;
