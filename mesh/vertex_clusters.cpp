@@ -12,8 +12,8 @@ namespace {
 
 /// Of a triangle's normals before and after.
 constexpr double kCosLargestTurn = 0.5;
-/// An edge that is shorter than so many times what its ends are moved says nothing.
-constexpr double kSpeckMoves = 4;
+/// The end of a needle: in parts of its next longer edge, and of what its corners are moved by.
+constexpr double kNeedleEndPart = 1.0 / 3, kNeedleMoves = 4;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 /// The same mark on all half-edges of an edge.
@@ -101,16 +101,18 @@ glm::dvec3 VertexClusters::area_of(const std::vector<glm::vec3>& positions, std:
     return glm::cross(glm::dvec3(positions[t[1]]) - a, glm::dvec3(positions[t[2]]) - a);
 }
 
-/// Whether a triangle has an edge about as short as what its corners are moved by: then its normal says nothing.
-bool VertexClusters::is_speck(const std::vector<glm::vec3>& moved, std::uint32_t triangle) const {
+/// Whether a triangle is a needle whose end is about as short as what its corners are moved by: then its normal says nothing.
+bool VertexClusters::is_needle(const std::vector<glm::vec3>& moved, std::uint32_t triangle) const {
     const auto& t = mesh_.triangles[triangle];
-    double shortest = std::numeric_limits<double>::max(), farthest = 0;
+    std::array<double, 3> lengths{};
+    double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec3 p(mesh_.positions[t[k]]), next(mesh_.positions[t[(k + 1) % 3]]);
-        shortest = std::min(shortest, glm::distance(p, next));
+        lengths[k] = glm::distance(p, next);
         farthest = std::max(farthest, glm::distance(p, glm::dvec3(moved[t[k]])));
     }
-    return shortest <= kSpeckMoves * farthest;
+    std::sort(lengths.begin(), lengths.end());
+    return lengths[0] <= kNeedleMoves * farthest && lengths[0] <= kNeedleEndPart * lengths[1];
 }
 
 /// Lets clusters fall apart where triangles turn too far. Whether there were any.
@@ -121,7 +123,7 @@ bool VertexClusters::undo_turned(const std::vector<glm::vec3>& moved) {
         const auto turns = [&](std::uint32_t m) {
             return std::any_of(triangles_[m].begin(), triangles_[m].end(), [&](std::uint32_t t) {
                 const glm::dvec3 before = area_of(mesh_.positions, t), after = area_of(moved, t);
-                return glm::dot(before, after) < kCosLargestTurn * glm::length(before) * glm::length(after) && !is_speck(moved, t);
+                return glm::dot(before, after) < kCosLargestTurn * glm::length(before) * glm::length(after) && !is_needle(moved, t);
             });
         };
         if (std::any_of(members.begin(), members.end(), turns)) undone.push_back(cluster_[members.front()]);

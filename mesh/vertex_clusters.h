@@ -25,7 +25,7 @@ class VertexClusters {
     void join(Pair pair);
 
     /// The mesh with one vertex for each cluster. Triangles that have collapsed are left out. Clusters that would turn another
-    /// one by more than 60 degrees fall apart, unless that has an edge about as short as what they move.
+    /// one by more than 60 degrees fall apart, unless that is a needle whose end is about as short as what they move.
     Mesh merge();
 
   private:
@@ -33,7 +33,7 @@ class VertexClusters {
     glm::vec3 place(std::uint32_t number) const { return mesh_.positions[vertices_[number]]; }
     glm::dvec3 area_of(const std::vector<glm::vec3>& positions, std::uint32_t triangle) const;
     std::vector<glm::vec3> positions() const;
-    bool is_speck(const std::vector<glm::vec3>& moved, std::uint32_t triangle) const;
+    bool is_needle(const std::vector<glm::vec3>& moved, std::uint32_t triangle) const;
     bool undo_turned(const std::vector<glm::vec3>& moved);
     std::uint32_t stand_in(std::uint32_t vertex) const;
 
