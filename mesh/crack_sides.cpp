@@ -6,7 +6,9 @@ namespace burin {
 namespace {
 
 /// How wide a crack may be, in lengths of its sides: at full reach, and at kNarrowPart of it.
-constexpr double kWidestPart = 1.0 / 20, kWidestNarrowPart = 1.0 / 3, kNarrowPart = 1.0 / 2;
+constexpr double kWidestPart = 1.0 / 20, kWidestNarrowPart = 1.0 / 3, kNarrowPart = 1.0 / 4;
+/// Also in parts of the reach, and of the height of the triangle beside it.
+constexpr double kNegligiblePart = 1.0 / 8, kWidestOfHeight = 1.0 / 2;
 /// The short end of a needle: in parts of the reach, and of the needle's other edges.
 constexpr double kNeedleEnd = 1.0 / 8, kNeedleEndPart = 1.0 / 3;
 /// Of the directions from the edge into the polygons on both sides: beyond that one folds back on the other.
@@ -22,7 +24,9 @@ CrackSides::CrackSides(const Mesh& mesh, const CrackReach& reach) : mesh_(mesh),
         reach_.push_back(std::min(reach(glm::dvec3(s.a)), reach(glm::dvec3(s.b))));
     }
     is_end_of_needle_.resize(segments_.size());
+    heights_.resize(segments_.size());
     for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+        heights_[i] = glm::length(across(i));
         if (lengths_[i] > kNeedleEnd * reach_[i]) continue;
         const glm::dvec3 far = apex(i), a(segments_[i].a), b(segments_[i].b);
         is_end_of_needle_[i] = lengths_[i] <= kNeedleEndPart * std::min(glm::distance(a, far), glm::distance(b, far));
@@ -32,7 +36,8 @@ CrackSides::CrackSides(const Mesh& mesh, const CrackReach& reach) : mesh_(mesh),
 double CrackSides::widest(std::uint32_t segment, double length) const {
     if (is_end_of_needle_[segment]) return 0;
     const double reach = reach_[segment];
-    return std::max(std::min(reach, kWidestPart * length), std::min(kNarrowPart * reach, kWidestNarrowPart * length));
+    const double by_length = std::max(std::min(reach, kWidestPart * length), std::min(kNarrowPart * reach, kWidestNarrowPart * length));
+    return std::min(by_length, std::max(kNegligiblePart * reach, kWidestOfHeight * heights_[segment]));
 }
 
 std::pair<std::uint32_t, std::uint32_t> CrackSides::ends(std::uint32_t segment) const {
@@ -47,12 +52,17 @@ glm::dvec3 CrackSides::apex(std::uint32_t segment) const {
     return glm::dvec3(mesh_.positions[mesh_.triangles[h / 3][(h % 3 + 2) % 3]]);
 }
 
-/// From the edge into the polygon.
-glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
+/// From the edge to that, at a right angle.
+glm::dvec3 CrackSides::across(std::uint32_t segment) const {
     const BorderIndex::Segment& s = segments_[segment];
     const glm::dvec3 a(s.a), along = glm::dvec3(s.b) - a, to_apex = apex(segment) - a;
-    const glm::dvec3 across = to_apex - along * (glm::dot(to_apex, along) / std::max(glm::dot(along, along), 1e-300));
-    return across / std::max(glm::length(across), 1e-300);
+    return to_apex - along * (glm::dot(to_apex, along) / std::max(glm::dot(along, along), 1e-300));
+}
+
+/// From the edge into the polygon.
+glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
+    const glm::dvec3 way = across(segment);
+    return way / std::max(glm::length(way), 1e-300);
 }
 
 bool CrackSides::are_beside(std::uint32_t s, std::uint32_t t) const {

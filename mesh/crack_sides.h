@@ -23,7 +23,8 @@ class CrackSides {
     /// Whether a border is as short as 1/8 of the reach and 1/3 of its triangle's other edges: no side of a crack, but a corner
     /// that was two equal ones before they were moved apart.
     bool is_end_of_needle(std::uint32_t segment) const { return is_end_of_needle_[segment]; }
-    /// How wide a crack between two sides of this length may be.
+    /// How wide a crack between two sides of this length may be. No wider than half of the triangle beside it, unless that is
+    /// 1/8 of the reach: slats of a blind are as far apart as they are high.
     double widest(std::uint32_t segment, double length) const;
     /// The vertices that a border runs between.
     std::pair<std::uint32_t, std::uint32_t> ends(std::uint32_t segment) const;
@@ -33,10 +34,11 @@ class CrackSides {
   private:
     glm::dvec3 inward(std::uint32_t segment) const;
     glm::dvec3 apex(std::uint32_t segment) const;
+    glm::dvec3 across(std::uint32_t segment) const;
 
     const Mesh& mesh_;
     std::span<const BorderIndex::Segment> segments_;
-    std::vector<double> lengths_, reach_;  // per segment
+    std::vector<double> lengths_, reach_, heights_;  // per segment
     std::vector<bool> is_end_of_needle_;
 };
 

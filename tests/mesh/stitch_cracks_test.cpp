@@ -80,7 +80,7 @@ TEST(StitchCracks, PolygonsThatFellApartAreOneSurface) {
         add_patch(polygons, torus, {0, 0}, {1, 1}, random.integer(12, 40), random.integer(8, 20));
         const double by = random.real(0.0001, 0.008);  // corners of one place are no farther apart than a third of any edge
         const Mesh cracked = shaken(polygons, by, seed);
-        const auto whole = stitch_cracks(cracked, everywhere(7 * by));
+        const auto whole = stitch_cracks(cracked, everywhere(14 * by));
         ASSERT_TRUE(whole) << seed;
         EXPECT_TRUE(whole->borders.segments().empty()) << seed;
         for (HalfEdge h = 0; h < whole->next_on_edge.size(); ++h) {
@@ -207,6 +207,19 @@ TEST(StitchCracks, PolesHaveNoHoles) {
         EXPECT_NEAR(static_cast<double>(whole->triangles.size()), static_cast<double>(cracked.triangles.size()) - 2 * 12, 4) << seed;
         EXPECT_EQ(whole->triangle_polygon.size(), whole->triangles.size());
     }
+}
+
+TEST(StitchCracks, ThinStripsAndSlatsStay) {
+    std::vector<Polygon> hairs, slats;
+    for (int i = 0; i < 40; ++i) {
+        const glm::dvec3 at(0, i, 0), slat(0, 0.7 * i, 0);
+        hairs.push_back({at, at + glm::dvec3(20, 0.3, 0), at + glm::dvec3(20, 0.4, 0), at + glm::dvec3(0, 0.1, 0)});
+        hairs.push_back({at + glm::dvec3(0, 0, 5), at + glm::dvec3(20, 0.1, 5), at + glm::dvec3(0, 0.1, 5)});
+        // As far apart as they are high.
+        slats.push_back({slat, slat + glm::dvec3(30, 0, 0), slat + glm::dvec3(30, 0.35, 0.5), slat + glm::dvec3(0, 0.35, 0.5)});
+    }
+    EXPECT_FALSE(stitch_cracks(shaken(hairs, 0, 0), everywhere(1)));
+    EXPECT_FALSE(stitch_cracks(shaken(slats, 0, 0), everywhere(1)));
 }
 
 TEST(StitchCracks, SmallPolygonsAreNoNeedles) {
