@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -18,7 +19,11 @@ struct Crack {
     double width;
     std::array<glm::vec3, 4> place;  // tells cracks of one width apart
     std::array<VertexClusters::Pair, 2> joins;
+    std::array<std::uint32_t, 2> sides;  // segments
 };
+
+/// Where a border has more others beside it, it is one of a pile.
+constexpr std::size_t kMostBeside = 64;
 
 bool is_before(const Crack& a, const Crack& b) {
     if (a.width != b.width) return a.width < b.width;
@@ -31,17 +36,19 @@ bool is_before(const Crack& a, const Crack& b) {
 
 /// All that are narrow enough, the narrowest first.
 std::vector<Crack> find_cracks(const CrackSides& sides) {
-    std::vector<Crack> cracks;
+    std::vector<Crack> cracks, beside;
     std::vector<std::uint32_t> near;
+    std::vector<bool> is_in_pile(sides.segments().size());
     for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
         if ((i & 0xFFF) == 0) throw_if_interrupted();
         const double widest = sides.widest(i, sides.length(i));
         if (!(widest > 0)) continue;
         const Segment& s = sides.segments()[i];
         near.clear();
+        beside.clear();
         sides.mesh().borders.find_in_box(glm::dvec3(s.a) - widest, glm::dvec3(s.a) + widest, near);
         for (const std::uint32_t j : near) {
-            if (j <= i) continue;
+            if (j == i) continue;
             const Segment& t = sides.segments()[j];
             const auto apart = [](const glm::vec3& p, const glm::vec3& q) { return glm::distance(glm::dvec3(p), glm::dvec3(q)); };
             const double opposite = std::max(apart(s.a, t.b), apart(s.b, t.a));
@@ -54,9 +61,15 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
             const auto [sa, sb] = sides.ends(i);
             const auto [ta, tb] = sides.ends(j);
             crack.joins = {std::pair(sa, opposite <= along ? tb : ta), std::pair(sb, opposite <= along ? ta : tb)};
-            cracks.push_back(crack);
+            crack.sides = {i, j};
+            beside.push_back(crack);
+            if (beside.size() > kMostBeside) break;
         }
+        is_in_pile[i] = beside.size() > kMostBeside;
+        if (is_in_pile[i]) continue;
+        std::copy_if(beside.begin(), beside.end(), std::back_inserter(cracks), [](const Crack& c) { return c.sides[0] < c.sides[1]; });
     }
+    std::erase_if(cracks, [&](const Crack& c) { return is_in_pile[c.sides[0]] || is_in_pile[c.sides[1]]; });
     std::sort(cracks.begin(), cracks.end(), is_before);
     return cracks;
 }

@@ -81,11 +81,14 @@ void cut_fan(std::vector<Part>& parts, std::uint8_t edge, std::span<const std::u
 
 std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
     const CrackSides sides(mesh, reach);
+    // A corner cuts one border or two. Where there are many more, borders lie in a pile.
+    const std::size_t most_cuts = 16 * sides.segments().size();
     std::vector<Cut> cuts;
     std::vector<std::uint32_t> near;
     for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
         if ((i & 0xFFF) == 0) throw_if_interrupted();
         find_cuts(sides, i, near, cuts);  // half-edges are in order
+        if (cuts.size() > most_cuts) return std::nullopt;
     }
     if (cuts.empty()) return std::nullopt;
     Mesh result = with_polygons_of(mesh);
