@@ -1,6 +1,7 @@
 #include "mesh/collapse_needles.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "mesh/vertex_clusters.h"
@@ -27,7 +28,33 @@ struct Needle {
     double length;
     glm::vec3 low, high;  // its ends, in an order of their own
     VertexClusters::Pair ends;
+    std::uint32_t triangle;
 };
+
+/// Per triangle, the first one of those that it is connected to over edges.
+std::vector<std::uint32_t> connected_parts(const Mesh& mesh) {
+    std::vector<std::uint32_t> part(mesh.triangles.size());
+    std::iota(part.begin(), part.end(), 0u);
+    const auto root = [&part](std::uint32_t t) {
+        while (part[t] != t) t = part[t] = part[part[t]];
+        return t;
+    };
+    for (HalfEdge h = 0; h < mesh.next_on_edge.size(); ++h) {
+        const std::uint32_t a = root(h / 3), b = root(mesh.next_on_edge[h] / 3);
+        part[std::max(a, b)] = std::min(a, b);
+    }
+    for (std::uint32_t t = 0; t < part.size(); ++t) part[t] = root(t);
+    return part;
+}
+
+/// What is nothing but needles, such as a tube or a cone that is open and thin, would be lost.
+void keep_thin_parts(const Mesh& mesh, std::vector<Needle>& needles) {
+    const std::vector<std::uint32_t> part = connected_parts(mesh);
+    std::vector<std::uint32_t> size(part.size()), count(part.size());
+    for (const std::uint32_t p : part) ++size[p];
+    for (const Needle& needle : needles) ++count[part[needle.triangle]];
+    std::erase_if(needles, [&](const Needle& needle) { return 2 * count[part[needle.triangle]] >= size[part[needle.triangle]]; });
+}
 
 }  // namespace
 
@@ -37,8 +64,9 @@ std::optional<Mesh> collapse_needles(const Mesh& mesh, const CrackReach& reach) 
     for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
         if (!sides.is_end_of_needle(i) || !is_between_others(mesh, sides.segments()[i].half_edge)) continue;
         const auto& [low, high] = std::minmax(sides.segments()[i].a, sides.segments()[i].b, is_less);
-        needles.push_back({sides.length(i), low, high, sides.ends(i)});
+        needles.push_back({sides.length(i), low, high, sides.ends(i), sides.segments()[i].half_edge / 3});
     }
+    if (!needles.empty()) keep_thin_parts(mesh, needles);
     if (needles.empty()) return std::nullopt;
     // The shortest first, whatever the order of the triangles.
     std::sort(needles.begin(), needles.end(), [](const Needle& a, const Needle& b) {

@@ -220,6 +220,22 @@ TEST(StitchCracks, ThinStripsAndSlatsStay) {
     }
     EXPECT_FALSE(stitch_cracks(shaken(hairs, 0, 0), everywhere(1)));
     EXPECT_FALSE(stitch_cracks(shaken(slats, 0, 0), everywhere(1)));
+    // Cones and tubes that are open and thinner than what a needle's end is.
+    const Surface cone = [](double u, double v) {
+        const double a = 2 * std::numbers::pi * u;
+        return glm::dvec3(0.05 * v * std::cos(a), 0.05 * v * std::sin(a), 20 * v);
+    };
+    const Surface tube = [](double u, double v) {
+        const double a = 2 * std::numbers::pi * u;
+        return glm::dvec3(0.05 * std::cos(a), 0.05 * std::sin(a), 20 * v);
+    };
+    for (const Surface& surface : {cone, tube}) {
+        std::vector<Polygon> polygons;
+        add_patch(polygons, surface, {0, 0}, {1, 1}, 8, 1);
+        const Mesh thin = shaken(polygons, 0, 0);
+        const auto whole = stitch_cracks(thin, everywhere(1));
+        EXPECT_EQ((whole ? *whole : thin).triangles.size(), thin.triangles.size());
+    }
 }
 
 TEST(StitchCracks, SmallPolygonsAreNoNeedles) {
