@@ -83,7 +83,8 @@ std::optional<Mesh> join_borders(const Mesh& mesh, const CrackReach& reach) {
     for (const Crack& crack : cracks) pairs.insert(pairs.end(), crack.joins.begin(), crack.joins.end());
     VertexClusters clusters(mesh, pairs);
     for (const Crack& crack : cracks) {
-        const double largest = reach(glm::dvec3(crack.place[0]));
+        double largest = reach(glm::dvec3(crack.place[0]));
+        for (const glm::vec3& place : crack.place) largest = std::min(largest, reach(glm::dvec3(place)));
         if (!clusters.may_join(crack.joins[0], largest) || !clusters.may_join(crack.joins[1], largest)) continue;
         clusters.join(crack.joins[0]);
         clusters.join(crack.joins[1]);

@@ -98,15 +98,21 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
     auto cut = cuts.begin();
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         parts.assign(1, {mesh.triangles[t], {0, 1, 2}});
-        while (cut != cuts.end() && cut->half_edge / 3 == t) {
-            const HalfEdge h = cut->half_edge;
-            const glm::dvec3 a(mesh.positions[mesh.triangles[t][h % 3]]), b(mesh.positions[mesh.triangles[t][(h + 1) % 3]]);
+        // The longest edge first, whichever corner the triangle begins with.
+        const auto first = cut;
+        while (cut != cuts.end() && cut->half_edge / 3 == t) ++cut;
+        const auto corner = [&](HalfEdge h) { return glm::dvec3(mesh.positions[mesh.triangles[t][h % 3]]); };
+        std::array<HalfEdge, 3> edges{3 * t, 3 * t + 1, 3 * t + 2};
+        const auto length = [&](HalfEdge h) { return glm::distance(corner(h), corner(h + 1)); };
+        if (cut != first) std::stable_sort(edges.begin(), edges.end(), [&](HalfEdge g, HalfEdge h) { return length(g) > length(h); });
+        for (const HalfEdge h : edges) {
             points.clear();
-            for (; cut != cuts.end() && cut->half_edge == h; ++cut) {
+            for (auto it = first; it != cut; ++it) {
+                if (it->half_edge != h) continue;
                 points.push_back(static_cast<std::uint32_t>(result.positions.size()));
-                result.positions.emplace_back(glm::mix(a, b, cut->share));
+                result.positions.emplace_back(glm::mix(corner(h), corner(h + 1), it->share));
             }
-            cut_fan(parts, static_cast<std::uint8_t>(h % 3), points);
+            if (!points.empty()) cut_fan(parts, static_cast<std::uint8_t>(h % 3), points);
         }
         for (const Part& part : parts) {
             result.triangles.push_back(part.corners);
