@@ -1,6 +1,7 @@
 #include "lines/merge_segments.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -17,12 +18,14 @@ void put_in_order(LineSegment& s) {
     s.front_on_left = !s.front_on_left;
 }
 
-/// What pieces are sorted by, so that few of them are looked at, and none is moved.
-struct SortKey {
-    std::uint64_t line_key;
-    std::uint32_t block, index;
-    double from_x;
-};
+/// Blocks are put in order by a few bits of their place first: of those of one tile, hardly two have the same.
+constexpr std::size_t kBuckets = 256;
+std::size_t bucket_of(std::uint32_t block) { return (block >> 16 & 15u) << 4 | (block & 15u); }
+
+bool is_block_before(std::uint32_t a, std::uint32_t b) {
+    const std::size_t p = bucket_of(a), q = bucket_of(b);
+    return p != q ? p < q : a < b;
+}
 
 bool is_before(const LineSegment& a, const LineSegment& b) {
     if (a.from.x != b.from.x) return a.from.x < b.from.x;
@@ -42,30 +45,57 @@ bool continues(const LineSegment& a, const LineSegment& b) {
 
 }  // namespace
 
-void merge_segments(std::vector<LineSegment>& segments) {
-    std::vector<SortKey> order(segments.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) {
-        put_in_order(segments[i]);
-        order[i] = {segments[i].line_key, segments[i].block, i, segments[i].from.x};
+void SegmentMerger::merge(std::vector<LineSegment>& segments) {
+    std::array<std::uint32_t, kBuckets + 1> begin{};
+    for (LineSegment& s : segments) {
+        put_in_order(s);
+        ++begin[bucket_of(s.block) + 1];
     }
-    std::sort(order.begin(), order.end(), [&](const SortKey& a, const SortKey& b) {
-        if (a.line_key != b.line_key) return a.line_key < b.line_key;
-        if (a.block != b.block) return a.block < b.block;
-        return a.from_x != b.from_x ? a.from_x < b.from_x : is_before(segments[a.index], segments[b.index]);
-    });
-    std::vector<LineSegment> merged;
-    merged.reserve(segments.size());
-    for (const SortKey& key : order) {
-        const LineSegment& next = segments[key.index];
-        if (!merged.empty() && continues(merged.back(), next)) {
-            merged.back().to = next.to;
-            merged.back().nearness_to = next.nearness_to;
-            merged.back().occludes = merged.back().occludes || next.occludes;
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    order_.resize(segments.size());
+    auto next = begin;
+    for (std::uint32_t i = 0; i < order_.size(); ++i) {
+        const LineSegment& s = segments[i];
+        order_[next[bucket_of(s.block)]++] = {s.line_key, s.block, i, s.from.x};
+    }
+    for (std::size_t i = 0; i < kBuckets; ++i) {
+        std::sort(order_.begin() + begin[i], order_.begin() + begin[i + 1], [&](const Key& a, const Key& b) {
+            if (a.line_key != b.line_key || a.block != b.block) {
+                return a.block != b.block ? a.block < b.block : a.line_key < b.line_key;
+            }
+            return a.from_x != b.from_x ? a.from_x < b.from_x : is_before(segments[a.index], segments[b.index]);
+        });
+    }
+    merged_.clear();
+    for (const Key& key : order_) {
+        const LineSegment& next_one = segments[key.index];
+        if (!merged_.empty() && continues(merged_.back(), next_one)) {
+            merged_.back().to = next_one.to;
+            merged_.back().nearness_to = next_one.nearness_to;
+            merged_.back().occludes = merged_.back().occludes || next_one.occludes;
         } else {
-            merged.push_back(next);
+            merged_.push_back(next_one);
         }
     }
-    segments = std::move(merged);
+    segments.swap(merged_);
+}
+
+std::span<const LineSegment> segments_in_block(std::span<const LineSegment> merged, std::uint32_t block) {
+    const auto first = std::partition_point(merged.begin(), merged.end(),
+                                            [&](const LineSegment& s) { return is_block_before(s.block, block); });
+    auto last = first;
+    while (last != merged.end() && last->block == block) ++last;
+    return {first, last};
+}
+
+std::span<const LineSegment> segments_of_line(std::span<const LineSegment> merged, std::uint32_t block,
+                                              std::uint64_t line_key) {
+    const auto first = std::partition_point(merged.begin(), merged.end(), [&](const LineSegment& s) {
+        return s.block != block ? is_block_before(s.block, block) : s.line_key < line_key;
+    });
+    auto last = first;
+    while (last != merged.end() && last->block == block && last->line_key == line_key) ++last;
+    return {first, last};
 }
 
 }  // namespace burin

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "lines/merge_segments.h"
 #include "methods/abuffer/layer_triangle.h"
 
 namespace burin {
@@ -82,7 +83,7 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
             }
             const std::uint32_t block =
                 static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
-            find_undrawn(edge, begin, end, pieces_of(drawn, key, block));
+            find_undrawn(edge, begin, end, segments_of_line(drawn, block, key));
             open_.clear();
             for (const Interval& i : undrawn_) {
                 if (is_tip(samples, edge, i)) {
@@ -256,22 +257,10 @@ bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double ne
     return screen_.nearness_of(number, subpixel) > nearness + level(nearness);
 }
 
-/// The pieces of a line in a block.
-std::span<const LineSegment> FineParts::pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
-                                                  std::uint32_t block) {
-    const auto is_before = [&](const LineSegment& s) {
-        return s.line_key != key ? s.line_key < key : s.block < block;
-    };
-    const auto first = std::partition_point(drawn.begin(), drawn.end(), is_before);
-    auto last = first;
-    while (last != drawn.end() && last->line_key == key && last->block == block) ++last;
-    return {first, last};
-}
-
 /// Whether a line of another edge in the same place on the screen was found in the block.
 bool FineParts::is_drawn_by_another(const EdgeOnScreen& edge, std::span<const LineSegment> drawn, std::uint32_t block) {
-    return std::any_of(drawn.begin(), drawn.end(),
-                       [&](const LineSegment& s) { return s.block == block && runs_along(edge, s); });
+    const auto in_block = segments_in_block(drawn, block);
+    return std::any_of(in_block.begin(), in_block.end(), [&](const LineSegment& s) { return runs_along(edge, s); });
 }
 
 /// What is left of an edge where pieces of its line were found.

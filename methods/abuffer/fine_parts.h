@@ -27,7 +27,7 @@ class FineParts {
     FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
         : screen_(screen), kernels_(kernels), takes_rests_(takes_rests) {}
 
-    /// `drawn`: the lines found in the tile, as merge_segments() leaves them.
+    /// `drawn`: the lines found in the tile, as a SegmentMerger leaves them.
     void find(const SampleTile& samples, std::span<const FineEdge> edges, std::span<const LineSegment> drawn,
               std::vector<FinePart>& parts);
 
@@ -54,8 +54,6 @@ class FineParts {
     bool is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
                  const Owners& owners) const;
     bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
-    static std::span<const LineSegment> pieces_of(std::span<const LineSegment> drawn, std::uint64_t key,
-                                                  std::uint32_t block);
     static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
     static bool is_drawn_by_another(const EdgeOnScreen& edge, std::span<const LineSegment> drawn, std::uint32_t block);
     void find_undrawn(const EdgeOnScreen& edge, double begin, double end,

@@ -7,7 +7,6 @@
 
 #include "abuffer/scan_convert.h"
 #include "lines/cell_tracer.h"
-#include "lines/merge_segments.h"
 #include "methods/abuffer/sampling.h"
 
 namespace burin {
@@ -370,7 +369,7 @@ void LineTile::find_lines(std::vector<LineSegment>& segments) {
     find_crossings();
     pieces_.clear();
     trace_cells(pieces_);
-    merge_segments(pieces_);
+    merger_.merge(pieces_);
     segments.insert(segments.end(), pieces_.begin(), pieces_.end());
     for (const SamplePair& place : crossing_places_) {
         (place.down ? down_ : right_)[static_cast<std::size_t>(place.row) *

@@ -7,6 +7,7 @@
 #include "abuffer/tile_kernels.h"
 #include "lines/crease_fade.h"
 #include "lines/line_segment.h"
+#include "lines/merge_segments.h"
 #include "methods/abuffer/fast_decision.h"
 #include "methods/abuffer/triangle_bins.h"
 #include "render/frame.h"
@@ -75,6 +76,7 @@ class LineTile {
     // Per sample, 1 + the number of the crossing to its right and below it; 0: none.
     std::vector<std::uint32_t> right_, down_;
     std::vector<LineSegment> pieces_;
+    SegmentMerger merger_;
     std::uint64_t drawn_ = 0;
     std::vector<Contest> contests_;
     std::uint32_t contest_count_ = 0, contests_used_ = 0;

@@ -273,7 +273,7 @@ TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
     };
     std::vector<LineSegment> segments{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
                                       piece({3, 1.5}, {4, 2}, 2), piece({4, 2}, {5, 2}, 2), piece({5, 2}, {6, 2}, 2, 1)};
-    merge_segments(segments);
+    SegmentMerger().merge(segments);
     ASSERT_EQ(segments.size(), 4u);
     EXPECT_EQ(segments[0].from, glm::dvec2(0, 0));
     EXPECT_EQ(segments[0].to, glm::dvec2(3, 1.5));
