@@ -36,7 +36,7 @@ constexpr int kStrokeColumnSets = 8;
 constexpr std::array<double, kStrokeColumnSets> kStrokeColumnShifts = {-7.0 / 16, 1.0 / 16, -3.0 / 16, 5.0 / 16,
                                                                        -5.0 / 16, 3.0 / 16, -1.0 / 16, 7.0 / 16};
 /// The columns of a set, a bit each.
-constexpr std::uint64_t columns_of_set(int set) { return 0x0101010101010101u << set; }
+constexpr std::uint32_t columns_of_set(int set) { return 0x01010101u << set; }
 /// Whether a boundary along (x, y) is level; a dot's is.
 constexpr bool is_level(double x, double y) {
     const double across = x < 0 ? -x : x, down = y < 0 ? -y : y;

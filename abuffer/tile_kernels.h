@@ -56,6 +56,13 @@ struct PenStroke {
     std::int32_t first_row;  ///< of the canvas, in the picture: rows of samples, for their shifts
 };
 
+/// Coverage masks of pixels, as StrokeMask has them, row by row.
+struct StrokeView {
+    std::uint32_t* masks;   ///< kStrokeRows for each pixel
+    std::uint8_t* touched;  ///< per pixel: whether it has any bits
+    std::int32_t stride;    ///< pixels from one row to the next
+};
+
 /// What takes the positions of a mesh to the screen: SurfaceSet::view_position() and Projection.
 struct ScreenTransform {
     double to_view[4][3];  ///< columns
@@ -223,9 +230,13 @@ struct TileKernels {
     void (*put_geometry)(const RowRays& rays, const TriangleLook* looks, const std::uint16_t* look_at, std::size_t count,
                          const GeometryRow& row);
     /// The columns [begin, end) that a stroke covers in `count` rows of a stroke canvas (StrokeMask's
-    /// samples), cut off at `columns`. Up to three more may be written.
+    /// samples), cut off at `columns`. Up to seven more may be written.
     void (*stroke_spans)(const PenStroke& stroke, std::int32_t row, std::int32_t count, std::int32_t columns,
                          std::int32_t* begin, std::int32_t* end);
+    /// Adds to masks those of `columns`' bits that are in the spans [begin[i], end[i]) of the rows of samples from `row` on.
+    /// `row` and `count`: multiples of eight.
+    void (*add_spans)(const StrokeView& canvas, std::int32_t row, std::int32_t count, const std::int32_t* begin,
+                      const std::int32_t* end, std::uint32_t columns);
     /// How many bits are set in 16 numbers, without those of `hidden`.
     int (*count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
     /// Lists those of the boxes [begin, end) that touch a box and have nearness in common with it, the ends of

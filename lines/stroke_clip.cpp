@@ -88,7 +88,7 @@ template <typename Visit>
 void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& visit) const {
     if (!in_sets_) return for_spans_of(sides, 0, ~0u, visit);
     for (int set = 0; set < kStrokeColumnSets; ++set)
-        for_spans_of(sides, kStrokeColumnShifts[static_cast<std::size_t>(set)], static_cast<std::uint32_t>(columns_of_set(set)), visit);
+        for_spans_of(sides, kStrokeColumnShifts[static_cast<std::size_t>(set)], columns_of_set(set), visit);
 }
 
 /// Of some columns, with samples so many rows further down.

@@ -76,13 +76,12 @@ class StrokeCanvas {
     }
 
   private:
-    void add_spans(int from, int end, std::uint64_t columns);
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
 
     const TileKernels* kernels_;
     std::vector<std::int32_t> begin_, end_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
-    int stride_ = 0;  // a multiple of eight with room for two pixels more, which stay untouched
+    int stride_ = 0;  // a multiple of eight; pixels beyond the width stay untouched
     std::vector<StrokeMask> masks_;
     std::vector<std::uint8_t> touched_;
 };

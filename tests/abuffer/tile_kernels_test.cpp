@@ -412,10 +412,10 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
         s.radius = random.real(0.1, 2);
         s.first_row = random.integer(-100, 100);
         constexpr int kRows = 4 * 16, kColumns = 8 * 32;
-        std::vector<std::int32_t> begin(kRows + 3), end(kRows + 3);
+        std::vector<std::int32_t> begin(kRows), end(kRows);
         baseline_kernels().stroke_spans(s, 0, kRows, kColumns, begin.data(), end.data());
         for (const TileKernels* kernels : all_kernels()) {
-            std::vector<std::int32_t> own_begin(kRows + 3), own_end(kRows + 3);
+            std::vector<std::int32_t> own_begin(kRows), own_end(kRows);
             kernels->stroke_spans(s, 0, kRows, kColumns, own_begin.data(), own_end.data());
             EXPECT_EQ(own_begin, begin) << kernels->name;
             EXPECT_EQ(own_end, end) << kernels->name;
