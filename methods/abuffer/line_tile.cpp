@@ -97,34 +97,52 @@ void LineTile::draw_all(std::size_t tile) {
 /// Two faces that fold over at an edge are level there, and rounding says which is seen. Of those the one in front
 /// wins, and of coincident surfaces the first one, as in resolve_visibility().
 void LineTile::settle_contests() {
-    std::sort(contests_.begin(), contests_.begin() + contests_used_, [](const Contest& a, const Contest& b) {
+    // Mostly nothing is to be done: those of samples where nothing takes the winner's place are left out.
+    is_open_.assign(samples_.ids.size(), 0);
+    bool has_open = false;
+    for (std::uint32_t i = 0; i < contests_used_; ++i) {
+        const std::uint32_t winner = samples_.ids[contests_[i].sample] >> 1, loser = contests_[i].loser >> 1;
+        if (loser == winner || !relation(loser, winner).any()) continue;
+        is_open_[contests_[i].sample] = 1;
+        has_open = true;
+    }
+    if (!has_open) return;
+    const auto end_of_open = std::remove_if(contests_.begin(), contests_.begin() + contests_used_,
+                                            [&](const Contest& c) { return is_open_[c.sample] == 0; });
+    std::sort(contests_.begin(), end_of_open, [](const Contest& a, const Contest& b) {
         return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser);
     });
-    known_.clear();
-    for (std::uint32_t begin = 0, end = 0; begin < contests_used_; begin = end) {
-        const std::uint32_t sample = contests_[begin].sample;
+    for (auto begin = contests_.begin(), end = begin; begin != end_of_open; begin = end) {
+        const std::uint32_t sample = begin->sample;
         std::uint32_t winner = samples_.ids[sample] >> 1;
-        while (end < contests_used_ && contests_[end].sample == sample) ++end;
+        while (end != end_of_open && end->sample == sample) ++end;
         const auto for_losers = [&](const auto& wins) {  // in the order of their numbers
-            for (std::uint32_t i = begin; i < end; ++i) {
-                const std::uint32_t loser = contests_[i].loser >> 1;
+            for (auto contest = begin; contest != end; ++contest) {
+                const std::uint32_t loser = contest->loser >> 1;
                 if (loser == winner || !wins(loser)) continue;
                 winner = loser;
                 samples_.ids[sample] = loser << 1;
             }
         };
-        const auto put_folds_in_front = [&] { for_losers([&](std::uint32_t loser) { return is_fold_over(loser, winner); }); };
+        const auto put_folds_in_front = [&] { for_losers([&](std::uint32_t loser) { return relation(loser, winner).folds_over; }); };
         put_folds_in_front();
         bool settled = false;
         for_losers([&](std::uint32_t loser) {
-            if (settled || loser > winner) return false;
-            const auto [it, is_new] = known_.try_emplace(std::uint64_t{loser} << 32 | winner, false);
-            if (is_new) it->second = coincide(loser, winner);
-            settled = it->second;
+            if (settled) return false;
+            settled = relation(loser, winner).comes_first;
             return settled;
         });
         if (settled) put_folds_in_front();
     }
+}
+
+/// Mostly asked of the same two for one sample after the other.
+const LineTile::Relation& LineTile::relation(std::uint32_t loser, std::uint32_t winner) {
+    constexpr std::size_t kRemembered = 512;
+    if (relations_.empty()) relations_.resize(kRemembered);
+    Relation& r = relations_[(loser * 31u + winner) % kRemembered];
+    if (r.loser != loser || r.winner != winner) r = {loser, winner, is_fold_over(loser, winner), loser < winner && coincide(loser, winner)};
+    return r;
 }
 
 /// Whether two neighbours lie on one side of their common edge, and `front` in front of the other one.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
 #include "abuffer/sample_tile.h"
@@ -37,6 +36,14 @@ class LineTile {
     SampleView view();
     void draw_all(std::size_t tile);
     void settle_contests();
+    /// How a triangle that is level with what is seen lies to it.
+    struct Relation {
+        std::uint32_t loser = ~0u, winner = ~0u;
+        bool folds_over = false;   // in front, at their common edge
+        bool comes_first = false;  // they coincide, and it is the first one
+        bool any() const { return folds_over || comes_first; }
+    };
+    const Relation& relation(std::uint32_t loser, std::uint32_t winner);
     bool is_fold_over(std::uint32_t front, std::uint32_t back) const;
     bool coincide(std::uint32_t loser, std::uint32_t winner) const;
     void order_runs(std::size_t tile);
@@ -80,7 +87,8 @@ class LineTile {
     std::uint64_t drawn_ = 0;
     std::vector<Contest> contests_;
     std::uint32_t contest_count_ = 0, contests_used_ = 0;
-    std::unordered_map<std::uint64_t, bool> known_;  // two triangles: whether they coincide
+    std::vector<std::uint8_t> is_open_;  // per sample: whether a loser may win after all
+    std::vector<Relation> relations_;    // some that are known
 };
 
 }  // namespace burin
