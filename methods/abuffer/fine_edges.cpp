@@ -1,6 +1,9 @@
 #include "methods/abuffer/fine_edges.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "lines/line_segment.h"
@@ -11,17 +14,19 @@ namespace burin {
 namespace {
 
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
 FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int samples_per_pixel,
                      int threads) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
-    std::vector<std::vector<TileLists<FineEdge>::Record>> records(chunks.size());
+    std::vector<std::vector<TileLists<TileEdge>::Record>> records(chunks.size());
     const SampleBlocks blocks(samples_per_pixel);
     const PixelRect region = tiles.rect();  // of whole blocks, as are its tiles
     const int first_x = region.x0 / kMergeBlockPx, first_y = region.y0 / kMergeBlockPx;
     const int columns = region.width() / kMergeBlockPx, rows = region.height() / kMergeBlockPx;
+    const int pitch_shift = std::countr_zero(static_cast<unsigned>(2 * blocks.half_pitch));
     const int per_tile = tiles.tile_px() / kMergeBlockPx;
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
         const ScreenMesh mesh = screen.mesh(chunks[c].instance);
@@ -43,11 +48,13 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
                 __builtin_prefetch(&vertex(i + kAhead, 1));
             }
             glm::ivec2 a(vertex(i, 0).x, vertex(i, 0).y), b(vertex(i, 1).x, vertex(i, 1).y);
+            float nearest = std::max(vertex(i, 0).nearness, vertex(i, 1).nearness);
             if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) {
                 const auto cut = clipped_edge(screen, chunks[c].instance, corner(i, 0), corner(i, 1));
                 if (!cut) continue;
                 a = glm::floor(cut->from);
                 b = glm::floor(cut->to);
+                nearest = std::nextafter(static_cast<float>(std::max(cut->nearness_from, cut->nearness_to)), kInfinity);
             }
             if (a == b) continue;
             const auto [x0, x1] = std::minmax(a.x, b.x);
@@ -59,13 +66,19 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
             if (left > right || top > bottom) continue;
             for (int y = top / per_tile; y <= bottom / per_tile; ++y) {
                 for (int x = left / per_tile; x <= right / per_tile; ++x) {
+                    const auto area = [&](int subpixel, int first_px, int tile, int more) {
+                        const int from_first = subpixel - (first_px + tile * tiles.tile_px()) * kSubpixelsPerPixel - blocks.half_pitch;
+                        const int sample = (from_first >> pitch_shift) + more;
+                        return static_cast<std::uint8_t>(std::clamp(sample >> TileEdge::kAreaShift, 0, 255));
+                    };
                     records[c].push_back({static_cast<std::uint32_t>(y * tiles.columns() + x),
-                                          {chunks[c].instance, edges[i]}});
+                                          {{chunks[c].instance, edges[i]}, nearest, area(x0, region.x0, x, 0), area(y0, region.y0, y, 0),
+                                           area(x1 + 1, region.x0, x, 1), area(y1 + 1, region.y0, y, 1)}});
                 }
             }
         }
     });
-    lists_ = TileLists<FineEdge>(records, tiles.count());
+    lists_ = TileLists<TileEdge>(records, tiles.count());
 }
 
 }  // namespace burin

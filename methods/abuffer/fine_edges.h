@@ -11,6 +11,15 @@ struct FineEdge {
     HalfEdge half_edge;
 };
 
+/// The same in a tile, with what tells that it cannot be seen there.
+struct TileEdge {
+    static constexpr int kAreaShift = kBlockShift + 2;  ///< log2 of an area's width in samples
+
+    FineEdge edge;
+    float nearest;  ///< its nearness, at the nearer end
+    std::uint8_t left, top, right, bottom;  ///< the areas of the tile's samples that it may touch, or farther right or down
+};
+
 /// The squares of 2 x 2 samples lie half a sample to the right of and below the pixels. Blocks are the
 /// squares of kMergeBlockPx pixels that they are merged in: equal in all tiles and crops.
 struct SampleBlocks {
@@ -33,10 +42,10 @@ class FineEdges {
     FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int samples_per_pixel, int threads);
 
     /// Those that touch squares of samples of a tile.
-    std::span<const FineEdge> in(std::size_t tile) const { return lists_.of(tile); }
+    std::span<const TileEdge> in(std::size_t tile) const { return lists_.of(tile); }
 
   private:
-    TileLists<FineEdge> lists_;
+    TileLists<TileEdge> lists_;
 };
 
 }  // namespace burin

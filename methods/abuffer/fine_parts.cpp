@@ -48,7 +48,7 @@ std::pair<int, int> columns_beside(const EdgeOnScreen& edge, double top, double 
 
 }  // namespace
 
-void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
+void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
                      std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
     if (edges.empty()) return;
     find_farthest(samples);
@@ -57,7 +57,9 @@ void FineParts::find(const SampleTile& samples, std::span<const FineEdge> edges,
     const int first_x = samples.first_column >> shift,
               last_x = (samples.first_column + samples.columns - 2) >> shift;
     const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
-    for (const FineEdge& e : edges) {
+    for (const TileEdge& in_tile : edges) {
+        if (is_surely_behind(in_tile, samples)) continue;
+        const FineEdge& e = in_tile.edge;
         const auto& corners = screen_.surfaces().instances[e.instance].mesh->triangles[e.half_edge / 3];
         const auto [first, second] = std::minmax(corners[e.half_edge % 3], corners[(e.half_edge + 1) % 3]);
         const auto on_screen = edge_on_screen(screen_, e.instance, first, second);
@@ -151,6 +153,21 @@ FineParts::Owners FineParts::owners_of(FineEdge edge) const {
     owners.inner_side = side_of(h);
     if (owners.inner_side == 0) owners.inner_side = side_of(partner);
     return owners;
+}
+
+/// is_behind() of all of it, where whole areas are far in front: without a look at its vertices.
+bool FineParts::is_surely_behind(const TileEdge& edge, const SampleTile& samples) const {
+    const auto nearest = static_cast<double>(edge.nearest);
+    const double limit = nearest + kFarInFront * level(nearest);
+    const int right = std::min(int{edge.right}, (samples.columns - 1) >> kAreaShift), left = std::min(int{edge.left}, right);
+    const int bottom = std::min(int{edge.bottom}, (samples.rows - 1) >> kAreaShift), top = std::min(int{edge.top}, bottom);
+    for (int y = top; y <= bottom; ++y) {
+        for (int x = left; x <= right; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * kAreaPitch + static_cast<std::size_t>(x);
+            if (!(static_cast<double>(areas_.farthest[i]) > limit)) return false;
+        }
+    }
+    return true;
 }
 
 /// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.

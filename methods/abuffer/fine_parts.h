@@ -28,7 +28,7 @@ class FineParts {
         : screen_(screen), kernels_(kernels), takes_rests_(takes_rests) {}
 
     /// `drawn`: the lines found in the tile, as a SegmentMerger leaves them.
-    void find(const SampleTile& samples, std::span<const FineEdge> edges, std::span<const LineSegment> drawn,
+    void find(const SampleTile& samples, std::span<const TileEdge> edges, std::span<const LineSegment> drawn,
               std::vector<FinePart>& parts);
 
   private:
@@ -48,6 +48,7 @@ class FineParts {
         std::size_t pitch;
         std::vector<float> farthest;
     };
+    bool is_surely_behind(const TileEdge& edge, const SampleTile& samples) const;
     bool is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const;
     void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
                    glm::ivec2 block, Interval part);
@@ -63,7 +64,7 @@ class FineParts {
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
     bool takes_rests_;
-    static constexpr int kAreaShift = kBlockShift + 2;
+    static constexpr int kAreaShift = TileEdge::kAreaShift;
     static constexpr std::size_t kAreaPitch = BlockTable::kPitch >> (kAreaShift - kBlockShift);
     Squares blocks_{kBlockShift, BlockTable::kPitch, {}};
     Squares areas_{kAreaShift, kAreaPitch, {}};  // most edges lie behind whole ones

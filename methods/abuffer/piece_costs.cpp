@@ -16,7 +16,7 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
 constexpr std::uint64_t kPerRun = 90;         // a chunk's list in a tile, as found and as sorted
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
-constexpr std::uint64_t kPerEdge = 32;        // that may be a line, in a tile's list, as found and as sorted
+constexpr std::uint64_t kPerEdge = 56;        // that may be a line, in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
 // Lines that samples miss, in one tile: a triangle that may hide some, and a half-edge that may be one. Estimated: few are.
 constexpr std::uint64_t kPerHidingInTile = 40, kPerEdgeInTile = 50;

@@ -206,8 +206,8 @@ TEST(Memory, ListsOfEdgesAreCountedFromAbove) {
             for (int column = 0; column < tiles.columns(); ++column) {
                 in_row += edges.in(row * static_cast<std::size_t>(tiles.columns()) + static_cast<std::size_t>(column)).size();
             }
-            using List = TileLists<FineEdge>;
-            EXPECT_GE(all[row] - plain[row], in_row * (2 * sizeof(List::Record) + sizeof(FineEdge))) << "seed " << seed << " row " << row;
+            using List = TileLists<TileEdge>;
+            EXPECT_GE(all[row] - plain[row], in_row * (2 * sizeof(List::Record) + sizeof(TileEdge))) << "seed " << seed << " row " << row;
             count += in_row;
         }
         EXPECT_GT(count, 1000u);
