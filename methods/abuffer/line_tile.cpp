@@ -18,6 +18,13 @@ float highest_level_with(float nearness, const SampleView& tile) {
     return nearness + (nearness * tile.level_per_nearness + tile.level);
 }
 
+/// The lists of a tile's runs lie far from each other.
+void prefetch(const TriangleRun& run) {
+    const char* const first = reinterpret_cast<const char*>(run.triangles);
+    const std::size_t bytes = std::min(run.count * sizeof(TileTriangle), std::size_t{2048});
+    for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(first + at);
+}
+
 bool is_occluding(const LineDecision& decision) {
     return decision.reason == LineReason::turns_away || decision.reason == LineReason::ends_at_border ||
            decision.reason == LineReason::unexplained;
@@ -80,8 +87,9 @@ void LineTile::draw_all(std::size_t tile) {
     constexpr std::size_t kWorthALook = 256;  // triangles
     std::size_t since_look = bins_.large_in(tile).empty() ? 0 : kWorthALook;
     bool has_look = false;
-    for (const PlacedRun& placed : runs_) {
-        const TriangleRun& run = *placed.run;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+        if (i + 1 < runs_.size()) prefetch(*runs_[i + 1].run);
+        const TriangleRun& run = *runs_[i].run;
         if (since_look >= kWorthALook) {
             kernels_.find_farthest(view(), farthest_.data());
             since_look = 0;
