@@ -106,7 +106,7 @@ void LineTile::draw_all(std::size_t tile) {
 /// wins, and of coincident surfaces the first one, as in resolve_visibility().
 void LineTile::settle_contests() {
     // Mostly nothing is to be done: those of samples where nothing takes the winner's place are left out.
-    is_open_.assign(samples_.ids.size(), 0);
+    if (is_open_.size() < samples_.ids.size()) is_open_.assign(samples_.ids.size(), 0);
     bool has_open = false;
     for (std::uint32_t i = 0; i < contests_used_; ++i) {
         const std::uint32_t winner = samples_.ids[contests_[i].sample] >> 1, loser = contests_[i].loser >> 1;
@@ -141,6 +141,7 @@ void LineTile::settle_contests() {
             return settled;
         });
         if (settled) put_folds_in_front();
+        is_open_[sample] = 0;
     }
 }
 
