@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
+#include <utility>
 
 namespace burin {
 namespace {
 
 /// Cells are made so small that about so many triangles begin in one.
-constexpr double kTrianglesPerCell = 40;
+constexpr double kTrianglesPerCell = 80;
 /// Shorter parts of lines belong to the part before. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
 constexpr float kFar = 1e30f;
@@ -43,6 +43,7 @@ void LayerTile::fill(std::size_t tile) {
     triangles_.clear();
     entries_.clear();
     set_up_.clear();
+    has_clipped_ = false;
     SurfaceId s;
     std::uint32_t first = 0, end = 0;
     for (const std::uint32_t value : bins_.triangles(tile)) {
@@ -72,6 +73,8 @@ void LayerTile::fill(std::size_t tile) {
              number},
             kNotSetUp);
     }
+    looked_at_by_.assign(entries_.size(), 0);
+    lines_looked_at_ = 0;
     sort_into_cells();
 }
 
@@ -85,6 +88,7 @@ double LayerTile::transmission_of(SurfaceId s) const {
 }
 
 void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
+    has_clipped_ = true;
     const DepthPlane plane = frame_.surfaces.plane(s);
     const double zero = frame_.surfaces.farthest_nearness;
     const auto first_vertex = static_cast<std::uint32_t>(screen_.vertices(s.instance) - screen_.vertices(0));
@@ -180,7 +184,7 @@ std::span<const std::uint32_t> LayerTile::touching(std::size_t begin, std::size_
             kernels_.find_touching(cell_boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
 }
 
-/// Notes where in [begin, end] a triangle is in front of a line.
+/// Notes where in [begin, end] of a line a triangle is in front of it.
 void LayerTile::hide(const LayerLine& line, std::uint32_t i, double begin, double end) {
     const LayerTriangle& t = triangle(i);
     if (lies_on(line, t) || !clip_where_hidden(line, line_slack_ + t.slack, t, begin, end)) return;
@@ -192,6 +196,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     double begin = 0, end = 1;
     if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
     intervals_.clear();
+    ++lines_looked_at_;
     line_slack_ = line_slack(frame_.surfaces, line, begin, end);
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
     const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
@@ -206,7 +211,10 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
             if (!clip_to_rect(line, low, low + size, from, to)) continue;
             const Cell c = cell(column, row);
             const std::size_t count = kernels_.find_hiding(cell_triangles_.view(), c.begin, c.end, part_of(line, from, to), found_.data());
-            for (std::size_t i = 0; i < count; ++i) hide(line, cell_entries_[found_[i]], from, to);
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint32_t entry = cell_entries_[found_[i]];
+                if (std::exchange(looked_at_by_[entry], lines_looked_at_) != lines_looked_at_) hide(line, entry, begin, end);
+            }
         }
     }
     if (intervals_.empty()) return;
@@ -214,11 +222,9 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     sweep(line, line_number, begin, end, pieces);
 }
 
-/// Joins what a triangle hides from cell to cell, so that nothing depends on where cells end.
+/// Joins what the parts of a clipped triangle hide, which is one layer. In order, for shares of light are multiplied.
 void LayerTile::merge_intervals() {
-    const auto is_before = [](const Interval& a, const Interval& b) { return a.triangle < b.triangle; };
-    // A cell's triangles are in order: nothing is to be done for a line in one cell.
-    if (std::adjacent_find(intervals_.begin(), intervals_.end(), std::not_fn(is_before)) == intervals_.end()) return;
+    if (!has_clipped_ && !has_transparent_) return;
     std::sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) {
         return a.triangle != b.triangle ? a.triangle < b.triangle : a.begin < b.begin;
     });

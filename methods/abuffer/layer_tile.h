@@ -103,6 +103,9 @@ class LayerTile {
     std::vector<Entry> entries_;
     std::vector<CellRange> cell_ranges_;  // per entry
     std::vector<std::uint32_t> set_up_;   // per entry: which of triangles_, or kNotSetUp
+    std::vector<std::uint32_t> looked_at_by_;  // per entry: the last line, so that no line looks twice at what is in many cells
+    std::uint32_t lines_looked_at_ = 0;
+    bool has_clipped_ = false;  // triangles in several parts
     std::vector<LayerTriangle> triangles_;
     std::vector<std::uint32_t> cell_end_, cell_entries_;  // numbers of entries
     ScreenTriangles cell_triangles_;
