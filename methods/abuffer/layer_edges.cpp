@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "methods/abuffer/edge_on_screen.h"
+#include "methods/abuffer/fast_walk.h"
 
 namespace burin {
 namespace {
@@ -182,13 +183,20 @@ class LayerEdgeFinder::Rules {
             if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
         }
         if (ends_at_wall(s.instance, h, g) || ends_at_wall(s.instance, g, h)) classes |= LineClass::silhouette;
-        if (!is_sliver(surfaces_, triangle_of(s, h)) && !is_sliver(surfaces_, triangle_of(s, g))) {
-            classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
+        if (!is_sliver_at(s, h) && !is_sliver_at(s, g)) {
+            const std::uint8_t* const sharp = screen_.sharp_edges(s.instance);
+            const bool may_have_any = sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0;
+            if (may_have_any) classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
         } else if (solid_h && solid_g) {
             classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g),
                                        middle_px(s, h), criteria_, &crease_cosine);
         }
         add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
+    }
+
+    /// Most triangles are none in any view.
+    bool is_sliver_at(SurfaceId s, HalfEdge h) const {
+        return !FastWalker::is_surely_solid(screen_.mesh(s.instance), h / 3) && is_sliver(surfaces_, triangle_of(s, h));
     }
 
     void visit_ring(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
