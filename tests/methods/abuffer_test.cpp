@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "lines/merge_segments.h"
 #include "mesh/shapes.h"
 #include "methods/abuffer/line_tile.h"
 #include "tests/support/drawing.h"
@@ -258,55 +257,6 @@ TEST(Abuffer, FastDecisionsAreThoseOfTheSlowWay) {
         sum += compare_decisions(scene, 2 << seed % 2);
     }
     expect_agreement(sum, 0.7);
-}
-
-TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
-    const auto piece = [](glm::dvec2 from, glm::dvec2 to, std::uint64_t key, std::uint32_t block = 0) {
-        LineSegment s;
-        s.from = from;
-        s.to = to;
-        s.line_key = key;
-        s.block = block;
-        // All with the front above.
-        s.front_on_left = from.x < to.x;
-        return s;
-    };
-    std::vector<LineSegment> segments{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
-                                      piece({3, 1.5}, {4, 2}, 2), piece({4, 2}, {5, 2}, 2), piece({5, 2}, {6, 2}, 2, 1)};
-    SegmentMerger().merge(segments);
-    ASSERT_EQ(segments.size(), 4u);
-    EXPECT_EQ(segments[0].from, glm::dvec2(0, 0));
-    EXPECT_EQ(segments[0].to, glm::dvec2(3, 1.5));
-}
-
-/// Merged pieces are found by their block and line, wherever the tile lies.
-TEST(Abuffer, MergedPiecesAreFoundByBlockAndLine) {
-    Random random(11);
-    SegmentMerger merger;
-    for (int round = 0; round < 200; ++round) {
-        const auto first_row = static_cast<std::uint32_t>(random.integer(0, 0xFFFF)), first_column = static_cast<std::uint32_t>(random.integer(0, 0xFFFF));
-        std::vector<LineSegment> segments(static_cast<std::size_t>(random.integer(0, 300)));
-        const int blocks = random.integer(1, 40);
-        for (LineSegment& s : segments) {  // too far from each other to be merged
-            s.from = {random.real(0, 9000), random.real(0, 9000)};
-            s.to = {random.real(0, 9000), random.real(0, 9000)};
-            s.line_key = static_cast<std::uint64_t>(random.integer(0, 9));
-            s.block = ((first_row + static_cast<std::uint32_t>(random.integer(0, blocks))) & 0xFFFFu) << 16 |
-                      ((first_column + static_cast<std::uint32_t>(random.integer(0, blocks))) & 0xFFFFu);
-        }
-        const std::vector<LineSegment> given = segments;
-        merger.merge(segments);
-        ASSERT_EQ(segments.size(), given.size());
-        for (const LineSegment& any : given) {
-            const auto count = [&](const auto& is_it) { return std::count_if(given.begin(), given.end(), is_it); };
-            const auto in_block = segments_in_block(segments, any.block);
-            const auto of_line = segments_of_line(segments, any.block, any.line_key);
-            ASSERT_EQ(static_cast<std::ptrdiff_t>(in_block.size()), count([&](const LineSegment& s) { return s.block == any.block; })) << round;
-            ASSERT_EQ(static_cast<std::ptrdiff_t>(of_line.size()),
-                      count([&](const LineSegment& s) { return s.block == any.block && s.line_key == any.line_key; })) << round;
-            for (const LineSegment& s : of_line) ASSERT_TRUE(s.block == any.block && s.line_key == any.line_key) << round;
-        }
-    }
 }
 
 /// A floor that goes on behind the eye ends where its borders are, not where samples are.
