@@ -230,7 +230,7 @@ struct TileKernels {
     void (*put_geometry)(const RowRays& rays, const TriangleLook* looks, const std::uint16_t* look_at, std::size_t count,
                          const GeometryRow& row);
     /// The columns [begin, end) that a stroke covers in `count` rows of a stroke canvas (StrokeMask's
-    /// samples), cut off at `columns`. Up to seven more may be written.
+    /// samples), cut off at `columns`. In single precision; equal in any canvas. Up to seven more may be written.
     void (*stroke_spans)(const PenStroke& stroke, std::int32_t row, std::int32_t count, std::int32_t columns,
                          std::int32_t* begin, std::int32_t* end);
     /// Adds to masks those of `columns`' bits that are in the spans [begin[i], end[i]) of the rows of samples from `row` on.

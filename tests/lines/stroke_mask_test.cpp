@@ -28,6 +28,9 @@ struct Stroke {
     }
 };
 
+/// Strokes are drawn in single precision.
+constexpr double kRoundingPx = 1e-5;
+
 /// 1: some stroke covers the sample, 0: none, -1: rounding decides.
 int expected(const std::vector<Stroke>& strokes, int column, glm::dvec2 sample) {
     bool is_close = false;
@@ -35,8 +38,8 @@ int expected(const std::vector<Stroke>& strokes, int column, glm::dvec2 sample) 
         const glm::dvec2 along = s.to - s.from;
         const double down = std::abs(along.y) * 16 <= std::abs(along.x) ? kStrokeColumnShifts[static_cast<std::size_t>(column % 8)] / 16 : 0.0;
         const double beyond = s.distance(sample + glm::dvec2(0, down)) - s.radius;
-        if (beyond < -1e-9) return 1;
-        is_close = is_close || beyond < 1e-9;
+        if (beyond < -kRoundingPx) return 1;
+        is_close = is_close || beyond < kRoundingPx;
     }
     return is_close ? -1 : 0;
 }
@@ -98,6 +101,30 @@ TEST(StrokeCanvas, HasTheSamplesNearTheLines) {
             if (seed % 4 != 0) continue;
             canvas.reset(origin.x, origin.y, size.x, size.y);  // only what was touched is cleared
             expect_samples(canvas, {}, origin, seed);
+        }
+    }
+}
+
+/// Tiles and crops show what the whole picture shows, to the bit.
+TEST(StrokeCanvas, TheSamplesDoNotDependOnWhereItLies) {
+    for (const TileKernels* kernels : all_kernels()) {
+        StrokeCanvas whole(*kernels), part(*kernels);
+        for (std::uint64_t seed = 0; seed < 200; ++seed) {
+            Random random(seed);
+            const glm::ivec2 corner(random.integer(-5000, 5000), random.integer(-5000, 5000)), size(600, 40);
+            const glm::ivec2 inset(random.integer(0, 590), random.integer(0, 30));
+            const glm::ivec2 part_size(random.integer(1, size.x - inset.x), random.integer(1, size.y - inset.y));
+            whole.reset(corner.x, corner.y, size.x, size.y);
+            part.reset(corner.x + inset.x, corner.y + inset.y, part_size.x, part_size.y);
+            for (const Stroke& s : some_strokes(random, corner, size)) {
+                whole.draw(s.from, s.to, s.radius);
+                part.draw(s.from, s.to, s.radius);
+            }
+            for (int row = 0; row < part_size.y; ++row) {
+                for (int column = 0; column < part_size.x; ++column) {
+                    ASSERT_EQ(part.at(column, row).rows, whole.at(column + inset.x, row + inset.y).rows) << "seed " << seed;
+                }
+            }
         }
     }
 }
