@@ -49,10 +49,11 @@ std::pair<std::uint32_t, std::uint32_t> CrackSides::ends(std::uint32_t segment) 
 }
 
 /// The triangle's other corner.
-glm::dvec3 CrackSides::apex(std::uint32_t segment) const {
+std::uint32_t CrackSides::apex_vertex(std::uint32_t segment) const {
     const HalfEdge h = segments_[segment].half_edge;
-    return glm::dvec3(mesh_.positions[mesh_.triangles[h / 3][(h % 3 + 2) % 3]]);
+    return mesh_.triangles[h / 3][(h % 3 + 2) % 3];
 }
+glm::dvec3 CrackSides::apex(std::uint32_t segment) const { return glm::dvec3(mesh_.positions[apex_vertex(segment)]); }
 
 /// From the edge to that, at a right angle.
 glm::dvec3 CrackSides::across(std::uint32_t segment) const {
@@ -68,7 +69,26 @@ glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
 }
 
 bool CrackSides::are_beside(std::uint32_t s, std::uint32_t t) const {
-    return segments_[s].polygon != segments_[t].polygon && glm::dot(inward(s), inward(t)) <= kCosLeastAngle;
+    return segments_[s].polygon != segments_[t].polygon && glm::dot(inward(s), inward(t)) <= kCosLeastAngle &&
+           !(ends_before(s, t) && ends_before(t, s)) && !has_beside(s, apex_vertex(t)) && !has_beside(t, apex_vertex(s));
+}
+
+/// Whether a vertex belongs to the triangle at a border or to one next to it.
+bool CrackSides::has_beside(std::uint32_t segment, std::uint32_t vertex) const {
+    const HalfEdge h = segments_[segment].half_edge;
+    for (HalfEdge k = h - h % 3; k < h - h % 3 + 3; ++k) {
+        const auto& next = mesh_.triangles[mesh_.next_on_edge[k] / 3];
+        if (std::find(next.begin(), next.end(), vertex) != next.end()) return true;
+    }
+    return false;
+}
+
+/// Whether the other border lies on the polygon's side of one, and not on its triangle but behind it.
+bool CrackSides::ends_before(std::uint32_t segment, std::uint32_t other) const {
+    const BorderIndex::Segment &s = segments_[segment], &t = segments_[other];
+    const double to_other = glm::dot(0.5 * (glm::dvec3(t.a) + glm::dvec3(t.b)) - glm::dvec3(s.a), inward(segment));
+    constexpr double kRounding = 1.01;
+    return to_other > 0 && heights_[segment] <= kRounding * to_other;
 }
 
 }  // namespace burin

@@ -28,11 +28,15 @@ class CrackSides {
     double widest(std::uint32_t segment, double length) const;
     /// The vertices that a border runs between.
     std::pair<std::uint32_t, std::uint32_t> ends(std::uint32_t segment) const;
-    /// Whether two borders may be the sides of one crack, as far as their polygons say.
+    /// Whether two borders may be the sides of one crack, as far as their polygons say: not those of a strip or groove, with
+    /// polygons between them.
     bool are_beside(std::uint32_t s, std::uint32_t t) const;
 
   private:
+    bool ends_before(std::uint32_t segment, std::uint32_t other) const;
     glm::dvec3 inward(std::uint32_t segment) const;
+    bool has_beside(std::uint32_t segment, std::uint32_t vertex) const;
+    std::uint32_t apex_vertex(std::uint32_t segment) const;
     glm::dvec3 apex(std::uint32_t segment) const;
     glm::dvec3 across(std::uint32_t segment) const;
 

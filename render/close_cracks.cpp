@@ -31,6 +31,13 @@ Placing placing_of(const glm::dmat4& to_view, const glm::dvec3& origin) {
     return {-row, -(glm::dot(row, origin) + to_view[3].z), scale};
 }
 
+/// Whether anything of it is.
+bool is_before_the_eye(const Placing& placing, const Mesh& mesh) {
+    return std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) {
+        return glm::dot(placing.per_position, glm::dvec3(p)) + placing.distance > 0;
+    });
+}
+
 }  // namespace
 
 void close_cracks(Scene& scene, const Camera& camera, int width, int height) {
@@ -40,7 +47,8 @@ void close_cracks(Scene& scene, const Camera& camera, int width, int height) {
     for (const SceneObject& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
         if (mesh.borders.segments().size() < 2) continue;
-        placings[object.mesh].push_back(placing_of(world_to_view * object.to_world, mesh.origin));
+        const Placing placing = placing_of(world_to_view * object.to_world, mesh.origin);
+        if (projection.orthographic || is_before_the_eye(placing, mesh)) placings[object.mesh].push_back(placing);
     }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         if (placings[i].empty()) continue;

@@ -111,10 +111,11 @@ TEST(Cracks, WiderThanAPixelHaveTheirBorders) {
 TEST(Cracks, AreWiderThanAPixelIfTheyAreInOneObject) {
     const PolygonSoup halves = soup_of({{-1, -1, 0}, {-0.01, -1, 0}, {-0.01, 1, 0}, {-1, 1, 0}, {0.01, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.01, 1, 0}},
                                        {{0, 1, 2, 3}, {4, 5, 6, 7}});
-    const auto borders = [&](double scale, double depth) {
+    const auto borders = [&](double scale, double depth, bool along_view = false) {
         Scene scene = scene_of({halves});
         scene.objects.push_back(scene.objects.front());
         scene.objects.back().to_world = glm::dmat4(glm::dmat3(scale));
+        if (along_view) scene.objects.back().to_world = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}};
         scene.objects.back().to_world[3] = {0, 0, depth, 1};
         close_cracks(scene, perspective_camera({0, 0, 6}, {0, 0, 0}), kSize, kSize);
         return scene.meshes.front().borders.segments().size();
@@ -123,7 +124,22 @@ TEST(Cracks, AreWiderThanAPixelIfTheyAreInOneObject) {
     EXPECT_EQ(borders(10, 0), 8u);
     EXPECT_EQ(borders(1, 4), 8u);
     EXPECT_EQ(borders(1, -20), 6u);
-    EXPECT_EQ(borders(1, 20), 8u);  // behind the eye
+    EXPECT_EQ(borders(1, 6, true), 8u);  // it passes the eye
+    EXPECT_EQ(borders(1, 20), 6u);  // it is behind the eye, and not seen
+}
+
+/// What is behind the eye is not seen, and says nothing about the others.
+TEST(Cracks, AreClosedThoughAnotherInstanceIsBehindTheEye) {
+    const Camera camera = perspective_camera({0, 0, 10}, {0, 0, 0}, 35);
+    Scene alone = scene_of({shaken(make_sphere(1, 24, 12), 0.0005, 3)}), two = alone;
+    two.objects.push_back(two.objects.front());
+    two.objects.back().to_world[3] += glm::dvec4(0, 0, 40, 0);
+    for (Scene* scene : {&alone, &two}) {
+        const std::size_t before = scene->meshes[0].borders.segments().size();
+        close_cracks(*scene, camera, kSize, kSize);
+        EXPECT_LT(scene->meshes[0].borders.segments().size(), before / 10);
+    }
+    EXPECT_EQ(alone.meshes[0].triangles, two.meshes[0].triangles);
 }
 
 }  // namespace
