@@ -14,6 +14,8 @@ constexpr double kShortestSide = 1.0 / 64;  // in parts of the reach
 constexpr double kNeedleEnd = 1.0 / 8, kNeedleEndPart = 1.0 / 3;
 /// Of the directions from the edge into the polygons on both sides: beyond that one folds back on the other.
 constexpr double kCosLeastAngle = 0.94;
+/// A triangle ends where it has a border behind it, by rounding too.
+constexpr double kBarely = 1.01;
 
 }  // namespace
 
@@ -87,8 +89,7 @@ bool CrackSides::has_beside(std::uint32_t segment, std::uint32_t vertex) const {
 bool CrackSides::ends_before(std::uint32_t segment, std::uint32_t other) const {
     const BorderIndex::Segment &s = segments_[segment], &t = segments_[other];
     const double to_other = glm::dot(0.5 * (glm::dvec3(t.a) + glm::dvec3(t.b)) - glm::dvec3(s.a), inward(segment));
-    constexpr double kRounding = 1.01;
-    return to_other > 0 && heights_[segment] <= kRounding * to_other;
+    return to_other > 0 && heights_[segment] <= kBarely * to_other;
 }
 
 }  // namespace burin

@@ -425,7 +425,7 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
                 const double x = (column + 0.5 + stroke_row_shift(s.first_row + row)) / 32 - s.ax, y = (row + 0.5) / 16 - s.ay;
                 const double along = std::clamp(x * s.ux + y * s.uy, 0.0, s.length);
                 const double distance = std::hypot(x - along * s.ux, y - along * s.uy);
-                if (std::abs(distance - s.radius) < 1e-5) continue;  // single precision
+                if (std::abs(distance - s.radius) < 1e-9) continue;
                 const auto r = static_cast<std::size_t>(row);
                 ASSERT_EQ(column >= begin[r] && column < end[r], distance < s.radius)
                     << "trial " << trial << " row " << row << " column " << column;

@@ -28,9 +28,6 @@ struct Stroke {
     }
 };
 
-/// Strokes are drawn in single precision.
-constexpr double kRoundingPx = 1e-5;
-
 /// 1: some stroke covers the sample, 0: none, -1: rounding decides.
 int expected(const std::vector<Stroke>& strokes, int column, glm::dvec2 sample) {
     bool is_close = false;
@@ -38,8 +35,8 @@ int expected(const std::vector<Stroke>& strokes, int column, glm::dvec2 sample) 
         const glm::dvec2 along = s.to - s.from;
         const double down = std::abs(along.y) * 16 <= std::abs(along.x) ? kStrokeColumnShifts[static_cast<std::size_t>(column % 8)] / 16 : 0.0;
         const double beyond = s.distance(sample + glm::dvec2(0, down)) - s.radius;
-        if (beyond < -kRoundingPx) return 1;
-        is_close = is_close || beyond < kRoundingPx;
+        if (beyond < -1e-9) return 1;
+        is_close = is_close || beyond < 1e-9;
     }
     return is_close ? -1 : 0;
 }
