@@ -328,7 +328,7 @@ class LayerEdgeFinder::Rules {
                              glm::dvec3(mesh.positions[end_of(mesh, h)]));
     }
 
-    /// The border of another patch that runs along, nearer than a pixel, at a share of edge_on_screen().
+    /// The border of another patch that runs along, nearer than a pixel and level, at a share of edge_on_screen().
     std::optional<HalfEdge> seam_partner(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, double on_screen) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
@@ -341,7 +341,22 @@ class LayerEdgeFinder::Rules {
         const double square = glm::dot(along, along);
         const double t = square > 0 ? std::clamp(glm::dot(place - p, along) / square, 0.0, 1.0) : 0.0;
         if (glm::distance(place, p + along * t) > kWidestCrackSubpixels) return std::nullopt;
+        const double own_nearness = edge.nearness_at(on_screen);
+        const SurfaceId beyond = triangle_of(s, *partner);
+        if (!is_level(own_nearness, other->nearness_at(t), beyond) &&
+            !is_level(own_nearness, surfaces_.plane(beyond).nearness(place / double{kSubpixelsPerPixel}) - surfaces_.farthest_nearness, beyond)) {
+            return std::nullopt;  // it lies before or behind, as a stair's next tread does
+        }
         return partner;
+    }
+
+    /// As walks over a seam ask it.
+    bool is_level(double nearness_a, double nearness_b, SurfaceId steep) const {
+        const auto distance = [&](double nearness) {
+            return distance_of(surfaces_.projection, surfaces_.farthest_nearness + nearness);
+        };
+        const double a = distance(nearness_a);
+        return std::abs(a - distance(nearness_b)) <= depth_tolerance(surfaces_, a, surfaces_.plane(steep));
     }
 
     glm::dvec2 middle_px(SurfaceId s, HalfEdge h) const {

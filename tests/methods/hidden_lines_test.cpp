@@ -386,6 +386,31 @@ TEST(HiddenLines, ABorderThatIsASeamInPart) {
     }
 }
 
+// Borders above each other on the screen, near each other in space for their length, but with a step that is seen.
+TEST(HiddenLines, TreadsOfAStairWithoutRisers) {
+    constexpr int kTreads = 5;
+    const PolygonSoup roof = soup_of({{5, 5, 200}, {235, 5, 200}, {235, 235, 200}, {5, 235, 200}}, {{0, 1, 2, 3}});
+    for (const double step : {3.0, 6.0, 9.5}) {
+        for (const double overlap : {-0.4, 0.0, 0.4}) {
+            PolygonSoup stair;
+            for (int i = 0; i < kTreads; ++i) {
+                const double low = 20 + 40 * i, high = low + 40 + overlap, z = step * i;
+                const auto first = static_cast<std::uint32_t>(stair.positions.size());
+                for (const auto& [x, y] : {std::pair(20.0, low), {220.0, low}, {220.0, high}, {20.0, high}}) stair.positions.emplace_back(x, y, z);
+                stair.add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
+            }
+            Scene seen = scene_of({stair}), hidden = scene_of({stair, roof});
+            seen.lines.classes = hidden.lines.classes = LineClass::border;
+            hidden.lines.style.hidden.style = HiddenStyle::solid;
+            // Two borders 0.4 px from each other cover 1.4 px. Where sides meet, half pixels are covered twice.
+            const double expected = 200 * (kTreads + 1 + (kTreads - 1) * std::abs(overlap)) + 2 * (kTreads * 40 + overlap);
+            EXPECT_NEAR(sum(draw(hidden, pixel_camera(kSize, kSize)), "lines_hidden.A"), expected, 8) << "steps of " << step << ", overlap " << overlap;
+            if (overlap > 0) continue;  // the lower one of the two is hidden
+            EXPECT_NEAR(sum(draw(seen, pixel_camera(kSize, kSize)), "lines.A"), expected, 8) << "steps of " << step << ", overlap " << overlap;
+        }
+    }
+}
+
 TEST(HiddenLines, GoToTheirOwnChannels) {
     Scene scene = crossing_behind_wall();
     scene.lines.style.hidden.color = {0.5f, 0.25f, 0.0f};
