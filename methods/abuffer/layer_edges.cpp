@@ -18,6 +18,8 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr double kThinSubpixels = 4;
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = 256;
+/// So far beyond a wall nothing is left to be asked. Pixels.
+constexpr double kPastWallPx = 1.0 / 16;
 /// Where there are more on the way to a wall, it is one of very many in a pixel.
 constexpr int kMostTrianglesToWall = 96;
 
@@ -164,8 +166,9 @@ class LayerEdgeFinder::Rules {
         if (static_cast<double>(v[wall_apex].nearness) > edge_nearness) return false;
         glm::dvec2 out = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
         if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
-        // To both sides, as far as the triangles go or a pixel.
-        const SurfaceWalk walk = walk_surface(surfaces_, own, middle - out, middle + out, criteria_, kMostTrianglesToWall);
+        // A short way beyond the wall is enough: a walk that gets there has come past it.
+        const glm::dvec2 past = kPastWallPx * out;
+        const SurfaceWalk walk = walk_surface(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall);
         // Where it turns back behind the wall, it gets farthest anywhere on that.
         constexpr double kMiddle = 0.5;
         return walk.end == WalkEnd::fold && std::abs(walk.fraction - kMiddle) <= kNoAdvance;
@@ -182,7 +185,9 @@ class LayerEdgeFinder::Rules {
             const int side_h = side_at(s.instance, *solid_h, a, b), side_g = side_at(s.instance, *solid_g, a, b);
             if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
         }
-        if (ends_at_wall(s.instance, h, g) || ends_at_wall(s.instance, g, h)) classes |= LineClass::silhouette;
+        if (!classes.has(LineClass::silhouette) && (ends_at_wall(s.instance, h, g) || ends_at_wall(s.instance, g, h))) {
+            classes |= LineClass::silhouette;
+        }
         if (!is_sliver_at(s, h) && !is_sliver_at(s, g)) {
             const std::uint8_t* const sharp = screen_.sharp_edges(s.instance);
             const bool may_have_any = sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0;
