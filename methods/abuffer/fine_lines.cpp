@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "methods/abuffer/contacts.h"
 #include "methods/abuffer/fold_width.h"
 #include "methods/abuffer/layer_triangle.h"
 #include "methods/abuffer/sampling.h"
@@ -26,8 +27,6 @@ constexpr int kMostCells = 32;
 constexpr std::size_t kTrianglesPerCell = 128;
 /// In so many cells a triangle may be, on average.
 constexpr std::size_t kMostPlaces = 4;
-/// So far from an edge its triangles are compared with others at its depth. 2 pixels.
-constexpr double kBesideSubpixels = 512;
 /// A surface that covers a place so far beyond an edge is in contact there. 1/64 pixel.
 constexpr double kBeyondSubpixels = 4;
 /// What rounding does to nearness, as part of what counts as level.
@@ -39,7 +38,7 @@ constexpr double kRounding = 1.0 / 64;
 class FineLines::BlockClipper {
   public:
     BlockClipper(const ScreenSurfaces& screen, const TileKernels& kernels, const LineCriteria& criteria)
-        : screen_(screen), kernels_(kernels), criteria_(criteria) {}
+        : screen_(screen), contacts_(screen), kernels_(kernels), criteria_(criteria) {}
 
     /// `corner`: of the block, in 1/256 pixel.
     void set_triangles(std::span<const HidingTriangle> triangles, glm::ivec2 corner) {
@@ -92,17 +91,23 @@ class FineLines::BlockClipper {
         bool is_hidden = false;
         for_triangles(glm::mix(line.from, line.to, begin), glm::mix(line.from, line.to, end), line.lowest_in(begin, end) - slack,
                       [&](const LayerTriangle& t) {
-                          double from = begin, to = end;
                           if (lies_on(line, t)) return true;
                           // A mesh hides its own edges exactly; patches that are not stitched are snapped
                           // apart, and other objects may touch.
                           const bool is_own_mesh = t.instance == candidate.part.edge.instance;
                           const double touching = slack + t.slack;
-                          const double level = is_seen_instead(candidate, t, touching) ? -touching
-                                               : !is_own_mesh                          ? touching
-                                               : is_border                             ? rounding + t.slack
-                                                                                       : rounding;
-                          if (!clip_where_hidden(line, level, t, from, to)) return true;
+                          const double level = !is_own_mesh ? touching : is_border ? rounding + t.slack : rounding;
+                          // What is level hides the most where it is seen instead: what that is, is asked last.
+                          double most_from = begin, most_to = end, from = begin, to = end;
+                          if (!clip_where_hidden(line, -touching, t, most_from, most_to)) return true;
+                          const bool is_any_hidden = clip_where_hidden(line, level, t, from, to);
+                          const bool is_settled = is_any_hidden && from == most_from && to == most_to;
+                          if (!is_settled && contacts_.is_seen_instead(line, begin, end, t, touching)) {
+                              from = most_from;
+                              to = most_to;
+                          } else if (!is_any_hidden) {
+                              return true;
+                          }
                           is_hidden = from <= begin && to >= end;
                           hidden_.push_back({from, to});
                           return !is_hidden;
@@ -124,57 +129,6 @@ class FineLines::BlockClipper {
         double begin, end;
     };
 
-    bool have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const {
-        const auto& v = screen_.surfaces().mesh_of(s).triangles[s.triangle];
-        return std::find_first_of(v.begin(), v.end(), t.vertices.begin(), t.vertices.end()) != v.end();
-    }
-
-    /// Of two surfaces at about one depth, of which the one is nearer by `gap`. The first one, if they are neighbours, which
-    /// have no more than slivers in common.
-    [[gnu::noinline]] bool is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
-        if ((gap > 0) == (one < other)) return one < other;  // either way
-        const SurfaceOrder order = screen_.surfaces().order(screen_.surface_of(one), screen_.surface_of(other));
-        return order.have_common_place && !order.are_coincident() ? gap > 0 : one < other;
-    }
-
-    /// Of surfaces at one depth the first one is seen. Whether that is `t`, and neither triangle at the edge: none
-    /// rises in front of it beside the edge, or comes before it.
-    bool is_seen_instead(const FineCandidate& candidate, const LayerTriangle& t, double level) const {
-        const LayerLine& line = candidate.line;
-        const auto gap_at = [&](double part) {
-            return std::abs(t.nearness_at(glm::mix(line.from, line.to, part)) - line.nearness_at(part));
-        };
-        const double begin = gap_at(candidate.part.begin), end = gap_at(candidate.part.end);
-        if (std::min(begin, end) > level) return false;
-        const glm::dvec2 at = glm::mix(line.from, line.to, begin < end ? candidate.part.begin : candidate.part.end);
-        for (const std::uint32_t owner : line.owners) {
-            const SurfaceId s = screen_.surface_of(owner);
-            if (s.instance == t.instance && have_vertex_in_common(s, t)) return false;
-            if (screen_.facing(owner) == edge_on) continue;
-            const auto centre = centre_of(s, owner);
-            if (!centre) continue;
-            const glm::dvec2 inward = *centre - at;
-            const glm::dvec2 beside = at + inward * std::min(1.0, kBesideSubpixels / glm::length(inward));
-            const double gap = screen_.nearness_of(owner, beside) - t.nearness_at(beside);
-            if (gap > level || (gap >= -level && is_seen_first(owner, t.number, gap))) return false;
-        }
-        return true;
-    }
-    /// A place within what is on the screen of a triangle.
-    std::optional<glm::dvec2> centre_of(SurfaceId s, std::uint32_t number) const {
-        if (screen_.facing(number) != off_screen) {
-            const auto [a, b, c] = screen_.triangle(s).corners;
-            return (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y) + glm::dvec2(c.x, c.y)) / 3.0;
-        }
-        const ScreenPolygon polygon = screen_.surfaces().screen_polygon(s);
-        if (polygon.count == 0) return std::nullopt;
-        glm::dvec2 sum(0.0);
-        for (int i = 0; i < polygon.count; ++i) {
-            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
-            sum += glm::dvec2(p.x, p.y);
-        }
-        return sum / static_cast<double>(polygon.count);
-    }
     struct Place {
         std::uint32_t first = 0, count = 0;
     };
@@ -323,6 +277,7 @@ class FineLines::BlockClipper {
     }
 
     const ScreenSurfaces& screen_;
+    Contacts contacts_;
     const TileKernels& kernels_;
     const LineCriteria& criteria_;
     std::span<const HidingTriangle> given_;

@@ -123,7 +123,8 @@ void LayerPass::sort(TileRows rows) {
     bins_ = LayerBins();  // before there are new ones
     const bool needs_all = may_intersect_ || has_transparent_surfaces(*frame_.scene);
     std::optional<LineDepths> depths;
-    if (!needs_all) depths.emplace(lines_, tiles_);
+    const auto slack_of = [&](const LayerLine& line) { return line_slack(frame_.surfaces, line, 0, 1); };
+    if (!needs_all) depths.emplace(lines_, tiles_, slack_of);
     bins_ = LayerBins(screen_, kernels_, tiles_, threads_, depths ? &*depths : nullptr);
 }
 

@@ -14,9 +14,9 @@ constexpr double kTrianglesPerCell = 80;
 constexpr double kShortestPiecePx = 1.0 / 32;
 constexpr float kFar = 1e30f;
 
-ScreenLine part_of(const LayerLine& line, double begin, double end) {
+ScreenLine part_of(const LayerLine& line, double begin, double end, double slack) {
     const glm::vec2 a(glm::mix(line.from, line.to, begin)), b(glm::mix(line.from, line.to, end));
-    return {a.x, a.y, b.x, b.y, static_cast<float>(line.lowest_in(begin, end))};
+    return {a.x, a.y, b.x, b.y, static_cast<float>(line.lowest_in(begin, end) - slack)};
 }
 
 }  // namespace
@@ -32,6 +32,7 @@ LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const Til
                      const LayerBins& bins, const PixelTiles& grid, bool finds_pairs)
     : frame_(frame),
       screen_(screen),
+      contacts_(screen),
       kernels_(kernels),
       bins_(bins),
       grid_(grid),
@@ -184,11 +185,25 @@ std::span<const std::uint32_t> LayerTile::touching(std::size_t begin, std::size_
             kernels_.find_touching(cell_boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
 }
 
-/// Notes where in [begin, end] of a line a triangle is in front of it.
-void LayerTile::hide(const LayerLine& line, std::uint32_t i, double begin, double end) {
+/// Notes where in a part of a line a triangle is in front of it.
+void LayerTile::hide(const LayerLine& line, std::uint32_t i, const PartInTile& part) {
     const LayerTriangle& t = triangle(i);
-    if (lies_on(line, t) || !clip_where_hidden(line, line_slack_ + t.slack, t, begin, end)) return;
-    intervals_.push_back({t.number, begin, end, t.transmission});
+    if (lies_on(line, t)) return;
+    const double touching = line_slack_ + t.slack;
+    const double at_begin = t.nearness_at(part.from) - part.nearness_from, at_end = t.nearness_at(part.to) - part.nearness_to;
+    if (std::max(at_begin, at_end) < -touching) return;
+    Interval clear{t.number, part.begin, part.end, t.transmission}, most = clear;
+    const bool is_any_clear = clip_where_hidden(line, touching, t, clear.begin, clear.end);
+    // What is level with the line is in front where it is seen instead: what that is, is asked last.
+    if (std::min(at_begin, at_end) <= touching && line.drawn_as != LineClass::intersection &&
+        clip_where_hidden(line, -touching, t, most.begin, most.end)) {
+        const bool is_settled = is_any_clear && clear.begin == most.begin && clear.end == most.end;
+        if (!is_settled && contacts_.is_in_front(line, most.begin, most.end, t, touching)) {
+            intervals_.push_back(most);
+            return;
+        }
+    }
+    if (is_any_clear) intervals_.push_back(clear);
 }
 
 void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces) {
@@ -199,6 +214,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     ++lines_looked_at_;
     line_slack_ = line_slack(frame_.surfaces, line, begin, end);
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+    const PartInTile part{begin, end, a, b, line.nearness_at(begin), line.nearness_at(end)};
     const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
     const int last_row = row_at(static_cast<float>(std::max(a.y, b.y)));
     const int first_column = column_at(static_cast<float>(std::min(a.x, b.x)));
@@ -210,10 +226,10 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
             const glm::dvec2 low = corner + glm::dvec2(column, row) * size;
             if (!clip_to_rect(line, low, low + size, from, to)) continue;
             const Cell c = cell(column, row);
-            const std::size_t count = kernels_.find_hiding(cell_triangles_.view(), c.begin, c.end, part_of(line, from, to), found_.data());
+            const std::size_t count = kernels_.find_hiding(cell_triangles_.view(), c.begin, c.end, part_of(line, from, to, line_slack_), found_.data());
             for (std::size_t i = 0; i < count; ++i) {
                 const std::uint32_t entry = cell_entries_[found_[i]];
-                if (std::exchange(looked_at_by_[entry], lines_looked_at_) != lines_looked_at_) hide(line, entry, begin, end);
+                if (std::exchange(looked_at_by_[entry], lines_looked_at_) != lines_looked_at_) hide(line, entry, part);
             }
         }
     }

@@ -5,6 +5,7 @@
 
 #include "abuffer/screen_boxes.h"
 #include "abuffer/screen_triangles.h"
+#include "methods/abuffer/contacts.h"
 #include "methods/abuffer/intersecting_pairs.h"
 #include "methods/abuffer/intersection_lines.h"
 #include "methods/abuffer/layer_bins.h"
@@ -40,6 +41,12 @@ class LayerTile {
         std::uint32_t triangle;  // its number
         double begin, end;
         double transmission;
+    };
+    /// Of a line, with its ends as LayerLine has them.
+    struct PartInTile {
+        double begin, end;
+        glm::dvec2 from, to;
+        double nearness_from, nearness_to;
     };
     struct Event {
         double at;
@@ -82,7 +89,7 @@ class LayerTile {
     }
     std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
                                             float least_y0);
-    void hide(const LayerLine& line, std::uint32_t i, double begin, double end);
+    void hide(const LayerLine& line, std::uint32_t i, const PartInTile& part);
     void find_pairs_in_cell(int column, int row);
     SidePlane side_plane(const Corners& corners) const;
     bool is_on_one_side(const SidePlane& plane, const Corners& corners) const;
@@ -92,6 +99,7 @@ class LayerTile {
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
+    Contacts contacts_;
     const TileKernels& kernels_;
     const LayerBins& bins_;
     const PixelTiles& grid_;

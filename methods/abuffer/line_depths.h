@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -16,7 +17,9 @@ namespace burin {
 /// The tiles of a picture are cut into square blocks; each has the least nearness of the lines there.
 class LineDepths {
   public:
-    LineDepths(std::span<const LayerLine> lines, const PixelTiles& tiles);
+    /// `slack_of`: how much farther than a line, in nearness, something may be that is in front of it all the same.
+    LineDepths(std::span<const LayerLine> lines, const PixelTiles& tiles,
+               const std::function<double(const LayerLine&)>& slack_of);
 
     /// Calls visit(tile) for the tiles in which what fills a box, in 1/256 pixel, with the nearness `highest` at its
     /// nearest, may hide a line.
@@ -69,7 +72,7 @@ class LineDepths {
         }
         return false;
     }
-    void add(const LayerLine& line);
+    void add(const LayerLine& line, double slack);
     void note(const Blocks& blocks, float nearness);
     void combine_blocks();
 

@@ -22,6 +22,20 @@ PolygonSoup moved(PolygonSoup soup, glm::dvec3 by) {
     return transformed(std::move(soup), [by](glm::dvec3 p) { return p + by; });
 }
 
+PolygonSoup joined(const std::vector<PolygonSoup>& soups) {
+    PolygonSoup all;
+    for (const PolygonSoup& soup : soups) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), soup.positions.begin(), soup.positions.end());
+        for (std::size_t i = 0; i < soup.polygon_count(); ++i) {
+            std::vector<std::uint32_t> corners(soup.polygon(i).begin(), soup.polygon(i).end());
+            for (std::uint32_t& corner : corners) corner += first;
+            all.add_polygon(corners);
+        }
+    }
+    return all;
+}
+
 /// The lines of a frame with what is in front of them.
 struct Layers {
     Frame frame;
@@ -407,6 +421,57 @@ TEST(HiddenLines, TreadsOfAStairWithoutRisers) {
             EXPECT_NEAR(sum(draw(hidden, pixel_camera(kSize, kSize)), "lines_hidden.A"), expected, 8) << "steps of " << step << ", overlap " << overlap;
             if (overlap > 0) continue;  // the lower one of the two is hidden
             EXPECT_NEAR(sum(draw(seen, pixel_camera(kSize, kSize)), "lines.A"), expected, 8) << "steps of " << step << ", overlap " << overlap;
+        }
+    }
+}
+
+// What stands on the other side of a floor is hidden from its feet on, wherever edges of the floor's triangles run, and
+// whether it is of one mesh with it or not.
+TEST(HiddenLines, WhatStandsOnTheOtherSideOfAFloor) {
+    const PolygonSoup box = moved(make_box({80, 80, 60}), {100, 100, -30}), wall = soup_of({{170, 60, 0}, {170, 180, 0}, {170, 180, -50}, {170, 60, -50}}, {{0, 1, 2, 3}});
+    const auto floor = [](std::vector<double> columns) {
+        PolygonSoup soup;
+        for (const double x : columns) {
+            for (const double y : {20.0, 220.0}) soup.positions.emplace_back(x, y, 0);
+        }
+        for (std::uint32_t i = 0; i + 1 < columns.size(); ++i) soup.add_polygon(std::vector<std::uint32_t>{2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+        return soup;
+    };
+    const auto drawn = [](std::vector<PolygonSoup> objects, bool is_one_mesh) {
+        if (is_one_mesh) objects = {joined(objects)};
+        Scene scene = scene_of(objects);
+        scene.lines.classes = LineClassSet(LineClass::border) | LineClass::crease;
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        return draw(scene, perspective_camera({120, 90, 500}, {120, 110, 0}, 30));
+    };
+    // Under a roof all lines are hidden. Where a visible line crosses a hidden one, both have ink.
+    constexpr double kCrossings = 12;
+    const PolygonSoup roof = soup_of({{-500, -500, 300}, {900, -500, 300}, {900, 900, 300}, {-500, 900, 300}}, {{0, 1, 2, 3}});
+    const double expected = sum(drawn({floor({20, 220}), box, wall, roof}, false), "lines_hidden.A");
+    for (const std::vector<double>& columns : {std::vector<double>{20, 220}, {20, 60, 140, 170, 220}}) {
+        for (const bool is_one_mesh : {false, true}) {
+            const Image image = drawn({floor(columns), box, wall}, is_one_mesh);
+            const double ink = sum(image, "lines.A") + sum(image, "lines_hidden.A");
+            EXPECT_NEAR(ink, expected, kCrossings) << columns.size() << (is_one_mesh ? ", one mesh" : "");
+        }
+        // What comes before the floor is seen in it; the wall is behind it all the same.
+        const Image image = drawn({box, wall, floor(columns)}, false);
+        EXPECT_NEAR(sum(image, "lines.A") + sum(image, "lines_hidden.A"), expected, kCrossings) << columns.size();
+    }
+}
+
+TEST(HiddenLines, BodiesThatStandFlushHideNothingOfEachOther) {
+    const PolygonSoup left = moved(make_box({80, 80, 60}), {80, 120, -30}), right = moved(make_box({80, 60, 60}), {160, 110, -30});
+    for (const bool is_left_first : {true, false}) {
+        Scene scene = scene_of(is_left_first ? std::vector{left, right} : std::vector{right, left});
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        const Layers layers(scene, pixel_camera(kSize, kSize));
+        double nearest = -1e300;
+        for (const LayerLine& line : layers.pass.lines()) nearest = std::max({nearest, line.nearness_from, line.nearness_to});
+        EXPECT_FALSE(layers.pass.pieces().empty());
+        for (const LayerPiece& p : layers.pass.pieces()) {
+            const LayerLine& line = layers.pass.lines()[p.line];
+            EXPECT_LT(line.nearness_at(0.5 * (p.begin + p.end)), nearest - 1) << "an edge of the upper faces";
         }
     }
 }

@@ -32,7 +32,7 @@ TEST(LineDepths, TellWhereALineMayBeHidden) {
             l.nearness_from = random.real(0, 1);
             l.nearness_to = random.real(0, 1);
         }
-        const LineDepths depths(lines, tiles);
+        const LineDepths depths(lines, tiles, [](const LayerLine&) { return 0.0; });
         for (int box = 0; box < 200; ++box) {
             const glm::ivec2 low(random.integer(-60 * 256, 190 * 256), random.integer(-30 * 256, 130 * 256));
             const glm::ivec2 high = low + glm::ivec2(random.integer(0, 2000), random.integer(0, 2000));
@@ -83,7 +83,7 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
             l.to = l.from + glm::dvec2(random.real(-40, 40), random.real(-40, 40)) * 256.0;
             l.nearness_from = l.nearness_to = random.real(0, 1);
         }
-        const LineDepths depths(lines, tiles);
+        const LineDepths depths(lines, tiles, [](const LayerLine&) { return 0.0; });
         std::vector<ScreenVertex> vertices;
         std::vector<std::uint32_t> corners;
         const auto count = static_cast<std::uint32_t>(random.integer(1, 300));

@@ -1,0 +1,119 @@
+#include "methods/abuffer/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin {
+namespace {
+
+/// So far from a line its triangles are compared with others at its depth. 2 pixels.
+constexpr double kBesideSubpixels = 512;
+/// So far to one side of a line something covers what ends at the line there. 1/64 pixel.
+constexpr double kToOneSideSubpixels = 4;
+
+}  // namespace
+
+bool Contacts::is_seen_instead(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const {
+    const auto at = touching_place(line, begin, end, t, level);
+    if (!at) return false;
+    for (const std::uint32_t owner : line.owners) {
+        const SurfaceId s = screen_.surface_of(owner);
+        if (have_vertex_in_common(s, t)) return false;
+        const auto beside = place_beside(s, owner, *at);
+        if (!beside) continue;
+        const double gap = screen_.nearness_of(owner, *beside) - t.nearness_at(*beside);
+        if (gap > level || (gap >= -level && is_seen_first(owner, t.number, gap))) return false;
+    }
+    return true;
+}
+
+bool Contacts::is_in_front(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const {
+    const auto touching = touching_place(line, begin, end, t, level);
+    if (!touching) return false;
+    const glm::dvec2 middle = glm::mix(line.from, line.to, 0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
+    bool is_any_behind = false;
+    for (const std::uint32_t owner : line.owners) {
+        const SurfaceId s = screen_.surface_of(owner);
+        if (have_vertex_in_common(s, t)) return false;
+        const auto beside = place_beside(s, owner, *touching);
+        if (!beside) continue;
+        const glm::dvec2 right(-along.y, along.x), side = glm::dot(*beside - *touching, right) < 0 ? -right : right;
+        const auto cover = what_covers(middle + kToOneSideSubpixels * side, t);
+        if (!cover) return false;
+        const double gap = screen_.nearness_of(owner, *beside) - cover->nearness_at(*beside);
+        if (gap > level) return false;
+        if (gap >= -level) {
+            const SurfaceOrder order = screen_.surfaces().order(s, screen_.surface_of(cover->number));
+            if (!order.have_common_place || (order.are_coincident() ? owner < cover->number : gap > 0)) return false;
+        }
+        is_any_behind = true;
+    }
+    return is_any_behind;
+}
+
+/// A triangle or one of its neighbours, whichever is at a place.
+std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t) const {
+    if (t.covers(place)) return t;
+    const ScreenMesh& mesh = screen_.mesh(t.instance);
+    const HalfEdge first = 3 * screen_.surface_of(t.number).triangle;
+    for (HalfEdge h = first; h < first + 3; ++h) {
+        const SurfaceId s{t.instance, mesh.partners[h] / 3};
+        const std::uint32_t number = screen_.number_of(s);
+        if (number == t.number || screen_.facing(number) == edge_on || screen_.facing(number) == off_screen) continue;
+        const LayerTriangle neighbour = layer_triangle(screen_, s, number);
+        if (neighbour.covers(place)) return neighbour;
+    }
+    return std::nullopt;
+}
+
+/// Where a line comes nearest to the plane of `t`, if it is level with it there.
+std::optional<glm::dvec2> Contacts::touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
+                                                   double level) const {
+    const auto gap_at = [&](double part) {
+        return std::abs(t.nearness_at(glm::mix(line.from, line.to, part)) - line.nearness_at(part));
+    };
+    const double at_begin = gap_at(begin), at_end = gap_at(end);
+    if (std::min(at_begin, at_end) > level) return std::nullopt;
+    return glm::mix(line.from, line.to, at_begin < at_end ? begin : end);
+}
+
+/// On a triangle at a line, beside a place on it. Nothing if the triangle is seen edge-on.
+std::optional<glm::dvec2> Contacts::place_beside(SurfaceId s, std::uint32_t owner, glm::dvec2 at) const {
+    if (screen_.facing(owner) == edge_on) return std::nullopt;
+    const auto centre = centre_of(s, owner);
+    if (!centre) return std::nullopt;
+    const glm::dvec2 inward = *centre - at;
+    return at + inward * std::min(1.0, kBesideSubpixels / glm::length(inward));
+}
+
+bool Contacts::have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const {
+    if (s.instance != t.instance) return false;
+    const auto& v = screen_.surfaces().mesh_of(s).triangles[s.triangle];
+    return std::find_first_of(v.begin(), v.end(), t.vertices.begin(), t.vertices.end()) != v.end();
+}
+
+/// Of two surfaces at about one depth, of which the one is nearer by `gap`. The first one, if they are neighbours, which
+/// have no more than slivers in common.
+bool Contacts::is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
+    if ((gap > 0) == (one < other)) return one < other;  // either way
+    const SurfaceOrder order = screen_.surfaces().order(screen_.surface_of(one), screen_.surface_of(other));
+    return order.have_common_place && !order.are_coincident() ? gap > 0 : one < other;
+}
+
+/// A place within what is on the screen of a triangle.
+std::optional<glm::dvec2> Contacts::centre_of(SurfaceId s, std::uint32_t number) const {
+    if (screen_.facing(number) != off_screen) {
+        const auto [a, b, c] = screen_.triangle(s).corners;
+        return (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y) + glm::dvec2(c.x, c.y)) / 3.0;
+    }
+    const ScreenPolygon polygon = screen_.surfaces().screen_polygon(s);
+    if (polygon.count == 0) return std::nullopt;
+    glm::dvec2 sum(0.0);
+    for (int i = 0; i < polygon.count; ++i) {
+        const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+        sum += glm::dvec2(p.x, p.y);
+    }
+    return sum / static_cast<double>(polygon.count);
+}
+
+}  // namespace burin
