@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/interrupt.h"
+#include "mesh/delaunay_flips.h"
 
 namespace burin {
 namespace {
@@ -133,6 +134,8 @@ class EarClipper {
         }
         triangles.push_back({previous_[at], at, next_[at]});
     }
+    /// In the polygon's plane.
+    std::span<const glm::dvec2> points() const { return points_; }
 
   private:
     static constexpr int kMaxSecondLooks = 64;
@@ -192,6 +195,18 @@ class EarClipper {
     ReflexGrid grid_;
 };
 
+/// Of the triangles of a polygon with n corners, brings one to the front that begins with a side of it.
+void begin_with_a_side(std::span<Triangle> triangles, std::uint32_t n) {
+    for (Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if ((t[k] + 1) % n != t[(k + 1) % 3]) continue;
+            std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(k), t.end());
+            std::swap(t, triangles.front());
+            return;
+        }
+    }
+}
+
 /// Cuts a quadrilateral along its shorter diagonal, or the only one inside if a corner is reflex.
 void triangulate_quad(std::span<const glm::dvec3> c, std::vector<Triangle>& triangles) {
     const glm::dvec3 normal = area_vector(c);
@@ -230,7 +245,12 @@ void triangulate_polygon(std::span<const glm::dvec3> corners, std::vector<Triang
     } else if (corners.size() == 4) {
         triangulate_quad(corners, triangles);
     } else {
-        EarClipper(corners).clip(triangles);
+        const std::size_t before = triangles.size();
+        EarClipper clipper(corners);
+        clipper.clip(triangles);
+        const auto of_polygon = std::span(triangles).subspan(before);
+        flip_to_delaunay(clipper.points(), of_polygon);
+        begin_with_a_side(of_polygon, static_cast<std::uint32_t>(corners.size()));
     }
 }
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "tests/support/random.h"
@@ -231,6 +233,69 @@ TEST(TriangulatePolygon, CornersOnStraightLinesAreNoTrouble) {
                 ASSERT_GT(area_of({turned[a], turned[b], turned[c]}), 0) << "a triangle without area";
             }
         }
+    }
+}
+
+/// What each triangle is, wherever the polygon begins: its corners counted from the polygon's corner `first`.
+std::set<std::array<std::uint32_t, 3>> triangles_from(const Outline& outline, std::uint32_t first) {
+    const auto n = static_cast<std::uint32_t>(outline.size());
+    Outline turned = outline;
+    std::rotate(turned.begin(), turned.begin() + first, turned.end());
+    Triangles triangles;
+    triangulate_polygon(in_space(turned, glm::dmat3(1.0), {}), triangles);
+    std::set<std::array<std::uint32_t, 3>> found;
+    for (auto t : triangles) {
+        for (std::uint32_t& corner : t) corner = (corner + first) % n;
+        std::sort(t.begin(), t.end());
+        found.insert(t);
+    }
+    return found;
+}
+
+// Delaunay's is one only, where no four corners lie on a circle.
+TEST(TriangulatePolygon, HangsOnNoFirstCorner) {
+    for (std::uint64_t seed = 0; seed < 500; ++seed) {
+        Random random(seed);
+        const Outline outline = star(random, random.integer(5, 40), 0.1, 1);
+        const auto expected = triangles_from(outline, 0);
+        for (int i = 0; i < 4; ++i) {
+            const auto first = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(outline.size()) - 1));
+            ASSERT_EQ(triangles_from(outline, first), expected) << "seed " << seed << ", from " << first;
+        }
+    }
+}
+
+// The inner corners of a staircase lie in one line but for rounding. Each could be an ear of no height.
+TEST(TriangulatePolygon, WhatIsALineButForRoundingMakesNoNeedles) {
+    for (std::uint64_t seed = 0; seed < 500; ++seed) {
+        Random random(seed);
+        const int steps = random.integer(3, 30);
+        const double rise = random.real(0.1, 1);
+        Outline outline{{0, 0}, {static_cast<double>(steps), 0}};
+        for (int i = steps; i-- > 0;) {
+            outline.emplace_back(i + 1, rise * (i + 1));
+            outline.emplace_back(i, rise * (i + 1));
+        }
+        std::vector<glm::dvec3> corners = in_space(outline, random_axes(random), random.in_box(10));
+        for (glm::dvec3& c : corners) c = glm::dvec3(glm::vec3(c));
+        Triangles triangles;
+        triangulate_polygon(corners, triangles);
+        for (const auto& [a, b, c] : triangles) {
+            const double longest = std::max({glm::distance(corners[a], corners[b]), glm::distance(corners[b], corners[c]), glm::distance(corners[c], corners[a])});
+            const double height = glm::length(glm::cross(corners[b] - corners[a], corners[c] - corners[a])) / longest;
+            ASSERT_GT(height, 0.05) << "seed " << seed << ": " << a << ' ' << b << ' ' << c;
+        }
+    }
+}
+
+TEST(TriangulatePolygon, BeginsWithASide) {
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        Random random(seed);
+        const Outline outline = star(random, random.integer(3, 20), 0.1, 1);
+        Triangles triangles;
+        triangulate_polygon(in_space(outline, random_axes(random), {}), triangles);
+        const std::uint32_t a = triangles[0][0], b = triangles[0][1], n = static_cast<std::uint32_t>(outline.size());
+        EXPECT_TRUE(b == (a + 1) % n || a == (b + 1) % n) << "seed " << seed;
     }
 }
 
