@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "methods/abuffer/layer_edges.h"
 #include "methods/abuffer/layer_pass.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/picture_pieces.h"
@@ -52,6 +54,13 @@ void drop_above(double y, std::vector<std::vector<Segment>>& lists) {
         if (list.capacity() > 2 * list.size()) list.shrink_to_fit();
     }
     std::erase_if(lists, [](const auto& list) { return list.empty(); });
+}
+
+/// Edges that are lines from anywhere, wherever they are on the screen: dashes do not begin at the picture's border.
+void add_features(const Frame& frame, const ScreenSurfaces& screen, int threads, std::vector<LayerLine>& features) {
+    constexpr int kFarPx = 1 << 20;
+    const std::vector<LayerLine> lines = find_layer_edges(frame, screen, {-kFarPx, -kFarPx, kFarPx, kFarPx}, threads);
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(features), is_feature);
 }
 
 /// A crease begins where it begins to fade in.
@@ -119,7 +128,14 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         const bool is_last = &piece == &plan.visible.back();
         if (waits && !is_last) continue;
         watch.lap();
-        if (lines.style.dash_px) segments = dashed(segments, *lines.style.dash_px, lines.style.width_px);
+        if (lines.style.dash_px) {
+            std::vector<LayerLine> features;
+            for (const std::vector<std::uint32_t>& group : plan.groups) {
+                show(group);
+                add_features(frame, screen, stats.threads, features);
+            }
+            segments = dashed(segments, *lines.style.dash_px, lines.style.width_px, features, frame.surfaces);
+        }
         const PixelRect part = next_part(frame, done_y, rows.y1, is_last);
         if (!has_layers && part.height() > 0) {
             draw_strokes(frame, part, segments, kernels, stats.threads, film);

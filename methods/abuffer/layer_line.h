@@ -24,7 +24,9 @@ struct LayerLine {
     bool has_more_owners = false;
     /// Of a border that is a seam elsewhere, the part of edge_on_screen() that the line is, as shares.
     double edge_begin = 0, edge_end = 1;
-    std::uint64_t line_key = ~std::uint64_t{0};  ///< of an edge: LineCrossing::line_key
+    static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
+    std::uint64_t line_key = kNoKey;  ///< of an edge: LineCrossing::line_key
+    bool is_edge() const { return line_key != kNoKey; }
     LineClassSet classes;  ///< all that apply, among those asked for
     LineClass drawn_as = LineClass::silhouette;
     std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades

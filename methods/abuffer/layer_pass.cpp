@@ -202,8 +202,8 @@ void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>&
     const bool is_hidden = piece.invisibility > 0;
     const auto [on, off] = is_hidden ? style.hidden_dash_px() : *style.dash_px;
     // Strokes have round ends; a dash with its ends is as long as asked for.
-    const double inset = 0.5 * std::min(on, is_hidden ? style.hidden_width_px() : style.width_px);
-    const double length = position[1] - position[0];
+    const double length = position[1] - position[0], per_px = std::abs(length) / line.length_px();
+    const double inset = 0.5 * per_px * std::min(on, is_hidden ? style.hidden_width_px() : style.width_px);
     const double a = position[0] + length * piece.begin, b = position[0] + length * piece.end;
     const auto [low, high] = std::minmax(a, b);
     for (double dash = std::floor(low / (on + off)) * (on + off); dash < high; dash += on + off) {
@@ -221,14 +221,19 @@ void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>&
 
 std::vector<LayerSegment> LayerPass::make_segments() const {
     const HiddenStyle style = frame_.scene->lines.style.hidden.style;
-    std::vector<std::array<double, 2>> positions;
-    const bool dashes_visible = frame_.scene->lines.style.dash_px.has_value();
-    if (style == HiddenStyle::dashed || dashes_visible) positions = positions_along_chains(lines_);
+    const auto positions_of = [&](std::array<double, 2> dash_px) {
+        return positions_along_chains(lines_, frame_.surfaces, dash_px[0] + dash_px[1]);
+    };
+    std::vector<std::array<double, 2>> hidden_positions, visible_positions;  // where there are dashes
+    const auto& visible_dash_px = frame_.scene->lines.style.dash_px;
+    if (style == HiddenStyle::dashed) hidden_positions = positions_of(frame_.scene->lines.style.hidden_dash_px());
+    if (visible_dash_px) visible_positions = positions_of(*visible_dash_px);
     std::vector<LayerSegment> segments;
     for (const LayerPiece& piece : pieces_) {
         const bool is_hidden = piece.invisibility > 0;
         if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
-        if (is_hidden ? style == HiddenStyle::dashed : dashes_visible) {
+        const auto& positions = is_hidden ? hidden_positions : visible_positions;
+        if (!positions.empty()) {
             add_dashes(piece, positions[piece.line], segments);
             continue;
         }

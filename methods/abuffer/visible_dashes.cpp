@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
+#include <utility>
+
+#include "methods/abuffer/line_chains.h"
 
 namespace burin {
 namespace {
@@ -24,14 +28,7 @@ class Chains {
         bool is_closed = false;
     };
 
-    explicit Chains(const std::vector<std::vector<LineSegment>>& segments) {
-        for (const auto& list : segments) {
-            for (const LineSegment& s : list) {
-                if (s.is_drawn && s.from != s.to) pieces_.push_back(&s);
-            }
-        }
-        link();
-    }
+    explicit Chains(std::vector<const LineSegment*> pieces) : pieces_(std::move(pieces)) { link(); }
 
     const LineSegment& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
     double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
@@ -131,53 +128,122 @@ class Chains {
     std::vector<std::uint32_t> link_;
 };
 
+/// Which edge of the mesh a piece lies on, of those that are features.
+class Features {
+  public:
+    Features(std::span<const LayerLine> lines, const SurfaceSet& surfaces) : lines_(lines) {
+        for (std::uint32_t i = 0; i < lines.size(); ++i) {
+            keys_.push_back({lines[i].line_key, i});
+            if (!lines[i].has_more_owners) continue;
+            // A piece has the key of the two triangles that it was found between.
+            const auto instance = static_cast<std::uint32_t>(lines[i].line_key >> 32);
+            const auto h = static_cast<HalfEdge>(lines[i].line_key & 0xFFFFFFFFu);
+            const Mesh& mesh = *surfaces.instances[instance].mesh;
+            for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
+                keys_.push_back({std::uint64_t{instance} << 32 | std::min(g, mesh.next_on_edge[g]), i});
+            }
+        }
+        std::sort(keys_.begin(), keys_.end());
+    }
+
+    std::optional<std::uint32_t> find(const LineSegment& piece) const {
+        std::optional<std::uint32_t> nearest;
+        double least = 0;
+        const glm::dvec2 middle = 0.5 * (piece.from + piece.to);
+        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), std::pair(piece.line_key, 0u)); i != keys_.end() && i->first == piece.line_key; ++i) {
+            const double beyond = std::abs(share_of(lines_[i->second], middle) - 0.5);  // an edge may be cut into parts
+            if (nearest && beyond >= least) continue;
+            nearest = i->second;
+            least = beyond;
+        }
+        return nearest;
+    }
+    /// Where along a line a place is, in pixels.
+    static double share_of(const LayerLine& line, glm::dvec2 place) {
+        const glm::dvec2 from = line.from / 256.0, along = (line.to - line.from) / 256.0;
+        return glm::dot(place - from, along) / glm::dot(along, along);
+    }
+
+  private:
+    std::span<const LayerLine> lines_;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys_;  // number of a line
+};
+
+/// The dashes of a piece of a line.
+class DashPen {
+  public:
+    DashPen(std::array<double, 2> dash_px, double width_px, std::vector<LineSegment>& drawn)
+        : on_px_(dash_px[0]), period_px_(dash_px[0] + dash_px[1]), inset_px_(std::min(0.5 * on_px_, 0.5 * width_px)), drawn_(drawn) {}
+
+    double period_px() const { return period_px_; }
+
+    /// `begin`, `end`: where `from` and `to` stand along the chain, in pixels; more of them where dashes are squeezed.
+    void draw(const LineSegment& piece, double begin, double end) {
+        const double length_px = glm::distance(piece.from, piece.to), per_px = std::abs(end - begin) / length_px;
+        const double inset = inset_px_ * per_px, on = on_px_ - inset, low = std::min(begin, end), high = std::max(begin, end);
+        const bool is_dotted = on_px_ - 2 * inset_px_ < kDotPx;
+        const auto point = [&](double at) { return glm::mix(piece.from, piece.to, std::clamp((at - begin) / (end - begin), 0.0, 1.0)); };
+        for (double dash = std::floor(low / period_px_); dash * period_px_ <= high; ++dash) {
+            const double first = std::max(low, dash * period_px_ + inset);
+            const double last = std::min(high, std::max(dash * period_px_ + inset, dash * period_px_ + on));
+            if (first > last) continue;
+            LineSegment part = piece;
+            part.from = point(begin < end ? first : last);
+            part.to = point(begin < end ? last : first);
+            if (is_dotted) {
+                const glm::dvec2 middle = 0.5 * (part.from + part.to);
+                const glm::dvec2 half = (piece.to - piece.from) * (0.5 * kDotPx / length_px);
+                part.from = middle - half;
+                part.to = middle + half;
+            }
+            drawn_.push_back(part);
+        }
+    }
+
+  private:
+    double on_px_, period_px_, inset_px_;
+    std::vector<LineSegment>& drawn_;
+};
+
 }  // namespace
 
+bool is_feature(const LayerLine& line) { return !(line.classes == LineClassSet(LineClass::silhouette)); }
+
 std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
-                                             std::array<double, 2> dash_px, double width_px) {
-    const Chains chains(segments);
+                                             std::array<double, 2> dash_px, double width_px,
+                                             std::span<const LayerLine> features, const SurfaceSet& surfaces) {
     std::vector<std::vector<LineSegment>> result(1);
+    DashPen pen(dash_px, width_px, result[0]);
+    const auto positions = positions_along_chains(features, surfaces, pen.period_px());
+    const Features on_mesh(features, surfaces);
+    std::vector<const LineSegment*> others;
     for (const auto& list : segments) {
-        std::copy_if(list.begin(), list.end(), std::back_inserter(result[0]), [](const LineSegment& s) { return !s.is_drawn; });
+        for (const LineSegment& s : list) {
+            if (!s.is_drawn) {
+                result[0].push_back(s);
+            } else if (s.from == s.to) {
+                continue;
+            } else if (const auto feature = on_mesh.find(s)) {
+                const auto& [first, last] = positions[*feature];
+                const auto at = [&](glm::dvec2 place) { return glm::mix(first, last, Features::share_of(features[*feature], place)); };
+                pen.draw(s, at(s.from), at(s.to));
+            } else {
+                others.push_back(&s);
+            }
+        }
     }
+    const Chains chains(std::move(others));
     for (const Chains::Chain& chain : chains.all()) {
         double total = 0;
         for (const std::uint32_t end : chain.ends) total += chains.length(end);
         if (total < (chain.is_closed ? kSmallestLoopPx : std::max(1.0, width_px))) continue;  // a hook of facets
-        double on = dash_px[0], period = dash_px[0] + dash_px[1];
-        if (chain.is_closed) {
-            const double stretch = total / (period * std::max(1.0, std::round(total / period)));
-            on *= stretch;
-            period *= stretch;
-        }
-        // The ends of the pen's way: a dash with its round ends is as long as asked for.
-        const double inset = std::min(0.5 * on, 0.5 * width_px);
-        const bool is_dotted = on - 2 * inset < kDotPx;
+        const double scale = chain.is_closed ? pen.period_px() * std::max(1.0, std::round(total / pen.period_px())) / total : 1;
         double at = 0;
         for (const std::uint32_t end : chain.ends) {
-            const LineSegment& piece = chains.piece(end);
-            const double length = chains.length(end);
+            const double begin = at;
+            at += scale * chains.length(end);
             const bool is_backwards = end % 2 == 1;
-            const auto point = [&](double along) {
-                const double share = std::clamp((along - at) / length, 0.0, 1.0);
-                return glm::mix(piece.from, piece.to, is_backwards ? 1 - share : share);
-            };
-            for (double dash = std::floor(at / period); dash * period <= at + length; ++dash) {
-                const double begin = std::max(at, dash * period + inset);
-                const double stop = std::min(at + length, std::max(dash * period + inset, dash * period + on - inset));
-                if (begin > stop) continue;
-                LineSegment part = piece;
-                part.from = point(is_backwards ? stop : begin);
-                part.to = point(is_backwards ? begin : stop);
-                if (is_dotted) {
-                    const glm::dvec2 middle = 0.5 * (part.from + part.to);
-                    const glm::dvec2 half = (piece.to - piece.from) * (0.5 * kDotPx / length);
-                    part.from = middle - half;
-                    part.to = middle + half;
-                }
-                result[0].push_back(part);
-            }
-            at += length;
+            pen.draw(chains.piece(end), is_backwards ? at : begin, is_backwards ? begin : at);
         }
     }
     return result;

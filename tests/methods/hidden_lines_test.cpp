@@ -550,6 +550,25 @@ TEST(HiddenLines, DashesRunOnAroundCornersOfAPolyline) {
     for (std::size_t i = 0; i + skip < ends.size() && i < starts.size(); ++i) EXPECT_NEAR(ends[i + skip] - starts[i], 10, 1.01);
 }
 
+TEST(HiddenLines, DashesHangOnNoOrder) {
+    const PolygonSoup given = make_torus(0.6, 0.25, 12, 6);
+    PolygonSoup turned;
+    turned.positions = given.positions;
+    turned.object_names = given.object_names;
+    for (std::size_t p = given.polygon_count(); p-- > 0;) turned.add_polygon(given.polygon(p));
+    const auto drawn = [](const PolygonSoup& soup) {
+        Scene scene = scene_of({soup});
+        scene.lines.crease_angle_deg = 20;
+        scene.lines.style.hidden.style = HiddenStyle::dashed;
+        return draw(scene, perspective_camera({0.4, 1.6, 2.1}, {0, 0, 0}));
+    };
+    const Image a = drawn(given), b = drawn(turned);
+    EXPECT_GT(sum(a, "lines_hidden.A"), 100);
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) ASSERT_EQ(value(a, "lines_hidden.A", x, y), value(b, "lines_hidden.A", x, y)) << x << ' ' << y;
+    }
+}
+
 TEST(HiddenLines, OpenMeshesShowTheirInsides) {
     // A box without its front: from the front, no line of it is hidden.
     const Scene scene = scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},

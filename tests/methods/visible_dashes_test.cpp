@@ -68,7 +68,7 @@ std::vector<double> dash_lengths(const std::vector<LineSegment>& parts) {
 }
 
 TEST(VisibleDashes, OnACircleAreEqualWithoutASeam) {
-    const auto parts = dashed({polyline(circle(40, 97))}, {8, 5}, 1);
+    const auto parts = dashed({polyline(circle(40, 97))}, {8, 5}, 1, {}, {});
     const std::vector<double> lengths = dash_lengths(parts[0]);
     EXPECT_EQ(lengths.size(), 19u);  // 251 / 13, rounded
     for (const double length : lengths) EXPECT_NEAR(length, lengths.front(), 1e-9);
@@ -76,7 +76,7 @@ TEST(VisibleDashes, OnACircleAreEqualWithoutASeam) {
 }
 
 TEST(VisibleDashes, OfAnOpenChainBeginAtItsHigherEnd) {
-    const auto parts = dashed({polyline({{10, 50}, {10, 20}, {60, 20}, {60, 10}})}, {6, 4}, 2);
+    const auto parts = dashed({polyline({{10, 50}, {10, 20}, {60, 20}, {60, 10}})}, {6, 4}, 2, {}, {});
     ASSERT_FALSE(parts[0].empty());
     const LineSegment& first = parts[0].front();
     EXPECT_EQ(std::min(first.from.y, first.to.y), 11);  // half a pen's width from the end
@@ -89,7 +89,7 @@ TEST(VisibleDashes, OfAnOpenChainBeginAtItsHigherEnd) {
 TEST(VisibleDashes, TheOrderOfPiecesChangesNothing) {
     std::vector<LineSegment> pieces = polyline(circle(40, 97));
     for (const LineSegment& s : polyline({{100.3 + 40, 100.7}, {170, 120}, {180, 80}, {150, 20}})) pieces.push_back(s);
-    const auto expected = sorted_ends(dashed({pieces}, {7, 3}, 1));
+    const auto expected = sorted_ends(dashed({pieces}, {7, 3}, 1, {}, {}));
     for (std::uint64_t trial = 0; trial < 20; ++trial) {
         Random random(trial);
         std::vector<std::vector<LineSegment>> lists(3);
@@ -99,19 +99,19 @@ TEST(VisibleDashes, TheOrderOfPiecesChangesNothing) {
             lists[rest.size() % 3].push_back(rest[i]);
             rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
         }
-        EXPECT_EQ(sorted_ends(dashed(lists, {7, 3}, 1)), expected) << trial;
+        EXPECT_EQ(sorted_ends(dashed(lists, {7, 3}, 1, {}, {})), expected) << trial;
     }
 }
 
 TEST(VisibleDashes, HooksDoNotDotTheGaps) {
     std::vector<LineSegment> pieces = polyline({{10, 10}, {50, 10}});
-    const auto expected = sorted_ends(dashed({pieces}, {6, 4}, 2));
+    const auto expected = sorted_ends(dashed({pieces}, {6, 4}, 2, {}, {}));
     for (const LineSegment& s : polyline({{19, 10}, {20, 10.5}})) pieces.push_back(s);
-    EXPECT_EQ(sorted_ends(dashed({pieces}, {6, 4}, 2)), expected);
+    EXPECT_EQ(sorted_ends(dashed({pieces}, {6, 4}, 2, {}, {})), expected);
 }
 
 TEST(VisibleDashes, DotsAreRoundAndKeepTheirDirection) {
-    const auto parts = dashed({polyline({{10, 10}, {50, 10}})}, {1, 4}, 3);
+    const auto parts = dashed({polyline({{10, 10}, {50, 10}})}, {1, 4}, 3, {}, {});
     ASSERT_EQ(parts[0].size(), 8u);
     for (const LineSegment& s : parts[0]) {
         EXPECT_NEAR(s.to.x - s.from.x, 1.0 / 256, 1e-9);
@@ -194,6 +194,45 @@ TEST(VisibleDashes, OfACubeBeginAtItsHigherCorners) {
     EXPECT_NEAR(share, 8.0 / 13, 0.05);  // round ends take some, cut dashes add
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) ASSERT_LE(dashes.line(x, y), solid.line(x, y) + 1e-3);
+    }
+}
+
+// A camera that moves by 1/32 pixel a frame moves dashes by as much, whichever samples see a corner.
+TEST(VisibleDashes, AlongFeaturesStandStillInAnAnimation) {
+    Scene scene = dashed_scene(make_cylinder(0.5, 0.5, 1, 8));
+    Scene plain = scene;
+    plain.lines.style.dash_px.reset();
+    const auto change = [](const Drawing& a, const Drawing& b) {
+        double sum = 0;
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) sum += std::abs(a.line(x, y) - b.line(x, y));
+        }
+        return sum;
+    };
+    const auto frame = [](const Scene& s, int number) {
+        const glm::dvec3 move = glm::dvec3(0.8, 0.5, -0.2) * (number * 0.0004);
+        return Drawing(s, perspective_camera(glm::dvec3(1.2, 1.1, 2.3) + move, move), kSize, kSize, {0, 0, kSize, kSize}, 1, render_abuffer);
+    };
+    for (int number = 0; number < 12; ++number) {
+        const double of_dashes = change(frame(scene, number), frame(scene, number + 1));
+        EXPECT_GT(of_dashes, 1) << number;
+        EXPECT_LE(of_dashes, change(frame(plain, number), frame(plain, number + 1))) << number;
+    }
+}
+
+// What passes in front takes nothing but what it covers.
+TEST(VisibleDashes, AlongFeaturesGoOnBehindWhatIsInFront) {
+    const PolygonSoup sheet = soup_of({{20, 100, 0}, {180, 100, 0}, {180, 160, 0}, {20, 160, 0}}, {{0, 1, 2, 3}});
+    const PolygonSoup post = soup_of({{93, 90, 50}, {100, 90, 50}, {100, 110, 50}, {93, 110, 50}}, {{0, 1, 2, 3}});
+    Scene alone = dashed_scene(sheet), covered = scene_of({sheet, post});
+    covered.lines = alone.lines;
+    const auto draw = [](const Scene& scene) {
+        return Drawing(scene, pixel_camera(kSize, kSize), kSize, kSize, {0, 0, kSize, kSize}, 1, render_abuffer);
+    };
+    const Drawing a = draw(alone), b = draw(covered);
+    for (int x = 10; x < 190; ++x) {
+        if (x > 88 && x < 105) continue;
+        for (int y = 98; y < 102; ++y) ASSERT_NEAR(a.line(x, y), b.line(x, y), 0.01) << x << ' ' << y;
     }
 }
 
