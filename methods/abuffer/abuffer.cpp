@@ -56,10 +56,9 @@ void drop_above(double y, std::vector<std::vector<Segment>>& lists) {
     std::erase_if(lists, [](const auto& list) { return list.empty(); });
 }
 
-/// Edges that are lines from anywhere, wherever they are on the screen: dashes do not begin at the picture's border.
+/// Edges that are lines from anywhere, wherever they are on the screen.
 void add_features(const Frame& frame, const ScreenSurfaces& screen, int threads, std::vector<LayerLine>& features) {
-    constexpr int kFarPx = 1 << 20;
-    const std::vector<LayerLine> lines = find_layer_edges(frame, screen, {-kFarPx, -kFarPx, kFarPx, kFarPx}, threads);
+    const std::vector<LayerLine> lines = find_layer_edges(frame, screen, anywhere_on_screen(), threads);
     std::copy_if(lines.begin(), lines.end(), std::back_inserter(features), is_feature);
 }
 

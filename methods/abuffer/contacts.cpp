@@ -42,11 +42,14 @@ bool Contacts::is_in_front(const LayerLine& line, double begin, double end, cons
         if (!cover) return false;
         const double gap = screen_.nearness_of(owner, *beside) - cover->nearness_at(*beside);
         if (gap > level) return false;
+        bool is_behind = true;
         if (gap >= -level) {
             const SurfaceOrder order = screen_.surfaces().order(s, screen_.surface_of(cover->number));
-            if (!order.have_common_place || (order.are_coincident() ? owner < cover->number : gap > 0)) return false;
+            const bool is_coincident = order.are_coincident();
+            if (!order.have_common_place || (is_coincident ? owner < cover->number : gap > 0)) return false;
+            is_behind = !is_coincident || s.instance != t.instance;  // within a mesh, what lies flat on another part has no outline
         }
-        is_any_behind = true;
+        is_any_behind = is_any_behind || is_behind;
     }
     return is_any_behind;
 }

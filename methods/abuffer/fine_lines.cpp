@@ -85,6 +85,8 @@ class FineLines::BlockClipper {
         const LayerLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
         const double slack = line_slack(screen_.surfaces(), line, begin, end);
+        const double coincident = line_slack(screen_.surfaces(), line, begin, end, kCoincidentPx);
+        const double certain = line_slack(screen_.surfaces(), line, begin, end, kCertainPx);
         const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
         const bool is_border = line.owners[0] == line.owners[1];
         hidden_.clear();
@@ -92,14 +94,14 @@ class FineLines::BlockClipper {
         for_triangles(glm::mix(line.from, line.to, begin), glm::mix(line.from, line.to, end), line.lowest_in(begin, end) - slack,
                       [&](const LayerTriangle& t) {
                           if (lies_on(line, t)) return true;
-                          // A mesh hides its own edges exactly; patches that are not stitched are snapped
-                          // apart, and other objects may touch.
+                          // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
+                          // apart.
                           const bool is_own_mesh = t.instance == candidate.part.edge.instance;
                           const double touching = slack + t.slack;
-                          const double level = !is_own_mesh ? touching : is_border ? rounding + t.slack : rounding;
+                          const double level = !is_own_mesh ? certain + t.slack : is_border ? rounding + t.slack : rounding;
                           // What is level hides the most where it is seen instead: what that is, is asked last.
                           double most_from = begin, most_to = end, from = begin, to = end;
-                          if (!clip_where_hidden(line, -touching, t, most_from, most_to)) return true;
+                          if (!clip_where_hidden(line, -coincident - t.slack, t, most_from, most_to)) return true;
                           const bool is_any_hidden = clip_where_hidden(line, level, t, from, to);
                           const bool is_settled = is_any_hidden && from == most_from && to == most_to;
                           if (!is_settled && contacts_.is_seen_instead(line, begin, end, t, touching)) {

@@ -57,6 +57,12 @@ class LayerEdgeFinder {
     std::unique_ptr<const Rules> rules_;
 };
 
+/// Where edges can be on the screen at all: dashes must not begin at the picture's border.
+constexpr PixelRect anywhere_on_screen() {
+    constexpr int kFarPx = 1 << 20;
+    return {-kFarPx, -kFarPx, kFarPx, kFarPx};
+}
+
 /// All lines among the edges of the instances shown, be they seen or not.
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                         int threads);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 #include "base/parallel.h"
@@ -9,6 +10,7 @@
 #include "methods/abuffer/line_chains.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/transparent_fill.h"
+#include "methods/abuffer/visible_dashes.h"
 
 namespace burin {
 namespace {
@@ -62,6 +64,21 @@ void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, 
     }
 }
 
+/// Where lines stand along their chains: features by themselves, as visible ones do.
+std::vector<std::array<double, 2>> positions_of_ends(const std::vector<LayerLine>& lines, const SurfaceSet& surfaces, double period_px) {
+    std::vector<std::array<double, 2>> positions(lines.size());
+    for (const bool are_features : {true, false}) {
+        std::vector<LayerLine> chosen;
+        std::copy_if(lines.begin(), lines.end(), std::back_inserter(chosen), [&](const LayerLine& l) { return is_feature(l) == are_features; });
+        const auto of_chosen = positions_along_chains(chosen, surfaces, period_px);
+        auto next = of_chosen.begin();
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (is_feature(lines[i]) == are_features) positions[i] = *next++;
+        }
+    }
+    return positions;
+}
+
 /// The numbers of the lines that touch each tile.
 TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const PixelTiles& grid) {
     std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
@@ -106,7 +123,10 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
 bool LayerPass::knows_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
 
 void LayerPass::find_lines(TileRows rows) {
-    const PixelRect region = needs_all_lines(frame_) ? region_of_lines(frame_) : all_tiles_.only(rows).rect();
+    const bool is_dashed = frame_.scene->lines.style.hidden.style == HiddenStyle::dashed || frame_.scene->lines.style.dash_px;
+    const PixelRect region = is_dashed                 ? anywhere_on_screen()
+                             : needs_all_lines(frame_) ? region_of_lines(frame_)
+                                                       : all_tiles_.only(rows).rect();
     std::vector<LayerLine> found = find_layer_edges(frame_, screen_, region, threads_);
     if (lines_.empty()) {
         lines_ = std::move(found);
@@ -221,9 +241,7 @@ void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>&
 
 std::vector<LayerSegment> LayerPass::make_segments() const {
     const HiddenStyle style = frame_.scene->lines.style.hidden.style;
-    const auto positions_of = [&](std::array<double, 2> dash_px) {
-        return positions_along_chains(lines_, frame_.surfaces, dash_px[0] + dash_px[1]);
-    };
+    const auto positions_of = [&](std::array<double, 2> dash_px) { return positions_of_ends(lines_, frame_.surfaces, dash_px[0] + dash_px[1]); };
     std::vector<std::array<double, 2>> hidden_positions, visible_positions;  // where there are dashes
     const auto& visible_dash_px = frame_.scene->lines.style.dash_px;
     if (style == HiddenStyle::dashed) hidden_positions = positions_of(frame_.scene->lines.style.hidden_dash_px());

@@ -189,16 +189,16 @@ std::span<const std::uint32_t> LayerTile::touching(std::size_t begin, std::size_
 void LayerTile::hide(const LayerLine& line, std::uint32_t i, const PartInTile& part) {
     const LayerTriangle& t = triangle(i);
     if (lies_on(line, t)) return;
-    const double touching = line_slack_ + t.slack;
+    const double certain = certain_slack_ + t.slack;
     const double at_begin = t.nearness_at(part.from) - part.nearness_from, at_end = t.nearness_at(part.to) - part.nearness_to;
-    if (std::max(at_begin, at_end) < -touching) return;
+    if (std::max(at_begin, at_end) < -certain) return;
     Interval clear{t.number, part.begin, part.end, t.transmission}, most = clear;
-    const bool is_any_clear = clip_where_hidden(line, touching, t, clear.begin, clear.end);
+    const bool is_any_clear = clip_where_hidden(line, certain, t, clear.begin, clear.end);
     // What is level with the line is in front where it is seen instead: what that is, is asked last.
-    if (std::min(at_begin, at_end) <= touching && line.drawn_as != LineClass::intersection &&
-        clip_where_hidden(line, -touching, t, most.begin, most.end)) {
+    if (std::min(at_begin, at_end) <= certain && line.drawn_as != LineClass::intersection &&
+        clip_where_hidden(line, -certain, t, most.begin, most.end)) {
         const bool is_settled = is_any_clear && clear.begin == most.begin && clear.end == most.end;
-        if (!is_settled && contacts_.is_in_front(line, most.begin, most.end, t, touching)) {
+        if (!is_settled && contacts_.is_in_front(line, most.begin, most.end, t, line_slack_ + t.slack)) {
             intervals_.push_back(most);
             return;
         }
@@ -213,6 +213,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     intervals_.clear();
     ++lines_looked_at_;
     line_slack_ = line_slack(frame_.surfaces, line, begin, end);
+    certain_slack_ = line_slack(frame_.surfaces, line, begin, end, kCertainPx);
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
     const PartInTile part{begin, end, a, b, line.nearness_at(begin), line.nearness_at(end)};
     const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
@@ -276,10 +277,13 @@ void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin,
     const std::size_t first_piece = pieces.size();
     const auto emit = [&](double to) {
         double transmission = 1;
+        bool is_behind_glass = false;  // visible lines end there, however clear it is
         if (has_transparent_) {
             const double middle = 0.5 * (start + to);
             for (const Interval& i : intervals_) {
-                if (i.transmission > 0 && i.begin < middle && middle < i.end) transmission *= i.transmission;
+                if (!(i.transmission > 0 && i.begin < middle && middle < i.end)) continue;
+                transmission *= i.transmission;
+                is_behind_glass = true;
             }
         }
         LayerPiece piece;
@@ -290,7 +294,7 @@ void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin,
         piece.transmission = static_cast<std::uint8_t>(std::lround(255 * transmission));
         const double from = start;
         start = to;
-        if (piece.invisibility == 0 && piece.transmission == 255) return;
+        if (piece.invisibility == 0 && !is_behind_glass) return;
         LayerPiece* const last = pieces.size() > first_piece ? &pieces.back() : nullptr;
         if (last != nullptr && last->end == from && last->invisibility == piece.invisibility &&
             last->transmission == piece.transmission) {

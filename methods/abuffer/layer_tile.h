@@ -123,7 +123,7 @@ class LayerTile {
     std::vector<std::array<std::uint32_t, 2>> pairs_;  // of entries
     std::vector<Interval> intervals_;
     std::vector<Event> events_;
-    double line_slack_ = 0;
+    double line_slack_ = 0, certain_slack_ = 0;  // of the line that is looked at
     std::uint64_t fragment_count_ = 0;
 };
 

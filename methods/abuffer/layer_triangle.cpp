@@ -6,9 +6,6 @@
 namespace burin {
 namespace {
 
-/// A surface is in front of a line if it is nearer by this part of a pixel's width.
-constexpr double kLevelPx = 1.0 / 16;
-
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
@@ -108,16 +105,16 @@ bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {
     return common == 2;
 }
 
-double level_slack(const SurfaceSet& surfaces, double nearness) {
+double level_slack(const SurfaceSet& surfaces, double nearness, double level_px) {
     const Projection& p = surfaces.projection;
-    if (p.orthographic) return kLevelPx / p.focal_px + surfaces.coordinate_error;
+    if (p.orthographic) return level_px / p.focal_px + surfaces.coordinate_error;
     // A step in distance d is a step of d / distance^2 in nearness.
     const double absolute = nearness + surfaces.farthest_nearness;
-    return absolute * (kLevelPx / p.focal_px + surfaces.coordinate_error * absolute);
+    return absolute * (level_px / p.focal_px + surfaces.coordinate_error * absolute);
 }
 
-double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end) {
-    return level_slack(surfaces, std::max(line.nearness_at(begin), line.nearness_at(end))) +
+double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end, double level_px) {
+    return level_slack(surfaces, std::max(line.nearness_at(begin), line.nearness_at(end)), level_px) +
            std::abs(line.nearness_to - line.nearness_from) / glm::distance(line.from, line.to);
 }
 

@@ -47,11 +47,15 @@ std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen,
 /// Whether a line is an edge of a triangle, which cannot hide it then.
 bool lies_on(const LayerLine& line, const LayerTriangle& triangle);
 
-/// How much nearer something is, at a nearness less farthest_nearness, that is in front and not level: 1/16
-/// of a pixel's width.
-double level_slack(const SurfaceSet& surfaces, double nearness);
+/// Things at one depth are nearer to each other than this part of a pixel's width.
+constexpr double kLevelPx = 1.0 / 16;
+/// What is in front by more than this is so for certain: coordinates and places are not exact.
+constexpr double kCertainPx = kLevelPx / 64;
+
+/// So many pixels' widths as a step in nearness, at a nearness less farthest_nearness, and what coordinates are off by.
+double level_slack(const SurfaceSet& surfaces, double nearness, double level_px = kLevelPx);
 /// The same for the part [begin, end] of a line, with what snapping does to it.
-double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end);
+double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end, double level_px = kLevelPx);
 
 /// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`.
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin,

@@ -94,19 +94,12 @@ class Chains {
     }
 
     void put_in_order(std::vector<std::uint32_t>& chain, bool is_loop) const {
-        const auto reverse = [&chain] {
-            std::reverse(chain.begin(), chain.end());
-            for (std::uint32_t& end : chain) end ^= 1;
-        };
-        if (is_loop) {
-            const auto before = [this](std::uint32_t a, std::uint32_t b) { return is_before(a, b); };
-            std::rotate(chain.begin(), std::min_element(chain.begin(), chain.end(), before), chain.end());
-            // Towards the neighbour that comes first.
-            if (!is_before(chain.back(), chain.front() ^ 1)) return;
-            reverse();
-        } else if (is_before(chain.back() ^ 1, chain.front())) {
-            reverse();
-        }
+        const auto before = [this](std::uint32_t a, std::uint32_t b) { return is_before(a, b); };
+        if (is_loop) std::rotate(chain.begin(), std::min_element(chain.begin(), chain.end(), before), chain.end());
+        std::vector<std::uint32_t> backwards(chain.rbegin(), chain.rend());
+        for (std::uint32_t& end : backwards) end ^= 1;
+        // By all vertices on the way: a chain may end where it began.
+        if (std::lexicographical_compare(backwards.begin(), backwards.end(), chain.begin(), chain.end(), before)) chain.swap(backwards);
     }
 
     std::span<const LayerLine> lines_;

@@ -1,12 +1,14 @@
 #include "methods/abuffer/picture_pieces.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 #include <string>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "methods/abuffer/layer_line.h"
 #include "methods/abuffer/layer_pass.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/piece_costs.h"
@@ -50,6 +52,18 @@ std::uint64_t lasting_bytes(const Frame& frame, const PixelTiles& tiles, int thr
         if (meshes.insert(i.mesh).second) bytes += i.mesh->triangles.size();  // edges that are sharp
     }
     return bytes + tiles.count() * 64;
+}
+
+/// The most that the edges along which dashes run may take. All are needed at once.
+std::uint64_t feature_bytes(const Frame& frame, const ScreenSurfaces& screen) {
+    constexpr std::uint64_t kBytes = sizeof(LayerLine) + 64;  // and where it stands along its chain
+    std::uint64_t sides = 0;
+    for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
+        const std::size_t count = frame.surfaces.instances[i].mesh->triangles.size();
+        const std::uint8_t* const sharp = screen.sharp_edges(i);
+        for (std::size_t t = 0; t < count; ++t) sides += sharp == nullptr ? 3u : static_cast<unsigned>(std::popcount(sharp[t] & 7u));
+    }
+    return sides * kBytes;
 }
 
 /// Rows of one kind of tiles, with what they take.
@@ -138,6 +152,7 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     }
     // Lines are kept to the end of a piece, or of the picture where other lines have to be found first.
     std::uint64_t lasting = lasting_bytes(frame, tiles, threads);
+    if (frame.scene->lines.style.dash_px) lasting += feature_bytes(frame, screen);
     lasting += (costs.largest_layer_tile() + costs.largest_fine_tile()) * static_cast<std::uint64_t>(threads);
     const auto split = [&](const RowCosts& rows, bool keeps_lines) {
         std::vector<std::uint64_t> bytes = rows.bins;

@@ -179,6 +179,7 @@ class DashPen {
 
     /// `begin`, `end`: where `from` and `to` stand along the chain, in pixels; more of them where dashes are squeezed.
     void draw(const LineSegment& piece, double begin, double end) {
+        if (begin == end) return;
         const double length_px = glm::distance(piece.from, piece.to), per_px = std::abs(end - begin) / length_px;
         const double inset = inset_px_ * per_px, on = on_px_ - inset, low = std::min(begin, end), high = std::max(begin, end);
         const bool is_dotted = on_px_ - 2 * inset_px_ < kDotPx;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
 #include "methods/abuffer/layer_pass.h"
@@ -460,6 +462,40 @@ TEST(HiddenLines, WhatStandsOnTheOtherSideOfAFloor) {
     }
 }
 
+// What dips below a floor at a third of a degree is hidden from where they meet, not from 1/16 pixel below it.
+TEST(HiddenLines, BeginWhereSurfacesCrossAtASlightAngle) {
+    constexpr double kSlope = 0.005;
+    const PolygonSoup floor = soup_of({{5, 5, 0}, {235, 5, 0}, {235, 235, 0}, {5, 235, 0}}, {{0, 1, 2, 3}});
+    const auto on_ridge = [](double x, double y) { return glm::dvec3(x, y, kSlope * (x - 120)); };
+    const PolygonSoup ridge = soup_of({on_ridge(20, 60.3), on_ridge(220, 61.2), {220, 160, -100}, {20, 160, -100}, {220, 20, -40}, {20, 20, -40}},
+                                      {{0, 1, 2, 3}, {1, 0, 5, 4}});
+    for (const bool is_one_mesh : {false, true}) {
+        Scene scene = scene_of(is_one_mesh ? std::vector{joined({floor, ridge})} : std::vector{floor, ridge});
+        scene.lines.classes = LineClass::crease;
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        const Image image = draw(scene, pixel_camera(kSize, kSize));
+        EXPECT_NEAR(sum(image, "lines_hidden.A"), 100, 1.5) << is_one_mesh;
+        double seen_below = 0;
+        for (int y = 170; y < 190; ++y) {
+            for (int x = 0; x < 119; ++x) seen_below += value(image, "lines.A", x, y);
+        }
+        EXPECT_NEAR(seen_below, 0, 0.5) << is_one_mesh;
+    }
+}
+
+// Where a mesh has two polygons in one plane, the edge of one over the other is a line for nobody, whichever comes first.
+TEST(HiddenLines, WhatLiesFlatWithinAMeshHasNoOutline) {
+    const PolygonSoup floor = soup_of({{20, 20, 0}, {220, 20, 0}, {220, 220, 0}, {20, 220, 0}}, {{0, 1, 2, 3}});
+    const PolygonSoup decal = soup_of({{80, 80, 0}, {160, 83, 0}, {163, 160, 0}, {80, 161, 0}}, {{0, 1, 2, 3}});
+    for (const auto& soups : {std::vector{floor, decal}, {decal, floor}}) {
+        Scene scene = scene_of({joined(soups)});
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        const Image image = draw(scene, pixel_camera(kSize, kSize));
+        EXPECT_EQ(sum(image, "lines_hidden.A"), 0);
+        EXPECT_NEAR(sum(image, "lines.A"), 800, 1);
+    }
+}
+
 TEST(HiddenLines, BodiesThatStandFlushHideNothingOfEachOther) {
     const PolygonSoup left = moved(make_box({80, 80, 60}), {80, 120, -30}), right = moved(make_box({80, 60, 60}), {160, 110, -30});
     for (const bool is_left_first : {true, false}) {
@@ -599,6 +635,38 @@ TEST(Transparency, LinesBehindGlassAreWeakened) {
     for (int x = 66; x < 74; ++x) by_class += value(glass, "coverage.silhouette", x, 150) + value(glass, "coverage.crease", x, 150);
     EXPECT_NEAR(by_class, across(glass, 150), 0.01);
     EXPECT_NEAR(across(glass, 200), 0, 0.001) << "nothing is behind the pane there";
+}
+
+// Dashes hang on the mesh, in front of the picture's border and behind glass.
+TEST(Transparency, DashesRunOnBehindGlass) {
+    PolygonSoup fold;  // a crease in waves, from far beside the picture
+    constexpr std::uint32_t kPoints = 60;
+    for (std::uint32_t i = 0; i < kPoints; ++i) {
+        const double x = -130.7 + 8.1 * i, y = 120 + 20 * std::sin(0.05 * x);
+        fold.positions.insert(fold.positions.end(), {{x, y, 0}, {x, y - 60, -60}, {x, y + 60, -60}});
+    }
+    for (std::uint32_t i = 0; i + 1 < kPoints; ++i) {
+        fold.add_polygon(std::vector<std::uint32_t>{3 * i, 3 * i + 1, 3 * i + 4, 3 * i + 3});
+        fold.add_polygon(std::vector<std::uint32_t>{3 * i, 3 * i + 3, 3 * i + 5, 3 * i + 2});
+    }
+    Scene scene = scene_of({fold, soup_of({{60.3, 20, 100}, {170.8, 20, 100}, {170.8, 220, 100}, {60.3, 220, 100}}, {{0, 1, 2, 3}})});
+    scene.lines.classes = LineClass::crease;
+    scene.lines.style.dash_px = {12, 10};
+    scene.materials.push_back({});
+    scene.objects[1].materials = {1};
+    const SceneObject glass = scene.objects[1];
+    scene.objects[1].materials = {0};
+    scene.objects[1].to_world = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 1000, 0));
+    const Image without = draw(scene, pixel_camera(kSize, kSize));
+    EXPECT_GT(sum(without, "lines.A"), 100);
+    scene.objects[1] = glass;
+    for (const float opacity : {0.02f, 0.0f}) {  // what is quite clear is no wall either
+        scene.materials[1].opacity = opacity;
+        const Image behind = draw(scene, pixel_camera(kSize, kSize));
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) ASSERT_NEAR(value(behind, "lines.A", x, y), value(without, "lines.A", x, y), 0.1) << x << ' ' << y;
+        }
+    }
 }
 
 TEST(Transparency, SurfacesAreCompositedInOrder) {

@@ -236,6 +236,19 @@ TEST(VisibleDashes, AlongFeaturesGoOnBehindWhatIsInFront) {
     }
 }
 
+// A chain that ends in the vertex where it began runs the same way whichever triangle comes first.
+TEST(VisibleDashes, OfALoopThatBranchesHangOnNoOrder) {
+    const auto drawn = [](bool is_reversed) {
+        PolygonSoup soup;  // two triangles with a corner in common, so that four borders meet there
+        soup.positions = {{100, 100, 0}, {30, 40, 0}, {40, 160, 0}, {170, 150, 0}, {160, 30, 0}};
+        std::vector<std::vector<std::uint32_t>> polygons{{0, 1, 2}, {0, 3, 4}};
+        if (is_reversed) polygons = {{4, 0, 3}, {2, 0, 1}};
+        for (const auto& polygon : polygons) soup.add_polygon(polygon);
+        return Drawing(dashed_scene(soup), pixel_camera(kSize, kSize), kSize, kSize, {0, 0, kSize, kSize}, 1, render_abuffer).coverage();
+    };
+    EXPECT_EQ(drawn(false), drawn(true));
+}
+
 TEST(VisibleDashes, DependOnThePictureOnly) {
     Scene scene = dashed_scene(make_torus(0.6, 0.25, 40, 20));
     const glm::dvec3 eye(0.4, 1.6, 2.1);
