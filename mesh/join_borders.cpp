@@ -46,7 +46,9 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
         const Segment& s = sides.segments()[i];
         near.clear();
         beside.clear();
-        sides.mesh().borders.find_in_box(glm::dvec3(s.a) - widest, glm::dvec3(s.a) + widest, near);
+        // Thousands may meet at an end.
+        const glm::dvec3 middle = 0.5 * (glm::dvec3(s.a) + glm::dvec3(s.b));
+        sides.mesh().borders.find_in_box(middle - widest, middle + widest, near);
         for (const std::uint32_t j : near) {
             if (j == i) continue;
             const Segment& t = sides.segments()[j];
