@@ -24,6 +24,8 @@ struct Crack {
 
 /// Where a border has more others beside it, it is one of a pile.
 constexpr std::size_t kMostBeside = 64;
+/// What rounding may do.
+constexpr double kBarely = 1 + 1e-9;
 
 bool is_before(const Crack& a, const Crack& b) {
     if (a.width != b.width) return a.width < b.width;
@@ -52,6 +54,8 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
         for (const std::uint32_t j : near) {
             if (j == i) continue;
             const Segment& t = sides.segments()[j];
+            const glm::dvec3 off = 0.5 * (glm::dvec3(t.a) + glm::dvec3(t.b)) - middle;
+            if (glm::dot(off, off) > kBarely * widest * widest) continue;  // most lie in boxes that merely overlap
             const auto apart = [](const glm::vec3& p, const glm::vec3& q) { return glm::distance(glm::dvec3(p), glm::dvec3(q)); };
             const double opposite = std::max(apart(s.a, t.b), apart(s.b, t.a));
             const double along = std::max(apart(s.a, t.a), apart(s.b, t.b));
