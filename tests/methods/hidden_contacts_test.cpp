@@ -1,0 +1,145 @@
+// Hidden lines where surfaces are in contact, or nearly so.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/shapes.h"
+#include "tests/support/layers.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+TEST(HiddenContacts, ABorderThatIsASeamInPart) {
+    for (const double length : {60.0, 90.0, 110.0, 160.0, 200.0}) {
+        std::vector<PolygonSoup> objects{soup_of({{20, 100, 0}, {220, 100, 0}, {220, 160, 0}, {20, 160, 0}}, {{0, 1, 2, 3}})};
+        constexpr int kPatches = 4;
+        for (int i = 0; i < kPatches; ++i) {
+            const double from = 20 + length * i / kPatches, to = 20 + length * (i + 1) / kPatches, low = i % 2 == 0 ? 60 : 40;
+            const auto first = static_cast<std::uint32_t>(objects[0].positions.size());
+            for (const auto& [x, y] : {std::pair(from, low), {to, low}, {to, 100.0}, {from, 100.0}}) objects[0].positions.emplace_back(x, y, 0);
+            objects[0].add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
+        }
+        objects.push_back(soup_of({{10, 10, 100}, {230, 10, 100}, {230, 230, 100}, {10, 230, 100}}, {{0, 1, 2, 3}}));
+        const Layers layers(scene_of(objects), pixel_camera(kSize, kSize));
+        // Three sides and what is left of the fourth; the patches' lower sides, their first and last, and three steps.
+        const double expected = (200 + 60 + 60) + (200 - length) + length + 40 + 60 + 3 * 20;
+        EXPECT_NEAR(layers.hidden_px(1, LineClass::border), expected, 0.5) << length;
+    }
+}
+
+// Borders above each other on the screen, near each other in space for their length, but with a step that is seen.
+TEST(HiddenContacts, TreadsOfAStairWithoutRisers) {
+    constexpr int kTreads = 5;
+    const PolygonSoup roof = soup_of({{5, 5, 200}, {235, 5, 200}, {235, 235, 200}, {5, 235, 200}}, {{0, 1, 2, 3}});
+    for (const double step : {3.0, 6.0, 9.5}) {
+        for (const double overlap : {-0.4, 0.0, 0.4}) {
+            PolygonSoup stair;
+            for (int i = 0; i < kTreads; ++i) {
+                const double low = 20 + 40 * i, high = low + 40 + overlap, z = step * i;
+                const auto first = static_cast<std::uint32_t>(stair.positions.size());
+                for (const auto& [x, y] : {std::pair(20.0, low), {220.0, low}, {220.0, high}, {20.0, high}}) stair.positions.emplace_back(x, y, z);
+                stair.add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
+            }
+            Scene seen = scene_of({stair}), hidden = scene_of({stair, roof});
+            seen.lines.classes = hidden.lines.classes = LineClass::border;
+            hidden.lines.style.hidden.style = HiddenStyle::solid;
+            // Two borders 0.4 px from each other cover 1.4 px. Where sides meet, half pixels are covered twice.
+            const double expected = 200 * (kTreads + 1 + (kTreads - 1) * std::abs(overlap)) + 2 * (kTreads * 40 + overlap);
+            EXPECT_NEAR(sum(draw(hidden, pixel_camera(kSize, kSize)), "lines_hidden.A"), expected, 8) << "steps of " << step << ", overlap " << overlap;
+            if (overlap > 0) continue;  // the lower one of the two is hidden
+            EXPECT_NEAR(sum(draw(seen, pixel_camera(kSize, kSize)), "lines.A"), expected, 8) << "steps of " << step << ", overlap " << overlap;
+        }
+    }
+}
+
+// What stands on the other side of a floor is hidden from its feet on, wherever edges of the floor's triangles run, and
+// whether it is of one mesh with it or not.
+TEST(HiddenContacts, WhatStandsOnTheOtherSideOfAFloor) {
+    const PolygonSoup box = moved(make_box({80, 80, 60}), {100, 100, -30}), wall = soup_of({{170, 60, 0}, {170, 180, 0}, {170, 180, -50}, {170, 60, -50}}, {{0, 1, 2, 3}});
+    const auto floor = [](std::vector<double> columns) {
+        PolygonSoup soup;
+        for (const double x : columns) {
+            for (const double y : {20.0, 220.0}) soup.positions.emplace_back(x, y, 0);
+        }
+        for (std::uint32_t i = 0; i + 1 < columns.size(); ++i) soup.add_polygon(std::vector<std::uint32_t>{2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+        return soup;
+    };
+    const auto drawn = [](std::vector<PolygonSoup> objects, bool is_one_mesh) {
+        if (is_one_mesh) objects = {joined(objects)};
+        Scene scene = scene_of(objects);
+        scene.lines.classes = LineClassSet(LineClass::border) | LineClass::crease;
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        return draw(scene, perspective_camera({120, 90, 500}, {120, 110, 0}, 30));
+    };
+    // Under a roof all lines are hidden. Where a visible line crosses a hidden one, both have ink.
+    constexpr double kCrossings = 12;
+    const PolygonSoup roof = soup_of({{-500, -500, 300}, {900, -500, 300}, {900, 900, 300}, {-500, 900, 300}}, {{0, 1, 2, 3}});
+    const double expected = sum(drawn({floor({20, 220}), box, wall, roof}, false), "lines_hidden.A");
+    for (const std::vector<double>& columns : {std::vector<double>{20, 220}, {20, 60, 140, 170, 220}}) {
+        for (const bool is_one_mesh : {false, true}) {
+            const Image image = drawn({floor(columns), box, wall}, is_one_mesh);
+            const double ink = sum(image, "lines.A") + sum(image, "lines_hidden.A");
+            EXPECT_NEAR(ink, expected, kCrossings) << columns.size() << (is_one_mesh ? ", one mesh" : "");
+        }
+        // What comes before the floor is seen in it; the wall is behind it all the same.
+        const Image image = drawn({box, wall, floor(columns)}, false);
+        EXPECT_NEAR(sum(image, "lines.A") + sum(image, "lines_hidden.A"), expected, kCrossings) << columns.size();
+    }
+}
+
+// What dips below a floor at a third of a degree is hidden from where they meet, not from 1/16 pixel below it.
+TEST(HiddenContacts, BeginWhereSurfacesCrossAtASlightAngle) {
+    constexpr double kSlope = 0.005;
+    const PolygonSoup floor = soup_of({{5, 5, 0}, {235, 5, 0}, {235, 235, 0}, {5, 235, 0}}, {{0, 1, 2, 3}});
+    const auto on_ridge = [](double x, double y) { return glm::dvec3(x, y, kSlope * (x - 120)); };
+    const PolygonSoup ridge = soup_of({on_ridge(20, 60.3), on_ridge(220, 61.2), {220, 160, -100}, {20, 160, -100}, {220, 20, -40}, {20, 20, -40}},
+                                      {{0, 1, 2, 3}, {1, 0, 5, 4}});
+    for (const bool is_one_mesh : {false, true}) {
+        Scene scene = scene_of(is_one_mesh ? std::vector{joined({floor, ridge})} : std::vector{floor, ridge});
+        scene.lines.classes = LineClass::crease;
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        const Image image = draw(scene, pixel_camera(kSize, kSize));
+        EXPECT_NEAR(sum(image, "lines_hidden.A"), 100, 1.5) << is_one_mesh;
+        double seen_below = 0;
+        for (int y = 170; y < 190; ++y) {
+            for (int x = 0; x < 119; ++x) seen_below += value(image, "lines.A", x, y);
+        }
+        EXPECT_NEAR(seen_below, 0, 0.5) << is_one_mesh;
+    }
+}
+
+// Where a mesh has two polygons in one plane, the edge of one over the other is a line for nobody, whichever comes first.
+TEST(HiddenContacts, WhatLiesFlatWithinAMeshHasNoOutline) {
+    const PolygonSoup floor = soup_of({{20, 20, 0}, {220, 20, 0}, {220, 220, 0}, {20, 220, 0}}, {{0, 1, 2, 3}});
+    const PolygonSoup decal = soup_of({{80, 80, 0}, {160, 83, 0}, {163, 160, 0}, {80, 161, 0}}, {{0, 1, 2, 3}});
+    for (const auto& soups : {std::vector{floor, decal}, {decal, floor}}) {
+        Scene scene = scene_of({joined(soups)});
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        const Image image = draw(scene, pixel_camera(kSize, kSize));
+        EXPECT_EQ(sum(image, "lines_hidden.A"), 0);
+        EXPECT_NEAR(sum(image, "lines.A"), 800, 1);
+    }
+}
+
+TEST(HiddenContacts, BodiesThatStandFlushHideNothingOfEachOther) {
+    const PolygonSoup left = moved(make_box({80, 80, 60}), {80, 120, -30}), right = moved(make_box({80, 60, 60}), {160, 110, -30});
+    for (const bool is_left_first : {true, false}) {
+        Scene scene = scene_of(is_left_first ? std::vector{left, right} : std::vector{right, left});
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        const Layers layers(scene, pixel_camera(kSize, kSize));
+        double nearest = -1e300;
+        for (const LayerLine& line : layers.pass.lines()) nearest = std::max({nearest, line.nearness_from, line.nearness_to});
+        EXPECT_FALSE(layers.pass.pieces().empty());
+        for (const LayerPiece& p : layers.pass.pieces()) {
+            const LayerLine& line = layers.pass.lines()[p.line];
+            EXPECT_LT(line.nearness_at(0.5 * (p.begin + p.end)), nearest - 1) << "an edge of the upper faces";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace burin
