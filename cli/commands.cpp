@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "base/atomic_file.h"
 #include "base/json_writer.h"
@@ -318,10 +319,12 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
     }
 }
 
-Film make_film(const Frame& frame, const LayerSet& layers, const std::string& path) {
+Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const std::string& path) {
     try {
-        Film film({0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
-        if (!film.image().channels().empty()) return film;
+        const PixelRect display{0, 0, frame.width, frame.height};
+        Film film = in_bands ? Film::in_bands(display, frame.crop, layers, frame.criteria.classes)
+                             : Film(display, frame.crop, layers, frame.criteria.classes);
+        if (!film.channels().empty()) return film;
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
@@ -357,11 +360,20 @@ void run_render(const Arguments& a) {
     LayerSet layers = a.layers;
     if (!a.names_layers) layers.lines_hidden = scene.lines.style.hidden.style != HiddenStyle::none;
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
-    Film film = make_film(frame, layers, output.path);
+    // An EXR is compressed while it is drawn; but not when times are taken.
+    const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && method.finishes_in_bands != nullptr &&
+                          method.finishes_in_bands(frame);
+    Film film = make_film(frame, layers, in_bands, output.path);
     RunOptions run{a.threads, &progress, a.memory_bytes};
+    std::optional<BandWriter> writer;
+    if (in_bands) {
+        writer.emplace(film, output);
+        run.finished_band = [&writer](std::size_t band) { writer->write(band); };
+    }
     try {
         times.render = method.render(frame, run, film);
     } catch (const InputError& error) {
+        if (writer && writer->has_failed()) throw;
         throw InputError(a.input + ": " + error.what());
     }
     if (a.repeat > 0) {
@@ -371,8 +383,12 @@ void run_render(const Arguments& a) {
         times.render = median_of(std::move(runs));
     }
     watch.lap();
-    write_output(frame, film, output);
-    times.write_s = watch.lap();
+    if (writer) {
+        writer->finish();
+    } else {
+        write_output(frame, film, output);
+    }
+    times.write_s = times.render.write_s + watch.lap();
     progress.finish();
     times.total_s = a.repeat > 0 ? times.load_s + frame_seconds(times.render) + times.write_s : total.seconds();
     if (!a.stats.empty()) write_stats(a.stats, stats_json(times, frame, method));

@@ -12,6 +12,9 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -57,37 +60,28 @@ Imf::FrameBuffer frame_buffer(const Image& image) {
 /// difference to the byte before, plus 128 (OpenEXR's "zip" with its predictor).
 class RowPacker {
   public:
-    static constexpr int kRows = 16;
+    /// `order`: of the channels.
+    RowPacker(const Image& image, std::span<const std::size_t> order, int first_row, int end_row)
+        : image_(image), order_(order), first_row_(first_row), end_row_(end_row) {}
 
-    explicit RowPacker(const Image& image) : image_(image) {
-        for (const Channel& channel : image.channels()) channels_.push_back(&channel);
-        std::sort(channels_.begin(), channels_.end(),
-                  [](const Channel* a, const Channel* b) { return a->name < b->name; });
-    }
-
-    std::span<const Channel* const> channels() const { return channels_; }
-    std::size_t chunk_count() const {
-        return static_cast<std::size_t>((image_.height() + kRows - 1) / kRows);
-    }
-
-    /// The bytes of a chunk as they are.
-    void raw(std::size_t chunk, std::vector<std::uint8_t>& bytes) const {
+    /// The bytes as they are.
+    void raw(std::vector<std::uint8_t>& bytes) const {
         bytes.clear();
-        for_each_row(chunk, [&](std::span<const std::uint8_t> row) {
+        for_each_row([&](std::span<const std::uint8_t> row) {
             bytes.insert(bytes.end(), row.begin(), row.end());
         });
     }
-    /// The bytes of a chunk, sorted and as differences.
-    void packed(std::size_t chunk, std::vector<std::uint8_t>& bytes) const {
+    /// The bytes, sorted and as differences.
+    void packed(std::vector<std::uint8_t>& bytes) const {
         std::size_t size = 0;
-        for_each_row(chunk, [&](std::span<const std::uint8_t> row) { size += row.size(); });
+        for_each_row([&](std::span<const std::uint8_t> row) { size += row.size(); });
         bytes.resize(size);
         // Rows have even numbers of bytes, so that all start with an even one.
         std::uint8_t* even = bytes.data();
         std::uint8_t* odd = even + size / 2;
         std::uint8_t last_even = 128, last_odd = 0;  // the first byte stays what it is
         std::uint8_t first_odd = 0;
-        for_each_row(chunk, [&](std::span<const std::uint8_t> row) {
+        for_each_row([&](std::span<const std::uint8_t> row) {
             const std::uint8_t* const p = row.data();
             const std::size_t pairs = row.size() / 2;
             if (even == bytes.data()) first_odd = p[1];
@@ -110,21 +104,20 @@ class RowPacker {
         return static_cast<std::uint8_t>(value - before + 128);
     }
     template <typename Use>
-    void for_each_row(std::size_t chunk, const Use& use) const {
-        const int first = static_cast<int>(chunk) * kRows;
-        for (int y = first; y < std::min(first + kRows, image_.height()); ++y) {
-            for (const Channel* const channel : channels_) {
-                const std::size_t size =
-                    size_of(channel->type) * static_cast<std::size_t>(image_.width());
-                const auto* const bytes =
-                    reinterpret_cast<const std::uint8_t*>(channel->bytes.data());
+    void for_each_row(const Use& use) const {
+        for (int y = first_row_; y < end_row_; ++y) {
+            for (const std::size_t c : order_) {
+                const Channel& channel = image_.channels()[c];
+                const std::size_t size = size_of(channel.type) * static_cast<std::size_t>(image_.width());
+                const auto* const bytes = reinterpret_cast<const std::uint8_t*>(channel.bytes.data());
                 use(std::span(bytes + static_cast<std::size_t>(y) * size, size));
             }
         }
     }
 
     const Image& image_;
-    std::vector<const Channel*> channels_;
+    std::span<const std::size_t> order_;
+    int first_row_, end_row_;  // in the image
 };
 
 /// A file of OpenEXR's C library, which takes chunks that are compressed already.
@@ -147,17 +140,18 @@ class ChunkFile {
     ChunkFile(const ChunkFile&) = delete;
     ChunkFile& operator=(const ChunkFile&) = delete;
 
-    void write_header(const Image& image, std::span<const Channel* const> channels,
-                      const ExrOptions& options) {
+    void write_header(PixelRect display_window, PixelRect data_window, const std::vector<ChannelFormat>& channels,
+                      std::span<const std::size_t> order, const ExrOptions& options) {
         int part = 0;
         check(exr_add_part(context_, nullptr, EXR_STORAGE_SCANLINE, &part));
-        const exr_attr_box2i_t display = box(image.display()), data = box(image.data());
+        const exr_attr_box2i_t display = box(display_window), data = box(data_window);
         const exr_attr_v2f_t center = {0, 0};
         check(exr_initialize_required_attr(context_, part, &display, &data, 1, &center, 1,
                                            EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
-        for (const Channel* const channel : channels) {
-            const auto type = static_cast<exr_pixel_type_t>(exr_type(channel->type));
-            check(exr_add_channel(context_, part, channel->name.c_str(), type,
+        for (const std::size_t c : order) {
+            const ChannelFormat& channel = channels[c];
+            const auto type = static_cast<exr_pixel_type_t>(exr_type(channel.type));
+            check(exr_add_channel(context_, part, channel.name.c_str(), type,
                                   EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
         }
         for (const auto& [name, text] : options.texts) {
@@ -195,61 +189,120 @@ class ChunkFile {
     std::exception_ptr failure_;
 };
 
-/// Compresses chunks on many threads and writes them in order, each as soon as those before are.
-void write_chunks(ChunkFile& file, const RowPacker& rows, int first_y, int threads) {
-    struct Chunk {
-        std::vector<std::uint8_t> bytes;
-        bool is_ready = false;
-    };
-    std::vector<Chunk> chunks(rows.chunk_count());
-    std::size_t next = 0;
-    std::mutex writing;
-    struct Worker {
-        Deflater deflater;
-        std::vector<std::uint8_t> bytes;
-    };
-    std::vector<std::unique_ptr<Worker>> workers(static_cast<std::size_t>(threads));
-    parallel_for(chunks.size(), threads, [&](std::size_t i, int number) {
-        std::unique_ptr<Worker>& worker = workers[static_cast<std::size_t>(number)];
-        if (worker == nullptr) worker = std::make_unique<Worker>();
-        rows.packed(i, worker->bytes);
-        const std::span<const std::uint8_t> stream = worker->deflater.compress(worker->bytes);
-        Chunk& chunk = chunks[i];
-        if (stream.size() < worker->bytes.size()) {
-            chunk.bytes.assign(stream.begin(), stream.end());
-        } else {
-            rows.raw(i, chunk.bytes);  // readers know by the size that nothing is compressed
-        }
-        const std::lock_guard lock(writing);
-        chunk.is_ready = true;
-        for (; next < chunks.size() && chunks[next].is_ready; ++next) {
-            file.write_chunk(first_y + static_cast<int>(next) * RowPacker::kRows,
-                             chunks[next].bytes);
-            chunks[next].bytes = {};
-        }
-    });
+/// The places of channels in the order of their names.
+std::vector<std::size_t> sorted_by_name(const std::vector<ChannelFormat>& channels) {
+    std::vector<std::size_t> order(channels.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return channels[a].name < channels[b].name; });
+    return order;
 }
 
-}  // namespace
-
-void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
-    AtomicFile file(path);
+/// Runs what writes to `path`; what it throws becomes an InputError that names the file.
+template <typename Work>
+void naming_file(const std::string& path, const Work& work) {
     try {
-        if (image.channels().empty())
-            throw InputError(path + ": cannot write: the image has no channels");
-        const RowPacker rows(image);
-        ChunkFile chunks(file, path);
-        chunks.write_header(image, rows.channels(), options);
-        write_chunks(chunks, rows, image.data().y0, resolve_thread_count(options.threads));
-        chunks.finish();
+        work();
     } catch (const InputError&) {
         throw;
     } catch (const Interrupted&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw InputError(path + ": cannot write: " + error.what());
     }
-    file.commit();
+}
+
+}  // namespace
+
+/// Chunks that are ready before those above them wait, compressed.
+class ExrWriter::State {
+  public:
+    State(const std::string& path, PixelRect display, PixelRect data, const std::vector<ChannelFormat>& channels,
+          const ExrOptions& options)
+        : path_(path), data_(data), order_(sorted_by_name(channels)), file_(path) {
+        naming_file(path_, [&] {
+            if (channels.empty()) throw InputError(path_ + ": cannot write: the image has no channels");
+            chunks_.emplace(file_, path_);
+            chunks_->write_header(display, data, channels, order_, options);
+        });
+        waiting_.resize(static_cast<std::size_t>((data.height() + kChunkRows - 1) / kChunkRows));
+    }
+
+    void write_chunk(const Image& part, int y) {
+        naming_file(path_, [&] {
+            const int first = y - part.data().y0;
+            const RowPacker rows(part, order_, first, std::min(y + kChunkRows, data_.y1) - part.data().y0);
+            std::unique_ptr<Tool> tool = take_tool();
+            rows.packed(tool->bytes);
+            const std::span<const std::uint8_t> stream = tool->deflater.compress(tool->bytes);
+            Chunk chunk;
+            chunk.is_ready = true;
+            if (stream.size() < tool->bytes.size()) {
+                chunk.bytes.assign(stream.begin(), stream.end());
+            } else {
+                rows.raw(chunk.bytes);  // readers know by the size that nothing is compressed
+            }
+            const std::lock_guard lock(mutex_);
+            tools_.push_back(std::move(tool));
+            waiting_[static_cast<std::size_t>((y - data_.y0) / kChunkRows)] = std::move(chunk);
+            for (; next_ < waiting_.size() && waiting_[next_].is_ready; ++next_) {
+                chunks_->write_chunk(data_.y0 + static_cast<int>(next_) * kChunkRows, waiting_[next_].bytes);
+                waiting_[next_].bytes = std::vector<std::uint8_t>();  // {} would keep its memory
+            }
+        });
+    }
+
+    void finish() {
+        naming_file(path_, [&] {
+            if (next_ < waiting_.size()) throw std::logic_error("rows are missing");
+            chunks_->finish();
+        });
+        file_.commit();
+    }
+
+  private:
+    struct Chunk {
+        std::vector<std::uint8_t> bytes;
+        bool is_ready = false;
+    };
+    struct Tool {  // of one thread at a time
+        Deflater deflater;
+        std::vector<std::uint8_t> bytes;
+    };
+    std::unique_ptr<Tool> take_tool() {
+        const std::lock_guard lock(mutex_);
+        if (tools_.empty()) return std::make_unique<Tool>();
+        std::unique_ptr<Tool> tool = std::move(tools_.back());
+        tools_.pop_back();
+        return tool;
+    }
+
+    std::string path_;
+    PixelRect data_;
+    std::vector<std::size_t> order_;
+    AtomicFile file_;
+    std::optional<ChunkFile> chunks_;
+    std::mutex mutex_;  // over all that follows
+    std::vector<Chunk> waiting_;
+    std::size_t next_ = 0;
+    std::vector<std::unique_ptr<Tool>> tools_;
+};
+
+ExrWriter::ExrWriter(const std::string& path, PixelRect display, PixelRect data,
+                     const std::vector<ChannelFormat>& channels, const ExrOptions& options)
+    : state_(std::make_unique<State>(path, display, data, channels, options)) {}
+ExrWriter::~ExrWriter() = default;
+void ExrWriter::write_chunk(const Image& part, int y) { state_->write_chunk(part, y); }
+void ExrWriter::finish() { state_->finish(); }
+
+void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
+    ExrWriter writer(path, image.display(), image.data(), image.formats(), options);
+    const auto chunks = static_cast<std::size_t>((image.height() + ExrWriter::kChunkRows - 1) / ExrWriter::kChunkRows);
+    parallel_for(chunks, resolve_thread_count(options.threads), [&](std::size_t i, int) {
+        writer.write_chunk(image, image.data().y0 + static_cast<int>(i) * ExrWriter::kChunkRows);
+    });
+    writer.finish();
 }
 
 Image read_exr(const std::string& path) {

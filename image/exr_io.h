@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,8 +16,30 @@ struct ExrOptions {
     std::vector<std::pair<std::string, std::string>> texts;
 };
 
-/// Writes all channels as one scan-line part, ZIP compressed, with the image's display and data
-/// windows. The file appears under its name only when it is complete. Throws InputError.
+/// Writes an EXR whose rows come in pieces: one scan-line part, ZIP compressed. The file appears under its name only
+/// when finish() has been called. Everything throws InputError.
+class ExrWriter {
+  public:
+    /// Rows that are compressed together.
+    static constexpr int kChunkRows = 16;
+
+    ExrWriter(const std::string& path, PixelRect display, PixelRect data, const std::vector<ChannelFormat>& channels,
+              const ExrOptions& options);
+    ~ExrWriter();
+
+    /// Compresses rows [y, y + kChunkRows), or what the data window has of them, and writes them as soon as all above
+    /// are. They are within `part`, which has those channels, in that order, and the data window's columns. Each chunk
+    /// once, in any order, at once on as many threads as one likes.
+    void write_chunk(const Image& part, int y);
+    /// After all chunks.
+    void finish();
+
+  private:
+    class State;
+    std::unique_ptr<State> state_;
+};
+
+/// Writes all channels of an image, with its display and data windows. Throws InputError.
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
 
 /// Reads all channels of a single-part flat EXR. Throws InputError. For tests and tools.

@@ -38,6 +38,12 @@ Channel* Image::find(std::string_view name) {
     return const_cast<Channel*>(std::as_const(*this).find(name));
 }
 
+std::vector<ChannelFormat> Image::formats() const {
+    std::vector<ChannelFormat> formats;
+    for (const Channel& c : channels_) formats.push_back({c.name, c.type});
+    return formats;
+}
+
 double Image::value(const Channel& channel, int x, int y) const {
     const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) +
                           static_cast<std::size_t>(x);

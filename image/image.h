@@ -24,6 +24,12 @@ struct PixelRect {
     bool operator==(const PixelRect&) const = default;
 };
 
+/// What a channel is, without pixels.
+struct ChannelFormat {
+    std::string name;
+    PixelType type = PixelType::float32;
+};
+
 /// One channel of an image, row by row from the top.
 struct Channel {
     std::string name;  ///< as in the EXR file: "R", "lines.A", "id.object"
@@ -49,6 +55,8 @@ class Image {
 
     PixelRect display() const { return display_; }
     PixelRect data() const { return data_; }
+    /// Has the same pixels stand for other rows.
+    void move_to(int y0) { data_ = {data_.x0, y0, data_.x1, y0 + height()}; }
     int width() const { return data_.width(); }
     int height() const { return data_.height(); }
     std::size_t pixel_count() const {
@@ -63,6 +71,7 @@ class Image {
     const Channel* find(std::string_view name) const;
     Channel* find(std::string_view name);
     const std::vector<Channel>& channels() const { return channels_; }
+    std::vector<ChannelFormat> formats() const;
 
     /// A value as a number, whatever its type; x and y count from the data rectangle's corner.
     double value(const Channel& channel, int x, int y) const;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -48,11 +49,34 @@ struct LinePixel {
 
 /// Collects pixels into the channels of the chosen layers. Different threads may put different
 /// pixels at the same time.
+///
+/// A film lies in memory as a whole, or in bands of rows that are there only between open() and close(): so a picture
+/// whose rows are written as they are finished takes no more than some of them.
 class Film {
   public:
+    static constexpr int kBandRows = 32;  ///< whole chunks of an EXR
+
     /// `display` is the whole picture, `crop` the part that pixels are put for: each of them must be. Throws InputError
     /// when this machine has not enough memory for it.
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
+    /// In bands, none of which is open.
+    static Film in_bands(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
+    ~Film();
+    Film(Film&&) noexcept;
+    Film& operator=(Film&&) noexcept;
+
+    PixelRect display() const { return display_; }
+    PixelRect crop() const { return crop_; }
+    std::vector<ChannelFormat> channels() const;
+    /// Has all bands that rows [y0, y1) touch, as far as they are in the crop. Any thread may call it. Throws InputError
+    /// when this machine has not enough memory for what is open. A whole film is always open.
+    void open(int y0, int y1);
+    /// Number of bands; a whole film is one.
+    std::size_t band_count() const { return bands_.size(); }
+    /// One that is open.
+    const Image& band(std::size_t number) const { return bands_[number]->image; }
+    /// Gives its memory up, to be used for others.
+    void close(std::size_t number);
 
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
@@ -78,12 +102,10 @@ class Film {
     void draw_hidden(int x, int y, const glm::vec4& hidden, const glm::vec4& seen);
     /// After draw_over(): adds to the line channels, but not to the beauty.
     void add_lines(int x, int y, const LinePixel& lines);
-    const Image& image() const { return image_; }
+    /// Of a whole film.
+    const Image& image() const { return bands_.front()->image; }
 
   private:
-    std::size_t index_of(int x, int y) const;
-
-    Image image_;
     struct Planes {  // channel data, nullptr where a layer is not wanted
         std::uint16_t* beauty[4] = {};
         std::uint16_t* lines[4] = {};
@@ -93,7 +115,34 @@ class Film {
         float* depth = nullptr;
         float* normal[3] = {};
         std::uint32_t* ids[3] = {};
-    } planes_;
+    };
+    struct Band {
+        Image image;
+        Planes planes;
+    };
+    struct Opening;
+
+    /// Bands have 2^`band_shift` rows.
+    Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int band_shift);
+    PixelRect rows_of(std::size_t band) const;
+    std::unique_ptr<Band> make_band(PixelRect rows) const;
+    void check_memory(std::size_t bands) const;
+    /// Bands are written to their file while caches have them.
+    bool is_read_soon() const { return bands_.size() > 1; }
+    std::size_t number_of(int y) const { return static_cast<std::size_t>(y - crop_.y0) >> band_shift_; }
+    /// The band with a row, and a pixel's place in it.
+    struct Place {
+        const Planes& planes;
+        std::size_t index;
+    };
+    Place place_of(int x, int y) const;
+
+    PixelRect display_, crop_;
+    LayerSet layers_;
+    LineClassSet classes_;
+    int band_shift_;
+    std::vector<std::unique_ptr<Band>> bands_;
+    std::unique_ptr<Opening> opening_;  // one thread at a time opens and closes
 };
 
 }  // namespace burin

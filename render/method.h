@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include "base/progress.h"
@@ -18,6 +20,9 @@ struct RunOptions {
     std::uint64_t memory_bytes = 0;
     /// Method abuffer: samples along a tile's side, a power of two from 8 pixels to 128 samples; 0 = the best.
     int tile_samples = 0;
+    /// Method abuffer: called once for each band of a film in bands, when its pixels will not change any more, by any
+    /// thread. It may close the band.
+    std::function<void(std::size_t band)> finished_band = nullptr;
 };
 
 /// A way to draw the lines of a frame.
@@ -29,6 +34,8 @@ struct Method {
     /// Classes whose boundaries it also finds when asked for some of those that it draws, and calls
     /// by their names: images know no classes. nullptr: none.
     LineClassSet (*also_finds)(LineClassSet asked) = nullptr;
+    /// Whether it finishes bands of a frame one after the other, and calls RunOptions::finished_band. nullptr: never.
+    bool (*finishes_in_bands)(const Frame&) = nullptr;
 };
 
 }  // namespace burin

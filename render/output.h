@@ -1,7 +1,10 @@
 #pragma once
 
+#include <atomic>
+#include <memory>
 #include <string>
 
+#include "image/exr_io.h"
 #include "render/film.h"
 #include "render/frame.h"
 
@@ -18,5 +21,24 @@ struct OutputOptions {
 
 /// Writes the film to its file (docs/conventions.md lists the layers). Throws InputError.
 void write_output(const Frame& frame, const Film& film, const OutputOptions& options);
+
+/// Writes a film in bands to an EXR while it is rendered. The file appears under its name only when finish() has been
+/// called. Everything throws InputError.
+class BandWriter {
+  public:
+    BandWriter(Film& film, const OutputOptions& options);
+    ~BandWriter();
+    /// Writes a band and closes it. Each once, in any order, at once on any threads.
+    void write(std::size_t band);
+    /// After all bands.
+    void finish();
+    /// Whether anything that it was called for has failed.
+    bool has_failed() const { return has_failed_; }
+
+  private:
+    Film& film_;
+    std::unique_ptr<ExrWriter> exr_;
+    std::atomic<bool> has_failed_ = false;
+};
 
 }  // namespace burin

@@ -11,9 +11,9 @@
 #include "methods/abuffer/layer_pass.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/picture_pieces.h"
+#include "methods/abuffer/row_finisher.h"
 #include "methods/abuffer/sampling.h"
 #include "methods/abuffer/smooth_contours.h"
-#include "methods/abuffer/stroke_pass.h"
 #include "methods/abuffer/surface_pass.h"
 #include "methods/abuffer/visible_dashes.h"
 
@@ -26,24 +26,6 @@ PixelRect region_around(PixelRect crop, double reach_px) {
     const auto down = [](int v) { return (v & ~(kMergeBlockPx - 1)); };
     return {down(crop.x0 - margin), down(crop.y0 - margin), down(crop.x1 + margin + kMergeBlockPx - 1),
             down(crop.y1 + margin + kMergeBlockPx - 1)};
-}
-
-/// Rows of pixels that are drawn at once end where tiles of strokes do.
-constexpr int kStrokeRowsPx = 32;
-
-/// How far from a line strokes may reach, and a bit.
-double reach_of(const LineStyle& style) { return style.reach_px() + 2; }
-
-/// The rows of the crop whose lines are all known once those above a row of pixels are, less those done.
-PixelRect next_part(const Frame& frame, int done_y, int known_y, bool is_last) {
-    PixelRect part = frame.crop;
-    part.y0 = done_y;
-    if (!is_last) {
-        const int y = known_y - static_cast<int>(std::ceil(reach_of(frame.scene->lines.style)));
-        const int rows = std::max(y - frame.crop.y0, 0) / kStrokeRowsPx * kStrokeRowsPx;
-        part.y1 = std::clamp(frame.crop.y0 + rows, done_y, frame.crop.y1);
-    }
-    return part;
 }
 
 /// Forgets what cannot be seen from a row of pixels on.
@@ -87,6 +69,9 @@ void prepare_for_abuffer(Scene& scene, int threads, bool saves_memory) {
     }
 }
 
+/// Hidden lines are drawn below visible ones.
+bool abuffer_finishes_in_bands(const Frame& frame) { return !LayerPass::is_needed(*frame.scene) && !needs_all_visible_lines(frame); }
+
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
     Frame frame = given;
     frame.criteria.cos_crease_angle = criteria_of(given.scene->lines).cos_crease_angle;
@@ -115,15 +100,20 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     if (options.progress != nullptr) options.progress->begin("rendering", tiles.count());
 
     const bool has_layers = LayerPass::is_needed(*frame.scene);
-    const double reach_px = reach_of(lines.style);
     std::vector<std::vector<LineSegment>> segments;
-    int done_y = frame.crop.y0;
+    RowFinisher finisher(frame, kernels, stats.threads, options, film);
     SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress, contours.get());
-    const bool waits = has_layers || needs_all_visible_lines(frame);  // hidden lines are drawn below visible ones
+    const bool waits = !abuffer_finishes_in_bands(frame);
+    if (waits) film.open(frame.crop.y0, frame.crop.y1);
+    const auto hand_on = [&](PixelRect part) {
+        stats.lines_s += watch.lap();
+        finisher.hand_on(part);
+        stats.write_s += watch.lap();
+    };
     for (const PicturePiece& piece : plan.visible) {
         show(piece.instances);
         const PixelRect rows = tiles.only(piece.rows).rect();
-        surfaces.draw(rows, tile_samples, segments, film, stats);
+        surfaces.draw(rows, tile_samples, waits ? nullptr : &finisher, segments, film, stats);
         const bool is_last = &piece == &plan.visible.back();
         if (waits && !is_last) continue;
         watch.lap();
@@ -135,11 +125,11 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
             }
             segments = dashed(segments, *lines.style.dash_px, lines.style.width_px, features, frame.surfaces);
         }
-        const PixelRect part = next_part(frame, done_y, rows.y1, is_last);
-        if (!has_layers && part.height() > 0) {
-            draw_strokes(frame, part, segments, kernels, stats.threads, film);
-            done_y = part.y1;
-            if (has_cap) drop_above(done_y - reach_px, segments);
+        if (!has_layers) {
+            const PixelRect part = is_last ? finisher.take_rest() : finisher.take(rows.y1);
+            finisher.draw(part, segments);
+            hand_on(part);
+            if (has_cap) drop_above(finisher.taken_y() - finisher.reach_px(), segments);
         }
         stats.lines_s += watch.lap();
     }
@@ -163,15 +153,15 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         layers.find_pieces();
         if (needs_all && !is_last) continue;
         layer_segments.push_back(layers.take_segments());
-        const PixelRect part = next_part(frame, done_y, layer_tiles.only(piece.rows).rect().y1, is_last);
+        const PixelRect part = is_last ? finisher.take_rest() : finisher.take(layer_tiles.only(piece.rows).rect().y1);
         if (part.height() == 0) continue;
         layers.draw_below(part, segments, layer_segments, film);
-        draw_strokes(frame, part, segments, kernels, stats.threads, film);
+        finisher.draw(part, segments);
         layers.draw_above(film);
-        done_y = part.y1;
+        hand_on(part);
         if (!has_cap) continue;
-        drop_above(done_y - reach_px, segments);
-        drop_above(done_y - reach_px, layer_segments);
+        drop_above(part.y1 - finisher.reach_px(), segments);
+        drop_above(part.y1 - finisher.reach_px(), layer_segments);
     }
     stats.fragments += layers.fragment_count();
     stats.lines_s += watch.lap();

@@ -15,6 +15,9 @@ namespace burin {
 ///  4. Pixels are filled from their samples; then strokes are drawn over them.
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film);
 
+/// Whether its bands are finished one after the other: not where lines depend on others anywhere in the picture.
+bool abuffer_finishes_in_bands(const Frame& frame);
+
 /// Makes what is the same for all frames of a scene with these line settings. Frames are right without
 /// it, but take longer. Frames made before point to what it replaces: make them after it.
 /// `saves_memory`: makes nothing that a frame rendered under RunOptions::memory_bytes has no use for.

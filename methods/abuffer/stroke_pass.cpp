@@ -14,10 +14,12 @@ namespace {
 
 constexpr int kTilePx = 32;
 
-/// Numbers of the segments whose strokes reach each tile, class by class.
-class SegmentBins {
+}  // namespace
+
+/// The segments whose strokes reach each tile, in the order of the lists.
+class StrokePass::Bins {
   public:
-    SegmentBins(const std::vector<std::vector<LineSegment>>& segments, PixelRect region, double reach_px)
+    Bins(Lists segments, PixelRect region, double reach_px)
         : region_(region),
           columns_((region.width() + kTilePx - 1) / kTilePx),
           rows_((region.height() + kTilePx - 1) / kTilePx) {
@@ -64,6 +66,8 @@ class SegmentBins {
     std::vector<const LineSegment*> sorted_;
 };
 
+namespace {
+
 /// Lines of one pixel before filters' negative lobes are cut off.
 using Coverages = std::array<float, kLineClassCount>;
 
@@ -79,10 +83,12 @@ void clamp(Coverages& coverages) {
     for (float& c : coverages) c *= scale;
 }
 
-/// Puts the strokes of a tile over a film.
-class StrokePrinter {
+}  // namespace
+
+/// Puts the strokes of one tile after the other over a film.
+class StrokePass::Printer {
   public:
-    StrokePrinter(const Frame& frame, const TileKernels& kernels)
+    Printer(const Frame& frame, const TileKernels& kernels)
         : style_(frame.scene->lines.style), kernels_(kernels), strokes_(frame, kernels) {}
 
     /// Each pixel sees its own square.
@@ -156,24 +162,37 @@ class StrokePrinter {
     std::vector<Coverages> filtered_;
 };
 
-}  // namespace
+StrokePass::StrokePass(const Frame& frame, const TileKernels& kernels, int threads, Film& film)
+    : frame_(frame),
+      film_(film),
+      filter_(FilterTable::make(frame.scene->lines.style.filter)),
+      printers_(static_cast<std::size_t>(threads), Printer(frame, kernels)) {}
+StrokePass::~StrokePass() = default;
 
-void draw_strokes(const Frame& frame, PixelRect part, const std::vector<std::vector<LineSegment>>& segments,
-                  const TileKernels& kernels, int threads, Film& film) {
-    const LineStyle& style = frame.scene->lines.style;
-    const auto filter = FilterTable::make(style.filter);
-    const SegmentBins bins(segments, part, Pen(style.width_px, style.side).radius_px + reach_px(style.filter) + 1.0);
-    std::vector<StrokePrinter> printers(static_cast<std::size_t>(threads), StrokePrinter(frame, kernels));
-    parallel_for(bins.tile_count(), threads, [&](std::size_t index, int worker) {
-        const auto list = bins.segments(index);
-        if (list.empty()) return;
-        StrokePrinter& printer = printers[static_cast<std::size_t>(worker)];
-        if (filter) {
-            printer.print(list, bins.tile(index), *filter, film);
-        } else {
-            printer.print(list, bins.tile(index), film);
-        }
-    });
+StrokePass::Bins StrokePass::sort(PixelRect part, Lists lines) const {
+    const LineStyle& style = frame_.scene->lines.style;
+    return {lines, part, Pen(style.width_px, style.side).radius_px + reach_px(style.filter) + 1.0};
+}
+
+void StrokePass::print(int worker, std::span<const LineSegment* const> lines, PixelRect tile) {
+    if (lines.empty()) return;
+    Printer& printer = printers_[static_cast<std::size_t>(worker)];
+    if (filter_) {
+        printer.print(lines, tile, *filter_, film_);
+    } else {
+        printer.print(lines, tile, film_);
+    }
+}
+
+void StrokePass::draw(PixelRect part, Lists lines) {
+    const Bins bins = sort(part, lines);
+    parallel_for(bins.tile_count(), static_cast<int>(printers_.size()),
+                 [&](std::size_t i, int worker) { print(worker, bins.segments(i), bins.tile(i)); });
+}
+
+void StrokePass::draw_as(int worker, PixelRect part, Lists lines) {
+    const Bins bins = sort(part, lines);
+    for (std::size_t i = 0; i < bins.tile_count(); ++i) print(worker, bins.segments(i), bins.tile(i));
 }
 
 }  // namespace burin

@@ -1,16 +1,41 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "abuffer/tile_kernels.h"
 #include "lines/line_segment.h"
+#include "lines/pixel_filter.h"
 #include "render/film.h"
 #include "render/frame.h"
 
 namespace burin {
 
-/// Draws pieces of lines as strokes over a part of a film.
-void draw_strokes(const Frame& frame, PixelRect part, const std::vector<std::vector<LineSegment>>& segments,
-                  const TileKernels& kernels, int threads, Film& film);
+/// Draws pieces of visible lines as strokes over a film.
+class StrokePass {
+  public:
+    /// Pieces of lines, list after list.
+    using Lists = std::span<const std::vector<LineSegment>>;
+
+    StrokePass(const Frame& frame, const TileKernels& kernels, int threads, Film& film);
+    ~StrokePass();
+
+    /// Draws a part of the picture, on all threads. `lines`: all whose strokes reach it.
+    void draw(PixelRect part, Lists lines);
+    /// Draws it on one thread, while others draw other parts. `worker`: which thread, [0, threads).
+    void draw_as(int worker, PixelRect part, Lists lines);
+
+  private:
+    class Bins;
+    class Printer;
+    Bins sort(PixelRect part, Lists lines) const;
+    void print(int worker, std::span<const LineSegment* const> lines, PixelRect tile);
+
+    const Frame& frame_;
+    Film& film_;
+    std::unique_ptr<const FilterTable> filter_;  // nullptr: each pixel sees its own square
+    std::vector<Printer> printers_;  // of each thread
+};
 
 }  // namespace burin

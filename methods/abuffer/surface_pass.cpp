@@ -1,8 +1,13 @@
 #include "methods/abuffer/surface_pass.h"
 
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <optional>
 
+#include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "methods/abuffer/fine_lines.h"
@@ -14,19 +19,65 @@ namespace burin {
 namespace {
 
 struct WorkerTimes {
-    double raster = 0, lines = 0, shade = 0;
+    double raster = 0, lines = 0, shade = 0, write = 0;
+};
+
+/// So many bands are finished by one thread before it goes on with tiles.
+constexpr int kMostBandsAtOnce = 8;
+/// Where bands are handed on, so many rows of tiles may be begun below one that is not complete, and two more for each
+/// thread: their bands are open.
+constexpr std::size_t kRowsAhead = 4;
+
+/// Counts the rows of tiles that are complete, from the top.
+class CompleteRows {
+  public:
+    explicit CompleteRows(const PixelTiles& tiles)
+        : columns_(static_cast<std::size_t>(tiles.columns())), left_(tiles.count() / columns_, columns_) {}
+
+    /// After each tile: how many rows are complete.
+    std::size_t add(std::size_t tile) {
+        const std::lock_guard lock(mutex_);
+        --left_[tile / columns_];
+        while (complete_ < left_.size() && left_[complete_] == 0) ++complete_;
+        changed_.notify_all();
+        return complete_;
+    }
+    /// Returns when fewer than so many rows lie between a tile and those that are complete. Tiles are begun in order, so
+    /// whoever has the first incomplete one does not wait.
+    void wait_for_turn(std::size_t tile, std::size_t most_rows) {
+        std::unique_lock lock(mutex_);
+        while (!is_stopped_ && tile / columns_ >= complete_ + most_rows) {
+            changed_.wait_for(lock, std::chrono::milliseconds(100));
+            throw_if_interrupted();
+        }
+    }
+    /// Nobody is to wait for a thread that failed.
+    void stop() {
+        const std::lock_guard lock(mutex_);
+        is_stopped_ = true;
+        changed_.notify_all();
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool is_stopped_ = false;
+    std::size_t columns_;
+    std::vector<std::size_t> left_;  // tiles of each row
+    std::size_t complete_ = 0;
 };
 
 }  // namespace
 
-void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vector<LineSegment>>& segments, Film& film,
-                       RenderStats& stats) {
+void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher,
+                       std::vector<std::vector<LineSegment>>& segments, Film& film, RenderStats& stats) {
     Stopwatch watch;
     const int per_pixel = samples_per_pixel_of(*frame_.scene);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
     const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples, has_fine);
     std::optional<FineEdges> fine_edges;
-    if (has_fine) fine_edges.emplace(screen_, PixelTiles(region, tile_samples / per_pixel), per_pixel, threads_);
+    const PixelTiles grid(region, tile_samples / per_pixel);
+    if (has_fine) fine_edges.emplace(screen_, grid, per_pixel, threads_);
     stats.prepare_s += watch.lap();
 
     const auto workers = static_cast<std::size_t>(threads_);
@@ -38,7 +89,20 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
     std::vector<WorkerTimes> times(workers);
     const std::size_t before = segments.size();
     segments.resize(before + bins.tile_count());
-    parallel_for(bins.tile_count(), threads_, [&](std::size_t index, int worker) {
+    CompleteRows rows(grid);
+    // After a tile. The last rows are left to all threads together.
+    const auto finish_rows = [&](std::size_t tile, int worker) {
+        const std::size_t columns = static_cast<std::size_t>(grid.columns()), complete = rows.add(tile);
+        if (finisher == nullptr || complete == 0 || complete * columns == grid.count()) return 0.0;
+        const PixelRect part = finisher->take(grid.tile((complete - 1) * columns).y1, kMostBandsAtOnce);
+        if (part.height() == 0) return 0.0;
+        const double first_y = part.y0 - finisher->reach_px() - region.y0;
+        const auto first_row = static_cast<std::size_t>(std::max(first_y, 0.0)) / static_cast<std::size_t>(grid.tile_px());
+        const std::size_t first = first_row == 0 ? 0 : before + first_row * columns;
+        return finisher->finish_as(worker, part, StrokePass::Lists(segments).subspan(first, before + complete * columns - first));
+    };
+    const bool has_limit = finisher != nullptr && finisher->hands_on();
+    const auto draw_tile = [&](std::size_t index, int worker) {
         const auto w = static_cast<std::size_t>(worker);
         if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame_, screen_, bins, per_pixel, kernels_);
         if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame_, screen_, kernels_);
@@ -50,6 +114,7 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
             fine_lines[w]->find(index, parts[w], lines);
         };
         Stopwatch lap;
+        film.open(bins.tile(index).y0, bins.tile(index).y1);
         if (bins.is_empty(index)) {
             fillers[w]->clear(bins.empty_tiles_from(index), film);
             if (has_fine && !fine_edges->in(index).empty()) {  // it may have what is smaller than a sample
@@ -66,7 +131,19 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
         }
         if (contours_ != nullptr) contours_->move(lines);
         times[w].shade += lap.lap();
+        const double write_s = finish_rows(index, worker);
+        times[w].write += write_s;
+        times[w].lines += lap.lap() - write_s;
         if (progress_ != nullptr) progress_->advance();
+    };
+    parallel_for(bins.tile_count(), threads_, [&](std::size_t index, int worker) {
+        if (has_limit) rows.wait_for_turn(index, kRowsAhead + 2 * workers);
+        try {
+            draw_tile(index, worker);
+        } catch (...) {
+            rows.stop();
+            throw;
+        }
     });
     const double wall = watch.lap();
     WorkerTimes sum;
@@ -74,13 +151,15 @@ void SurfacePass::draw(PixelRect region, int tile_samples, std::vector<std::vect
         sum.raster += times[w].raster;
         sum.lines += times[w].lines;
         sum.shade += times[w].shade;
+        sum.write += times[w].write;
         if (tiles[w]) stats.fragments += tiles[w]->sample_tests();
     }
-    const double total = sum.raster + sum.lines + sum.shade;
+    const double total = sum.raster + sum.lines + sum.shade + sum.write;
     const double scale = total > 0 ? wall / total : 0;
     stats.raster_s += sum.raster * scale;
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
+    stats.write_s += sum.write * scale;
 }
 
 }  // namespace burin

@@ -5,6 +5,7 @@
 #include "abuffer/tile_kernels.h"
 #include "base/progress.h"
 #include "lines/line_segment.h"
+#include "methods/abuffer/row_finisher.h"
 #include "methods/abuffer/screen_surfaces.h"
 #include "methods/abuffer/smooth_contours.h"
 #include "render/film.h"
@@ -21,9 +22,10 @@ class SurfacePass {
                 Progress* progress, const SmoothContours* contours)
         : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress), contours_(contours) {}
 
-    /// Draws the tiles of `region`, adds their lines and the time it took.
-    void draw(PixelRect region, int tile_samples, std::vector<std::vector<LineSegment>>& segments, Film& film,
-              RenderStats& stats);
+    /// Draws the tiles of `region`, adds their lines and the time it took. Rows whose lines are known by then are
+    /// finished, except for the last ones; nullptr: none.
+    void draw(PixelRect region, int tile_samples, RowFinisher* finisher, std::vector<std::vector<LineSegment>>& segments,
+              Film& film, RenderStats& stats);
 
   private:
     const Frame& frame_;

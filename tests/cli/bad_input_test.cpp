@@ -361,11 +361,17 @@ TEST(BadInput, ScenesWithBrokenParts) {
 TEST(BadInput, AnImageThatNoMemoryHolds) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
-    const ProgramResult result =
-        run_burin(folder.path(), {"render", "cube.obj", "-r", "65535x65535", "-o", "out.exr"});
-    EXPECT_EQ(result.status, 1);
-    EXPECT_TRUE(is_one_line(result.err)) << result.err;
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"cube.obj"});
+    // An EXR of visible lines is never in memory as a whole.
+    using Arguments = std::vector<std::string>;
+    for (const Arguments& kind : {Arguments{"out.png"}, Arguments{"out.exr", "--hidden", "solid"}, Arguments{"out.exr", "--method", "patel"}}) {
+        Arguments arguments{"render", "cube.obj", "-r", "65535x65535", "-o"};
+        arguments.insert(arguments.end(), kind.begin(), kind.end());
+        const ProgramResult result = run_burin(folder.path(), arguments);
+        EXPECT_EQ(result.status, 1);
+        EXPECT_TRUE(is_one_line(result.err)) << result.err;
+        EXPECT_NE(result.err.find("use a smaller --size"), std::string::npos) << result.err;
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"cube.obj"});
+    }
 }
 
 }  // namespace

@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <regex>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/parallel.h"
 #include "image/half.h"
 #include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
@@ -130,6 +133,51 @@ TEST(Exr, AFullDiskLeavesNothing) {
     std::signal(SIGXFSZ, old_handler);
     EXPECT_EQ(read_file(folder.file("a.exr")), "old");
     EXPECT_EQ(folder.names().size(), 2u);
+}
+
+TEST(Exr, RowsMayComeInAnyOrder) {
+    const TemporaryFolder folder;
+    Random random(3);
+    const PixelRect data{3, -5, 40, 130};
+    const Image image = noise_image({0, -5, 64, 140}, data, 5);
+    write_exr(folder.file("whole.exr"), image, {});
+    std::vector<int> rows;
+    for (int y = data.y0; y < data.y1; y += ExrWriter::kChunkRows) rows.push_back(y);
+    for (const int threads : {1, 3}) {
+        for (std::size_t i = rows.size(); i > 1; --i) std::swap(rows[i - 1], rows[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+        ExrWriter writer(folder.file("rows.exr"), image.display(), data, image.formats(), {});
+        parallel_for(rows.size(), threads, [&](std::size_t i, int) {
+            // A part of the image that has these rows, and sometimes more.
+            PixelRect part_rows = data;
+            part_rows.y0 = std::max(data.y0, rows[i] - (i % 2 == 0 ? 0 : ExrWriter::kChunkRows));
+            part_rows.y1 = std::min(data.y1, rows[i] + ExrWriter::kChunkRows);
+            Image part(image.display(), part_rows);
+            for (const Channel& c : image.channels()) {
+                Channel& copy = part.add(c.name, c.type);
+                const std::size_t row_bytes = copy.bytes.size() / static_cast<std::size_t>(part.height());
+                std::copy_n(c.bytes.begin() + static_cast<std::ptrdiff_t>(row_bytes * static_cast<std::size_t>(part_rows.y0 - data.y0)),
+                            copy.bytes.size(), copy.bytes.begin());
+            }
+            writer.write_chunk(part, rows[i]);
+        });
+        EXPECT_EQ(folder.names().size(), 2u) << "nothing under the name before the end";
+        EXPECT_FALSE(std::filesystem::exists(folder.file("rows.exr")));
+        writer.finish();
+        EXPECT_TRUE(read_file(folder.file("rows.exr")) == read_file(folder.file("whole.exr"))) << threads;
+        std::filesystem::remove(folder.file("rows.exr"));
+    }
+}
+
+TEST(Exr, AFileWithRowsMissingIsNone) {
+    const TemporaryFolder folder;
+    const Image image = noise_image({0, 0, 20, 40}, {0, 0, 20, 40}, 5);
+    {
+        ExrWriter writer(folder.file("a.exr"), image.display(), image.data(), image.formats(), {});
+        writer.write_chunk(image, 0);
+        writer.write_chunk(image, 32);
+        EXPECT_THROW(writer.finish(), InputError);
+    }
+    EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(Exr, AnInterruptLeavesNothing) {

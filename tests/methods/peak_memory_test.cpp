@@ -5,11 +5,13 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.h"
+#include "image/exr_io.h"
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
 #include "tests/support/counting_heap.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
+#include "tests/support/temporary_folder.h"
 
 namespace burin {
 namespace {
@@ -69,6 +71,45 @@ TEST(PeakMemory, StaysBelowTheCap) {
             EXPECT_GT(peak_of(scene, threads, 0, least), at_least);
         }
     }
+}
+
+/// Nothing of a file's rows stays once they are in the file.
+TEST(PeakMemory, WrittenRowsTakeNone) {
+    const TemporaryFolder folder;
+    Random random(1);
+    Image image({0, 0, 400, 1600}, {0, 0, 400, 1600});
+    for (std::uint32_t& v : image.add("id.polygon", PixelType::uint32).as<std::uint32_t>()) v = random.bits();
+    const std::size_t before = CountingHeap::now();
+    ExrWriter writer(folder.file("a.exr"), image.display(), image.data(), image.formats(), {});
+    for (int y = 0; y < image.height(); y += ExrWriter::kChunkRows) writer.write_chunk(image, y);
+    EXPECT_LT(CountingHeap::now() - before, image.channels().front().bytes.size() / 4);
+    writer.finish();
+}
+
+/// Bands are open while they are drawn, and no longer.
+TEST(PeakMemory, APictureInBandsIsNeverThereAsAWhole) {
+    constexpr int kWide = 600, kTall = 3000;
+    const PixelRect crop{0, 0, kWide, kTall};
+    const auto peak_of = [&](const Scene& scene, int threads) {
+        const Frame frame = make_frame(scene, perspective_camera({0, 0, 20}, {0, 0, 0}), kWide, kTall, crop);
+        const std::size_t before = CountingHeap::now();
+        CountingHeap::forget_peak();
+        Film film = Film::in_bands(crop, crop, LayerSet{}, frame.criteria.classes);
+        RunOptions options;
+        options.threads = threads;
+        options.finished_band = [&](std::size_t band) { film.close(band); };
+        render_abuffer(frame, options, film);
+        return CountingHeap::peak() - before;
+    };
+    const std::size_t before = CountingHeap::now();
+    const Film whole(crop, crop, LayerSet{}, kDefaultLineClasses);
+    const std::size_t most = (CountingHeap::now() - before) / 3;
+    const PolygonSoup torus = make_torus(0.7, 0.3, 60, 30);
+    for (const int threads : {1, 3}) EXPECT_LT(peak_of(scene_of({torus}), threads), most) << threads;
+    // A tile at the top that takes longer than all others together, which do not run ahead of it.
+    const auto at_the_top = [](glm::dvec3 p) { return 0.02 * p + glm::dvec3(0, 5.9, 0); };
+    const Scene scene = scene_of({torus, transformed(make_torus(0.7, 0.3, 500, 400), at_the_top)});
+    EXPECT_LT(peak_of(scene, 3), peak_of(scene, 1) + most);
 }
 
 }  // namespace

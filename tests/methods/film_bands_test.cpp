@@ -1,0 +1,110 @@
+// A film in bands, which are handed on while the picture is drawn, is the same picture.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include "base/error.h"
+#include "mesh/shapes.h"
+#include "methods/abuffer/abuffer.h"
+#include "tests/support/drawing.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+constexpr int kWidth = 70, kHeight = 330;
+const LayerSet kAllLayers{true, true, true, true, true, true, true, true};
+
+/// A torus and loose polygons over a tall picture, with some style.
+Scene styled_scene(Random& random) {
+    PolygonSoup loose;
+    for (std::uint32_t i = 0; i < 25; ++i) {
+        const glm::dvec3 center = random.in_box(1) * glm::dvec3(1, 4, 1);
+        for (int k = 0; k < 3; ++k) loose.positions.push_back(center + random.direction() * random.real(0.1, 1.5));
+        loose.add_polygon(std::vector<std::uint32_t>{3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    Scene scene = scene_of({make_torus(0.9, 0.4, 40, 25), loose});
+    scene.lines.classes = LineClassSet::all();
+    LineStyle& style = scene.lines.style;
+    style.width_px = std::exp(random.real(std::log(0.3), std::log(40)));
+    const auto one_in = [&](int count) { return random.integer(1, count) == 1; };
+    if (one_in(3)) style.filter = PixelFilter::mitchell;
+    if (one_in(3)) style.side = StrokeSide::outside;
+    if (one_in(4)) style.hidden.style = one_in(2) ? HiddenStyle::solid : HiddenStyle::dashed;
+    if (one_in(4)) style.dash_px = {5, 3};
+    if (one_in(4)) scene.lines.contours = Contours::smooth;
+    if (one_in(3)) scene.materials.front().opacity = 0.5f;
+    if (one_in(3)) scene.abuffer.samples = 4;
+    return scene;
+}
+
+/// The bands that a render hands on, each of which it hands on once.
+std::map<int, Image> bands_of(const Frame& frame, const RunOptions& given) {
+    Film film = Film::in_bands({0, 0, kWidth, kHeight}, frame.crop, kAllLayers, frame.criteria.classes);
+    std::map<int, Image> bands;
+    std::mutex mutex;
+    RunOptions options = given;
+    options.finished_band = [&](std::size_t number) {
+        const Image& band = film.band(number);
+        const std::lock_guard lock(mutex);
+        EXPECT_TRUE(bands.emplace(band.data().y0, band).second) << "twice: band " << number;
+        film.close(number);
+    };
+    render_abuffer(frame, options, film);
+    return bands;
+}
+
+TEST(FilmBands, AreRowsOfTheWholeFilm) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        Scene scene = styled_scene(random);
+        prepare_for_abuffer(scene, 1);
+        PixelRect crop{0, 0, kWidth, kHeight};
+        if (seed % 3 == 0) crop = {random.integer(0, 20), random.integer(0, 150), random.integer(40, kWidth), random.integer(151, kHeight)};
+        const Frame frame = make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kWidth, kHeight, crop);
+        RunOptions options;
+        options.threads = random.integer(1, 4);
+        options.tile_samples = 32 << random.integer(0, 2);
+        if (seed % 4 == 0) options.memory_bytes = std::uint64_t{80} << 20;
+        Film film({0, 0, kWidth, kHeight}, crop, kAllLayers, frame.criteria.classes);
+        render_abuffer(frame, options, film);
+        const Image& whole = film.image();
+        int y = crop.y0;
+        for (const auto& [y0, band] : bands_of(frame, options)) {
+            ASSERT_EQ(y0, y);
+            ASSERT_EQ(band.data(), (PixelRect{crop.x0, y, crop.x1, std::min(y + Film::kBandRows, crop.y1)}));
+            for (const Channel& channel : band.channels()) {
+                const Channel& same = *whole.find(channel.name);
+                const std::size_t row_bytes = size_of(channel.type) * static_cast<std::size_t>(crop.width());
+                const auto* const first = same.bytes.data() + static_cast<std::size_t>(y - crop.y0) * row_bytes;
+                ASSERT_TRUE(std::equal(channel.bytes.begin(), channel.bytes.end(), first)) << channel.name << ", band at " << y;
+            }
+            y = band.data().y1;
+        }
+        EXPECT_EQ(y, crop.y1);
+    }
+}
+
+TEST(FilmBands, WhatStopsTheirWriterStopsTheRender) {
+    Random random(1);
+    const Scene scene = styled_scene(random);
+    const Frame frame = make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+    for (const int threads : {1, 3}) {
+        Film film = Film::in_bands({0, 0, kWidth, kHeight}, frame.crop, kAllLayers, frame.criteria.classes);
+        RunOptions options;
+        options.threads = threads;
+        options.finished_band = [](std::size_t number) {
+            if (number == 2) throw InputError("the disk is full");
+        };
+        EXPECT_THROW(render_abuffer(frame, options, film), InputError);
+    }
+}
+
+}  // namespace
+}  // namespace burin
