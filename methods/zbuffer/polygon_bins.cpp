@@ -84,7 +84,7 @@ PolygonBins::PolygonBins(const Frame& frame, const FeatureEdges& features, const
     std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
     for (auto& list : records) {
         for (const Record& r : list) sorted_[next[r.tile]++] = r.polygon;
-        list = {};
+        list = std::vector<Record>();  // {} would keep its memory
     }
 }
 
