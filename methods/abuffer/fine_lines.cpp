@@ -99,9 +99,10 @@ class FineLines::BlockClipper {
                           const bool is_own_mesh = t.instance == candidate.part.edge.instance;
                           const double touching = slack + t.slack;
                           const double level = !is_own_mesh ? certain + t.slack : is_border ? rounding + t.slack : rounding;
-                          // What is level hides the most where it is seen instead: what that is, is asked last.
+                          // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
+                          // its edges, too, for its neighbour there may turn away.
                           double most_from = begin, most_to = end, from = begin, to = end;
-                          if (!clip_where_hidden(line, -coincident - t.slack, t, most_from, most_to)) return true;
+                          if (!clip_where_hidden(line, -coincident - t.slack, t, most_from, most_to, true)) return true;
                           const bool is_any_hidden = clip_where_hidden(line, level, t, from, to);
                           const bool is_settled = is_any_hidden && from == most_from && to == most_to;
                           if (!is_settled && contacts_.is_seen_instead(line, begin, end, t, touching)) {

@@ -105,6 +105,21 @@ bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {
     return common == 2;
 }
 
+bool only_grazes(const LayerLine& line, const LayerTriangle& t) {
+    const auto is_at_end = [&](std::uint32_t v) {
+        const std::uint64_t node = std::uint64_t{t.instance} << 32 | v;
+        return node == line.nodes[0] || node == line.nodes[1];
+    };
+    if (std::none_of(t.vertices.begin(), t.vertices.end(), is_at_end)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = k == 2 ? 0 : k + 1;
+        const glm::dvec2 corner(t.x[k], t.y[k]), along = glm::dvec2(t.x[next], t.y[next]) - corner;
+        const double depth = std::max(cross(along, line.from - corner), cross(along, line.to - corner));
+        if (depth < glm::length(along)) return true;
+    }
+    return false;
+}
+
 double level_slack(const SurfaceSet& surfaces, double nearness, double level_px) {
     const Projection& p = surfaces.projection;
     if (p.orthographic) return level_px / p.focal_px + surfaces.coordinate_error;
@@ -119,7 +134,7 @@ double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begi
 }
 
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& t, double& begin,
-                       double& end) {
+                       double& end, bool with_edges) {
     if (!clip_where_positive(t.nearness_at(line.from) - line.nearness_from - slack,
                              t.nearness_at(line.to) - line.nearness_to - slack, begin, end)) {
         return false;
@@ -129,7 +144,7 @@ bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle&
         const double dx = t.x[next] - t.x[k], dy = t.y[next] - t.y[k];
         const double at_0 = dx * (line.from.y - t.y[k]) - dy * (line.from.x - t.x[k]);
         const double at_1 = dx * (line.to.y - t.y[k]) - dy * (line.to.x - t.x[k]);
-        if (at_0 == 0 && at_1 == 0 && !t.owns_edge[k]) return false;
+        if (at_0 == 0 && at_1 == 0 && !t.owns_edge[k] && !with_edges) return false;
         if (!clip_where_positive(at_0, at_1, begin, end)) return false;
     }
     return true;

@@ -47,18 +47,25 @@ std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen,
 /// Whether a line is an edge of a triangle, which cannot hide it then.
 bool lies_on(const LayerLine& line, const LayerTriangle& triangle);
 
+/// Whether a triangle that has a vertex in common with a line covers only a rim of it narrower than vertices are snapped:
+/// 1/256 pixel. At an outline a fold so narrow may lie on either side of its edge.
+bool only_grazes(const LayerLine& line, const LayerTriangle& triangle);
+
 /// Things at one depth are nearer to each other than this part of a pixel's width.
 constexpr double kLevelPx = 1.0 / 16;
 /// What is in front by more than this is so for certain: coordinates and places are not exact.
 constexpr double kCertainPx = kLevelPx / 64;
+/// Surfaces no farther apart than this are in contact: depth_tolerance().
+constexpr double kContactPx = 2;
 
 /// So many pixels' widths as a step in nearness, at a nearness less farthest_nearness, and what coordinates are off by.
 double level_slack(const SurfaceSet& surfaces, double nearness, double level_px = kLevelPx);
 /// The same for the part [begin, end] of a line, with what snapping does to it.
 double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end, double level_px = kLevelPx);
 
-/// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`.
+/// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`. `with_edges`: lines along
+/// any of its edges count as within it; else only those along edges that it owns, so that of two neighbours one has them.
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin,
-                       double& end);
+                       double& end, bool with_edges = false);
 
 }  // namespace burin

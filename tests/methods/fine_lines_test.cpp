@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 
+#include "mesh/build_meshes.h"
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
 #include "methods/reference.h"
@@ -330,6 +331,24 @@ TEST(FineLines, OfFlushFacesTheFirstIsSeen) {
     const Drawing drawn = draw(scene, pixel_camera(kSize, kSize), kSize);
     EXPECT_GT(drawn.sum("lines.A"), 100);
     EXPECT_EQ(count_false(drawn, truth(scene, pixel_camera(kSize, kSize), kSize)), 0);
+}
+
+// A folded quad, and its two triangles once more as objects of their own, each of which ends along the fold.
+TEST(FineLines, WhatLiesInAFoldedPolygonHasNoOutline) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        const std::vector<glm::dvec3> corners{{0.8, 0.3, 0.02}, {0, 0, 0}, {-0.05, -0.12, 0.001 * random.real(-1, 1)}, {0.75, 0.1, 0}};
+        const PolygonSoup quad = soup_of(corners, {{3, 2, 1, 0}});
+        std::vector<PolygonSoup> objects{quad};
+        const Mesh mesh = build_meshes(quad, {}).front();
+        for (const auto& t : mesh.triangles) {
+            objects.push_back(soup_of({glm::dvec3(mesh.positions[t[0]]), glm::dvec3(mesh.positions[t[1]]), glm::dvec3(mesh.positions[t[2]])}, {{0, 1, 2}}));
+        }
+        const glm::dvec3 middle(0.38, 0.08, 0);
+        const Camera camera = perspective_camera(middle + 1.6 * random.direction(), middle);
+        const Drawing alone = draw(scene_of({quad}), camera, 200), all = draw(scene_of(objects), camera, 200);
+        EXPECT_NEAR(all.sum("lines.A"), alone.sum("lines.A"), 4) << "seed " << seed;
+    }
 }
 
 TEST(FineLines, ThePreviewLeavesThemOutUnlessAskedFor) {
