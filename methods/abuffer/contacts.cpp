@@ -54,6 +54,38 @@ bool Contacts::is_in_front(const LayerLine& line, double begin, double end, cons
     return is_any_behind;
 }
 
+std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, const LayerTriangle& t, const LineCriteria& criteria,
+                                                         double& begin, double& end) const {
+    const std::uint32_t owner = line.owners[0];
+    const SurfaceId own = screen_.surface_of(owner), other = screen_.surface_of(t.number);
+    const auto centre = centre_of(own, owner);
+    if (!centre) return std::nullopt;
+    const glm::dvec2 along = glm::normalize(line.to - line.from), right(-along.y, along.x);
+    const glm::dvec2 beyond = kToOneSideSubpixels * (glm::dot(*centre - line.from, right) < 0 ? right : -right);
+    LayerLine beside = line;
+    beside.from += beyond;
+    beside.to += beyond;
+    constexpr double kAnyDepth = -1e300;
+    if (!clip_where_hidden(beside, kAnyDepth, t, begin, end)) return std::nullopt;
+    const SurfaceSet& surfaces = screen_.surfaces();
+    const auto distance = [&](double nearness) { return distance_of(surfaces.projection, surfaces.farthest_nearness + nearness); };
+    const DepthPlane plane = surfaces.plane(other);
+    // What is left of the tolerances, which hardly change, at either end of the line.
+    const double here = distance(line.nearness_at(0.5 * (begin + end)));
+    const double behind = depth_tolerance(surfaces, here, plane, kContactPx), in_front = depth_tolerance(surfaces, here, plane, kLevelPx);
+    const auto farther_at = [&](double part) { return distance(t.nearness_at(glm::mix(line.from, line.to, part))) - distance(line.nearness_at(part)); };
+    const double from = begin, length = end - begin, at_begin = farther_at(begin), at_end = farther_at(end);
+    double first = 0, last = 1;
+    if (!clip_where_positive(behind - at_begin, behind - at_end, first, last) ||
+        !clip_where_positive(in_front + at_begin, in_front + at_end, first, last)) {
+        return std::nullopt;
+    }
+    begin = from + first * length;
+    end = from + last * length;
+    const glm::dvec2 at = glm::mix(line.from, line.to, 0.5 * (begin + end));
+    return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
+}
+
 /// A triangle or one of its neighbours, whichever is at a place.
 std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t) const {
     if (t.covers(place)) return t;

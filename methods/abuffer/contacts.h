@@ -21,6 +21,11 @@ class Contacts {
     /// come after it. Surfaces that end side by side hide nothing of each other.
     bool is_in_front(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const;
 
+    /// What the contact with `t`, where that goes on beyond a border at its depth or a little behind, makes of the border,
+    /// among classes asked for; where, [begin, end] says then. nullopt: nowhere.
+    std::optional<LineClassSet> classes_of_contact(const LayerLine& line, const LayerTriangle& t, const LineCriteria& criteria,
+                                                   double& begin, double& end) const;
+
   private:
     std::optional<glm::dvec2> touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
                                              double level) const;

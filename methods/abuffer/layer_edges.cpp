@@ -204,23 +204,49 @@ class LayerEdgeFinder::Rules {
         return !FastWalker::is_surely_solid(screen_.mesh(s.instance), h / 3) && is_sliver(surfaces_, triangle_of(s, h));
     }
 
+    /// Where more than two triangles meet, those that are in front on either side of the edge make the line, as walks over it
+    /// take them: bodies that stand flush have none on their common face.
     void visit_ring(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
-        int low = 2, high = -2;
+        struct Front {
+            HalfEdge half_edge = kNoHalfEdge;
+            double towards_eye = 0;
+        };
+        Front fronts[2];
+        LineClassSet classes;
         for (HalfEdge g = h;;) {
             if (g < h) return;  // the first one of the ring stands for it
-            const int side_g = side_at(s.instance, g, a, b);
-            low = std::min(low, side_g);
-            high = std::max(high, side_g);
+            if (mesh.is_marked(g)) classes |= LineClass::mark;
+            const int side = side_at(s.instance, g, a, b);
+            const double towards_eye = side == 0 ? 0 : cosine_to_eye(s.instance, g);
+            Front& front = fronts[side > 0 ? 1 : 0];
+            if (side != 0 && (front.half_edge == kNoHalfEdge || towards_eye > front.towards_eye)) front = {g, towards_eye};
             g = mesh.next_on_edge[g];
             if (g == h) break;
         }
         double crease_cosine = 1;
-        LineClassSet classes = edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
-        if (low == high && low != 0) classes |= LineClass::silhouette;
+        if (fronts[0].half_edge != kNoHalfEdge && fronts[1].half_edge != kNoHalfEdge) {
+            classes |= contact_classes(surfaces_, triangle_of(s, fronts[0].half_edge), triangle_of(s, fronts[1].half_edge),
+                                       middle_px(s, h), criteria_, &crease_cosine);
+        } else {
+            classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
+            if (fronts[0].half_edge != fronts[1].half_edge) classes |= LineClass::silhouette;
+        }
         const std::uint32_t number = screen_.number_of(s);
         add(s, h, classes, crease_cosine, {number, number}, true, lines);
+    }
+
+    /// Of the angle at an edge between its triangle and the way to the eye: of several triangles on one side, the greatest is
+    /// the one in front.
+    double cosine_to_eye(std::uint32_t instance, HalfEdge h) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        const glm::dvec3 p = surfaces_.view_position(instance, start_of(mesh, h));
+        const glm::dvec3 along = surfaces_.view_position(instance, end_of(mesh, h)) - p;
+        const auto across = [&](const glm::dvec3& v) { return v - along * (glm::dot(v, along) / glm::dot(along, along)); };
+        const glm::dvec3 own = across(surfaces_.view_position(instance, apex_of(mesh, h)) - p);
+        const glm::dvec3 to_eye = across(surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -p);
+        return glm::dot(own, to_eye) / std::sqrt(glm::dot(own, own) * glm::dot(to_eye, to_eye));
     }
 
     /// A part of a border, as shares of edge_on_screen() from its start, and what runs along it.

@@ -143,7 +143,9 @@ void LayerPass::sort(TileRows rows) {
     bins_ = LayerBins();  // before there are new ones
     const bool needs_all = may_intersect_ || has_transparent_surfaces(*frame_.scene);
     std::optional<LineDepths> depths;
-    const auto slack_of = [&](const LayerLine& line) { return line_slack(frame_.surfaces, line, 0, 1); };
+    const auto slack_of = [&](const LayerLine& line) {  // a border asks for what is behind it, too
+        return line_slack(frame_.surfaces, line, 0, 1, line.classes.has(LineClass::border) ? kContactPx : kLevelPx);
+    };
     if (!needs_all) depths.emplace(lines_, tiles_, slack_of);
     bins_ = LayerBins(screen_, kernels_, tiles_, threads_, depths ? &*depths : nullptr);
 }

@@ -203,7 +203,7 @@ void LayerTile::hide(const LayerLine& line, std::uint32_t i, const PartInTile& p
             return;
         }
     }
-    if (is_any_clear) intervals_.push_back(clear);
+    if (is_any_clear && !only_grazes(line, t)) intervals_.push_back(clear);
 }
 
 void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces) {
@@ -211,11 +211,25 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     double begin = 0, end = 1;
     if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
     intervals_.clear();
-    ++lines_looked_at_;
     line_slack_ = line_slack(frame_.surfaces, line, begin, end);
     certain_slack_ = line_slack(frame_.surfaces, line, begin, end, kCertainPx);
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
     const PartInTile part{begin, end, a, b, line.nearness_at(begin), line.nearness_at(end)};
+    for_triangles(line, part, line_slack_, [&](std::uint32_t entry) { hide(line, entry, part); });
+    if (intervals_.empty()) return;
+    if (line.classes.has(LineClass::border)) find_contacts(line, part);
+    merge_intervals();
+    const std::size_t first_piece = pieces.size();
+    sweep(line, line_number, begin, end, pieces);
+    if (line.classes.has(LineClass::border)) drop_contacts(first_piece, pieces);
+}
+
+/// Calls use(entry) once for each triangle that is near a part of a line, with a corner in front of it, or behind it by no
+/// more than `slack`.
+template <typename Use>
+void LayerTile::for_triangles(const LayerLine& line, const PartInTile& part, double slack, const Use& use) {
+    ++lines_looked_at_;
+    const glm::dvec2 corner = glm::dvec2(rect_.x0, rect_.y0) * 256.0, a = part.from, b = part.to;
     const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
     const int last_row = row_at(static_cast<float>(std::max(a.y, b.y)));
     const int first_column = column_at(static_cast<float>(std::min(a.x, b.x)));
@@ -223,20 +237,65 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     const double size = cell_px_ * 256.0;
     for (int row = first_row; row <= last_row; ++row) {
         for (int column = first_column; column <= last_column; ++column) {
-            double from = begin, to = end;
+            double from = part.begin, to = part.end;
             const glm::dvec2 low = corner + glm::dvec2(column, row) * size;
             if (!clip_to_rect(line, low, low + size, from, to)) continue;
             const Cell c = cell(column, row);
-            const std::size_t count = kernels_.find_hiding(cell_triangles_.view(), c.begin, c.end, part_of(line, from, to, line_slack_), found_.data());
+            const std::size_t count = kernels_.find_hiding(cell_triangles_.view(), c.begin, c.end, part_of(line, from, to, slack), found_.data());
             for (std::size_t i = 0; i < count; ++i) {
                 const std::uint32_t entry = cell_entries_[found_[i]];
-                if (std::exchange(looked_at_by_[entry], lines_looked_at_) != lines_looked_at_) hide(line, entry, part);
+                if (std::exchange(looked_at_by_[entry], lines_looked_at_) != lines_looked_at_) use(entry);
             }
         }
     }
-    if (intervals_.empty()) return;
-    merge_intervals();
-    sweep(line, line_number, begin, end, pieces);
+}
+
+/// Where a border ends in contact with a surface that goes on beyond it without any line, in order.
+void LayerTile::find_contacts(const LayerLine& line, const PartInTile& part) {
+    contacts_of_line_.clear();
+    if (line.classes.has(LineClass::mark)) return;
+    for_triangles(line, part, line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx), [&](std::uint32_t entry) {
+        const LayerTriangle& t = triangle(entry);
+        if (lies_on(line, t)) return;
+        Contact contact{part.begin, part.end, entry, false};
+        const auto classes = contacts_.classes_of_contact(line, t, frame_.criteria, contact.begin, contact.end);
+        if (!classes) return;
+        contact.makes_line = !classes->empty();
+        contacts_of_line_.push_back(contact);
+    });
+    // Of several the nearest counts.
+    const auto is_behind_another = [&](const Contact& c) {
+        const double middle = 0.5 * (c.begin + c.end);
+        const glm::dvec2 at = glm::mix(line.from, line.to, middle);
+        const double nearness = triangle(c.entry).nearness_at(at);
+        return std::any_of(contacts_of_line_.begin(), contacts_of_line_.end(), [&](const Contact& other) {
+            return other.makes_line && other.begin < middle && middle < other.end && triangle(other.entry).nearness_at(at) > nearness;
+        });
+    };
+    for (Contact& c : contacts_of_line_) {
+        if (!c.makes_line && is_behind_another(c)) c.end = c.begin;
+    }
+    std::erase_if(contacts_of_line_, [](const Contact& c) { return c.makes_line || c.begin >= c.end; });
+    std::sort(contacts_of_line_.begin(), contacts_of_line_.end(), [](const Contact& a, const Contact& b) { return a.begin < b.begin; });
+}
+
+/// Cuts them out of the pieces from `first` on.
+void LayerTile::drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces) const {
+    if (contacts_of_line_.empty()) return;
+    const std::vector<LayerPiece> whole(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end());
+    pieces.resize(first);
+    for (LayerPiece piece : whole) {
+        const double end = piece.end;
+        for (const Contact& contact : contacts_of_line_) {
+            if (contact.begin > piece.begin && piece.begin < end) {
+                piece.end = std::min(end, contact.begin);
+                pieces.push_back(piece);
+            }
+            piece.begin = std::max(piece.begin, contact.end);
+        }
+        piece.end = end;
+        if (piece.begin < end) pieces.push_back(piece);
+    }
 }
 
 /// Joins what the parts of a clipped triangle hide, which is one layer. In order, for shares of light are multiplied.

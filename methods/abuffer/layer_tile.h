@@ -48,6 +48,11 @@ class LayerTile {
         glm::dvec2 from, to;
         double nearness_from, nearness_to;
     };
+    struct Contact {  // of a part of a border with an entry's triangle
+        double begin, end;
+        std::uint32_t entry;
+        bool makes_line;
+    };
     struct Event {
         double at;
         int opaque;
@@ -89,7 +94,11 @@ class LayerTile {
     }
     std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
                                             float least_y0);
+    template <typename Use>
+    void for_triangles(const LayerLine& line, const PartInTile& part, double slack, const Use& use);
     void hide(const LayerLine& line, std::uint32_t i, const PartInTile& part);
+    void find_contacts(const LayerLine& line, const PartInTile& part);
+    void drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces) const;
     void find_pairs_in_cell(int column, int row);
     SidePlane side_plane(const Corners& corners) const;
     bool is_on_one_side(const SidePlane& plane, const Corners& corners) const;
@@ -122,6 +131,7 @@ class LayerTile {
     std::vector<std::uint32_t> found_;  // by a kernel
     std::vector<std::array<std::uint32_t, 2>> pairs_;  // of entries
     std::vector<Interval> intervals_;
+    std::vector<Contact> contacts_of_line_;
     std::vector<Event> events_;
     double line_slack_ = 0, certain_slack_ = 0;  // of the line that is looked at
     std::uint64_t fragment_count_ = 0;

@@ -243,6 +243,25 @@ TEST(HiddenLines, SheetsThatCrossBehindAWall) {
 }
 
 // Two plates with a wall between them that is seen edge-on, behind a sheet: the wall's upper edge is an outline, once.
+// At an outline triangles are seen edge-on, and which of them lies outermost by less than vertices are snapped is chance:
+// none of them hides the outline.
+TEST(HiddenLines, AnOutlineIsNotHiddenByItsOwnRim) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Random random(seed);
+        const PolygonSoup body = make_torus(1, 0.45, 90, 44);
+        const glm::dvec3 eye = 8.0 * random.direction();
+        PolygonSoup sheet;
+        const glm::dvec3 right = glm::normalize(glm::cross(eye, glm::dvec3(0.1, 1, 0.2))), up = glm::normalize(glm::cross(right, eye));
+        for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) sheet.positions.push_back(0.5 * eye + 5.0 * (corner.x * right + corner.y * up));
+        sheet.add_polygon(std::vector<std::uint32_t>{0, 1, 2, 3});
+        const Camera camera = perspective_camera(eye, {0, 0, 0});
+        const double seen_px = sum(draw(scene_of({body}), camera), "lines.A");
+        Scene behind = scene_of({body, sheet});
+        behind.lines.style.hidden.style = HiddenStyle::solid;
+        EXPECT_GT(Layers(behind, camera).hidden_px(1), seen_px - 2) << "seed " << seed;
+    }
+}
+
 TEST(HiddenLines, OutlineOverAWallThatIsSeenEdgeOn) {
     const PolygonSoup step = soup_of({{20, 20, 30}, {90.3, 20, 30}, {110.7, 200, 30}, {20, 200, 30}, {90.3, 20, 0}, {110.7, 200, 0}, {200, 20, 0}, {200, 200, 0}},
                                      {{0, 1, 2, 3}, {1, 4, 5, 2}, {4, 6, 7, 5}});
