@@ -270,15 +270,18 @@ class LayerEdgeFinder::Rules {
         const std::uint32_t number = screen_.number_of(s);
         std::array<std::uint32_t, 2> owners{number, number};
         if (part.partner) {
-            const double own = length_of(mesh, h), other = length_of(mesh, *part.partner);
-            const bool is_drawn_as_partner = own < other || (own == other && *part.partner < h);
-            if (!has_both_of_seam_ && classes.empty() && is_drawn_as_partner) return;
             const SurfaceId beyond = triangle_of(s, *part.partner);
-            owners[1] = screen_.number_of(beyond);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             const int side_h = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, h));
             const int side_g = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, *part.partner));
-            if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
+            if (side_h != 0 && side_h == side_g) {
+                classes |= LineClass::silhouette;  // one lies on the other, and may hide it
+            } else {
+                const double own = length_of(mesh, h), other = length_of(mesh, *part.partner);
+                const bool is_drawn_as_partner = own < other || (own == other && *part.partner < h);
+                if (!has_both_of_seam_ && classes.empty() && is_drawn_as_partner) return;
+                owners[1] = screen_.number_of(beyond);
+            }
             const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
             classes |= contact_classes(surfaces_, s, beyond, middle, criteria_, &crease_cosine);
         } else {

@@ -120,6 +120,30 @@ TEST(HiddenContacts, BeginWhereSurfacesCrossAtASlightAngle) {
     }
 }
 
+// Pages on one fold, nearer to each other than two pixels: their borders run along each other and are no seam.
+TEST(HiddenContacts, PagesThatLieOnEachOtherHaveTheirOutline) {
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        Random random(seed);
+        std::vector<glm::dvec3> corners{{0, 0, 0}, {0, 1, 0}};
+        std::vector<std::vector<std::uint32_t>> pages;
+        const double width = random.real(0.5, 0.8);
+        for (const glm::dvec2 end : {glm::dvec2(1, 0), {width, 0}, {-0.5, 0.2}, {width, 0.01}}) {
+            const auto first = static_cast<std::uint32_t>(corners.size());
+            corners.emplace_back(end.x, 1, end.y);
+            corners.emplace_back(end.x, 0, end.y);
+            pages.push_back({0, 1, first, first + 1});
+        }
+        const PolygonSoup book = soup_of(corners, pages);
+        const glm::dvec3 middle(0.3, 0.5, 0), eye = middle + 2.5 * glm::normalize(glm::dvec3(random.real(-0.5, 0.5), random.real(-0.5, 0.5), 1));
+        const Camera camera = perspective_camera(eye, middle);
+        const PolygonSoup cover = soup_of({{-3, -3, 1}, {3, -3, 1}, {3, 3, 1}, {-3, 3, 1}}, {{0, 1, 2, 3}});
+        const double seen_px = sum(draw(scene_of({book}), camera), "lines.A");
+        Scene behind = scene_of({book, cover});
+        behind.lines.style.hidden.style = HiddenStyle::solid;
+        EXPECT_GT(Layers(behind, camera).hidden_px(1), seen_px - 3) << "seed " << seed;
+    }
+}
+
 // A border that ends in contact with a surface is no border when it is seen, and none behind a sheet either.
 TEST(HiddenContacts, BordersThatEndOnASurfaceAreNone) {
     const PolygonSoup floor = soup_of({{20, 20, 0}, {220, 20, 0}, {220, 220, 0}, {20, 220, 0}}, {{0, 1, 2, 3}});
