@@ -162,12 +162,7 @@ void Film::put_background(int x0, int x1, int y) {
     const auto [planes, begin] = place_of(x0, y);
     const std::size_t count = static_cast<std::size_t>(x1 - x0);
     const auto clear = [&](auto* plane, auto value) {
-        if (plane == nullptr) return;
-        if (is_read_soon()) {
-            std::fill_n(plane + begin, count, value);
-        } else {
-            stream_fill(plane + begin, count, value);
-        }
+        if (plane != nullptr) stream_fill(plane + begin, count, value);
     };
     for (std::size_t c = 0; c < 4; ++c) {
         for (std::uint16_t* plane : {planes.beauty[c], planes.lines[c], planes.surface[c]}) {
@@ -215,12 +210,7 @@ void Film::put_geometry(int x0, int x1, int y, const GeometryRow& row) {
     const auto [planes, begin] = place_of(x0, y);
     const std::size_t count = static_cast<std::size_t>(x1 - x0);
     const auto stream = [&](auto* plane, const auto* values) {  // nothing is drawn over these
-        if (plane == nullptr) return;
-        if (is_read_soon()) {
-            std::copy_n(values, count, plane + begin);
-        } else {
-            stream_copy(values, count, plane + begin);
-        }
+        if (plane != nullptr) stream_copy(values, count, plane + begin);
     };
     stream(planes.depth, row.distance);
     for (std::size_t c = 0; c < 3; ++c) {

@@ -71,8 +71,6 @@ class Film {
     /// Has all bands that rows [y0, y1) touch, as far as they are in the crop. Any thread may call it. Throws InputError
     /// when this machine has not enough memory for what is open. A whole film is always open.
     void open(int y0, int y1);
-    /// Number of bands; a whole film is one.
-    std::size_t band_count() const { return bands_.size(); }
     /// One that is open.
     const Image& band(std::size_t number) const { return bands_[number]->image; }
     /// Gives its memory up, to be used for others.
@@ -127,8 +125,6 @@ class Film {
     PixelRect rows_of(std::size_t band) const;
     std::unique_ptr<Band> make_band(PixelRect rows) const;
     void check_memory(std::size_t bands) const;
-    /// Bands are written to their file while caches have them.
-    bool is_read_soon() const { return bands_.size() > 1; }
     std::size_t number_of(int y) const { return static_cast<std::size_t>(y - crop_.y0) >> band_shift_; }
     /// The band with a row, and a pixel's place in it.
     struct Place {
