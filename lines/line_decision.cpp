@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace burin {
 namespace {
@@ -132,7 +133,48 @@ class Decider {
     }
 
     LineDecision end_at(int i, const double (&gap)[2]) const {
-        return end_of_surface(i, gap[i], gap[i] <= tolerance_at_end(i));
+        const bool touching = gap[i] <= tolerance_at_end(i);
+        // It ends in the plane of the other, or has left it before and ends behind that.
+        const auto ends_in_plane = [&] {
+            const SurfaceId own = walks_[i].surface;
+            return gap[i] <= 0 || surfaces_.coincide(own, behind_[i]) || surfaces_.coincide(own, other(i).surface) ||
+                   surfaces_.coincide(own, walks_[1 - i].surface);
+        };
+        if (touching && !is_mark(walks_[i]) && ends_in_plane()) {
+            if (goes_on_beneath(1 - i)) return connected(1 - i);
+            if (are_flush(points_[0].surface, points_[1].surface)) return smooth();
+        }
+        return end_of_surface(i, gap[i], touching);
+    }
+
+    /// Whether two triangles lie in one plane without a line between them. Within a solid of several bodies such faces are one.
+    bool are_flush(SurfaceId a, SurfaceId b) const {
+        if (a.is_background() || b.is_background()) return false;
+        const glm::dvec2 middle = glm::mix(points_[0].pixel, points_[1].pixel, 0.5);
+        return (contact_classes(surfaces_, a, b, middle, criteria_) & criteria_.classes).empty() && surfaces_.coincide(a, b);
+    }
+    /// Whether point i's surface reaches the other point in the plane of what is seen there: as if it were seen at both.
+    bool goes_on_beneath(int i) const { return walks_[i].end == WalkEnd::arrived && are_flush(walks_[i].surface, other(i).surface); }
+    /// Both points lie in one plane, that of the other's surface, and point i's leaves it on the way, at an edge.
+    std::optional<LineDecision> leaves_plane(int i) const {
+        const SurfaceWalk& w = walks_[i];
+        LineDecision decision;
+        const LineClassSet contact = contact_classes(surfaces_, points_[i].surface, walks_[1 - i].surface, points_[i].pixel, criteria_,
+                                                     &decision.crease_cosine);
+        decision.classes = contact | (w.crossed & LineClass::mark);
+        if ((decision.classes & criteria_.classes).empty()) return connected(1 - i);
+        if (w.crossed_edge.half_edge == kNoHalfEdge) return std::nullopt;
+        decision.reason = LineReason::touches;
+        decision.edge = w.crossed_edge;
+        return with_fraction(decision, i, w.crossed_fraction);
+    }
+    static LineDecision smooth() {
+        LineDecision decision;
+        decision.reason = LineReason::touches_smoothly;
+        return decision;
+    }
+    bool is_mark(const SurfaceWalk& w) const {
+        return criteria_.classes.has(LineClass::mark) && surfaces_.mesh_of(w.surface).is_marked(w.half_edge);
     }
 
     /// Point i's surface ends, in front of the other or (`touching`) in contact with it.
@@ -187,6 +229,10 @@ class Decider {
             followed = followed && w.end != WalkEnd::lost;
         }
         const double smaller_gap = std::min(std::abs(gap[0]), std::abs(gap[1]));
+        for (const int i : {0, 1}) {
+            if (coincident || walks_[i].end != WalkEnd::arrived || !surfaces_.coincide(walks_[i].surface, other(i).surface)) continue;
+            if (const auto decision = leaves_plane(1 - i)) return *decision;
+        }
         LineDecision decision;
         decision.front = gap[0] >= gap[1] ? 0 : 1;
         const glm::dvec2 middle = glm::mix(points_[0].pixel, points_[1].pixel, 0.5);

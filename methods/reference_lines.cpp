@@ -259,7 +259,23 @@ LineCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
         return crossing;
     }
     const LineClassSet contact = contact_classes(t.a, t.b, at);
+    double allowed = 0;
+    for (const Facet f : {t.a, t.b}) {
+        glm::dvec3 origin, ray;
+        geometry_.projection().view_ray(at, origin, ray);
+        const double across = std::abs(glm::dot(geometry_.normal_towards_eye(f, at), ray));
+        allowed += geometry_.coordinate_error() / std::max(across, 1e-9);
+    }
+    const bool coincident = geometry_.are_one_around(t.a, t.b, at, 2 * allowed);
+    // Flush faces: one turns away in the plane of the other, which goes on under it.
+    const auto goes_on_beneath = [&](int i) {
+        return coincident && (contact & wanted_).empty() && ways[i].end == Follow::End::goes_on &&
+               geometry_.are_one_around(ways[i].facet, i == 0 ? t.b : t.a, at, 2 * allowed);
+    };
     const int preferred = crossing.front;
+    for (const int i : {preferred, 1 - preferred}) {
+        if (ways[i].end == Follow::End::fold && goes_on_beneath(1 - i)) return crossing;
+    }
     for (const int i : {preferred, 1 - preferred}) {
         if (ways[i].end != Follow::End::fold) continue;
         crossing.front = i;
@@ -273,14 +289,6 @@ LineCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
         return crossing;
     }
     // Both go on behind each other, or lie in one plane.
-    double allowed = 0;
-    for (const Facet f : {t.a, t.b}) {
-        glm::dvec3 origin, ray;
-        geometry_.projection().view_ray(at, origin, ray);
-        const double across = std::abs(glm::dot(geometry_.normal_towards_eye(f, at), ray));
-        allowed += geometry_.coordinate_error() / std::max(across, 1e-9);
-    }
-    const bool coincident = geometry_.are_one_around(t.a, t.b, at, 2 * allowed);
     const bool lost = ways[0].end == Follow::End::lost || ways[1].end == Follow::End::lost;
     if (coincident || lost) {
         if (!lost || t.a.object != t.b.object) crossing.classes = contact;

@@ -38,7 +38,7 @@ bool Contacts::is_in_front(const LayerLine& line, double begin, double end, cons
         const auto beside = place_beside(s, owner, *touching);
         if (!beside) continue;
         const glm::dvec2 right(-along.y, along.x), side = glm::dot(*beside - *touching, right) < 0 ? -right : right;
-        const auto cover = what_covers(middle + kToOneSideSubpixels * side, t);
+        const auto cover = what_covers(middle + kToOneSideSubpixels * side, t, Over::any_edge);
         if (!cover) return false;
         const double gap = screen_.nearness_of(owner, *beside) - cover->nearness_at(*beside);
         if (gap > level) return false;
@@ -52,6 +52,39 @@ bool Contacts::is_in_front(const LayerLine& line, double begin, double end, cons
         is_any_behind = is_any_behind || is_behind;
     }
     return is_any_behind;
+}
+
+bool Contacts::is_flush(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level,
+                        const LineCriteria& criteria, bool facing_alike) const {
+    if (line.classes.has(LineClass::mark)) return false;
+    const auto touching = touching_place(line, begin, end, t, level);
+    if (!touching) return false;
+    const glm::dvec2 middle = glm::mix(line.from, line.to, 0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
+    const glm::dvec2 right = kToOneSideSubpixels * glm::dvec2(-along.y, along.x);
+    const auto on_left = what_covers(middle - right, t, Over::plain_edges), on_right = what_covers(middle + right, t, Over::plain_edges);
+    if (!on_left || !on_right) return false;
+    const SurfaceSet& surfaces = screen_.surfaces();
+    bool is_any_flush = false;
+    for (const std::uint32_t owner : line.owners) {
+        const SurfaceId s = screen_.surface_of(owner);
+        const auto beside = place_beside(s, owner, *touching);
+        if (!beside) continue;
+        const LayerTriangle& cover = glm::dot(*beside - *touching, right) < 0 ? *on_left : *on_right;
+        const double gap = screen_.nearness_of(owner, *beside) - cover.nearness_at(*beside);
+        if (gap > level) return false;
+        if (gap < -level) continue;
+        const SurfaceId other = screen_.surface_of(cover.number);
+        const SurfaceOrder order = surfaces.order(s, other);
+        if (!order.are_coincident()) {
+            if (!order.have_common_place || gap > 0) return false;
+            continue;
+        }
+        if (facing_alike && screen_.facing(owner) != screen_.facing(cover.number)) return false;
+        const LineClassSet contact = contact_classes(surfaces, s, other, *beside / double{kSubpixelsPerPixel}, criteria);
+        if (!(contact & criteria.classes).empty()) return false;
+        is_any_flush = true;
+    }
+    return is_any_flush;
 }
 
 std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, const LayerTriangle& t, const LineCriteria& criteria,
@@ -86,12 +119,14 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
     return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
 }
 
-/// A triangle or one of its neighbours, whichever is at a place.
-std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t) const {
+/// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place.
+std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t, Over over) const {
     if (t.covers(place)) return t;
     const ScreenMesh& mesh = screen_.mesh(t.instance);
     const HalfEdge first = 3 * screen_.surface_of(t.number).triangle;
     for (HalfEdge h = first; h < first + 3; ++h) {
+        const bool is_plain = mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0;
+        if (over == Over::plain_edges && !is_plain) continue;
         const SurfaceId s{t.instance, mesh.partners[h] / 3};
         const std::uint32_t number = screen_.number_of(s);
         if (number == t.number || screen_.facing(number) == edge_on || screen_.facing(number) == off_screen) continue;

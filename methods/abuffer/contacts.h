@@ -21,6 +21,12 @@ class Contacts {
     /// come after it. Surfaces that end side by side hide nothing of each other.
     bool is_in_front(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const;
 
+    /// Whether the line is none, for the surface of `t` goes on without a line on both sides of it, in the plane of a triangle
+    /// at the line, and nothing at the line is in front of it: flush faces of bodies in one another. With `facing_alike`, only
+    /// where both are seen from outside or both from inside; faces in contact face different ways.
+    bool is_flush(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level, const LineCriteria& criteria,
+                  bool facing_alike) const;
+
     /// What the contact with `t`, where that goes on beyond a border at its depth or a little behind, makes of the border,
     /// among classes asked for; where, [begin, end] says then. nullopt: nowhere.
     std::optional<LineClassSet> classes_of_contact(const LayerLine& line, const LayerTriangle& t, const LineCriteria& criteria,
@@ -30,7 +36,8 @@ class Contacts {
     std::optional<glm::dvec2> touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
                                              double level) const;
     std::optional<glm::dvec2> place_beside(SurfaceId s, std::uint32_t owner, glm::dvec2 at) const;
-    std::optional<LayerTriangle> what_covers(glm::dvec2 place, const LayerTriangle& t) const;
+    enum class Over { any_edge, plain_edges };
+    std::optional<LayerTriangle> what_covers(glm::dvec2 place, const LayerTriangle& t, Over over) const;
     bool have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const;
     bool is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const;
     std::optional<glm::dvec2> centre_of(SurfaceId s, std::uint32_t number) const;

@@ -113,6 +113,18 @@ LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, c
     return decision;
 }
 
+/// Whether what is seen lies in one plane, or the surface that goes on does so under the one that ends.
+bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
+    const glm::dvec2 at = pair.place(0.5) / double{kSubpixelsPerPixel};
+    const auto are_flush = [&](SurfaceId a, SurfaceId b) {
+        return (contact_classes(surfaces_, a, b, at, criteria_) & criteria_.classes).empty() && surfaces_.coincide(a, b);
+    };
+    const FastWalk& other = walks_[1 - ends];
+    const SurfaceId beneath{pair.surfaces[1 - ends].instance, other.triangle};
+    if (other.end == FastWalk::arrived && are_flush(beneath, pair.surfaces[ends])) return true;
+    return are_flush(pair.surfaces[0], pair.surfaces[1]);
+}
+
 bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness) {
     decision = LineDecision{};
     const auto nearness_of = [&](int i, const FastWalk& w) {
@@ -160,7 +172,9 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
         i = takes_first ? 0 : 1;
     }
     if (is_behind(i)) return false;  // they may pass through each other before it
-    decision = end_of_surface(pair, i, walks_[i], ends[i].gap <= ends[i].tolerance ? &ends[i] : nullptr);
+    const bool touches = ends[i].gap <= ends[i].tolerance;
+    if (touches && may_be_flush(pair, i)) return false;
+    decision = end_of_surface(pair, i, walks_[i], touches ? &ends[i] : nullptr);
     nearness = ends[i].nearness;
     return true;
 }

@@ -32,6 +32,7 @@ class FastDecision {
     End look_behind(const NeighbourSamples& pair, int i) const;
     LineDecision end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched);
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
+    bool may_be_flush(const NeighbourSamples& pair, int ends) const;
 
     const ScreenSurfaces& screen_;
     const SurfaceSet& surfaces_;

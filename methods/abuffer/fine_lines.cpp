@@ -105,7 +105,11 @@ class FineLines::BlockClipper {
                           if (!clip_where_hidden(line, -coincident - t.slack, t, most_from, most_to, true)) return true;
                           const bool is_any_hidden = clip_where_hidden(line, level, t, from, to);
                           const bool is_settled = is_any_hidden && from == most_from && to == most_to;
-                          if (!is_settled && contacts_.is_seen_instead(line, begin, end, t, touching)) {
+                          const auto is_none = [&] {
+                              return contacts_.is_seen_instead(line, begin, end, t, touching) ||
+                                     contacts_.is_flush(line, most_from, most_to, t, touching, criteria_, false);
+                          };
+                          if (!is_settled && is_none()) {
                               from = most_from;
                               to = most_to;
                           } else if (!is_any_hidden) {

@@ -198,6 +198,10 @@ void LayerTile::hide(const LayerLine& line, std::uint32_t i, const PartInTile& p
     if (std::min(at_begin, at_end) <= certain && line.drawn_as != LineClass::intersection &&
         clip_where_hidden(line, -certain, t, most.begin, most.end)) {
         const bool is_settled = is_any_clear && clear.begin == most.begin && clear.end == most.end;
+        if (!is_settled && contacts_.is_flush(line, most.begin, most.end, t, line_slack_ + t.slack, frame_.criteria, true)) {
+            contacts_of_line_.push_back({most.begin, most.end, i, false});
+            return;
+        }
         if (!is_settled && contacts_.is_in_front(line, most.begin, most.end, t, line_slack_ + t.slack)) {
             intervals_.push_back(most);
             return;
@@ -211,6 +215,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     double begin = 0, end = 1;
     if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
     intervals_.clear();
+    contacts_of_line_.clear();
     line_slack_ = line_slack(frame_.surfaces, line, begin, end);
     certain_slack_ = line_slack(frame_.surfaces, line, begin, end, kCertainPx);
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
@@ -221,7 +226,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     merge_intervals();
     const std::size_t first_piece = pieces.size();
     sweep(line, line_number, begin, end, pieces);
-    if (line.classes.has(LineClass::border)) drop_contacts(first_piece, pieces);
+    drop_contacts(first_piece, pieces);
 }
 
 /// Calls use(entry) once for each triangle that is near a part of a line, with a corner in front of it, or behind it by no
@@ -250,9 +255,8 @@ void LayerTile::for_triangles(const LayerLine& line, const PartInTile& part, dou
     }
 }
 
-/// Where a border ends in contact with a surface that goes on beyond it without any line, in order.
+/// Where a border ends in contact with a surface that goes on beyond it without any line.
 void LayerTile::find_contacts(const LayerLine& line, const PartInTile& part) {
-    contacts_of_line_.clear();
     if (line.classes.has(LineClass::mark)) return;
     for_triangles(line, part, line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx), [&](std::uint32_t entry) {
         const LayerTriangle& t = triangle(entry);
@@ -276,12 +280,12 @@ void LayerTile::find_contacts(const LayerLine& line, const PartInTile& part) {
         if (!c.makes_line && is_behind_another(c)) c.end = c.begin;
     }
     std::erase_if(contacts_of_line_, [](const Contact& c) { return c.makes_line || c.begin >= c.end; });
-    std::sort(contacts_of_line_.begin(), contacts_of_line_.end(), [](const Contact& a, const Contact& b) { return a.begin < b.begin; });
 }
 
 /// Cuts them out of the pieces from `first` on.
-void LayerTile::drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces) const {
+void LayerTile::drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces) {
     if (contacts_of_line_.empty()) return;
+    std::sort(contacts_of_line_.begin(), contacts_of_line_.end(), [](const Contact& a, const Contact& b) { return a.begin < b.begin; });
     const std::vector<LayerPiece> whole(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end());
     pieces.resize(first);
     for (LayerPiece piece : whole) {

@@ -48,7 +48,7 @@ class LayerTile {
         glm::dvec2 from, to;
         double nearness_from, nearness_to;
     };
-    struct Contact {  // of a part of a border with an entry's triangle
+    struct Contact {  // of a part of a line with an entry's triangle
         double begin, end;
         std::uint32_t entry;
         bool makes_line;
@@ -98,7 +98,7 @@ class LayerTile {
     void for_triangles(const LayerLine& line, const PartInTile& part, double slack, const Use& use);
     void hide(const LayerLine& line, std::uint32_t i, const PartInTile& part);
     void find_contacts(const LayerLine& line, const PartInTile& part);
-    void drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces) const;
+    void drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces);
     void find_pairs_in_cell(int column, int row);
     SidePlane side_plane(const Corners& corners) const;
     bool is_on_one_side(const SidePlane& plane, const Corners& corners) const;
