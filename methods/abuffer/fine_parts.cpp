@@ -148,7 +148,9 @@ FineParts::Owners FineParts::owners_of(FineEdge edge) const {
     const Facing own = screen_.facing(mesh.first_number + h / 3), other = screen_.facing(mesh.first_number + partner / 3);
     Owners owners{{mesh.first_number + h / 3, mesh.first_number + partner / 3}, false, 0};
     const bool is_cut = own == off_screen || other == off_screen;  // and has no facing
-    if (h != partner) owners.needs_both = is_cut ? side_of(h) * side_of(partner) < 0 : own == other;
+    // Where both are wound alike, they run along the edge in opposite directions.
+    const bool are_wound_alike = corner(h, 0) != corner(partner, 0);
+    if (h != partner) owners.needs_both = is_cut ? side_of(h) * side_of(partner) < 0 : (own == other) == are_wound_alike;
     if (owners.needs_both) return owners;
     owners.inner_side = side_of(h);
     if (owners.inner_side == 0) owners.inner_side = side_of(partner);

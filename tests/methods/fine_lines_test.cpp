@@ -136,6 +136,20 @@ TEST(FineLines, BothEdgesOfANarrowChamferAreDrawn) {
     }
 }
 
+// Surfaces have two sides: it does not matter which way the faces beside an edge are wound.
+TEST(FineLines, BothEdgesOfANarrowChamferAreDrawnHoweverItIsWound) {
+    const auto chamfer = [](bool is_turned) {
+        const std::vector<std::uint32_t> wide = is_turned ? std::vector<std::uint32_t>{2, 1, 0} : std::vector<std::uint32_t>{0, 1, 2};
+        return soup_of({{-0.1016, -1.2852, -0.3555}, {0.6328, -1.2852, 1.2695}, {-0.1016, -1.2852, 1.2695}, {-0.1172, -1.2695, -0.3555}}, {wide, {3, 0, 2}});
+    };
+    for (int k = 0; k < 8; ++k) {
+        // Seen nearly from beside: the chamfer is half a pixel high.
+        const Camera camera = perspective_camera({-3.5156, -1.3125 - 0.004 * k, -6.2969}, {0.2344, -0.3594, 0.3281}, 22.1875);
+        const auto drawn = [&](bool is_turned) { return Drawing(scene_of({chamfer(is_turned)}), camera, 320, 240, {0, 0, 320, 240}, 2, render_abuffer); };
+        EXPECT_LT(largest_error(drawn(false), drawn(true)), 0.01) << k;
+    }
+}
+
 TEST(FineLines, AStepLowerThanASampleIsDrawn) {
     for (const double angle : kAngles_deg) {
         // Half of the plate behind the box reaches beyond it by 0.15 pixels, in front of a wall.
