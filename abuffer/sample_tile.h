@@ -11,7 +11,8 @@ namespace burin {
 ///
 /// Sample (column, row) of the grid lies at ((column + 1/2) / s, (row + 1/2) / s) pixels for s samples
 /// per pixel and axis. An id is the number of a triangle (31 bits) above one bit that says that the
-/// triangle is plain: no edge of it can be a line, and no other surface is level with it at the sample.
+/// triangle is plain: no edge of it can be a line, no other surface is level with it at the sample, and it is not so
+/// steep that one could pass through it before the next sample without being level at either.
 struct SampleTile {
     static constexpr std::uint32_t kBackground = 0xFFFFFFFEu;
     /// Rows are this many samples longer than asked for, and there are as many rows more, so that

@@ -273,8 +273,10 @@ int LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
     ++drawn_;
     const ScanConverter scan(large.polygon, per_pixel_);
     SpanPlane plane = large.plane;
-    plane.id |= plain ? 1u : 0u;
     const SampleView tile = view();
+    const float pitch = static_cast<float>(kSubpixelsPerPixel / per_pixel_), level = plane.low * tile.level_per_nearness + tile.level;
+    const bool is_steep = !(std::max(std::abs(plane.per_x), std::abs(plane.per_y)) * pitch <= level);
+    plane.id |= plain && !is_steep ? 1u : 0u;
     const int left = std::max(scan.first_column() - samples_.first_column, 0);
     const int right = std::min(scan.end_column() - samples_.first_column, samples_.columns);
     const int top = std::max(scan.first_row() - samples_.first_row, 0);

@@ -281,6 +281,44 @@ TEST(Abuffer, BordersThatPassTheEyeAreWhereTheyAre) {
     }
 }
 
+// However steep they are: between two samples both may be far from what is seen at either.
+TEST(Abuffer, SheetsThatMeetInAValleyHaveTheirLine) {
+    constexpr int kPx = 160;
+    struct Sheet {
+        int pieces;
+        double beyond_px;  // the picture
+    };
+    for (const double slope : {1.0, 4.0, 8.0, 30.0}) {  // pixels' widths per pixel
+        // One piece, small ones, and large ones without an end in the picture.
+        for (const Sheet sheet : {Sheet{1, -20}, {20, -20}, {3, 120}}) {
+            const int pieces = sheet.pieces;
+            const double size = kPx + 2 * sheet.beyond_px;
+            PolygonSoup soup;
+            // Slightly turned, so that the line passes samples at any distance. Nearer to the eye on either side.
+            const auto add_sheet = [&](double up) {
+                const auto place = [&](int u, int v) {
+                    const double x = size * u / pieces - sheet.beyond_px, y = size * v / pieces - sheet.beyond_px;
+                    return glm::dvec3(x, y, up * slope * (x - 80.3 - 0.03 * y));
+                };
+                for (int u = 0; u < pieces; ++u) {
+                    for (int v = 0; v < pieces; ++v) {
+                        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+                        for (const glm::dvec3 p : {place(u, v), place(u + 1, v), place(u + 1, v + 1), place(u, v + 1)}) soup.positions.push_back(p);
+                        soup.add_polygon(std::vector{first, first + 1, first + 2, first + 3});
+                    }
+                }
+            };
+            add_sheet(1);
+            add_sheet(-1);
+            Scene scene = scene_of({soup});
+            scene.lines.classes = LineClass::intersection;
+            const Camera camera = pixel_camera(kPx, kPx, 10000);
+            const Drawing drawn(scene, camera, kPx, kPx, {0, 0, kPx, kPx}, 1, render_abuffer);
+            EXPECT_NEAR(drawn.sum(LineClass::intersection), std::min<double>(size, kPx), 2) << slope << ", " << pieces;
+        }
+    }
+}
+
 /// The corners in the middle of a fan are often equal but for rounding. Triangles between them face any way.
 TEST(Abuffer, AFlatFanHasNoContours) {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
