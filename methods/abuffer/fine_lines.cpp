@@ -189,15 +189,14 @@ class FineLines::BlockClipper {
     void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
                   std::vector<LineSegment>& segments) {
         if (candidate.line.classes.has(LineClass::silhouette)) {
-            while (end - begin > shortest && !is_wide(candidate, begin))
-                begin = std::min(end, begin + step_of(candidate));
-            while (end - begin > shortest && !is_wide(candidate, end))
-                end = std::max(begin, end - step_of(candidate));
+            const double step = kWidthStepPx / candidate.line.length_px();
+            // At a vertex rounding says which triangle one gets to.
+            const double inset = std::min(0.5, 0.5 * step);
+            const auto is_wide_at = [&](double t) { return is_wide(candidate, std::clamp(t, inset, 1 - inset)); };
+            while (end - begin > shortest && !is_wide_at(begin)) begin = std::min(end, begin + step);
+            while (end - begin > shortest && !is_wide_at(end)) end = std::max(begin, end - step);
         }
         if (end - begin > shortest) add(candidate, begin, end, segments);
-    }
-    static double step_of(const FineCandidate& candidate) {
-        return kWidthStepPx / candidate.line.length_px();
     }
 
     /// Whether both surfaces at a contour go on for more than a negligible fold.

@@ -163,6 +163,30 @@ TEST(FineLines, AStepLowerThanASampleIsDrawn) {
     }
 }
 
+// At the vertex where it ends, rounding says which triangle is beside it.
+TEST(FineLines, AContourEndsWhereItsFoldDoes) {
+    Scene scene = scene_of({soup_of({{0.8173828125, 0.7860107421875, 2.028564453125},
+                                     {0.8369140625, 0.7899169921875, 1.950439453125},
+                                     {0.8251953125, 0.7703857421875, 1.946533203125},
+                                     {0.8837890625, 0.6258544921875, 2.016845703125},
+                                     {0.8876953125, 0.6453857421875, 1.958251953125},
+                                     {0.8486328125, 0.7274169921875, 1.946533203125},
+                                     {0.8017578125, 0.7469482421875, 1.919189453125}},
+                                    {{5, 6, 2}, {5, 1, 0}, {3, 4, 5}, {3, 5, 0}})});
+    scene.lines.classes = LineClass::silhouette;
+    const Camera camera = perspective_camera({-0.71484375, 2.74609375, 4.2578125}, {1.29296875, 0.73828125, 2.25}, 22.125);
+    const auto ink_beyond = [&](RenderFunction render) {
+        const Drawing drawn(scene, camera, 320, 240, {0, 0, 320, 240}, 2, render);
+        double ink = 0;
+        for (int y = 131; y < 134; ++y) {
+            for (int x = 63; x < 68; ++x) ink += drawn.line(x, y);
+        }
+        return ink;
+    };
+    EXPECT_NEAR(ink_beyond(render_reference), 0, 0.1);
+    EXPECT_NEAR(ink_beyond(render_abuffer), 0, 0.1);
+}
+
 TEST(FineLines, AcuteTipsAreNotCutShort) {
     for (const double angle : kAngles_deg) {
         PolygonSoup needle = soup_of({{-10, -2, 0}, {10, 0, 0}, {-10, 2, 0}, {-10, 0, -2}},
