@@ -49,7 +49,7 @@ class Walker {
         Place before_wall = current;   // where it last got farther at all
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
         int slivers = 0;               // there were so many others since
-        const double negligible_fold = kNegligibleFoldPx / length_;
+        const double negligible_fold = kNegligibleFoldPx / length_, snapping = kSnappingPx / length_;
 
         for (int steps = 0, steps_on_wall = 0; steps < most_triangles && steps_on_wall < kMostTrianglesOfWall;) {
             if (current.exit.fraction >= 1) {
@@ -76,7 +76,12 @@ class Walker {
                                       solid))) {
                 return ended(result, WalkEnd::fold, farthest);  // over a seam, too
             }
-            const bool goes_on = reached > before_wall.exit.fraction + kNoAdvance;
+            bool goes_on = reached > before_wall.exit.fraction + kNoAdvance, is_farthest = reached >= farthest.exit.fraction;
+            if (std::abs(reached - before_wall.exit.fraction) < snapping &&
+                is_deep(surfaces_.projection, distance_at(before_wall), distance_at(next.place))) {
+                goes_on = is_beyond(surfaces_, start.instance, from_, to_, next.place.exit.half_edge, before_wall.exit.half_edge).value_or(goes_on);
+                is_farthest = is_farthest || goes_on;
+            }
             ++(std::abs(reached - current.exit.fraction) <= kNoAdvance ? steps_on_wall : steps);
             if (goes_on && current.surface != before_wall.surface &&
                 !is_level(distance_at(before_wall), distance_at(current), solid)) {
@@ -96,7 +101,7 @@ class Walker {
             }
             if (!sliver) last_solid = next.place.surface;
             current = next.place;
-            if (reached >= farthest.exit.fraction) farthest = current;
+            if (is_farthest) farthest = current;
             if (goes_on) before_wall = current;
         }
         return result;
@@ -328,6 +333,25 @@ LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b, double* 
 }
 
 }  // namespace
+
+std::optional<bool> is_beyond(const SurfaceSet& surfaces, std::uint32_t instance, glm::dvec2 from, glm::dvec2 to, HalfEdge edge,
+                              HalfEdge other_edge) {
+    const glm::dvec2 along = to - from;
+    const Mesh& mesh = *surfaces.instances[instance].mesh;
+    const auto place_of = [&](HalfEdge h) -> std::optional<double> {
+        const auto& t = mesh.triangles[h / 3];
+        const glm::dvec3 a = surfaces.view_position(instance, t[h % 3]), b = surfaces.view_position(instance, t[(h + 1) % 3]);
+        if (!needs_no_clipping(surfaces.projection, a) || !needs_no_clipping(surfaces.projection, b)) return std::nullopt;
+        const glm::dvec2 p = surfaces.projection.to_pixel(a) - from, q = surfaces.projection.to_pixel(b) - from;
+        const double at_p = along.x * p.y - along.y * p.x, at_q = along.x * q.y - along.y * q.x;
+        if ((at_p >= 0) == (at_q >= 0)) return std::nullopt;
+        return glm::dot(glm::mix(p, q, at_p / (at_p - at_q)), along) / glm::dot(along, along);
+    };
+    const auto place = place_of(edge), other = place_of(other_edge);
+    if (!place || !other) return std::nullopt;
+    constexpr double kCertainPx = 0x1p-14;  // coordinates are not exact
+    return (*place - *other) * glm::length(along) > kCertainPx;
+}
 
 SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
                          const LineCriteria& criteria, int most_triangles) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <glm/glm.hpp>
 
 #include "lines/line_class.h"
@@ -88,6 +91,19 @@ constexpr int kMostSlivers = 4;
 double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane, double pixels = 2);
 /// A walk that gets farther by no more than this part of its way has met a wall that is seen edge-on.
 constexpr double kNoAdvance = 1e-9;
+
+/// Snapping of corners to 1/256 pixel may decide which of two edges a walk comes to first if they are nearer than this.
+constexpr double kSnappingPx = 4.0 / 256;
+/// Whether a part of a wall between two distances may make it so deep that the surface ends there.
+inline bool is_deep(const Projection& projection, double distance, double other) {
+    return std::abs(distance - other) > 2 * projection.pixel_size(std::min(distance, other));
+}
+/// Whether a walk from one place to another comes to one edge of a mesh behind another one, with corners taken where they
+/// are: as the view changes, a wall passes the edge-on position once, where snapping would let it blink. Nothing if an edge
+/// is not on the way, or corners are off the screen.
+std::optional<bool> is_beyond(const SurfaceSet& surfaces, std::uint32_t instance, glm::dvec2 from, glm::dvec2 to, HalfEdge edge,
+                              HalfEdge other_edge);
+
 /// Two surfaces that are further apart than this many pixels' widths, in depth_tolerance(), are so for
 /// certain, not by rounding.
 constexpr double kCertainlyApartPx = 1.0 / 16;

@@ -5,6 +5,15 @@
 
 namespace burin {
 
+/// Whether snapping may decide which way a triangle faces that is as deep as what separates surfaces.
+inline bool FastDecision::may_be_wall(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const {
+    const float highest = std::max(std::max(a.nearness, b.nearness), c.nearness), lowest = std::min(std::min(a.nearness, b.nearness), c.nearness);
+    if (__builtin_expect(highest - lowest < lowest * level_per_nearness_ + level_, 1)) return false;
+    constexpr double kSnappingSubpixels = kSnappingPx * kSubpixelsPerPixel;
+    const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
+    return std::abs(ux * vy - uy * vx) <= kSnappingSubpixels * std::max({std::abs(ux), std::abs(uy), std::abs(vx), std::abs(vy)});
+}
+
 bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
     const SurfaceId start = pair.surfaces[0];
     if (start.instance != pair.surfaces[1].instance || start.is_background()) return false;
@@ -24,10 +33,12 @@ bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
         if (step > 0 && !FastWalker::is_surely_solid(mesh, t)) return false;
         const std::uint32_t* const corners = mesh.corners + 3 * static_cast<std::size_t>(t);
         bool side[3];
+        const ScreenVertex* p[3];
         for (std::size_t k = 0; k < 3; ++k) {
-            const ScreenVertex& p = mesh.vertices[corners[k]];
-            side[k] = (pair.down ? p.x : p.y) > across;
+            p[k] = &mesh.vertices[corners[k]];
+            side[k] = (pair.down ? p[k]->x : p[k]->y) > across;
         }
+        if (step > 0 && t != goal && may_be_wall(*p[0], *p[1], *p[2])) return false;
         const std::uint32_t k = exit_edge(side, from_side);
         // An edge that is not sharp has one partner.
         if (k > 2 || (mesh.sharp[t] >> k & 1) != 0) return false;

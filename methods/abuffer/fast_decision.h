@@ -10,7 +10,12 @@ namespace burin {
 class FastDecision {
   public:
     FastDecision(const ScreenSurfaces& screen, const LineCriteria& criteria)
-        : screen_(screen), surfaces_(screen.surfaces()), criteria_(criteria), walker_(screen, criteria) {}
+        : screen_(screen), surfaces_(screen.surfaces()), criteria_(criteria), walker_(screen, criteria) {
+        const Projection& p = surfaces_.projection;
+        const double deep = 2 / p.focal_px;
+        level_ = static_cast<float>(deep * (p.orthographic ? 1.0 : surfaces_.farthest_nearness));
+        level_per_nearness_ = p.orthographic ? 0.0f : static_cast<float>(deep);
+    }
 
     /// Whether only triangles that face as the first one, and edges that are no lines, lie between. This
     /// settles most pairs.
@@ -32,6 +37,7 @@ class FastDecision {
     End look_behind(const NeighbourSamples& pair, int i) const;
     LineDecision end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched);
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
+    bool may_be_wall(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const;
     bool may_be_flush(const NeighbourSamples& pair, int ends) const;
 
     const ScreenSurfaces& screen_;
@@ -39,6 +45,7 @@ class FastDecision {
     const LineCriteria& criteria_;
     FastWalker walker_;
     FastWalk walks_[2];  // from either sample
+    float level_, level_per_nearness_;  // nearness changes by so much where distance does by two pixels' widths
 };
 
 }  // namespace burin

@@ -124,6 +124,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
     std::uint32_t last_solid = start.triangle;
     int slivers = 0;  // since then
+    const double snapping = kSnappingPx * kSubpixelsPerPixel / pair.pitch;
     const auto end_at = [&result](FastWalk::End end, const FastWalk::Step& at) {
         result.end = end;
         result.triangle = at.triangle;
@@ -160,7 +161,15 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
              !is_level(way.nearness_at(farthest->exit), way.nearness_between(*current, next, farthest->left), solid))) {
             return end_at(FastWalk::fold, *farthest);
         }
-        const bool goes_on = next.left > before_wall->left + kNoAdvance;
+        bool goes_on = next.left > before_wall->left + kNoAdvance, is_farthest = next.left >= farthest->left;
+        if (std::abs(next.left - before_wall->left) < snapping) {
+            const auto distance_at = [&](HalfEdge h) { return distance_of(surfaces_.projection, surfaces_.farthest_nearness + way.nearness_at(h)); };
+            if (is_deep(surfaces_.projection, distance_at(before_wall->exit), distance_at(next.exit))) {
+                const glm::dvec2 from = way.at(0) / double{kSubpixelsPerPixel}, to = way.at(1) / double{kSubpixelsPerPixel};
+                goes_on = is_beyond(surfaces_, instance, from, to, next.exit, before_wall->exit).value_or(goes_on);
+                is_farthest = is_farthest || goes_on;
+            }
+        }
         if (goes_on && current != before_wall &&
             !is_level(way.nearness_at(before_wall->exit), way.nearness_at(current->exit), solid)) {
             return end_at(FastWalk::fold, *before_wall);
@@ -177,7 +186,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         }
         if (!sliver) last_solid = next.triangle;
         current = &next;
-        if (next.left >= farthest->left) farthest = current;
+        if (is_farthest) farthest = current;
         if (goes_on) before_wall = current;
     }
 }

@@ -308,6 +308,36 @@ TEST(Wall, SeenEdgeOnIsAnOutline) {
     }
 }
 
+// The view moves, and a wall turns by far less than corners are snapped by: its outline goes once and does not come back.
+TEST(Wall, PassesTheEdgeOnPositionOnce) {
+    constexpr int kFrames = 40;
+    for (const double angle_deg : {-22.0, 8.0, 72.0}) {
+        const glm::dvec2 along(std::cos(glm::radians(angle_deg)), std::sin(glm::radians(angle_deg))), out(along.y, -along.x);
+        const glm::dvec2 a(40.3, 50.1), b = a + 40.0 * along;
+        for (const int samples : {0, 2}) {
+            int changes = 0;
+            bool was_drawn = true;
+            for (int frame = 0; frame < kFrames; ++frame) {
+                const glm::dvec2 moved(frame / 32.0, frame / 45.0), lean = (frame - 0.6 * kFrames) / (32.0 * 256) * out;
+                const auto at = [&](glm::dvec2 p, double z) { return glm::dvec3(p + moved, z); };
+                // A triangle between what lies above its longest side, and a valley that begins at its foot.
+                Scene scene = scene_of({soup_of({at(a, 30), at(b, 30), at(a - 30.0 * out, 30), at(b - 30.0 * out, 30), at(glm::mix(a, b, 0.37) + lean, 0),
+                                                 at(a + 30.0 * out, 30), at(b + 30.0 * out, 30)},
+                                                {{2, 0, 1, 3}, {0, 4, 1}, {0, 5, 4}, {4, 5, 6}, {4, 6, 1}})});
+                scene.lines.classes = LineClass::silhouette;
+                scene.lines.crease_angle_deg = 150;  // no edge is sharp
+                if (samples != 0) scene.abuffer.samples = samples;
+                const Drawing d(scene, pixel_camera(120, 120), 120, 120, {0, 0, 120, 120}, 1, render_abuffer);
+                const glm::dvec2 from = a + moved, to = b + moved;
+                const double share = d.drawn_share({from.x, 120 - from.y}, {to.x, 120 - to.y}, 6);
+                changes += (share > 0.5) != was_drawn ? 1 : 0;
+                was_drawn = share > 0.5;
+            }
+            EXPECT_EQ(changes, 1) << angle_deg << ", " << samples << " samples";
+        }
+    }
+}
+
 // As a fillet ends on a boss: no edge is sharp, and the wall has several rows of triangles.
 TEST(Wall, OfASmoothBossIsAnOutline) {
     constexpr int kSides = 48;
