@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace burin {
 namespace {
@@ -76,7 +77,7 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
         const SurfaceId other = screen_.surface_of(cover.number);
         const SurfaceOrder order = surfaces.order(s, other);
         if (!order.are_coincident()) {
-            if (!order.have_common_place || gap > 0) return false;
+            if (rises_in_front(s, other)) return false;
             continue;
         }
         if (facing_alike && screen_.facing(owner) != screen_.facing(cover.number)) return false;
@@ -117,6 +118,22 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
     end = from + last * length;
     const glm::dvec2 at = glm::mix(line.from, line.to, 0.5 * (begin + end));
     return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
+}
+
+/// Whether a part of a triangle is nearer to the eye than the plane of another one: asked in space, for beside a line snapping
+/// may decide it on the screen.
+bool Contacts::rises_in_front(SurfaceId s, SurfaceId of) const {
+    const SurfaceSet& surfaces = screen_.surfaces();
+    glm::dvec3 own[3], plane[3];
+    surfaces.view_corners(s, own);
+    surfaces.view_corners(of, plane);
+    glm::dvec3 normal = glm::cross(plane[1] - plane[0], plane[2] - plane[0]);
+    const glm::dvec3 to_eye = surfaces.projection.orthographic ? glm::dvec3(0, 0, 1) : -plane[0];
+    normal *= (glm::dot(normal, to_eye) < 0 ? -1 : 1) / std::max(glm::length(normal), 1e-300);
+    constexpr double kErrors = 4;  // of either's coordinates
+    return std::any_of(std::begin(own), std::end(own), [&](const glm::dvec3& corner) {
+        return glm::dot(normal, corner - plane[0]) > kErrors * surfaces.coordinate_error;
+    });
 }
 
 /// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place.

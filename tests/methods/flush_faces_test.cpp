@@ -181,6 +181,29 @@ TEST(FlushFaces, InTheReference) {
     }
 }
 
+// Faces so narrow on the screen, or walls so low, that all beside a line is nearly level with it.
+TEST(FlushFaces, OfSlenderSidesAndOfThinPlates) {
+    const auto lid = [](double radius, double low, double high, int sides) {
+        return transformed(make_cylinder(radius, radius, 1, sides), [=](glm::dvec3 p) { return glm::dvec3(p.x, p.y > 0 ? high : low, p.z); });
+    };
+    const auto box = [](glm::dvec3 low, glm::dvec3 high) { return moved(make_box(high - low), 0.5 * (low + high)); };
+    for (int k = 0; k < 12; ++k) {
+        const Camera camera = perspective_camera({6.6 * std::cos(0.5 * k), 1.6 + 0.3 * k, 6.6 * std::sin(0.5 * k)}, {0, 1.5, 0}, 40);
+        const auto compare = [&](PolygonSoup one, PolygonSoup other, const PolygonSoup& both, const char* what) {
+            const Drawing expected = drawn(both, camera, render_abuffer);
+            for (const bool backwards : {false, true}) {
+                const Drawing d = drawn(test::joined({one, other}), camera, render_abuffer);
+                EXPECT_LE(ink_apart(d, expected), 1.5) << what << ' ' << k << (backwards ? ", backwards" : "");
+                EXPECT_LE(ink_apart(expected, d), 1.5) << what << ' ' << k << (backwards ? ", backwards" : "");
+                std::swap(one, other);
+            }
+        };
+        compare(lid(1, 0, 2, 96), lid(1, 1.3, 3, 96), lid(1, 0, 3, 96), "coaxial cylinders");
+        const PolygonSoup base = box({-2, 0, -2}, {2, 1, 2});
+        for (const double thickness : {0.002, 0.05}) compare(box({-0.7, 1 - thickness, -1.1}, {1.3, 1, 0.4}), base, base, "a plate");
+    }
+}
+
 // What is behind a curtain with one layer in front is what is seen without the curtain.
 TEST(FlushFaces, AmongHiddenLines) {
     for (int seed = 0; seed < 30; ++seed) {
