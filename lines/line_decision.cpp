@@ -147,11 +147,8 @@ class Decider {
         return end_of_surface(i, gap[i], touching);
     }
 
-    /// Whether two triangles lie in one plane without a line between them. Within a solid of several bodies such faces are one.
     bool are_flush(SurfaceId a, SurfaceId b) const {
-        if (a.is_background() || b.is_background()) return false;
-        const glm::dvec2 middle = glm::mix(points_[0].pixel, points_[1].pixel, 0.5);
-        return (contact_classes(surfaces_, a, b, middle, criteria_) & criteria_.classes).empty() && surfaces_.coincide(a, b);
+        return burin::are_flush(surfaces_, a, b, glm::mix(points_[0].pixel, points_[1].pixel, 0.5), criteria_);
     }
     /// Whether point i's surface reaches the other point in the plane of what is seen there: as if it were seen at both.
     bool goes_on_beneath(int i) const { return walks_[i].end == WalkEnd::arrived && are_flush(walks_[i].surface, other(i).surface); }

@@ -384,6 +384,11 @@ LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId 
     return classes;
 }
 
+bool are_flush(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at, const LineCriteria& criteria) {
+    return !a.is_background() && !b.is_background() && (contact_classes(surfaces, a, b, at, criteria) & criteria.classes).empty() &&
+           surfaces.coincide(a, b);
+}
+
 bool is_sliver(const SurfaceSet& surfaces, SurfaceId s) {
     glm::dvec3 c[3];
     surfaces.view_corners(s, c);

@@ -76,6 +76,10 @@ LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
                              const LineCriteria& criteria, double* crease_cosine = nullptr);
 
+/// Whether two triangles lie in one plane without a line between them at a place on the screen
+/// (docs/decisions/0013-flush-faces.md).
+bool are_flush(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at, const LineCriteria& criteria);
+
 /// A triangle lower than this part of its length may be a sliver.
 constexpr double kSliverHeightPart = 1.0 / 1024;
 

@@ -127,13 +127,10 @@ LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, c
 /// Whether what is seen lies in one plane, or the surface that goes on does so under the one that ends.
 bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
     const glm::dvec2 at = pair.place(0.5) / double{kSubpixelsPerPixel};
-    const auto are_flush = [&](SurfaceId a, SurfaceId b) {
-        return (contact_classes(surfaces_, a, b, at, criteria_) & criteria_.classes).empty() && surfaces_.coincide(a, b);
-    };
     const FastWalk& other = walks_[1 - ends];
     const SurfaceId beneath{pair.surfaces[1 - ends].instance, other.triangle};
-    if (other.end == FastWalk::arrived && are_flush(beneath, pair.surfaces[ends])) return true;
-    return are_flush(pair.surfaces[0], pair.surfaces[1]);
+    if (other.end == FastWalk::arrived && are_flush(surfaces_, beneath, pair.surfaces[ends], at, criteria_)) return true;
+    return are_flush(surfaces_, pair.surfaces[0], pair.surfaces[1], at, criteria_);
 }
 
 bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness) {
