@@ -38,7 +38,7 @@ bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
             p[k] = &mesh.vertices[corners[k]];
             side[k] = (pair.down ? p[k]->x : p[k]->y) > across;
         }
-        if (step > 0 && t != goal && may_be_wall(*p[0], *p[1], *p[2])) return false;
+        if (step > 0 && may_be_wall(*p[0], *p[1], *p[2])) return false;
         const std::uint32_t k = exit_edge(side, from_side);
         // An edge that is not sharp has one partner.
         if (k > 2 || (mesh.sharp[t] >> k & 1) != 0) return false;

@@ -270,6 +270,12 @@ TEST(FlushFaces, AWallWithItsFootInAFloor) {
             const PolygonSoup bracket = soup_of({{1, 0, 3 + foot}, {5, 0, 3 + foot}, {5, 0, 3}, {1, 0, 3}, {5, height, 3}, {1, height, 3}}, {{0, 1, 2, 3}, {3, 2, 4, 5}});
             // The same wall on its own.
             const PolygonSoup wall = soup_of({{1, 0, 3}, {5, 0, 3}, {5, height, 3}, {1, height, 3}}, {{0, 1, 2, 3}});
+            const auto hidden_px = [&](const PolygonSoup& standing) {
+                Scene scene = scene_of({test::joined({floor, standing}), curtain(camera)});
+                scene.lines.style.hidden.style = HiddenStyle::solid;
+                return Layers(scene, camera).hidden_px(1);
+            };
+            EXPECT_NEAR(hidden_px(bracket), hidden_px(wall), 2) << height << ", " << foot;
             for (const int samples : {0, 2}) {
                 const Drawing expected = drawn(test::joined({floor, wall}), camera, render_abuffer, samples);
                 for (const std::vector<PolygonSoup>& parts : {std::vector{floor, bracket}, std::vector{bracket, floor}}) {
