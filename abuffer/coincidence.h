@@ -20,6 +20,8 @@ struct SurfaceOrder {
     /// and now behind by less than can be seen. The answer is one for all places, so that of two such polygons the same
     /// one is in front everywhere. A surface that is in front for certain, by however little, is in front.
     bool are_coincident() const { return have_common_place && !is_apart && (has_level || has_front == has_behind); }
+    /// Whether the first is nowhere behind: where both are level, it is only rounding that could show the second.
+    bool is_in_front() const { return has_front && !has_behind && !are_coincident(); }
 };
 
 /// Of two triangles, with corners in view space. `coordinate_error`: how exact coordinates are, in world units. Where those

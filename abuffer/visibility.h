@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "abuffer/coincidence.h"
 #include "abuffer/depth_plane.h"
 #include "abuffer/fragment_lists.h"
 
@@ -27,12 +28,12 @@ struct VisibleSamples {
 /// other do so inside the pixel. This is Carpenter's (1984) question with the exact answer that
 /// Jouppi and Chang's Z3 (1999) gives.
 ///
-/// Coincident surfaces do not fight: the first one in the list wins. `plane_of(fragment)` gives a
-/// fragment's DepthPlane; `coincide(fragment, fragment)` says whether two lie in one plane, and is
-/// asked only where their planes are hardly apart.
-template <typename Mask, typename PlaneOf, typename Coincide>
+/// Rounding decides nothing: a surface in front wherever both are is so on the edge of one that ends at it, too, and of
+/// coincident surfaces the first one in the list wins. `plane_of(fragment)` gives a fragment's DepthPlane;
+/// `order_of(fragment, fragment)` their SurfaceOrder, which is asked for only where their planes are hardly apart.
+template <typename Mask, typename PlaneOf, typename OrderOf>
 void resolve_visibility(std::span<const Fragment<Mask>> fragments, const ExtendedGrid& grid, int x,
-                        int y, const PlaneOf& plane_of, const Coincide& coincide,
+                        int y, const PlaneOf& plane_of, const OrderOf& order_of,
                         VisibleSamples<Mask>& visible) {
     constexpr int kSide = mask_side<Mask>;
     const auto background = static_cast<std::uint32_t>(fragments.size());
@@ -67,21 +68,25 @@ void resolve_visibility(std::span<const Fragment<Mask>> fragments, const Extende
             visible.owner[sample] = i;
         });
     }
-    if (any_close) {
-        // The first of those that coincide with the nearest. Going backwards, it is set last.
-        const auto winners = visible.owner;
+    // The first fragment that takes the place of the one that owns a sample. Going backwards, it is set last.
+    const auto settle = [&](const auto& takes_place) {
+        const auto owners = visible.owner;
         for (std::uint32_t i = background; i-- > 0;) {
             const DepthPlane& plane = plane_of(fragments[i]);
             for_each_sample(fragments[i].mask, [&](std::size_t sample, glm::dvec2 position) {
-                const std::uint32_t winner = winners[sample];
-                if (winner <= i) return;
+                const std::uint32_t owner = owners[sample];
+                if (owner == i) return;
                 const double nearness = plane.nearness(position);
-                if (are_close(nearest[sample] - nearness, plane, plane_of(fragments[winner]), nearness) &&
-                    coincide(fragments[i], fragments[winner])) {
+                if (are_close(nearest[sample] - nearness, plane, plane_of(fragments[owner]), nearness) && takes_place(i, owner)) {
                     visible.owner[sample] = i;
                 }
             });
         }
+    };
+    if (any_close) {
+        const auto order = [&](std::uint32_t i, std::uint32_t owner) { return order_of(fragments[i], fragments[owner]); };
+        settle([&](std::uint32_t i, std::uint32_t owner) { return order(i, owner).is_in_front(); });
+        settle([&](std::uint32_t i, std::uint32_t owner) { return i < owner && order(i, owner).are_coincident(); });
     }
     for (int row = 0; row < kSide; ++row) {
         for (int column = 0; column < kSide; ++column) {

@@ -74,7 +74,7 @@ class Walker {
             if (turned_back ||
                 (unfolds && !is_level(distance_at(farthest), distance_between(current, next.place, farthest.exit.fraction),
                                       solid))) {
-                return ended(result, WalkEnd::fold, farthest);  // over a seam, too
+                return ended(result, WalkEnd::fold, before_wall);  // over a seam, too
             }
             bool goes_on = reached > before_wall.exit.fraction + kNoAdvance, is_farthest = reached >= farthest.exit.fraction;
             if (std::abs(reached - before_wall.exit.fraction) < snapping &&

@@ -61,7 +61,7 @@ class PatelTile {
         resolve_visibility(fragments(x, y), grid_, x, y,
                            [this](const Fragment<Mask>& f) -> const DepthPlane& { return plane_of(f); },
                            [&](const Fragment<Mask>& a, const Fragment<Mask>& b) {
-                               return frame_.surfaces.coincide(surface_of(a), surface_of(b));
+                               return frame_.surfaces.order(surface_of(a), surface_of(b));
                            },
                            visible_);
         return visible_;

@@ -159,7 +159,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         if (next.left < farthest->left - negligible_fold ||
             (unfolds &&
              !is_level(way.nearness_at(farthest->exit), way.nearness_between(*current, next, farthest->left), solid))) {
-            return end_at(FastWalk::fold, *farthest);
+            return end_at(FastWalk::fold, *before_wall);
         }
         bool goes_on = next.left > before_wall->left + kNoAdvance, is_farthest = next.left >= farthest->left;
         if (std::abs(next.left - before_wall->left) < snapping) {

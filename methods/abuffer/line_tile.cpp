@@ -102,8 +102,8 @@ void LineTile::draw_all(std::size_t tile) {
     }
 }
 
-/// Two faces that fold over at an edge are level there, and rounding says which is seen. Of those the one in front
-/// wins, and of coincident surfaces the first one, as in resolve_visibility().
+/// On the edge of a surface that ends at another one, and where two faces fold over, both are level, and rounding says which
+/// is seen. Of those the one in front wins, and of coincident surfaces the first one, as in resolve_visibility().
 void LineTile::settle_contests() {
     // Mostly nothing is to be done: those of samples where nothing takes the winner's place are left out.
     if (is_open_.size() < samples_.ids.size()) is_open_.assign(samples_.ids.size(), 0);
@@ -133,6 +133,7 @@ void LineTile::settle_contests() {
             }
         };
         const auto put_folds_in_front = [&] { for_losers([&](std::uint32_t loser) { return relation(loser, winner).folds_over; }); };
+        for_losers([&](std::uint32_t loser) { return relation(loser, winner).is_in_front; });
         put_folds_in_front();
         bool settled = false;
         for_losers([&](std::uint32_t loser) {
@@ -150,7 +151,9 @@ const LineTile::Relation& LineTile::relation(std::uint32_t loser, std::uint32_t 
     constexpr std::size_t kRemembered = 512;
     if (relations_.empty()) relations_.resize(kRemembered);
     Relation& r = relations_[(loser * 31u + winner) % kRemembered];
-    if (r.loser != loser || r.winner != winner) r = {loser, winner, is_fold_over(loser, winner), loser < winner && coincide(loser, winner)};
+    if (r.loser == loser && r.winner == winner) return r;
+    const SurfaceOrder o = order(loser, winner);
+    r = {loser, winner, o.is_in_front(), is_fold_over(loser, winner), loser < winner && o.are_coincident()};
     return r;
 }
 
@@ -183,17 +186,17 @@ bool LineTile::is_fold_over(std::uint32_t front, std::uint32_t back) const {
     return extended_nearness(own, beyond.x, beyond.y) > static_cast<double>(beyond.nearness);
 }
 
-bool LineTile::coincide(std::uint32_t loser, std::uint32_t winner) const {
+SurfaceOrder LineTile::order(std::uint32_t loser, std::uint32_t winner) const {
     const SurfaceId a = screen_.surface_of(loser), b = screen_.surface_of(winner);
     if (a.instance == b.instance) {
         // Neighbours that fold over are level along their edge, and no more.
         const auto& s = frame_.surfaces.mesh_of(a).triangles[a.triangle];
         const auto& t = frame_.surfaces.mesh_of(a).triangles[b.triangle];
         for (const std::uint32_t v : s) {
-            if (std::find(t.begin(), t.end(), v) != t.end()) return false;
+            if (std::find(t.begin(), t.end(), v) != t.end()) return {};
         }
     }
-    return frame_.surfaces.coincide(a, b);
+    return frame_.surfaces.order(a, b);
 }
 
 /// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it

@@ -39,13 +39,14 @@ class LineTile {
     /// How a triangle that is level with what is seen lies to it.
     struct Relation {
         std::uint32_t loser = ~0u, winner = ~0u;
+        bool is_in_front = false;  // but for rounding, wherever both are
         bool folds_over = false;   // in front, at their common edge
         bool comes_first = false;  // they coincide, and it is the first one
-        bool any() const { return folds_over || comes_first; }
+        bool any() const { return is_in_front || folds_over || comes_first; }
     };
     const Relation& relation(std::uint32_t loser, std::uint32_t winner);
     bool is_fold_over(std::uint32_t front, std::uint32_t back) const;
-    bool coincide(std::uint32_t loser, std::uint32_t winner) const;
+    SurfaceOrder order(std::uint32_t loser, std::uint32_t winner) const;
     void order_runs(std::size_t tile);
     void draw_large_ones(std::size_t tile);
     int draw_large(const LargePolygon& large, bool plain, bool has_look);

@@ -17,15 +17,26 @@ struct Pixel {
     std::vector<Fragment<Mask>> fragments;
     std::vector<DepthPlane> planes;
     std::vector<int> family;  // surfaces of one family lie in one plane
+    std::vector<int> behind;  // or else, those with a larger number behind the others
+    SurfaceOrder order(std::uint32_t a, std::uint32_t b) const {
+        SurfaceOrder order;
+        if (family[a] != family[b]) return order;
+        order.have_common_place = order.has_level = true;
+        order.is_apart = behind[a] != behind[b];
+        order.has_front = behind[a] < behind[b];
+        order.has_behind = behind[a] > behind[b];
+        return order;
+    }
     VisibleSamples<Mask> resolve() const {
         VisibleSamples<Mask> visible;
         resolve_visibility<Mask>(fragments, kGrid, 10, 20,
                                  [this](const Fragment<Mask>& f) -> const DepthPlane& { return planes[f.surface]; },
-                                 [this](const Fragment<Mask>& a, const Fragment<Mask>& b) { return family[a.surface] == family[b.surface]; },
+                                 [this](const Fragment<Mask>& a, const Fragment<Mask>& b) { return order(a.surface, b.surface); },
                                  visible);
         return visible;
     }
-    void add(Mask mask, DepthPlane plane, int in_family = -1) {
+    void add(Mask mask, DepthPlane plane, int in_family = -1, int is_behind = 0) {
+        behind.push_back(is_behind);
         family.push_back(in_family >= 0 ? in_family : 1000 + static_cast<int>(family.size()));
         fragments.push_back({mask, static_cast<std::uint32_t>(planes.size())});
         planes.push_back(plane);
@@ -104,6 +115,21 @@ TEST(Visibility, CoincidentSurfacesGoToTheFirstWhateverRoundingDoes) {
             pixel.add(~Mask{0}, noisy, 1);
         }
         EXPECT_EQ(pixel.resolve().masks[0], ~Mask{0}) << trial;
+    }
+}
+
+TEST(Visibility, OnAnEdgeTheSurfaceInFrontWinsWhateverRoundingDoes) {
+    for (int trial = 0; trial < 300; ++trial) {
+        Random random(static_cast<std::uint64_t>(trial));
+        Pixel pixel;
+        const DepthPlane plane = slanted(random);
+        const int front = random.integer(0, 3);
+        for (int i = 0; i < 4; ++i) {
+            DepthPlane noisy = plane;
+            noisy.at_origin += random.real(-1e-9, 1e-9);
+            pixel.add(~Mask{0}, noisy, 1, i == front ? 0 : 1);
+        }
+        EXPECT_EQ(pixel.resolve().masks[static_cast<std::size_t>(front)], ~Mask{0}) << trial;
     }
 }
 

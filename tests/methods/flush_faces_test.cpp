@@ -167,6 +167,37 @@ TEST(FlushFaces, SolidsInOneAnotherLookLikeTheirUnion) {
     }
 }
 
+// As in technical drawings: walls are seen exactly edge-on, also those that are buried.
+TEST(FlushFaces, InViewsAlongAxes) {
+    const glm::dvec3 directions[] = {{0, 3, 4}, {4, 0, 3}, {-3, 4, 0}, {0, 0, 1}, {0.6, 0, -0.8}, {1, 1, 1}};
+    for (int seed = 0; seed < 12; ++seed) {
+        Random random(static_cast<std::uint64_t>(seed));
+        const std::vector<Block> blocks = random_blocks(random);
+        const glm::dvec3 middle(0.5 * kGrid);
+        Camera camera = perspective_camera(middle + 4.0 * kGrid * directions[seed % 6], middle);
+        if (seed % 4 != 0) {
+            camera.orthographic = true;
+            camera.height = 1.6 * kGrid;
+        }
+        for (const RenderFunction render : {render_abuffer, render_patel}) {
+            expect_union(blocks, camera, render, 0, (render == render_patel ? "patel, seed " : "abuffer, seed ") + std::to_string(seed));
+        }
+    }
+}
+
+// A wall that ends in a face from below is level with it at samples on its edge, where rounding would show it: a speck.
+TEST(FlushFaces, HaveNoSpecksOnBuriedEdges) {
+    const std::vector<Block> cross{{{0, 0, 2}, {6, 2, 4}}, {{2, 0, 0}, {4, 2, 6}}};
+    for (int seed = 0; seed < 150; ++seed) {
+        Random random(static_cast<std::uint64_t>(seed));
+        const Camera camera = camera_around(random, 30);
+        const Drawing expected = drawn(union_of(cross), camera, render_abuffer);
+        for (const bool backwards : {false, true}) {
+            EXPECT_LE(ink_apart(drawn(joined(cross, backwards, 1), camera, render_abuffer), expected), 0.2) << seed;
+        }
+    }
+}
+
 // Where a ray passes a wall's edge within its rounding, it may see the wall; a whole seam has 60 pixels and more.
 TEST(FlushFaces, InTheReference) {
     const Camera camera = perspective_camera({11, 13, 17}, {3, 3, 3}, 30);
