@@ -17,13 +17,15 @@ constexpr double kToOneSideSubpixels = 4;
 bool Contacts::is_seen_instead(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const {
     const auto at = touching_place(line, begin, end, t, level);
     if (!at) return false;
+    const bool is_border = line.owners[0] == line.owners[1];
     for (const std::uint32_t owner : line.owners) {
         const SurfaceId s = screen_.surface_of(owner);
-        if (have_vertex_in_common(s, t)) return false;
+        const bool are_neighbours = have_vertex_in_common(s, t);
+        if (are_neighbours && !is_border) return false;
         const auto beside = place_beside(s, owner, *at);
         if (!beside) continue;
         const double gap = screen_.nearness_of(owner, *beside) - t.nearness_at(*beside);
-        if (gap > level || (gap >= -level && is_seen_first(owner, t.number, gap))) return false;
+        if (gap > level || (gap >= -level && (are_neighbours || is_seen_first(owner, t.number, gap)))) return false;
     }
     return true;
 }

@@ -248,7 +248,10 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
     const auto [a, b] = owners.numbers;
     const double nearness = edge.nearness_at(t), clearly = level(nearness);
     if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) {
-        if (owners.inner_side == 0 || !takes_rests_) return false;
+        if (!takes_rests_) return false;
+        // A line that ends in the square at another one, on the screen, may go on beside that.
+        if (owners.needs_both) return std::any_of(std::begin(numbers), std::end(numbers), [&](std::uint32_t n) { return n != a && n != b; });
+        if (owners.inner_side == 0) return false;
         // Of two lines with a narrow gap between them the samples tell of one only. Whether what they see beyond is in contact
         // instead, its triangles tell.
         for (std::size_t k = 0; k < 4; ++k) {

@@ -136,6 +136,24 @@ TEST(FineLines, BothEdgesOfANarrowChamferAreDrawn) {
     }
 }
 
+// One of them is the box's contour, the other one a crease that samples see in places.
+TEST(FineLines, BothEdgesOfANarrowRimAreDrawn) {
+    for (const double rim_px : {0.14, 0.2, 0.26}) {
+        for (const double angle : {11.0, 40.0, 75.0}) {
+            const double tilt = std::asin(rim_px / 3);
+            const PolygonSoup box = transformed(make_box({26, 24, 3}), [=](glm::dvec3 p) {
+                return glm::dvec3(std::cos(tilt) * p.x + std::sin(tilt) * p.z, p.y, std::cos(tilt) * p.z - std::sin(tilt) * p.x);
+            });
+            Scene scene = scene_of({placed(box, angle)});
+            scene.lines.style.width_px = 0.3;
+            const Camera camera = pixel_camera(kSize, kSize);
+            const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize, 32);
+            EXPECT_LT(largest_error(drawn, expected), 0.1) << rim_px << " px, " << angle << " deg";
+            EXPECT_NEAR(drawn.sum("lines.A") / expected.sum("lines.A"), 1, 0.01) << rim_px << " px, " << angle << " deg";
+        }
+    }
+}
+
 // Surfaces have two sides: it does not matter which way the faces beside an edge are wound.
 TEST(FineLines, BothEdgesOfANarrowChamferAreDrawnHoweverItIsWound) {
     const auto chamfer = [](bool is_turned) {
@@ -372,6 +390,18 @@ TEST(FineLines, OfFlushFacesTheFirstIsSeen) {
 }
 
 // A folded quad, and its two triangles once more as objects of their own, each of which ends along the fold.
+// Of what meets at an edge the ones in front count, be a corner of the others welded to it or not.
+TEST(FineLines, AFinThatTouchesFromBehindIsNotSeen) {
+    const Camera camera = perspective_camera({1.5, 0.9, 3}, {0.5, 0, 0});
+    const auto sheet_with_fin_at = [](double z) {
+        return soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.1}, {1, -1, -0.1}, {0, 0, z}, {0.5, 0.3, -1}}, {{0, 1, 3}, {1, 0, 4}, {5, 1, 6}});
+    };
+    const Drawing welded = draw(scene_of({sheet_with_fin_at(0)}), camera, 160);
+    for (const double z : {-1e-6, -1e-5, -1e-4, -1e-3, -3e-3}) {
+        EXPECT_LE(largest_error(draw(scene_of({sheet_with_fin_at(z)}), camera, 160), welded), 0.3) << z;
+    }
+}
+
 TEST(FineLines, WhatLiesInAFoldedPolygonHasNoOutline) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         Random random(seed);
