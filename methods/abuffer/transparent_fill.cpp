@@ -7,6 +7,7 @@
 #include "abuffer/scan_convert.h"
 #include "abuffer/tile_kernels.h"
 #include "base/parallel.h"
+#include "methods/abuffer/layer_triangle.h"
 #include "methods/abuffer/sampling.h"
 #include "shading/surface_shader.h"
 
@@ -110,12 +111,25 @@ class TransparentTile {
                 const float nearness = std::clamp(x * l.plane.per_x + l.plane.nearness + y * l.plane.per_y,
                                                   l.plane.low, l.plane.high);
                 const auto i = static_cast<std::uint32_t>(row * samples_.stride + column);
-                // Between coincident surfaces the smaller number wins, as everywhere.
-                const bool is_seen = nearness > samples_.nearness[i] ||
-                                     (nearness == samples_.nearness[i] && l.plane.id < samples_.ids[i]);
+                const float gap = nearness - samples_.nearness[i];
+                const double level = level_slack(frame_.surfaces, static_cast<double>(nearness));
+                const bool is_level = static_cast<double>(std::abs(gap)) <= level;
+                const bool is_seen = is_level ? is_in_front(l.plane.id >> 1, samples_.ids[i] >> 1, gap) : gap > 0;
                 if (is_seen) layers_.push_back({i, nearness, l.plane.id >> 1});
             }
         });
+    }
+
+    /// Of two surfaces at about one depth, of which the first is nearer by `gap` at a sample. Asked of the same two for one
+    /// sample after the other.
+    bool is_in_front(std::uint32_t number, std::uint32_t opaque, float gap) {
+        if (compared_[0] != number || compared_[1] != opaque) {
+            compared_[0] = number;
+            compared_[1] = opaque;
+            order_ = frame_.surfaces.order(screen_.surface_of(number), screen_.surface_of(opaque));
+        }
+        if (order_.are_coincident()) return number < opaque;
+        return order_.has_front == order_.has_behind ? gap > 0 : order_.has_front;
     }
 
     void composite(Film& film) {
@@ -176,6 +190,8 @@ class TransparentTile {
     PixelRect rect_;
     SampleTile samples_;
     std::vector<LayerSample> layers_;
+    std::uint32_t compared_[2] = {~0u, ~0u};
+    SurfaceOrder order_;  // of these two
     std::uint32_t last_number_ = ~0u;
     glm::vec4 last_color_{0.0f};
 };

@@ -98,6 +98,34 @@ TEST(Transparency, SurfacesAreCompositedInOrder) {
     EXPECT_EQ(value(all_glass, "id.object", 120, 120), 3) << "numbers are those of the nearest surface";
 }
 
+// Of faces in one plane the first is seen (decision 9), also if it is of glass: rounding does not tell at each sample anew.
+TEST(Transparency, GlassFlushWithASolidHasOneColour) {
+    const PolygonSoup inlay = transformed(make_box({1.4, 0.1, 1.4}), [](glm::dvec3 p) {
+        return glm::dvec3(std::cos(0.35) * p.x - std::sin(0.35) * p.z, p.y + 0.05, std::sin(0.35) * p.x + std::cos(0.35) * p.z);
+    });
+    const PolygonSoup board = make_box({4, 0.2, 3});
+    for (const bool is_glass_first : {true, false}) {
+        Scene scene = is_glass_first ? scene_of({inlay, board}) : scene_of({board, inlay});
+        Material& glass = scene.materials[is_glass_first ? 0 : 1];
+        scene.lines.classes = LineClassSet();
+        scene.surfaces.shading = SurfaceShading::lambert;
+        scene.materials[0].color = scene.materials[1].color = {1, 0, 0};
+        glass.color = {0, 0, 1};
+        glass.opacity = 0.25f;
+        for (int k = 0; k < 12; ++k) {
+            const Camera camera = ortho_camera({4.1 + 0.13 * k, 3.1 + 0.1 * k, 6.3 - 0.17 * k}, 5);
+            const Image image = draw(scene, camera);
+            const Frame frame = make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize});
+            const glm::dvec2 first = pixel_of(frame, camera, {0, 0.1, 0});
+            const auto color = [&](glm::dvec2 at) { return value(image, "surface.B", static_cast<int>(at.x), static_cast<int>(at.y)); };
+            EXPECT_EQ(color(first) > 0.01, is_glass_first) << k;
+            for (const double x : {-0.5, -0.21, 0.13, 0.45}) {
+                for (const double z : {-0.44, -0.1, 0.28, 0.5}) EXPECT_NEAR(color(pixel_of(frame, camera, {x, 0.1, z})), color(first), 1e-3) << k;
+            }
+        }
+    }
+}
+
 TEST(Transparency, GlassDoesNotCountAsALayer) {
     const auto wall = [](double z) {
         return soup_of({{20, 20, z}, {220, 20, z}, {220, 220, z}, {20, 220, z}}, {{0, 1, 2, 3}});
