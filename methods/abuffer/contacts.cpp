@@ -11,6 +11,8 @@ namespace {
 constexpr double kBesideSubpixels = 512;
 /// So far to one side of a line something covers what ends at the line there. 1/64 pixel.
 constexpr double kToOneSideSubpixels = 4;
+/// Of two triangles' coordinates.
+constexpr double kErrors = 4;
 
 }  // namespace
 
@@ -58,7 +60,7 @@ bool Contacts::is_in_front(const LayerLine& line, double begin, double end, cons
 }
 
 bool Contacts::is_flush(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level,
-                        const LineCriteria& criteria, bool facing_alike) const {
+                        const LineCriteria& criteria, bool on_one_side) const {
     if (line.classes.has(LineClass::mark)) return false;
     const auto touching = touching_place(line, begin, end, t, level);
     if (!touching) return false;
@@ -82,7 +84,7 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
             if (rises_in_front(s, other)) return false;
             continue;
         }
-        if (facing_alike && screen_.facing(owner) != screen_.facing(cover.number)) return false;
+        if (on_one_side && side_of_body(s) != side_of_body(other)) return false;
         const LineClassSet contact = contact_classes(surfaces, s, other, *beside / double{kSubpixelsPerPixel}, criteria);
         if (!(contact & criteria.classes).empty()) return false;
         is_any_flush = true;
@@ -122,20 +124,60 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
     return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
 }
 
+/// In view space.
+struct Contacts::FacePlane {
+    glm::dvec3 corner, to_eye;  // a unit normal
+
+    double height(const glm::dvec3& p) const { return glm::dot(to_eye, p - corner); }
+};
+
+Contacts::FacePlane Contacts::plane_of(SurfaceId s) const {
+    const SurfaceSet& surfaces = screen_.surfaces();
+    glm::dvec3 c[3];
+    surfaces.view_corners(s, c);
+    const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+    const glm::dvec3 to_eye = surfaces.projection.orthographic ? glm::dvec3(0, 0, 1) : -c[0];
+    return {c[0], normal * ((glm::dot(normal, to_eye) < 0 ? -1 : 1) / std::max(glm::length(normal), 1e-300))};
+}
+
 /// Whether a part of a triangle is nearer to the eye than the plane of another one: asked in space, for beside a line snapping
 /// may decide it on the screen.
 bool Contacts::rises_in_front(SurfaceId s, SurfaceId of) const {
     const SurfaceSet& surfaces = screen_.surfaces();
-    glm::dvec3 own[3], plane[3];
+    const FacePlane plane = plane_of(of);
+    glm::dvec3 own[3];
     surfaces.view_corners(s, own);
-    surfaces.view_corners(of, plane);
-    glm::dvec3 normal = glm::cross(plane[1] - plane[0], plane[2] - plane[0]);
-    const glm::dvec3 to_eye = surfaces.projection.orthographic ? glm::dvec3(0, 0, 1) : -plane[0];
-    normal *= (glm::dot(normal, to_eye) < 0 ? -1 : 1) / std::max(glm::length(normal), 1e-300);
-    constexpr double kErrors = 4;  // of either's coordinates
     return std::any_of(std::begin(own), std::end(own), [&](const glm::dvec3& corner) {
-        return glm::dot(normal, corner - plane[0]) > kErrors * surfaces.coordinate_error;
+        return plane.height(corner) > kErrors * surfaces.coordinate_error;
     });
+}
+
+/// On which side of a face its body is, by what goes on around it, or around its neighbours in its plane: 1 = towards the eye,
+/// -1 = away from it, 0 = nothing tells, as at a sheet. How polygons are wound does not count.
+int Contacts::side_of_body(SurfaceId s) const {
+    constexpr std::size_t kMostTriangles = 32;  // of one face
+    const SurfaceSet& surfaces = screen_.surfaces();
+    const Mesh& mesh = surfaces.mesh_of(s);
+    const FacePlane plane = plane_of(s);
+    const auto position = [&](std::uint32_t v) { return surfaces.view_position(s.instance, v); };
+    std::vector<std::uint32_t> face{s.triangle};
+    double sum = 0;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+        const HalfEdge first = 3 * face[i];
+        for (HalfEdge own = first; own < first + 3; ++own) {
+            const std::uint32_t a = mesh.triangles[face[i]][own - first], b = mesh.triangles[face[i]][(own - first + 1) % 3];
+            for (HalfEdge h = mesh.next_on_edge[own]; h != own; h = mesh.next_on_edge[h]) {
+                const auto& [p, q, r] = mesh.triangles[h / 3];
+                const double height = plane.height(position(p ^ q ^ r ^ a ^ b));
+                if (std::abs(height) > kErrors * surfaces.coordinate_error) {
+                    sum += std::copysign(glm::distance(position(a), position(b)), height);
+                } else if (face.size() < kMostTriangles && std::find(face.begin(), face.end(), h / 3) == face.end()) {
+                    face.push_back(h / 3);
+                }
+            }
+        }
+    }
+    return sum > 0 ? 1 : sum < 0 ? -1 : 0;
 }
 
 /// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place.

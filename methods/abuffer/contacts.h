@@ -22,10 +22,10 @@ class Contacts {
     bool is_in_front(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const;
 
     /// Whether the line is none, for the surface of `t` goes on without a line on both sides of it, in the plane of a triangle
-    /// at the line, and nothing at the line is in front of it: flush faces of bodies in one another. With `facing_alike`, only
-    /// where both are seen from outside or both from inside; faces in contact face different ways.
+    /// at the line, and nothing at the line is in front of it: flush faces of bodies in one another. With `on_one_side`, only
+    /// where both bodies are on one side of the plane; those in contact are on either side.
     bool is_flush(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level, const LineCriteria& criteria,
-                  bool facing_alike) const;
+                  bool on_one_side) const;
 
     /// What the contact with `t`, where that goes on beyond a border at its depth or a little behind, makes of the border,
     /// among classes asked for; where, [begin, end] says then. nullopt: nowhere.
@@ -36,7 +36,10 @@ class Contacts {
     std::optional<glm::dvec2> touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
                                              double level) const;
     std::optional<glm::dvec2> place_beside(SurfaceId s, std::uint32_t owner, glm::dvec2 at) const;
+    struct FacePlane;
+    FacePlane plane_of(SurfaceId s) const;
     bool rises_in_front(SurfaceId s, SurfaceId of) const;
+    int side_of_body(SurfaceId s) const;
     enum class Over { any_edge, plain_edges };
     std::optional<LayerTriangle> what_covers(glm::dvec2 place, const LayerTriangle& t, Over over) const;
     bool have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const;

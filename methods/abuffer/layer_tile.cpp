@@ -207,7 +207,7 @@ void LayerTile::hide(const LayerLine& line, std::uint32_t i, const PartInTile& p
             return;
         }
     }
-    if (is_any_clear && !only_grazes(line, t)) intervals_.push_back(clear);
+    if (is_any_clear && !only_grazes(screen_, line, t)) intervals_.push_back(clear);
 }
 
 void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces) {

@@ -29,6 +29,35 @@ bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
     return area != 0;
 }
 
+/// Whether the surface goes on beyond the edge after a corner, so that it hides what lies along the edge. The triangle must lie
+/// on the screen.
+bool goes_on_beyond(const ScreenSurfaces& screen, const LayerTriangle& t, std::size_t k) {
+    const std::uint32_t from = t.vertices[k], to = t.vertices[k == 2 ? 0 : k + 1];
+    const ScreenVertex* const v = screen.vertices(t.instance);
+    const Mesh& mesh = *screen.surfaces().instances[t.instance].mesh;
+    const auto third = [&](HalfEdge h) {
+        const auto& [a, b, c] = mesh.triangles[h / 3];
+        return a ^ b ^ c ^ from ^ to;
+    };
+    const auto is_it = [&](HalfEdge h) {
+        const auto& corners = mesh.triangles[h / 3];
+        const std::uint32_t a = corners[h % 3], b = corners[(h + 1) % 3];
+        return (a == from && b == to) || (a == to && b == from);
+    };
+    HalfEdge own = 3 * screen.surface_of(t.number).triangle;
+    while (!is_it(own)) ++own;
+    const HalfEdge first = mesh.next_on_edge[own];
+    if (first == own) {
+        const glm::dvec3 middle = 0.5 * (glm::dvec3(mesh.positions[from]) + glm::dvec3(mesh.positions[to]));
+        return mesh.borders.seam_partner(own, middle).has_value();
+    }
+    for (HalfEdge h = first; h != own; h = mesh.next_on_edge[h]) {
+        const ScreenVertex& apex = v[third(h)];
+        if (apex.x == ScreenVertex::kOffScreen || doubled_area(v[from], v[to], apex) < 0) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 bool clip_where_positive(double at_0, double at_1, double& begin, double& end) {
@@ -105,17 +134,18 @@ bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {
     return common == 2;
 }
 
-bool only_grazes(const LayerLine& line, const LayerTriangle& t) {
+bool only_grazes(const ScreenSurfaces& screen, const LayerLine& line, const LayerTriangle& t) {
     const auto is_at_end = [&](std::uint32_t v) {
         const std::uint64_t node = std::uint64_t{t.instance} << 32 | v;
         return node == line.nodes[0] || node == line.nodes[1];
     };
     if (std::none_of(t.vertices.begin(), t.vertices.end(), is_at_end)) return false;
+    if (screen.facing(t.number) == off_screen) return false;  // a part of it
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;
         const glm::dvec2 corner(t.x[k], t.y[k]), along = glm::dvec2(t.x[next], t.y[next]) - corner;
         const double depth = std::max(cross(along, line.from - corner), cross(along, line.to - corner));
-        if (depth < glm::length(along)) return true;
+        if (depth < glm::length(along) && !goes_on_beyond(screen, t, k)) return true;
     }
     return false;
 }

@@ -47,9 +47,9 @@ std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen,
 /// Whether a line is an edge of a triangle, which cannot hide it then.
 bool lies_on(const LayerLine& line, const LayerTriangle& triangle);
 
-/// Whether a triangle that has a vertex in common with a line covers only a rim of it narrower than vertices are snapped:
-/// 1/256 pixel. At an outline a fold so narrow may lie on either side of its edge.
-bool only_grazes(const LayerLine& line, const LayerTriangle& triangle);
+/// Whether a triangle that has a vertex in common with a line covers only a rim of it narrower than vertices are snapped,
+/// 1/256 pixel, where its surface ends or folds: a fold so narrow may lie on either side of its edge.
+bool only_grazes(const ScreenSurfaces& screen, const LayerLine& line, const LayerTriangle& triangle);
 
 /// Things at one depth are nearer to each other than this part of a pixel's width.
 constexpr double kLevelPx = 1.0 / 16;

@@ -40,6 +40,35 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
     }
 }
 
+// Seen along its diagonal, as in an isometric view, hidden edges lie behind the edges and diagonals of what hides them: each
+// triangle there hides half of such a line's width, and together they hide it.
+TEST(HiddenLines, OfACubeSeenAlongItsDiagonal) {
+    const PolygonSoup plain = make_box({1, 1, 1});
+    for (const glm::dvec3 direction : {glm::dvec3(1, 1, 1), {-1, 1, 1}, {1, -0.8, 1}, {1, 0.998, 1}, {1, 1, -1.02}}) {
+        for (int first = 0; first < 8; ++first) {  // corners of the polygons, and whether they run backwards
+            PolygonSoup box;
+            box.positions = plain.positions;
+            for (std::size_t i = 0; i < plain.polygon_count(); ++i) {
+                std::vector<std::uint32_t> corners(plain.polygon(i).begin(), plain.polygon(i).end());
+                std::rotate(corners.begin(), corners.begin() + first % 4, corners.end());
+                if (first >= 4) std::reverse(corners.begin(), corners.end());
+                box.add_polygon(corners);
+            }
+            for (const Camera& camera : {ortho_camera(6.0 * direction, 2.5), perspective_camera(6.0 * direction, {0, 0, 0}, 20)}) {
+                const Layers layers(scene_of({box}), camera);
+                double expected = 0;
+                for (int axis = 0; axis < 3; ++axis) {
+                    glm::dvec3 corner = -0.5 * glm::sign(direction);
+                    const glm::dvec2 from = pixel_of(layers.frame, camera, corner);
+                    corner[axis] = -corner[axis];
+                    expected += glm::distance(from, pixel_of(layers.frame, camera, corner));
+                }
+                EXPECT_NEAR(layers.hidden_px(1), expected, 0.75) << direction.x << ' ' << direction.y << ' ' << direction.z << ' ' << first;
+            }
+        }
+    }
+}
+
 /// Triangles of which nothing else asked before, all in one tile.
 TEST(HiddenLines, TwoTrianglesPassThroughEachOtherBehindAThird) {
     const glm::dvec3 eye(0, 0, 60), a[3] = {{-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}}, b[3] = {{0, -0.7, -1}, {0.1, -0.7, 1}, {0, 0.6, 0.2}};
