@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "base/suggestion.h"
 #include "mesh/text_scan.h"
 #include "methods/method_table.h"
 #include "scene/color.h"
@@ -258,6 +259,23 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
     std::rotate(arguments.begin(), command, command + 1);
 }
 
+/// What was left over after parsing: an option that there is not, or one input too many.
+[[noreturn]] void refuse_unknown(const CLI::App& app) {
+    const auto commands = app.get_subcommands();
+    const CLI::App& command = commands.empty() ? app : *commands.front();
+    const std::vector<std::string> rest = app.remaining(true);
+    const auto unknown = std::find_if(rest.begin(), rest.end(), [](const std::string& r) { return r.size() > 1 && r[0] == '-'; });
+    const std::string help = "; burin " + (commands.empty() ? "" : command.get_name() + " ") + "--help lists the options";
+    if (unknown == rest.end()) throw UsageError("'" + printable(rest.front()) + "': one input is enough" + help);
+    const std::string name = unknown->substr(0, unknown->find('='));
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& n : option->get_lnames()) known.push_back("--" + n);
+    }
+    const auto closest = name.starts_with("--") ? closest_word(name, known) : std::nullopt;
+    throw UsageError("unknown option '" + printable(name) + "'" + (closest ? "; did you mean '" + *closest + "'?" : help));
+}
+
 void fill_scene_options(const Texts& t, Arguments& a) {
     a.input = t.input;
     if (!t.size.empty()) {
@@ -422,9 +440,13 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     } catch (const CLI::CallForVersion& version) {
         std::printf("%s\n", version.what());
         return std::nullopt;
+    } catch (const CLI::ExtrasError&) {
+        refuse_unknown(app);
     } catch (const CLI::ParseError& error) {
         std::string message = error.what();
         std::replace(message.begin(), message.end(), '\n', ' ');
+        const std::size_t twice = message.find(": At Most 1 required");
+        if (twice != std::string::npos) message = message.substr(0, twice) + ": is given more than once; remove one";
         throw UsageError(message + "; see burin --help");
     }
 

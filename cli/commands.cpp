@@ -43,7 +43,8 @@ OutputOptions output_options(const Arguments& a) {
     } else if (extension == ".svg" || extension == ".pdf") {
         throw UsageError("--output: " + extension + " is not in this version; write .exr, .png or .tif");
     } else {
-        throw UsageError("--output: unknown kind of image '" + extension + "'; burin writes .exr .png .tif");
+        throw UsageError("--output: " + (extension.empty() ? "the name has no suffix" : "unknown kind of image '" + extension + "'") +
+                         "; burin writes .exr .png .tif");
     }
     const std::string name = std::filesystem::path(a.output).filename().string();
     if (name.find('#') != std::string::npos || name.find("%0") != std::string::npos) {
@@ -119,22 +120,28 @@ void write_stats(const std::string& path, const std::string& text) {
 }
 
 /// Only the A-buffer keeps the surfaces behind the first.
-void refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene) {
-    if (method.name == "abuffer") return;
+/// Returns whether the scene asks for hidden lines.
+bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene) {
+    const bool has_hidden_lines = scene.lines.style.hidden.style != HiddenStyle::none;
+    if (method.name == "abuffer") return has_hidden_lines;
     if (a.hidden && *a.hidden != HiddenStyle::none) {
         throw UsageError("--hidden: method " + std::string(method.name) +
                          " draws no hidden lines; use method abuffer");
     }
     scene.lines.style.hidden.style = HiddenStyle::none;
+    return has_hidden_lines;
 }
 
 /// What a user should know before the picture surprises.
-void note_limits(const Arguments& a, const Frame& frame, const Method& method,
+void note_limits(const Arguments& a, const Frame& frame, const Method& method, bool has_hidden_lines,
                  const OutputOptions& output) {
     if (a.quiet) return;
     if (a.names_layers && output.format != OutputFormat::exr) {
         std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n",
                    stderr);
+    }
+    if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
+        std::fputs("burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n", stderr);
     }
     const auto note_if_unused = [&](bool is_given, const char* option, std::string_view user) {
         if (!is_given || method.name == user) return;
@@ -143,6 +150,10 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method,
     };
     note_if_unused(a.mask_bits.has_value(), "--mask", "patel");
     note_if_unused(a.samples_per_pixel.has_value(), "--samples", "abuffer");
+    note_if_unused(a.gbuffer_operators.has_value(), "--operator", "gbuffer");
+    note_if_unused(a.supersample.has_value(), "--supersample", "gbuffer");
+    note_if_unused(has_hidden_lines, "lines.hidden", "abuffer");
+    note_if_unused(has_transparent_surfaces(*frame.scene), "the opacity of materials", "abuffer");
     const LineSettings& lines = frame.scene->lines;
     const auto missing = LineClassSet::from_bits(lines.classes.bits & ~unsigned{method.draws.bits});
     if (!missing.empty()) {
@@ -349,13 +360,13 @@ void run_render(const Arguments& a) {
     Stopwatch total, watch;
     StageTimes times;
     Scene scene = load_input(a);
-    refuse_hidden_lines(a, method, scene);
+    const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
     const Camera camera = camera_of(scene, a);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     if (method.name == "abuffer") prepare_for_abuffer(scene, a.threads, a.memory_bytes > 0);
     const Frame frame = frame_of(scene, camera, a);
     times.load_s = watch.lap();
-    note_limits(a, frame, method, output);
+    note_limits(a, frame, method, has_hidden_lines, output);
 
     LayerSet layers = a.layers;
     if (!a.names_layers) layers.lines_hidden = scene.lines.style.hidden.style != HiddenStyle::none;
@@ -383,6 +394,8 @@ void run_render(const Arguments& a) {
         times.render = median_of(std::move(runs));
     }
     watch.lap();
+    const bool counts = (method.name == "abuffer" || method.name == "patel") && !a.crop;
+    if (counts && times.render.fragments == 0 && !a.quiet) std::fputs("burin: note: no surface is seen in the picture; does the camera look at the scene?\n", stderr);
     if (writer) {
         writer->finish();
     } else {

@@ -16,7 +16,9 @@ bool is_scene_file(const std::string& path) { return lower_extension(path) == ".
 SceneDescription describe_input(const Arguments& a) {
     if (is_scene_file(a.input)) return read_scene_file(a.input, a.overrides);
     if (is_model_file(a.input)) return bare_model_scene(a.input, a.overrides);
-    throw InputError(a.input + ": unknown kind of input; burin reads .toml scenes and " +
+    const bool is_stdin = a.input == "-" || a.input == "/dev/stdin";
+    throw InputError(a.input + (is_stdin ? ": standard input is not read, and the kind of an input is told by its suffix; burin reads .toml scenes and "
+                                         : ": unknown kind of input; burin reads .toml scenes and ") +
                      ".obj .ply .stl .off .gltf .glb models");
 }
 

@@ -18,11 +18,11 @@ EdgeCounts count_edges(const Mesh& mesh) {
         for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) ++ring;
         const bool is_diagonal =
             ring == 2 && mesh.polygon_of(h / 3) == mesh.polygon_of(mesh.next_on_edge[h] / 3);
+        counts.marked += mesh.is_marked(h);
         if (is_diagonal) continue;
         ++counts.edges;
         counts.border += ring == 1;
         counts.non_manifold += ring > 2;
-        counts.marked += mesh.is_marked(h);
     }
     for (const BorderIndex::Segment& s : mesh.borders.segments()) {
         const glm::dvec3 middle = 0.5 * (glm::dvec3(s.a) + glm::dvec3(s.b));

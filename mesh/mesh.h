@@ -72,7 +72,7 @@ struct EdgeCounts {
     std::uint64_t border = 0;
     std::uint64_t non_manifold = 0;
     std::uint64_t seam = 0;  ///< border edges with an unstitched neighbour at their middle
-    std::uint64_t marked = 0;
+    std::uint64_t marked = 0;  ///< of them, and of diagonals
 };
 EdgeCounts count_edges(const Mesh& mesh);
 

@@ -229,8 +229,10 @@ double gbuffer_line_width_px(const Scene& scene) {
         (settings.operators == kId && settings.id_comparison != IdComparison::differs)) {
         samples = 1;
     }
-    const double narrowest = static_cast<double>(samples) / settings.supersample;
-    return settings.dilate ? std::max(narrowest, scene.lines.style.width_px) : narrowest;
+    // Lines are widened by whole samples on either side.
+    const double missing = std::max(0.0, scene.lines.style.width_px * settings.supersample - samples);
+    const double widened = settings.dilate ? 2 * std::floor(0.5 * missing) : 0;
+    return (samples + widened) / settings.supersample;
 }
 
 }  // namespace burin

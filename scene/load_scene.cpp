@@ -67,7 +67,17 @@ class SceneLoader {
         }
     }
 
+    /// What is wrong with a model of a scene file is told with the place that names it.
     const LoadedModel& model_of(ObjectDescription& object) {
+        if (object.where.line == 0) return load_model(object);
+        try {
+            return load_model(object);
+        } catch (const InputError& error) {
+            throw InputError(object.where, error.what());
+        }
+    }
+
+    const LoadedModel& load_model(ObjectDescription& object) {
         const MeshOptions options{object.subdivide, object.scheme, threads_};
         if (object.file.empty()) {
             Model model;
@@ -158,6 +168,13 @@ bool is_named(const SceneObject& object, const std::string& name) {
     const std::string& own = object.name;
     return own.starts_with(name) &&
            (own.size() == name.size() || own[name.size()] == '/' || own[name.size()] == '#');
+}
+
+bool has_transparent_surfaces(const Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
+        return std::any_of(object.materials.begin(), object.materials.end(),
+                           [&](std::uint32_t m) { return scene.materials[m].opacity < 1; });
+    });
 }
 
 PointSource scene_points(const Scene& scene) {

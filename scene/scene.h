@@ -83,6 +83,9 @@ struct Scene {
     std::uint64_t skipped_primitives = 0;
 };
 
+/// Whether some surface of the scene lets light through.
+bool has_transparent_surfaces(const Scene& scene);
+
 /// All vertices of all objects in world space, for fitting cameras.
 PointSource scene_points(const Scene& scene);
 

@@ -78,6 +78,7 @@ glm::dmat4 read_transform(TomlReader& t) {
         if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1) {
             t.fail("matrix", "the last row must be 0 0 0 1");
         }
+        if (glm::determinant(glm::dmat3(matrix)) == 0) t.fail("matrix", "makes everything flat; its determinant must not be 0");
         return matrix;
     }
     const glm::dvec3 translate = t.vector("translate").value_or(glm::dvec3(0.0));
@@ -136,8 +137,9 @@ class SceneReader {
             camera.up = t.vector("up");
             camera.direction = t.vector("direction");
             if (camera.eye && camera.direction) t.fail("direction", "cannot stand beside an eye; remove one");
-            camera.fov_deg = t.number("fov", {0, 180, true, true}).value_or(35);
             camera.height = t.number("height", kPositive);
+            if (camera.height && t.has("fov")) t.fail("fov", "cannot stand beside a height; remove one");
+            camera.fov_deg = t.number("fov", {0, 180, true, true}).value_or(35);
             if (camera.height && projection == 0u) {
                 t.fail("height", "a perspective camera has none; use fov, or another projection");
             }
@@ -166,7 +168,11 @@ class SceneReader {
         ObjectDescription object;
         object.where = t.position();
         const bool has_file = t.has("file");
-        if (has_file == t.has("shape")) {
+        if (has_file && t.has("shape")) t.fail("shape", "cannot stand beside a file; remove one");
+        if (!has_file && !t.has("shape")) {
+            for (const char* key : {"file", "shape"}) {
+                if (const auto other = t.misspelled(key)) t.fail(*other, std::string("unknown key; did you mean '") + key + "'?");
+            }
             t.fail("needs either a file or a shape");
         }
         if (has_file) {
@@ -224,7 +230,7 @@ class SceneReader {
         LineSettings& lines = scene_.lines;
         if (const auto names = t.texts("draw")) {
             lines.classes = LineClassSet();
-            for (const std::string& name : *names) {
+            for (const std::string& name : separated(*names)) {
                 const auto line_class = line_class_named(name);
                 if (name == "all") {
                     lines.classes = LineClassSet::all();
@@ -257,6 +263,18 @@ class SceneReader {
         }
         if (auto hidden = t.table("hidden")) read_hidden(*hidden, lines.style.hidden);
         t.finish();
+    }
+
+    /// "a,b" is a list, too, as on the command line.
+    static std::vector<std::string> separated(const std::vector<std::string>& texts) {
+        std::vector<std::string> result;
+        for (const std::string& text : texts) {
+            for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+                end = text.find(',', begin);
+                result.push_back(text.substr(begin, end - begin));
+            }
+        }
+        return result;
     }
 
     static std::optional<std::array<double, 2>> read_dash(TomlReader& t) {
@@ -406,8 +424,37 @@ std::optional<toml::table> parse_value(const Override& o, const std::string& tex
     return std::nullopt;
 }
 
+/// Numbers as options take them, in TOML: ".5" is 0.5; "1,2,3" and "400x300" are lists. Nothing for other texts and for what
+/// is a text by its key.
+std::optional<std::string> numbers_in_toml(std::string_view key, std::string_view text) {
+    for (const std::string_view name : {"name", "file", "material"}) {
+        if (key.ends_with(name)) return std::nullopt;
+    }
+    const bool is_list = text.starts_with('[') && text.ends_with(']');
+    if (is_list) text = text.substr(1, text.size() - 2);
+    std::string result;
+    int count = 0;
+    for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1, ++count) {
+        end = text.find_first_of(is_list ? "," : ",x", begin);
+        double value = 0;
+        std::string_view part = text.substr(begin, end - begin);
+        while (part.starts_with(' ')) part.remove_prefix(1);
+        while (part.ends_with(' ')) part.remove_suffix(1);
+        const auto [last, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (error != std::errc() || last != part.data() + part.size() || !std::isfinite(value)) return std::nullopt;
+        char number[40];
+        const bool is_whole = part.find_first_of(".eE") == std::string_view::npos && std::abs(value) < 1e15;
+        std::snprintf(number, sizeof number, is_whole ? "%.0f" : "%.17e", value);
+        result += (result.empty() ? "" : ", ") + std::string(number);
+    }
+    return is_list || count > 1 ? "[" + result + "]" : result;
+}
+
 toml::table override_value(const Override& o) {
     if (auto value = parse_value(o, o.value)) return *std::move(value);
+    if (const auto numbers = numbers_in_toml(o.key, o.value)) {
+        if (auto value = parse_value(o, *numbers)) return *std::move(value);
+    }
     if (auto value = parse_value(o, quoted(o.value)))
         return *std::move(value);  // typed without quotes
     fail_override(o, "the value is not UTF-8");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/suggestion.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
 
@@ -14,22 +15,6 @@ std::string number_text(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.10g", value);
     return text;
-}
-
-/// Levenshtein distance, for "did you mean".
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
 }
 
 }  // namespace
@@ -181,7 +166,8 @@ std::optional<TomlReader> TomlReader::table(std::string_view key) {
     if (node == nullptr) return std::nullopt;
     const toml::table* const table = node->as_table();
     if (table == nullptr) fail(key, "must be a table");
-    return TomlReader(*table, "[" + std::string(key) + "]", file_);
+    const std::string_view within = context_.empty() ? std::string_view() : std::string_view(context_).substr(1, context_.size() - 2);
+    return TomlReader(*table, "[" + std::string(within) + (within.empty() ? "" : ".") + std::string(key) + "]", file_);
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key) {
@@ -202,14 +188,18 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     return result;
 }
 
+std::optional<std::string> TomlReader::misspelled(std::string_view key) const {
+    for (const auto& [other, node] : *table_) {
+        if (edit_distance(other.str(), key) == 1) return std::string(other.str());
+    }
+    return std::nullopt;
+}
+
 void TomlReader::finish() const {
     for (const auto& [key, node] : *table_) {
         if (known_.contains(key.str())) continue;
         std::string message = "unknown key '" + printable(key.str()) + "'";
-        const auto closest = std::min_element(known_.begin(), known_.end(), [&](auto& a, auto& b) {
-            return edit_distance(a, key.str()) < edit_distance(b, key.str());
-        });
-        if (closest != known_.end() && edit_distance(*closest, key.str()) <= 2) {
+        if (const auto closest = closest_word(key.str(), {known_.begin(), known_.end()})) {
             message += "; did you mean '" + *closest + "'?";
         } else {
             message += "; docs/scene-format.md lists the known ones";

@@ -49,6 +49,9 @@ class TomlReader {
     /// An array of tables; a single table counts as an array of one.
     std::vector<TomlReader> tables(std::string_view key);
 
+    /// A key of the table that is nearly `key`.
+    std::optional<std::string> misspelled(std::string_view key) const;
+
     /// Throws for the first key that was not read.
     void finish() const;
 

@@ -21,13 +21,6 @@ ScreenLine part_of(const LayerLine& line, double begin, double end, double slack
 
 }  // namespace
 
-bool has_transparent_surfaces(const Scene& scene) {
-    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
-        return std::any_of(object.materials.begin(), object.materials.end(),
-                           [&](std::uint32_t m) { return scene.materials[m].opacity < 1; });
-    });
-}
-
 LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
                      const LayerBins& bins, const PixelTiles& grid, bool finds_pairs)
     : frame_(frame),

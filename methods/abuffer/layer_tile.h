@@ -137,7 +137,4 @@ class LayerTile {
     std::uint64_t fragment_count_ = 0;
 };
 
-/// Whether some surface of the scene lets light through.
-bool has_transparent_surfaces(const Scene& scene);
-
 }  // namespace burin

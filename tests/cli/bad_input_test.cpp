@@ -52,6 +52,7 @@ TEST(BadInput, FilesThatAreNotThere) {
     expect_refused(folder, "model.xyz", "unknown kind of input");
     expect_refused(folder, "model", "unknown kind of input");
     expect_refused(folder, "/dev/zero", "unknown kind of input");
+    expect_refused(folder, "/dev/stdin", "standard input is not read");
 }
 
 TEST(BadInput, NamesWithLineFeedsStayOnOneLine) {
@@ -339,9 +340,11 @@ TEST(BadInput, ScenesWithBrokenParts) {
     const TemporaryFolder folder;
     folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n");
     folder.write("a.toml", "[[object]]\nfile='bad.obj'\n");
-    expect_refused(folder, "a.toml", "", "bad.obj:2: ");
+    expect_refused(folder, "a.toml", "", "a.toml:2:6: bad.obj:2: ");
     folder.write("a.toml", "[[object]]\nfile='missing.obj'\n");
-    expect_refused(folder, "a.toml", "", "missing.obj: ");
+    expect_refused(folder, "a.toml", "cannot open", "a.toml:2:6: missing.obj: ");
+    folder.write("a.toml", "[[object]]\nshape='teapot'\nsubdivide=8\n");
+    expect_refused(folder, "a.toml", "object 'teapot'", "a.toml:1:1: ");
     folder.write("a.toml", "[[object]]\nfile='a.toml'\n");
     expect_refused(folder, "a.toml");
     folder.write("a.toml", "[[object]]\nshape='box'\n[lines]\nwidht=1\n");

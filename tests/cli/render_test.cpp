@@ -438,7 +438,18 @@ TEST_F(Render, WhatIsSaidOnTheWay) {
                              "fades no creases; it draws them from 40 degrees on"}) {
         EXPECT_NE(unused.find(part), std::string::npos) << unused;
     }
-    // Patel's widths go in steps, which a user should know.
+    EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--eye", "9,9,9", "--target", "18,18,18"}).err,
+              "burin: note: no surface is seen in the picture; does the camera look at the scene?\n");
+    EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--bits", "16"}).err,
+              "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n");
+    const std::string hidden = run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-m", "patel", "--operator", "id",
+                                                          "--set", "lines.hidden.style=solid"}).err;
+    for (const char* part : {"--operator is for method gbuffer", "lines.hidden is for method abuffer"}) {
+        EXPECT_NE(hidden.find(part), std::string::npos) << hidden;
+    }
+    // Methods whose widths go in steps, which a user should know.
+    EXPECT_NE(run_burin(folder_.path(), {"render", "cube.obj", "-m", "gbuffer", "-r", "40x30", "-o", "a.exr", "-w", "2.5"}).err.find("about 2 px wide"),
+              std::string::npos);
     EXPECT_NE(run_burin(folder_.path(),
                         {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "a.exr", "-w", "1.37"})
                   .err.find("note"),

@@ -96,9 +96,12 @@ TEST_F(Usage, UnknownNames) {
     expect_bad_options({"--siz", "1x1"},
                        "--siz");  // no abbreviations: they would change meaning later
     expect_bad_options({"-Z"}, "-Z");
-    for (const char* output : {"a.jpg", "a.gif", "a", "a.", ".png", "a.exr.bak"}) {
+    expect_bad_options({"3", "--line-widht"}, "unknown option '--line-widht'; did you mean '--line-width'?");
+    expect_bad_options({"another.obj"}, "'another.obj': one input is enough");
+    for (const char* output : {"a.jpg", "a.gif", "a.", "a.exr.bak"}) {
         expect_refused({"render", "cube.obj", "-o", output}, "--output: unknown kind of image");
     }
+    for (const char* output : {"a", ".png"}) expect_refused({"render", "cube.obj", "-o", output}, "--output: the name has no suffix");
 }
 
 TEST_F(Usage, Sizes) {
@@ -188,7 +191,7 @@ TEST_F(Usage, OtherValues) {
                        "empty");  // an unset variable of a script
     }
     expect_bad_options({"--lines", "none", "--layers", "coverage"}, "--layers");
-    expect_bad_options({"-r", "10x10", "-r", "20x20"}, "--size");  // which one?
+    expect_bad_options({"-r", "10x10", "-r", "20x20"}, "--size: is given more than once");  // which one?
 }
 
 TEST_F(Usage, Overrides) {

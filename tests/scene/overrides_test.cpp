@@ -68,6 +68,20 @@ TEST(Overrides, TextsNeedNoQuotes) {
     EXPECT_TRUE(text.read({{"picture.background", "transparent"}}).picture.transparent);
 }
 
+TEST(Overrides, NumbersAreWrittenAsInOptions) {
+    const SceneText text(kScene);
+    EXPECT_EQ(text.read({{"lines.width", ".5"}}).lines.style.width_px, 0.5);
+    EXPECT_EQ(text.read({{"lines.width", "5."}}).lines.style.width_px, 5);
+    EXPECT_EQ(text.read({{"camera.0.eye", "1,-.5,3e1"}}).cameras[0].eye, glm::dvec3(1, -0.5, 30));
+    EXPECT_EQ(text.read({{"lines.dash", "[.3, 1]"}}).lines.style.dash_px, (std::array{0.3, 1.0}));
+    const PictureSettings picture = text.read({{"picture.size", "400x300"}}).picture;
+    EXPECT_EQ(picture.width, 400);
+    EXPECT_EQ(picture.height, 300);
+    EXPECT_EQ(text.read({{"lines.draw", "silhouette,crease"}}).lines.classes, LineClassSet(LineClass::silhouette) | LineClass::crease);
+    EXPECT_EQ(text.read({{"object.0.name", "2x4"}}).objects[0].name, "2x4");
+    EXPECT_EQ(text.read({{"object.0.name", "1,2"}}).objects[0].name, "1,2");
+}
+
 TEST(Overrides, MistakesAreWrongUsage) {
     const SceneText text(kScene);
     const struct {

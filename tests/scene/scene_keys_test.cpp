@@ -139,9 +139,9 @@ TEST(SceneKeys, Transforms) {
 }
 
 TEST(SceneKeys, AMatrixIsWrittenRowByRow) {
-    const std::string matrix = "matrix=[1,2,3,4, 5,6,7,8, 9,10,11,12, 0,0,0,1]";
+    const std::string matrix = "matrix=[2,2,3,4, 5,6,7,8, 9,10,11,12, 0,0,0,1]";
     expect_near(image_of(matrix, {0, 0, 0}), {4, 8, 12});
-    expect_near(image_of(matrix, {1, 0, 0}), {5, 13, 21});
+    expect_near(image_of(matrix, {1, 0, 0}), {6, 13, 21});
     expect_near(image_of(matrix, {0, 1, 0}), {6, 14, 22});
     expect_near(image_of(matrix, {0, 0, 1}), {7, 15, 23});
 }
