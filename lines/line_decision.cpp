@@ -143,6 +143,11 @@ class Decider {
         if (touching && !is_mark(walks_[i]) && ends_in_plane()) {
             if (goes_on_beneath(1 - i)) return connected(1 - i);
             if (are_flush(points_[0].surface, points_[1].surface)) return smooth();
+            const bool left_before = is_certainly_behind(i, gap[i]) && walks_[1 - i].end == WalkEnd::arrived &&
+                                     surfaces_.coincide(walks_[1 - i].surface, points_[i].surface);
+            if (left_before) {
+                if (const auto decision = leaves_plane(i)) return *decision;
+            }
         }
         return end_of_surface(i, gap[i], touching);
     }

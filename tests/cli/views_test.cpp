@@ -22,7 +22,9 @@ Image rendered(const TemporaryFolder& folder, const std::string& input,
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ProgramResult result = run_burin(folder.path(), arguments);
     EXPECT_EQ(result.status, 0) << result.err;
-    if (!result.err.empty()) EXPECT_EQ(result.err, "burin: note: no surface is seen in the picture; does the camera look at the scene?\n");
+    if (!result.err.empty()) {
+        EXPECT_EQ(result.err, "burin: note: no surface is seen in the picture; does the camera look at the scene?\n");
+    }
     return read_exr(folder.file("out.exr"));
 }
 

@@ -321,6 +321,23 @@ TEST(FlushFaces, AWallWithItsFootInAFloor) {
     }
 }
 
+// Its outline is a line between objects where its wall would face the eye and is buried, however low that is.
+TEST(FlushFaces, AnInlayHasOneClassPerEdge) {
+    const auto box = [](glm::dvec3 low, glm::dvec3 high) { return moved(make_box(high - low), 0.5 * (low + high)); };
+    for (int k = 0; k < 8; ++k) {
+        const double a = 0.2 + 0.1 * k;
+        const Camera camera = perspective_camera({6 * std::cos(a), 4.5, 6 * std::sin(a)}, {0, 0, 0}, 30);
+        const auto inlay = [&](double thickness) {
+            return Drawing(scene_of({box({-0.7, -thickness, -0.8}, {0.6, 0, 0.9}), box({-2, -1, -2}, {2, 0, 2})}), camera, kPx, kPx,
+                           {0, 0, kPx, kPx}, 2, render_abuffer);
+        };
+        const Drawing thick = inlay(0.5);
+        const double object_px = thick.sum(LineClass::object);
+        EXPECT_GT(object_px, 60) << k;
+        for (const double thickness : {0.004, 0.02, 0.05, 0.1}) EXPECT_NEAR(inlay(thickness).sum(LineClass::object), object_px, 3) << thickness << ' ' << k;
+    }
+}
+
 TEST(FlushFaces, OfTwoObjectsMeetInALine) {
     const Camera camera = perspective_camera({11, 13, 17}, {3, 3, 3}, 30);
     const Block a{{0, 0, 0}, {4, 3, 3}}, b{{2, 0, 0}, {6, 3, 3}};
