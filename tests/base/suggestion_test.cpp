@@ -1,0 +1,28 @@
+#include "base/suggestion.h"
+
+#include <gtest/gtest.h>
+
+namespace burin {
+namespace {
+
+TEST(Suggestion, DistanceCountsCharacters) {
+    EXPECT_EQ(edit_distance("", ""), 0u);
+    EXPECT_EQ(edit_distance("width", "width"), 0u);
+    EXPECT_EQ(edit_distance("width", ""), 5u);
+    EXPECT_EQ(edit_distance("widht", "width"), 2u);
+    EXPECT_EQ(edit_distance("shpe", "shape"), 1u);
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+    EXPECT_EQ(edit_distance("sitting", "kitten"), 3u);
+}
+
+TEST(Suggestion, OnlyWhatIsNear) {
+    const std::vector<std::string> known{"--line-width", "--lines", "--layers"};
+    EXPECT_EQ(closest_word("--line-widht", known), "--line-width");
+    EXPECT_EQ(closest_word("--line", known), "--lines");
+    EXPECT_EQ(closest_word("--output", known), std::nullopt);
+    EXPECT_EQ(closest_word("--lnies", known, 1), std::nullopt);
+    EXPECT_EQ(closest_word("x", {}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace burin
