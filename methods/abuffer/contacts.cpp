@@ -127,6 +127,7 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
 /// In view space.
 struct Contacts::FacePlane {
     glm::dvec3 corner, to_eye;  // a unit normal
+    bool is_counterclockwise;   // as seen
 
     double height(const glm::dvec3& p) const { return glm::dot(to_eye, p - corner); }
 };
@@ -136,8 +137,8 @@ Contacts::FacePlane Contacts::plane_of(SurfaceId s) const {
     glm::dvec3 c[3];
     surfaces.view_corners(s, c);
     const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
-    const glm::dvec3 to_eye = surfaces.projection.orthographic ? glm::dvec3(0, 0, 1) : -c[0];
-    return {c[0], normal * ((glm::dot(normal, to_eye) < 0 ? -1 : 1) / std::max(glm::length(normal), 1e-300))};
+    const bool turns_to_eye = glm::dot(normal, surfaces.projection.orthographic ? glm::dvec3(0, 0, 1) : -c[0]) >= 0;
+    return {c[0], normal * ((turns_to_eye ? 1 : -1) / std::max(glm::length(normal), 1e-300)), turns_to_eye};
 }
 
 /// Whether a part of a triangle is nearer to the eye than the plane of another one: asked in space, for beside a line snapping
@@ -152,32 +153,14 @@ bool Contacts::rises_in_front(SurfaceId s, SurfaceId of) const {
     });
 }
 
-/// On which side of a face its body is, by what goes on around it, or around its neighbours in its plane: 1 = towards the eye,
-/// -1 = away from it, 0 = nothing tells, as at a sheet. How polygons are wound does not count.
+/// On which side of a face its body is: 1 = towards the eye, -1 = away from it, 0 = it is a sheet.
 int Contacts::side_of_body(SurfaceId s) const {
-    constexpr std::size_t kMostTriangles = 32;  // of one face
-    const SurfaceSet& surfaces = screen_.surfaces();
-    const Mesh& mesh = surfaces.mesh_of(s);
-    const FacePlane plane = plane_of(s);
-    const auto position = [&](std::uint32_t v) { return surfaces.view_position(s.instance, v); };
-    std::vector<std::uint32_t> face{s.triangle};
-    double sum = 0;
-    for (std::size_t i = 0; i < face.size(); ++i) {
-        const HalfEdge first = 3 * face[i];
-        for (HalfEdge own = first; own < first + 3; ++own) {
-            const std::uint32_t a = mesh.triangles[face[i]][own - first], b = mesh.triangles[face[i]][(own - first + 1) % 3];
-            for (HalfEdge h = mesh.next_on_edge[own]; h != own; h = mesh.next_on_edge[h]) {
-                const auto& [p, q, r] = mesh.triangles[h / 3];
-                const double height = plane.height(position(p ^ q ^ r ^ a ^ b));
-                if (std::abs(height) > kErrors * surfaces.coordinate_error) {
-                    sum += std::copysign(glm::distance(position(a), position(b)), height);
-                } else if (face.size() < kMostTriangles && std::find(face.begin(), face.end(), h / 3) == face.end()) {
-                    face.push_back(h / 3);
-                }
-            }
-        }
-    }
-    return sum > 0 ? 1 : sum < 0 ? -1 : 0;
+    const SurfaceInstance& instance = screen_.surfaces().instance_of(s);
+    std::vector<std::int8_t>& sides = body_sides_[instance.mesh];
+    if (sides.empty()) sides = find_body_sides(*instance.mesh);
+    const bool is_mirrored = glm::determinant(glm::dmat3(instance.to_view)) < 0;
+    const int side = sides[s.triangle];
+    return plane_of(s).is_counterclockwise != is_mirrored ? side : -side;
 }
 
 /// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place.

@@ -213,15 +213,15 @@ class LayerEdgeFinder::Rules {
             HalfEdge half_edge = kNoHalfEdge;
             double towards_eye = 0;
         };
-        Front fronts[2];
+        Front fronts[2], edge_on;
         LineClassSet classes;
         for (HalfEdge g = h;;) {
             if (g < h) return;  // the first one of the ring stands for it
             if (mesh.is_marked(g)) classes |= LineClass::mark;
             const int side = side_at(s.instance, g, a, b);
-            const double towards_eye = side == 0 ? 0 : cosine_to_eye(s.instance, g);
-            Front& front = fronts[side > 0 ? 1 : 0];
-            if (side != 0 && (front.half_edge == kNoHalfEdge || towards_eye > front.towards_eye)) front = {g, towards_eye};
+            const double towards_eye = cosine_to_eye(s.instance, g);
+            Front& front = side == 0 ? edge_on : fronts[side > 0 ? 1 : 0];
+            if (front.half_edge == kNoHalfEdge || towards_eye > front.towards_eye) front = {g, towards_eye};
             g = mesh.next_on_edge[g];
             if (g == h) break;
         }
@@ -233,8 +233,25 @@ class LayerEdgeFinder::Rules {
             classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
             if (fronts[0].half_edge != fronts[1].half_edge) classes |= LineClass::silhouette;
         }
+        // A wall that is seen edge-on and rises towards the eye is in front on one side or the other.
+        for (const Front& front : fronts) {
+            if (front.half_edge == kNoHalfEdge || edge_on.half_edge == kNoHalfEdge || edge_on.towards_eye <= 0) continue;
+            const double cosine = -glm::dot(across_edge(s.instance, front.half_edge), across_edge(s.instance, edge_on.half_edge));
+            if (cosine >= criteria_.cos_crease_angle) continue;
+            classes |= LineClass::crease;
+            crease_cosine = std::min(crease_cosine, cosine);
+        }
         const std::uint32_t number = screen_.number_of(s);
         add(s, h, classes, crease_cosine, {number, number}, true, lines);
+    }
+
+    /// From an edge into its triangle, in view space: a unit vector.
+    glm::dvec3 across_edge(std::uint32_t instance, HalfEdge h) const {
+        const Mesh& mesh = surfaces_.mesh_of({instance, h / 3});
+        const glm::dvec3 p = surfaces_.view_position(instance, start_of(mesh, h));
+        const glm::dvec3 along = surfaces_.view_position(instance, end_of(mesh, h)) - p, v = surfaces_.view_position(instance, apex_of(mesh, h)) - p;
+        const glm::dvec3 across = v - along * (glm::dot(v, along) / glm::dot(along, along));
+        return across / std::max(glm::length(across), 1e-300);
     }
 
     /// Of the angle at an edge between its triangle and the way to the eye: of several triangles on one side, the greatest is
@@ -243,10 +260,9 @@ class LayerEdgeFinder::Rules {
         const Mesh& mesh = *surfaces_.instances[instance].mesh;
         const glm::dvec3 p = surfaces_.view_position(instance, start_of(mesh, h));
         const glm::dvec3 along = surfaces_.view_position(instance, end_of(mesh, h)) - p;
-        const auto across = [&](const glm::dvec3& v) { return v - along * (glm::dot(v, along) / glm::dot(along, along)); };
-        const glm::dvec3 own = across(surfaces_.view_position(instance, apex_of(mesh, h)) - p);
-        const glm::dvec3 to_eye = across(surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -p);
-        return glm::dot(own, to_eye) / std::sqrt(glm::dot(own, own) * glm::dot(to_eye, to_eye));
+        const glm::dvec3 v = surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -p;
+        const glm::dvec3 to_eye = v - along * (glm::dot(v, along) / glm::dot(along, along));
+        return glm::dot(across_edge(instance, h), to_eye) / std::max(glm::length(to_eye), 1e-300);
     }
 
     /// A part of a border, as shares of edge_on_screen() from its start, and what runs along it.

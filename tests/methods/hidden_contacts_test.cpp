@@ -112,6 +112,56 @@ TEST(HiddenContacts, WhatStandsOnTheOtherSideOfAFloor) {
     }
 }
 
+// An edge that two bodies have in common has the faces in front, as if corners were not shared.
+TEST(HiddenContacts, TheFootOfAnUprightAtTheEdgeOfAPlate) {
+    const auto bracket = [](double gap) {
+        return joined({moved(make_box({2, 1, 2}), {1, 0.5, 1}), moved(make_box({2, 1, 0.5}), {1, 1.5, 0.25 + gap})});
+    };
+    for (const glm::dvec3 direction : {glm::dvec3(5.77, -5.77, 5.77), {4, -5, 6.5}, {-4, -5.5, 5}}) {
+        const glm::dvec3 middle(1, 1, 1);
+        Camera camera = perspective_camera(middle + direction, middle);
+        camera.orthographic = true;
+        camera.height = 4;
+        for (const double gap : {0.0, 0.125}) {
+            Scene scene = scene_of({bracket(gap)});
+            scene.lines.style.hidden.style = HiddenStyle::solid;
+            const Image image = draw(scene, camera);
+            const Frame frame = make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize});
+            int found = 0;
+            for (int i = 1; i < 20; ++i) {
+                const glm::dvec2 at = pixel_of(frame, camera, {0.1 * i, 1, 0.5 + gap});
+                double ink = 0;
+                for (int y = -1; y <= 1; ++y) {
+                    for (int x = -1; x <= 1; ++x) ink = std::max(ink, value(image, "lines_hidden.A", static_cast<int>(at.x) + x, static_cast<int>(at.y) + y));
+                }
+                found += ink > 0.3;
+            }
+            EXPECT_EQ(found, 19) << direction.x << ", " << gap;
+        }
+    }
+}
+
+// Cells of a heap share edges; walls between them that are seen edge-on are walls all the same.
+TEST(HiddenContacts, ANotchOfCellsSeenAlongItsWalls) {
+    const auto cell = [](int x, int y, int z) { return moved(make_box({1, 1, 1}), {x + 0.5, y + 0.5, z + 0.5}); };
+    const PolygonSoup cells = joined({cell(0, 0, 0), cell(0, 0, 1), cell(0, 0, 2), cell(1, 0, 0), cell(1, 0, 2)});
+    for (const double tilt : {0.0, 0.01}) {
+        const glm::dvec3 middle(1, 0.5, 1.5);
+        Camera camera = perspective_camera(middle + glm::dvec3(tilt, 0, -10), middle);
+        camera.orthographic = true;
+        camera.height = 4;
+        Scene scene = scene_of({cells});
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        const Image image = draw(scene, camera);
+        // The notch's inner edge, in the middle of the picture: 60 px.
+        double ink = 0;
+        for (int y = kSize / 2 - 28; y < kSize / 2 + 28; ++y) {
+            for (int x = kSize / 2 - 3; x < kSize / 2 + 3; ++x) ink += value(image, "lines_hidden.A", x, y);
+        }
+        EXPECT_GT(ink, 55) << tilt;  // tilted, its upper and lower edge are a bit apart
+    }
+}
+
 // What dips below a floor at a third of a degree is hidden from where they meet, not from 1/16 pixel below it.
 TEST(HiddenContacts, BeginWhereSurfacesCrossAtASlightAngle) {
     constexpr double kSlope = 0.005;

@@ -1,0 +1,71 @@
+#include "mesh/body_sides.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "mesh/build_meshes.h"
+#include "mesh/shapes.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using test::Random;
+
+/// With each polygon turned around or not.
+Mesh mesh_of(const PolygonSoup& soup, const std::function<bool(std::size_t)>& is_turned) {
+    PolygonSoup result;
+    result.positions = soup.positions;
+    for (std::size_t i = 0; i < soup.polygon_count(); ++i) {
+        std::vector<std::uint32_t> corners(soup.polygon(i).begin(), soup.polygon(i).end());
+        if (is_turned(i)) std::reverse(corners.begin(), corners.end());
+        result.add_polygon(corners);
+    }
+    return build_meshes(result, {}).front();
+}
+
+PolygonSoup two_boxes(glm::dvec3 apart) {
+    PolygonSoup both = make_box({2, 1, 2});
+    const PolygonSoup one = make_box({2, 1, 2});
+    const auto first = static_cast<std::uint32_t>(both.positions.size());
+    for (const glm::dvec3& p : one.positions) both.positions.push_back(p + apart);
+    for (std::size_t i = 0; i < one.polygon_count(); ++i) {
+        std::vector<std::uint32_t> corners(one.polygon(i).begin(), one.polygon(i).end());
+        for (std::uint32_t& c : corners) c += first;
+        both.add_polygon(corners);
+    }
+    return both;
+}
+
+// Also where two bodies share an edge or a corner.
+TEST(BodySides, OfClosedBodiesHoweverTheyAreWound) {
+    for (const PolygonSoup& soup : {make_box({1, 2, 0.001}), make_sphere(1, 12, 8), make_cylinder(1, 0, 2, 5), two_boxes({0, 1, 2}), two_boxes({2, 1, 2}), two_boxes({9, 0, 0})}) {
+        for (int seed = 0; seed < 20; ++seed) {
+            Random random(static_cast<std::uint64_t>(seed));
+            std::vector<bool> turned;
+            for (std::size_t i = 0; i < soup.polygon_count(); ++i) turned.push_back(seed > 0 && (seed == 1 || random.bits() % 2 != 0));
+            const Mesh mesh = mesh_of(soup, [&](std::size_t i) { return turned[i]; });
+            const auto sides = find_body_sides(mesh);
+            ASSERT_EQ(sides.size(), mesh.triangles.size());
+            for (std::uint32_t t = 0; t < sides.size(); ++t) {
+                ASSERT_EQ(sides[t], turned[mesh.polygon_of(t)] ? 1 : -1) << seed << ", triangle " << t;
+            }
+        }
+    }
+}
+
+TEST(BodySides, AnOpenBoxIsABodyAndASheetIsNone) {
+    PolygonSoup open, sheet;
+    const PolygonSoup box = make_box({1, 1, 1});
+    open.positions = sheet.positions = box.positions;
+    for (std::size_t i = 0; i + 1 < box.polygon_count(); ++i) open.add_polygon(box.polygon(i));
+    sheet.add_polygon(box.polygon(2));
+    for (const std::int8_t side : find_body_sides(mesh_of(open, [](std::size_t) { return false; }))) EXPECT_EQ(side, -1);
+    for (const std::int8_t side : find_body_sides(mesh_of(sheet, [](std::size_t) { return false; }))) EXPECT_EQ(side, 0);
+}
+
+}  // namespace
+}  // namespace burin
