@@ -68,25 +68,29 @@ void resolve_visibility(std::span<const Fragment<Mask>> fragments, const Extende
             visible.owner[sample] = i;
         });
     }
-    // The first fragment that takes the place of the one that owns a sample. Going backwards, it is set last.
+    // Goes through the list and lets fragments take the places of those that own a sample.
     const auto settle = [&](const auto& takes_place) {
-        const auto owners = visible.owner;
-        for (std::uint32_t i = background; i-- > 0;) {
+        for (std::uint32_t i = 0; i < background; ++i) {
             const DepthPlane& plane = plane_of(fragments[i]);
             for_each_sample(fragments[i].mask, [&](std::size_t sample, glm::dvec2 position) {
-                const std::uint32_t owner = owners[sample];
+                const std::uint32_t owner = visible.owner[sample];
                 if (owner == i) return;
                 const double nearness = plane.nearness(position);
-                if (are_close(nearest[sample] - nearness, plane, plane_of(fragments[owner]), nearness) && takes_place(i, owner)) {
-                    visible.owner[sample] = i;
-                }
+                const DepthPlane& other = plane_of(fragments[owner]);
+                if (are_close(nearest[sample] - nearness, plane, other, nearness) && takes_place(i, owner)) visible.owner[sample] = i;
             });
         }
     };
     if (any_close) {
-        const auto order = [&](std::uint32_t i, std::uint32_t owner) { return order_of(fragments[i], fragments[owner]); };
-        settle([&](std::uint32_t i, std::uint32_t owner) { return order(i, owner).is_in_front(); });
-        settle([&](std::uint32_t i, std::uint32_t owner) { return i < owner && order(i, owner).are_coincident(); });
+        // Planes that are one within this many pixels need not be asked which is in front.
+        constexpr double kAroundPx = 64;
+        const auto are_one = [](const DepthPlane& a, const DepthPlane& b) {
+            return kAroundPx * (std::abs(a.per_x - b.per_x) + std::abs(a.per_y - b.per_y)) <= a.snapping_error() + b.snapping_error();
+        };
+        settle([&](std::uint32_t i, std::uint32_t owner) {
+            return !are_one(plane_of(fragments[i]), plane_of(fragments[owner])) && order_of(fragments[i], fragments[owner]).is_in_front();
+        });
+        settle([&](std::uint32_t i, std::uint32_t owner) { return i < owner && order_of(fragments[i], fragments[owner]).are_coincident(); });
     }
     for (int row = 0; row < kSide; ++row) {
         for (int column = 0; column < kSide; ++column) {

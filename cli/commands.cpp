@@ -395,7 +395,7 @@ void run_render(const Arguments& a) {
     }
     watch.lap();
     const bool counts = (method.name == "abuffer" || method.name == "patel") && !a.crop;
-    if (counts && times.render.fragments == 0 && !a.quiet) std::fputs("burin: note: no surface is seen in the picture; does the camera look at the scene?\n", stderr);
+    if (counts && times.render.fragments == 0 && !a.quiet) std::fputs("burin: note: no sample of the picture sees a surface; does the camera look at the scene?\n", stderr);
     if (writer) {
         writer->finish();
     } else {

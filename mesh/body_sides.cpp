@@ -21,6 +21,7 @@ std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
         sides[start] = 1;
         body.assign(1, start);
         double volume = 0, area = 0;  // six times, twice
+        bool has_border = false;
         const glm::dvec3 origin(mesh.positions[mesh.triangles[start][0]]);
         glm::dvec3 area_vector(0.0), moment(0.0);
         for (std::size_t i = 0; i < body.size(); ++i) {
@@ -34,6 +35,7 @@ std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
             moment += (a + b + c) * (glm::length(own) / 3);
             for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
                 const HalfEdge g = mesh.next_on_edge[h];
+                has_border = has_border || g == h;
                 if (g == h || mesh.next_on_edge[g] != h || sides[g / 3] != 0) continue;
                 const bool runs_against = mesh.triangles[g / 3][g % 3] != corners[h - 3 * t];
                 sides[g / 3] = static_cast<std::int8_t>(runs_against ? sides[t] : -sides[t]);
@@ -43,7 +45,8 @@ std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
         // As seen from the middle, which matters where the body is open.
         if (area > 0) volume -= glm::dot(moment / area, area_vector);
         const double least = kLeastVolume * 6 * std::pow(0.5 * area, 1.5);
-        const int body_side = volume > least ? -1 : volume < -least ? 1 : 0;
+        // A face between edges of more than two triangles is a part of a body: it is believed as it is wound.
+        const int body_side = volume > least ? -1 : volume < -least ? 1 : has_border ? 0 : -1;
         for (const std::uint32_t t : body) sides[t] = body_side == 0 ? kSheet : static_cast<std::int8_t>(sides[t] * body_side);
     }
     std::replace(sides.begin(), sides.end(), kSheet, std::int8_t{0});

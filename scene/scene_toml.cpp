@@ -138,7 +138,6 @@ class SceneReader {
             camera.direction = t.vector("direction");
             if (camera.eye && camera.direction) t.fail("direction", "cannot stand beside an eye; remove one");
             camera.height = t.number("height", kPositive);
-            if (camera.height && t.has("fov")) t.fail("fov", "cannot stand beside a height; remove one");
             camera.fov_deg = t.number("fov", {0, 180, true, true}).value_or(35);
             if (camera.height && projection == 0u) {
                 t.fail("height", "a perspective camera has none; use fov, or another projection");
@@ -271,7 +270,9 @@ class SceneReader {
         for (const std::string& text : texts) {
             for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
                 end = text.find(',', begin);
-                result.push_back(text.substr(begin, end - begin));
+                const std::string part = text.substr(begin, end - begin);
+                const std::size_t first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
+                result.push_back(first == std::string::npos ? part : part.substr(first, last + 1 - first));
             }
         }
         return result;
@@ -427,7 +428,7 @@ std::optional<toml::table> parse_value(const Override& o, const std::string& tex
 /// Numbers as options take them, in TOML: ".5" is 0.5; "1,2,3" and "400x300" are lists. Nothing for other texts and for what
 /// is a text by its key.
 std::optional<std::string> numbers_in_toml(std::string_view key, std::string_view text) {
-    for (const std::string_view name : {"name", "file", "material"}) {
+    for (const std::string_view name : {"name", "file", "material", "highlight"}) {
         if (key.ends_with(name)) return std::nullopt;
     }
     const bool is_list = text.starts_with('[') && text.ends_with(']');
@@ -440,6 +441,9 @@ std::optional<std::string> numbers_in_toml(std::string_view key, std::string_vie
         std::string_view part = text.substr(begin, end - begin);
         while (part.starts_with(' ')) part.remove_prefix(1);
         while (part.ends_with(' ')) part.remove_suffix(1);
+        if (part.starts_with('+')) part.remove_prefix(1);
+        // 001122 is rather a colour.
+        if (part.size() > 1 && part[0] == '0' && part.find_first_not_of("0123456789") == std::string_view::npos) return std::nullopt;
         const auto [last, error] = std::from_chars(part.data(), part.data() + part.size(), value);
         if (error != std::errc() || last != part.data() + part.size() || !std::isfinite(value)) return std::nullopt;
         char number[40];

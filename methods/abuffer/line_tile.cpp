@@ -152,9 +152,24 @@ const LineTile::Relation& LineTile::relation(std::uint32_t loser, std::uint32_t 
     if (relations_.empty()) relations_.resize(kRemembered);
     Relation& r = relations_[(loser * 31u + winner) % kRemembered];
     if (r.loser == loser && r.winner == winner) return r;
-    const SurfaceOrder o = order(loser, winner);
+    SurfaceOrder o;
+    if (loser < winner || may_be_in_front(loser, winner)) o = order(loser, winner);
     r = {loser, winner, o.is_in_front(), is_fold_over(loser, winner), loser < winner && o.are_coincident()};
     return r;
+}
+
+/// Whether a part of `back` is behind the plane of `front` by more than snapping does: else the order of the two, which takes
+/// longer, need not be asked for.
+bool LineTile::may_be_in_front(std::uint32_t front, std::uint32_t back) const {
+    if (screen_.facing(front) == off_screen || screen_.facing(back) == off_screen) return true;
+    if (screen_.facing(front) == edge_on) return false;
+    const ScreenTriangle plane = screen_.triangle(screen_.surface_of(front)), other = screen_.triangle(screen_.surface_of(back));
+    const ScreenVertex& origin = plane.corners[0];
+    const double here = extended_nearness(plane, origin.x, origin.y);
+    const double snapping = std::abs(extended_nearness(plane, origin.x + 1, origin.y) - here) + std::abs(extended_nearness(plane, origin.x, origin.y + 1) - here);
+    return std::any_of(std::begin(other.corners), std::end(other.corners), [&](const ScreenVertex& corner) {
+        return extended_nearness(plane, corner.x, corner.y) - static_cast<double>(corner.nearness) > snapping;
+    });
 }
 
 /// Whether two neighbours lie on one side of their common edge, and `front` in front of the other one.

@@ -46,6 +46,7 @@ class LineTile {
     };
     const Relation& relation(std::uint32_t loser, std::uint32_t winner);
     bool is_fold_over(std::uint32_t front, std::uint32_t back) const;
+    bool may_be_in_front(std::uint32_t front, std::uint32_t back) const;
     SurfaceOrder order(std::uint32_t loser, std::uint32_t winner) const;
     void order_runs(std::size_t tile);
     void draw_large_ones(std::size_t tile);

@@ -122,14 +122,14 @@ TEST(Visibility, OnAnEdgeTheSurfaceInFrontWinsWhateverRoundingDoes) {
     for (int trial = 0; trial < 300; ++trial) {
         Random random(static_cast<std::uint64_t>(trial));
         Pixel pixel;
-        const DepthPlane plane = slanted(random);
-        const int front = random.integer(0, 3);
+        const int front = random.integer(0, 3), sample = random.integer(0, 63);
+        const glm::dvec2 at = kGrid.position(10, 20, sample / 8, sample % 8);
         for (int i = 0; i < 4; ++i) {
-            DepthPlane noisy = plane;
-            noisy.at_origin += random.real(-1e-9, 1e-9);
-            pixel.add(~Mask{0}, noisy, 1, i == front ? 0 : 1);
+            DepthPlane plane = slanted(random);
+            plane.at_origin += random.real(-1e-9, 1e-9) - plane.extended_to(at);
+            pixel.add(Mask{1} << sample, plane, 1, i == front ? 0 : random.integer(1, 3));
         }
-        EXPECT_EQ(pixel.resolve().masks[static_cast<std::size_t>(front)], ~Mask{0}) << trial;
+        EXPECT_EQ(pixel.resolve().owner[static_cast<std::size_t>(sample)], static_cast<std::uint32_t>(front)) << trial;
     }
 }
 

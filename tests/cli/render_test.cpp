@@ -439,7 +439,7 @@ TEST_F(Render, WhatIsSaidOnTheWay) {
         EXPECT_NE(unused.find(part), std::string::npos) << unused;
     }
     EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--eye", "9,9,9", "--target", "18,18,18"}).err,
-              "burin: note: no surface is seen in the picture; does the camera look at the scene?\n");
+              "burin: note: no sample of the picture sees a surface; does the camera look at the scene?\n");
     EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--bits", "16"}).err,
               "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n");
     const std::string hidden = run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-m", "patel", "--operator", "id",

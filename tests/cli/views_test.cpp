@@ -23,7 +23,7 @@ Image rendered(const TemporaryFolder& folder, const std::string& input,
     const ProgramResult result = run_burin(folder.path(), arguments);
     EXPECT_EQ(result.status, 0) << result.err;
     if (!result.err.empty()) {
-        EXPECT_EQ(result.err, "burin: note: no surface is seen in the picture; does the camera look at the scene?\n");
+        EXPECT_EQ(result.err, "burin: note: no sample of the picture sees a surface; does the camera look at the scene?\n");
     }
     return read_exr(folder.file("out.exr"));
 }

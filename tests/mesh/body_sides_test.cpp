@@ -67,5 +67,31 @@ TEST(BodySides, AnOpenBoxIsABodyAndASheetIsNone) {
     for (const std::int8_t side : find_body_sides(mesh_of(sheet, [](std::size_t) { return false; }))) EXPECT_EQ(side, 0);
 }
 
+// All edges of the face in the middle are edges of three or four.
+TEST(BodySides, AFaceBetweenCellsIsOneOfABody) {
+    PolygonSoup cells;
+    for (int x = -1; x <= 1; ++x) {
+        for (int y = -1; y <= 1; ++y) {
+            const PolygonSoup box = make_box({1, 1, 1});
+            const auto first = static_cast<std::uint32_t>(cells.positions.size());
+            for (const glm::dvec3& p : box.positions) cells.positions.push_back(p + glm::dvec3(x, y, 0));
+            for (std::size_t i = 0; i < box.polygon_count(); ++i) {
+                std::vector<std::uint32_t> corners(box.polygon(i).begin(), box.polygon(i).end());
+                for (std::uint32_t& c : corners) c += first;
+                cells.add_polygon(corners);
+            }
+        }
+    }
+    const Mesh mesh = build_meshes(cells, {}).front();
+    const auto sides = find_body_sides(mesh);
+    for (std::uint32_t t = 0; t < sides.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        const bool is_front = mesh.positions[a].z > 0 && mesh.positions[b].z > 0 && mesh.positions[c].z > 0;
+        if (is_front) {
+            EXPECT_EQ(sides[t], -1) << t;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace burin

@@ -78,6 +78,9 @@ TEST(Overrides, NumbersAreWrittenAsInOptions) {
     EXPECT_EQ(picture.width, 400);
     EXPECT_EQ(picture.height, 300);
     EXPECT_EQ(text.read({{"lines.draw", "silhouette,crease"}}).lines.classes, LineClassSet(LineClass::silhouette) | LineClass::crease);
+    EXPECT_EQ(text.read({{"lines.draw", "silhouette, crease"}}).lines.classes, LineClassSet(LineClass::silhouette) | LineClass::crease);
+    EXPECT_EQ(text.read({{"camera.0.eye", "+.5,1,2"}}).cameras[0].eye, glm::dvec3(0.5, 1, 2));
+    EXPECT_EQ(text.read({{"zbuffer.highlight", "01"}}).zbuffer.highlight_objects, std::vector<std::string>{"01"});
     EXPECT_EQ(text.read({{"object.0.name", "2x4"}}).objects[0].name, "2x4");
     EXPECT_EQ(text.read({{"object.0.name", "1,2"}}).objects[0].name, "1,2");
 }

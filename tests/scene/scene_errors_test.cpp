@@ -155,7 +155,6 @@ TEST(SceneErrors, ThingsThatDoNotGoTogether) {
         {"file='x.obj'", "2:9", "shape: cannot stand beside a file; remove one"},
         {"[[object]]\nname='x'", "3:1", "needs either a file or a shape"},
         {"matrix=[1,0,0,0, 0,0,0,0, 0,0,1,0, 0,0,0,1]", "3:8", "makes everything flat"},
-        {"[[camera]]\nfov=30\nheight=3", "4:5", "fov: cannot stand beside a height"},
         {"[lines.hidden]\nstyle='dash'", "4:7", "[lines.hidden] style: must be one of"},
         {"[[object]]\nshpe='box'", "4:6", "shpe: unknown key; did you mean 'shape'?"},
         {"matrix=[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\nscale=2", "4:7",
