@@ -46,6 +46,12 @@ struct Sides {
     static double length_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
     double lowest() const { return std::min({of_corner[0], of_corner[1], of_corner[2]}); }
     double highest() const { return std::max({of_corner[0], of_corner[1], of_corner[2]}); }
+    bool is_cut() const { return lowest() < -slack && highest() > slack; }
+    /// Two corners in the plane and the third one behind it: of the two triangles at an edge, this one stands for both.
+    bool has_edge_in_plane() const {
+        return lowest() < -slack && highest() <= slack &&
+               std::count_if(of_corner.begin(), of_corner.end(), [&](double side) { return side >= -slack; }) == 2;
+    }
 };
 
 struct Range {
@@ -138,17 +144,31 @@ ScreenBox IntersectionTest::box_of(const Triangle& t) {
     return {below(low.x), below(low.y), above(high.x), above(high.y), below(low.z), above(high.z)};
 }
 
-bool IntersectionTest::may_intersect(const Triangle& p, const Triangle& q) const {
+IntersectionTest::Meeting IntersectionTest::meeting(const Triangle& p, const Triangle& q) const {
     const Sides of_q(p, q, kRounding * extent_);
-    if (of_q.lowest() >= -of_q.slack || of_q.highest() <= of_q.slack) return false;
+    if (!of_q.is_cut() && !of_q.has_edge_in_plane()) return Meeting::none;
     const Sides of_p(q, p, kRounding * extent_);
-    if (of_p.lowest() >= -of_p.slack || of_p.highest() <= of_p.slack) return false;
+    if (!of_p.is_cut() && !of_p.has_edge_in_plane()) return Meeting::none;
     // Each passes through the other's plane along one line (Moller 1997); do they meet there?
     const glm::dvec3 along = glm::cross(of_q.normal, of_p.normal);
     const Range one = passage(q, of_q, along), other = passage(p, of_p, along);
     const double slack = kRounding * extent_ * Sides::length_of(along);
-    return one.low <= other.high + slack && other.low <= one.high + slack &&
-           overlap(box_of(p), box_of(q));
+    const bool meet = one.low <= other.high + slack && other.low <= one.high + slack && overlap(box_of(p), box_of(q));
+    if (!meet) return Meeting::none;
+    return of_q.is_cut() && of_p.is_cut() ? Meeting::through : Meeting::along_edge;
+}
+
+/// Whether a triangle is cut by the plane of another one, or has an edge in it and its neighbour there on the other side.
+bool IntersectionTest::goes_on_beyond(SurfaceId s, SurfaceId plane) const {
+    const Triangle own = triangle(s), other = triangle(plane);
+    const Sides sides(other, own, kRounding * extent_);
+    if (sides.is_cut()) return true;
+    const auto third = static_cast<HalfEdge>(std::min_element(sides.of_corner.begin(), sides.of_corner.end()) - sides.of_corner.begin());
+    const Mesh& mesh = *places_[s.instance].mesh;
+    const HalfEdge edge = 3 * s.triangle + (third + 1) % 3, partner = mesh.next_on_edge[edge];
+    if (partner == edge || mesh.next_on_edge[partner] != edge) return false;
+    const Sides beyond(other, triangle({s.instance, partner / 3}), kRounding * extent_);
+    return beyond.highest() > beyond.slack;
 }
 
 std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& scene, const TileKernels& kernels, int threads) {
@@ -188,9 +208,11 @@ std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& sce
             const std::uint64_t pairs = kernels.find_unconnected(corner_lists, first, second, overlapping);
             tests += static_cast<std::uint64_t>(std::popcount(pairs));
             BoxTree::for_bits(pairs, [&](std::uint32_t i, std::uint32_t k) {
-                if (!test.may_intersect(triangle(first + i), triangle(second + k))) return;
+                const auto meeting = test.meeting(triangle(first + i), triangle(second + k));
+                if (meeting == IntersectionTest::Meeting::none) return;
                 const auto [a, b] = std::minmax(tree.order()[first + i], tree.order()[second + k]);
-                found[task].push_back({triangles.surface(a), triangles.surface(b)});
+                const SurfacePair pair{triangles.surface(a), triangles.surface(b)};
+                if (meeting == IntersectionTest::Meeting::through || test.may_intersect(pair.first, pair.second)) found[task].push_back(pair);
             });
         });
         test_count += tests;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
@@ -17,9 +18,18 @@ class IntersectionTest {
 
     explicit IntersectionTest(const Scene& scene);
 
-    /// Whether they do, by more than rounding, or almost. Triangles that touch do not count.
-    bool may_intersect(SurfaceId a, SurfaceId b) const { return may_intersect(triangle(a), triangle(b)); }
-    bool may_intersect(const Triangle& p, const Triangle& q) const;
+    enum class Meeting : std::uint8_t {
+        none,        ///< they are apart, or touch
+        through,     ///< they pass through each other, by more than rounding, or almost
+        along_edge,  ///< so they would, but an edge of one lies in the other's plane, to rounding, and the rest of it on one side
+    };
+    Meeting meeting(const Triangle& p, const Triangle& q) const;
+    /// Whether two triangles pass through each other, or the surface of one does along its edge, which then stands for one of
+    /// the two triangles there.
+    bool may_intersect(SurfaceId a, SurfaceId b) const {
+        const Meeting m = meeting(triangle(a), triangle(b));
+        return m == Meeting::through || (m == Meeting::along_edge && goes_on_beyond(a, b) && goes_on_beyond(b, a));
+    }
 
     /// A vertex of an object, from the scene's middle.
     glm::dvec3 position(std::uint32_t object, std::uint32_t vertex) const {
@@ -39,6 +49,7 @@ class IntersectionTest {
         glm::dvec3 origin;
     };
     Triangle triangle(SurfaceId s) const;
+    bool goes_on_beyond(SurfaceId s, SurfaceId plane) const;
 
     std::vector<Place> places_;  // per object
     double extent_ = 0;

@@ -100,27 +100,99 @@ void IntersectionLines::add_pair(const SurfacePair& pair, std::vector<LayerLine>
     }
 }
 
-void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {
-    // Whether the corners of one lie on both sides of the other's plane, for certain. What counts as certain grows with
-    // the nearness, which is great at corners that are cut off beside the eye.
-    const auto reaches_through = [&](const LayerTriangle& plane, const LayerTriangle& corners) {
-        bool is_behind = false, is_in_front = false;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::dvec2 p(corners.x[k], corners.y[k]);
-            const double nearness = corners.nearness_at(p), gap = plane.nearness_at(p) - nearness;
-            const double slack = plane.slack + corners.slack + level_slack(frame_.surfaces, nearness);
-            is_behind |= gap > slack;
-            is_in_front |= gap < -slack;
-        }
-        return is_behind && is_in_front;
-    };
-    if (!reaches_through(a, b) || !reaches_through(b, a)) return;
+/// How the corners of a triangle lie to the plane of another one, for certain. What counts as certain grows with the nearness,
+/// which is great at corners that are cut off beside the eye.
+struct IntersectionLines::Passage {
+    bool is_behind = false, is_in_front = false;
+    std::optional<std::size_t> edge_in_plane;  // the corner where it begins; the third one is not in the plane
 
+    bool is_cut() const { return is_behind && is_in_front; }
+};
+
+IntersectionLines::Passage IntersectionLines::passage(const LayerTriangle& plane, const LayerTriangle& corners) const {
+    Passage result;
+    std::size_t certain_count = 0, certain = 0;
+    const auto gap_at = [&](glm::dvec2 p, double nearness) {  // 0: not certain
+        const double gap = plane.nearness_at(p) - nearness;
+        return std::abs(gap) > plane.slack + corners.slack + level_slack(frame_.surfaces, nearness) ? gap : 0;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec2 p(corners.x[k], corners.y[k]);
+        const double gap = gap_at(p, corners.nearness_at(p));
+        result.is_behind |= gap > 0;
+        result.is_in_front |= gap < 0;
+        if (gap == 0) continue;
+        ++certain_count;
+        certain = k;
+    }
+    if (certain_count != 1 || screen_.facing(corners.number) == off_screen) return result;
+    // The surface passes through the plane along the edge, if it goes on behind it.
+    const std::size_t k = (certain + 1) % 3;
+    const auto partner = partner_over(screen_, corners, k);
+    if (!partner) return result;
+    const ScreenMesh& mesh = screen_.mesh(corners.instance);
+    const ScreenVertex& apex = mesh.vertices[mesh.corners[*partner - *partner % 3 + (*partner + 2) % 3]];
+    if (apex.x == ScreenVertex::kOffScreen) return result;
+    const double beyond = gap_at({apex.x, apex.y}, static_cast<double>(apex.nearness));
+    if (result.is_behind ? beyond < 0 : beyond > 0) result.edge_in_plane = k;
+    return result;
+}
+
+void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {
+    const Passage of_b = passage(a, b), of_a = passage(b, a);
+    LayerLine line;
+    bool has_line = false;
+    if (of_a.is_cut() && of_b.is_cut()) {
+        has_line = cut(a, b, line);
+    } else if (of_a.edge_in_plane && (of_b.is_cut() || of_b.edge_in_plane)) {
+        has_line = cut_edge(a, *of_a.edge_in_plane, b, line);
+    } else if (of_b.edge_in_plane && of_a.is_cut()) {
+        has_line = cut_edge(b, *of_b.edge_in_plane, a, line);
+    }
+    if (!has_line) return;
+    const glm::dvec2 low_end = glm::min(line.from, line.to), high_end = glm::max(line.from, line.to);
+    if (high_end.x < low_.x || high_end.y < low_.y || low_end.x > high_.x || low_end.y > high_.y) return;
+    line.owners = {a.number, b.number};
+    const SurfaceId sa = screen_.surface_of(a.number), sb = screen_.surface_of(b.number);
+    if (frame_.surfaces.polygon_id(sa) == frame_.surfaces.polygon_id(sb)) return;
+    const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, 0.5 * (line.from + line.to) / 256.0, frame_.criteria);
+    const LineClassSet classes =
+        (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;
+    if (classes.empty()) return;
+    line.classes = classes;
+    line.drawn_as = *classes.first();
+    lines.push_back(line);
+}
+
+/// The part of an edge of one triangle within another one, in whose plane it lies.
+bool IntersectionLines::cut_edge(const LayerTriangle& owner, std::size_t corner, const LayerTriangle& other, LayerLine& line) {
+    const std::size_t second = (corner + 1) % 3;
+    const glm::dvec2 from(owner.x[corner], owner.y[corner]), to(owner.x[second], owner.y[second]);
+    double begin = 0, end = 1;
+    const auto node_of_vertex = [&](std::size_t k) { return std::uint64_t{owner.instance} << 32 | owner.vertices[k]; };
+    line.nodes = {node_of_vertex(corner), node_of_vertex(second)};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
+        const glm::dvec2 p(other.x[k], other.y[k]), edge = glm::dvec2(other.x[next], other.y[next]) - p;
+        const double first_begin = begin, first_end = end;
+        if (!clip_where_positive(cross(edge, from - p), cross(edge, to - p), begin, end)) return false;
+        if (begin != first_begin) line.nodes[0] = node_of(other, k, owner);
+        if (end != first_end) line.nodes[1] = node_of(other, k, owner);
+    }
+    line.from = glm::mix(from, to, begin);
+    line.to = glm::mix(from, to, end);
+    line.nearness_from = owner.nearness_at(line.from);
+    line.nearness_to = owner.nearness_at(line.to);
+    return true;
+}
+
+/// The line in which two triangles pass through each other.
+bool IntersectionLines::cut(const LayerTriangle& a, const LayerTriangle& b, LayerLine& line) {
     // Both planes meet where gap(p) = offset + slope.p = 0; from there, the part within both triangles.
     const glm::dvec2 slope(a.per_x - b.per_x, a.per_y - b.per_y);
     const glm::dvec2 origin(a.x[0], a.y[0]);
     const double square = glm::dot(slope, slope);
-    if (!(square > 0)) return;
+    if (!(square > 0)) return false;
     const glm::dvec2 foot = origin - slope * ((a.nearness_at(origin) - b.nearness_at(origin)) / square);
     const glm::dvec2 along = glm::dvec2(-slope.y, slope.x) / std::sqrt(square);
     double begin = -1e300, end = 1e300;
@@ -136,7 +208,7 @@ void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std:
             const glm::dvec2 edge = glm::dvec2(own->x[next], own->y[next]) - p;
             const double inside = cross(edge, foot - p), change = cross(edge, along);
             if (change == 0) {
-                if (inside < 0) return;
+                if (inside < 0) return false;
                 continue;
             }
             const double t = -inside / change;
@@ -147,27 +219,15 @@ void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std:
                 end = t;
                 last = {own, other, k};
             }
-            if (!(begin < end)) return;
+            if (!(begin < end)) return false;
         }
     }
-    LayerLine line;
     line.from = foot + along * begin;
     line.to = foot + along * end;
-    const glm::dvec2 low_end = glm::min(line.from, line.to), high_end = glm::max(line.from, line.to);
-    if (high_end.x < low_.x || high_end.y < low_.y || low_end.x > high_.x || low_end.y > high_.y) return;
     line.nearness_from = a.nearness_at(line.from);
     line.nearness_to = a.nearness_at(line.to);
-    line.owners = {a.number, b.number};
     line.nodes = {first.node(), last.node()};
-    const SurfaceId sa = screen_.surface_of(a.number), sb = screen_.surface_of(b.number);
-    if (frame_.surfaces.polygon_id(sa) == frame_.surfaces.polygon_id(sb)) return;
-    const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, 0.5 * (line.from + line.to) / 256.0, frame_.criteria);
-    const LineClassSet classes =
-        (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;
-    if (classes.empty()) return;
-    line.classes = classes;
-    line.drawn_as = *classes.first();
-    lines.push_back(line);
+    return true;
 }
 
 }  // namespace burin

@@ -27,7 +27,11 @@ class IntersectionLines {
     static bool is_before(const LayerLine& a, const LayerLine& b);
 
   private:
+    struct Passage;
+    Passage passage(const LayerTriangle& plane, const LayerTriangle& corners) const;
     void add_pair(const SurfacePair& pair, std::vector<LayerLine>& lines) const;
+    static bool cut(const LayerTriangle& a, const LayerTriangle& b, LayerLine& line);
+    static bool cut_edge(const LayerTriangle& owner, std::size_t corner, const LayerTriangle& other, LayerLine& line);
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;

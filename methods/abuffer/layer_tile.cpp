@@ -430,11 +430,13 @@ LayerTile::SidePlane LayerTile::side_plane(const Corners& corners) const {
     return plane;
 }
 
-/// Whether a plane does not reach through a triangle, by more than snapping does; neither need be set up for that.
+/// Whether a plane does not reach through a triangle, by more than snapping does, nor has an edge of it; neither need be set up
+/// for that.
 bool LayerTile::is_on_one_side(const SidePlane& plane, const Corners& corners) const {
     if (!plane.is_on_screen) return false;
     const ScreenVertex* const v = screen_.vertices(0);
     double low = 0, high = 0;
+    int in_plane = 0;
     for (const std::uint32_t vertex : corners) {
         const ScreenVertex& p = v[vertex];
         if (p.x == ScreenVertex::kOffScreen) return false;
@@ -442,8 +444,9 @@ bool LayerTile::is_on_one_side(const SidePlane& plane, const Corners& corners) c
                            plane.per_nearness * (static_cast<double>(p.nearness) - plane.nearness);
         low = std::min(low, gap);
         high = std::max(high, gap);
+        in_plane += std::abs(gap) <= plane.slack;
     }
-    return low >= -plane.slack || high <= plane.slack;
+    return (low >= -plane.slack || high <= plane.slack) && in_plane != 2;
 }
 
 }  // namespace burin

@@ -29,30 +29,33 @@ bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
     return area != 0;
 }
 
+/// The half-edge of the triangle itself after a corner.
+HalfEdge half_edge_at(const ScreenSurfaces& screen, const LayerTriangle& t, std::size_t k) {
+    const std::uint32_t from = t.vertices[k], to = t.vertices[k == 2 ? 0 : k + 1];
+    const SurfaceId s = screen.surface_of(t.number);
+    const auto& corners = screen.surfaces().mesh_of(s).triangles[s.triangle];
+    const auto is_it = [&](unsigned edge) {
+        const std::uint32_t a = corners[edge], b = corners[(edge + 1) % 3];
+        return (a == from && b == to) || (a == to && b == from);
+    };
+    unsigned edge = 0;
+    while (!is_it(edge)) ++edge;
+    return 3 * s.triangle + edge;
+}
+
 /// Whether the surface goes on beyond the edge after a corner, so that it hides what lies along the edge. The triangle must lie
 /// on the screen.
 bool goes_on_beyond(const ScreenSurfaces& screen, const LayerTriangle& t, std::size_t k) {
     const std::uint32_t from = t.vertices[k], to = t.vertices[k == 2 ? 0 : k + 1];
     const ScreenVertex* const v = screen.vertices(t.instance);
     const Mesh& mesh = *screen.surfaces().instances[t.instance].mesh;
-    const auto third = [&](HalfEdge h) {
-        const auto& [a, b, c] = mesh.triangles[h / 3];
-        return a ^ b ^ c ^ from ^ to;
-    };
-    const auto is_it = [&](HalfEdge h) {
-        const auto& corners = mesh.triangles[h / 3];
-        const std::uint32_t a = corners[h % 3], b = corners[(h + 1) % 3];
-        return (a == from && b == to) || (a == to && b == from);
-    };
-    HalfEdge own = 3 * screen.surface_of(t.number).triangle;
-    while (!is_it(own)) ++own;
-    const HalfEdge first = mesh.next_on_edge[own];
-    if (first == own) {
+    const HalfEdge own = half_edge_at(screen, t, k);
+    if (mesh.next_on_edge[own] == own) {
         const glm::dvec3 middle = 0.5 * (glm::dvec3(mesh.positions[from]) + glm::dvec3(mesh.positions[to]));
         return mesh.borders.seam_partner(own, middle).has_value();
     }
-    for (HalfEdge h = first; h != own; h = mesh.next_on_edge[h]) {
-        const ScreenVertex& apex = v[third(h)];
+    for (HalfEdge h = mesh.next_on_edge[own]; h != own; h = mesh.next_on_edge[h]) {
+        const ScreenVertex& apex = v[mesh.triangles[h / 3][(h + 2) % 3]];
         if (apex.x == ScreenVertex::kOffScreen || doubled_area(v[from], v[to], apex) < 0) return true;
     }
     return false;
@@ -120,6 +123,13 @@ std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen,
         if (set_corners(triangle, p)) parts.push_back(triangle);
     }
     return parts;
+}
+
+std::optional<HalfEdge> partner_over(const ScreenSurfaces& screen, const LayerTriangle& t, std::size_t k) {
+    const Mesh& mesh = *screen.surfaces().instances[t.instance].mesh;
+    const HalfEdge own = half_edge_at(screen, t, k), partner = mesh.next_on_edge[own];
+    if (partner == own || mesh.next_on_edge[partner] != own) return std::nullopt;
+    return partner;
 }
 
 bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "methods/abuffer/layer_line.h"
@@ -43,6 +44,9 @@ LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uin
 /// What the near plane and the guard band leave of any other one.
 std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s,
                                                    std::uint32_t number);
+
+/// Of a triangle on the screen, the other half-edge on the edge after a corner, if exactly two triangles meet there.
+std::optional<HalfEdge> partner_over(const ScreenSurfaces& screen, const LayerTriangle& triangle, std::size_t corner);
 
 /// Whether a line is an edge of a triangle, which cannot hide it then.
 bool lies_on(const LayerLine& line, const LayerTriangle& triangle);

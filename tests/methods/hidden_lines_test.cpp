@@ -271,6 +271,56 @@ TEST(HiddenLines, SheetsThatCrossBehindAWall) {
     EXPECT_NEAR(layers.hidden_px(1, LineClass::border), (160 + 100 + 100) + (60 + 80) + (40 + 60), 0.5);
 }
 
+/// Length of all lines in which surfaces pass through each other, seen or not; found tile by tile and for the whole scene.
+double intersections_px(Scene scene, const Camera& camera) {
+    const auto length = [&] {
+        const Layers layers(scene, camera);
+        double sum = 0;
+        for (const LayerLine& line : layers.pass.lines()) {
+            if (line.classes.has(LineClass::intersection)) sum += line.length_px();
+        }
+        return sum;
+    };
+    const double by_tile = length();
+    scene.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), 1);
+    EXPECT_NEAR(length(), by_tile, 1e-6);
+    return by_tile;
+}
+
+// A ball sunk by half, a wall on the lines of a grid: each triangle at such an edge is on one side only.
+TEST(HiddenLines, SurfacesThatPassThroughEachOtherAlongEdges) {
+    const Camera camera = perspective_camera({3, 3, 4}, {0, 0, 0}, 30);
+    const PolygonSoup ball = make_sphere(0.8, 24, 12), table = make_plane(3, 3, 1, 1), grid = make_plane(3, 3, 6, 6);
+    const PolygonSoup bar = moved(make_box({0.5, 1, 2}), {0.25, 0, 0});
+    for (const PolygonSoup& sheet : {table, grid}) {
+        for (const PolygonSoup& body : {ball, bar}) {
+            const double expected = intersections_px(scene_of({sheet, moved(body, {0.013, 0.021, 0.017})}), camera);
+            for (const double height : {0.0, 1e-9, -1e-6, 1e-4, 0.002}) {
+                const PolygonSoup raised = moved(body, {0, height, 0});
+                for (const bool is_one_object : {false, true}) {
+                    for (const bool is_first : {false, true}) {
+                        std::vector<PolygonSoup> soups = is_first ? std::vector{raised, sheet} : std::vector{sheet, raised};
+                        if (is_one_object) soups = {joined(soups)};
+                        EXPECT_NEAR(intersections_px(scene_of(soups), camera), expected, 0.04 * expected) << height << is_one_object << is_first;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(HiddenLines, WhatOnlyTouchesDoesNotPassThrough) {
+    const Camera camera = perspective_camera({3, 3, 4}, {0, 0, 0}, 30);
+    const PolygonSoup lying = transformed(make_cylinder(0.5, 0.5, 2, 12), [](glm::dvec3 p) { return glm::dvec3(p.y, p.x + 0.5, p.z); });
+    for (const PolygonSoup& sheet : {make_plane(3, 3, 1, 1), make_plane(3, 3, 6, 6)}) {
+        for (const PolygonSoup& body : {lying, moved(make_box({1, 1, 1}), {0, 0.5, 0}), moved(make_box({1, 1, 1}), {0.1, -0.5, 0.1})}) {
+            EXPECT_EQ(intersections_px(scene_of({sheet, body}), camera), 0);
+            EXPECT_EQ(intersections_px(scene_of({joined({sheet, body})}), camera), 0);
+        }
+    }
+}
+
+
 // Two plates with a wall between them that is seen edge-on, behind a sheet: the wall's upper edge is an outline, once.
 // At an outline triangles are seen edge-on, and which of them lies outermost by less than vertices are snapped is chance:
 // none of them hides the outline.
