@@ -292,6 +292,15 @@ TEST(BuildMeshes, MarksBelongToAllObjectsWithTheEdge) {
     EXPECT_EQ(count_edges(meshes[2]).marked, 0u);
 }
 
+TEST(BuildMeshes, AMarkedDiagonalIsCountedThoughItIsNoEdgeOfAPolygon) {
+    PolygonSoup soup = soup_of(kSquare, {{0, 1, 2, 3}});
+    EXPECT_EQ(count_edges(build_one(soup)).marked, 0u);
+    soup.marked_edges = {{0, 1}, {0, 2}, {1, 3}};  // one of the diagonals cuts the square
+    const EdgeCounts counts = count_edges(build_one(soup));
+    EXPECT_EQ(counts.marked, 2u);
+    EXPECT_EQ(counts.edges, 4u);
+}
+
 TEST(BuildMeshes, ObjectsComeInOrderAndMayBeEmpty) {
     PolygonSoup soup = soup_of(kSquare, {{0, 1, 2}, {0, 1, 1}, {0, 2, 3}});
     soup.object_names = {"nothing", "last", "flat", "first"};
