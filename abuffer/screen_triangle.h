@@ -37,12 +37,16 @@ inline double extended_nearness(const ScreenTriangle& t, double x, double y) {
                     static_cast<double>(doubled_area(a, b, c));
 }
 
+/// Of ScreenMesh::sharp: the triangle may be a sliver.
+constexpr std::uint8_t kMayBeSliver = 8;
+
 /// The triangles of one instance of a mesh on the screen.
 struct ScreenMesh {
     const ScreenVertex* vertices = nullptr;
     const std::uint32_t* corners = nullptr;  ///< vertex numbers, three per triangle
     std::uint32_t first_number = 0;          ///< of the mesh's first triangle, among all of the frame
-    const std::uint8_t* sharp = nullptr;      ///< per triangle, 0: no edge is sharp
+    std::uint32_t triangle_count = 0;
+    const std::uint8_t* sharp = nullptr;      ///< per triangle, bit k: edge k is sharp; kMayBeSliver
     const std::uint32_t* partners = nullptr;  ///< half-edges on the other side, three per triangle
     const std::uint8_t* facing = nullptr;     ///< Facing, per triangle
     /// Per triangle, bit k: edge k may be a line. 0: the triangle is plain (see SampleTile).

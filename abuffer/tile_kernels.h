@@ -48,6 +48,12 @@ struct SamplePair {
     bool down;                  ///< the second one lies below the first, else to its right
 };
 
+/// What a smooth surface is: find_smooth().
+struct SmoothLimits {
+    float level, level_per_nearness;  ///< see SampleView: what is less deep is no wall
+    double snapping;                  ///< by so much a corner may move a deep triangle's edges, in 1/256 pixel
+};
+
 /// A round pen's stroke along a segment from a to b, in pixels: all that is closer than `radius`.
 struct PenStroke {
     double ax, ay, bx, by;
@@ -218,6 +224,12 @@ struct TileKernels {
     /// Finds the pairs of neighbours with different ids, except where both are plain and level.
     /// Returns their number; `pairs` must have room for 2 * columns * rows.
     std::size_t (*find_pairs)(const SampleView& tile, SamplePair* pairs);
+    /// Whether pairs are samples of one smooth surface: from the first one's triangle, a walk along the row or column comes to
+    /// the other one's in few steps, over edges that are not sharp, and between them triangles that face the same way, are no
+    /// slivers, and not so deep and narrow that snapping may turn them. Sets `is_smooth` to 1 or 0. Triangles of other meshes
+    /// are not smooth; the mesh must have `sharp`.
+    void (*find_smooth)(const SampleView& tile, const ScreenMesh& mesh, const SmoothLimits& limits, const SamplePair* pairs,
+                        std::size_t count, std::uint8_t* is_smooth);
     /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
     /// three counts more than asked for may be written.
     void (*count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,

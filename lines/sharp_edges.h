@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "abuffer/screen_triangle.h"
 #include "lines/surface_walk.h"
 
 namespace burin {
 
-constexpr std::uint8_t kThinTriangle = 8;
+constexpr std::uint8_t kThinTriangle = kMayBeSliver;
 
 /// Per triangle of a mesh, bit k: its half-edge k may be a line in some view without being a contour.
 /// That is, it has not exactly one partner wound the other way, or a class asked for. An edge without

@@ -383,37 +383,56 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
     return true;
 }
 
-void LineTile::find_crossings() {
+/// Finds the pairs between which a line may lie, and which of them are known to be of one smooth surface.
+void LineTile::find_pairs() {
     pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows));
-    const std::size_t count = kernels_.find_pairs(view(), pairs_.data());
-    const auto stride = static_cast<std::size_t>(samples_.stride);
+    const SampleView tile = view();
+    pair_count_ = kernels_.find_pairs(tile, pairs_.data());
+    is_smooth_.assign(pair_count_, 0);
+    const auto first_id = [&](std::size_t i) {
+        return samples_.ids[pairs_[i].row * static_cast<std::size_t>(samples_.stride) + pairs_[i].column];
+    };
+    // Those of one mesh after the other.
+    for (std::size_t begin = 0; begin < pair_count_;) {
+        if (first_id(begin) == SampleTile::kBackground) {
+            ++begin;
+            continue;
+        }
+        const ScreenMesh& mesh = screen_.mesh(screen_.surface_of(first_id(begin) >> 1).instance);
+        const auto is_of_another = [&](std::uint32_t id) {
+            return id != SampleTile::kBackground && (id >> 1) - mesh.first_number >= mesh.triangle_count;
+        };
+        std::size_t end = begin + 1;
+        while (end < pair_count_ && !is_of_another(first_id(end))) ++end;
+        if (mesh.sharp != nullptr) {
+            kernels_.find_smooth(tile, mesh, fast_.smooth_limits(), pairs_.data() + begin, end - begin, is_smooth_.data() + begin);
+        }
+        begin = end;
+    }
+}
+
+NeighbourSamples LineTile::neighbours_of(const SamplePair& pair) const {
     const std::int32_t pitch = kSubpixelsPerPixel / per_pixel_;
-    const std::int32_t origin_x = samples_.first_column * pitch + pitch / 2;
-    const std::int32_t origin_y = samples_.first_row * pitch + pitch / 2;
+    const auto stride = static_cast<std::size_t>(samples_.stride);
+    const std::size_t at = pair.row * stride + pair.column;
+    return {(samples_.first_column + pair.column) * pitch + pitch / 2, (samples_.first_row + pair.row) * pitch + pitch / 2,
+            pitch, pair.down, {surface_at(at), surface_at(at + (pair.down ? stride : 1))}};
+}
+
+void LineTile::find_crossings() {
+    find_pairs();
     crossings_.clear();
     crossing_places_.clear();
-    // In groups, so that the triangles' partners come from memory all at once.
-    constexpr std::size_t kGroup = 64;
-    std::array<NeighbourSamples, kGroup> group;
-    const auto look_at = [&](const SamplePair& pair, std::size_t at, NeighbourSamples& neighbours) {
-        neighbours = {origin_x + pair.column * pitch, origin_y + pair.row * pitch, pitch, pair.down,
-                      {surface_at(at), surface_at(at + (pair.down ? stride : 1))}};
-        for (const SurfaceId s : neighbours.surfaces) {
-            if (!s.is_background()) __builtin_prefetch(screen_.mesh(s.instance).partners + 3 * static_cast<std::size_t>(s.triangle));
+    for (std::size_t i = 0; i < pair_count_; ++i) {
+        if (is_smooth_[i] != 0) continue;
+        const SamplePair& pair = pairs_[i];
+        if (!decide(pair, neighbours_of(pair), crossings_.emplace_back())) {
+            crossings_.pop_back();
+            continue;
         }
-    };
-    for (std::size_t first = 0; first < count; first += kGroup) {
-        const std::size_t end = std::min(first + kGroup, count);
-        for (std::size_t i = first; i < end; ++i) look_at(pairs_[i], pairs_[i].row * stride + pairs_[i].column, group[i - first]);
-        for (std::size_t i = first; i < end; ++i) {
-            if (fast_.is_smooth(group[i - first])) continue;
-            if (!decide(pairs_[i], group[i - first], crossings_.emplace_back())) {
-                crossings_.pop_back();
-                continue;
-            }
-            crossing_places_.push_back(pairs_[i]);
-            (pairs_[i].down ? down_ : right_)[pairs_[i].row * stride + pairs_[i].column] = static_cast<std::uint32_t>(crossings_.size());
-        }
+        crossing_places_.push_back(pair);
+        const std::size_t at = pair.row * static_cast<std::size_t>(samples_.stride) + pair.column;
+        (pair.down ? down_ : right_)[at] = static_cast<std::uint32_t>(crossings_.size());
     }
 }
 

@@ -55,6 +55,8 @@ class LineTile {
     float highest_in(const SpanPlane& plane, int from, int to, int first_row, int end_row) const;
     glm::dvec2 position(int column, int row) const;
     void find_crossings();
+    void find_pairs();
+    NeighbourSamples neighbours_of(const SamplePair& pair) const;
     bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing);
     void trace_cells(std::vector<LineSegment>& segments);
 
@@ -79,7 +81,9 @@ class LineTile {
     };
     std::vector<PlacedPolygon> large_;  // in the order of drawing
     std::vector<float> farthest_;  // per block of samples
-    std::vector<SamplePair> pairs_;
+    std::vector<SamplePair> pairs_;  // with room for all that there can be
+    std::size_t pair_count_ = 0;
+    std::vector<std::uint8_t> is_smooth_;  // per pair
     std::vector<LineCrossing> crossings_;
     std::vector<SamplePair> crossing_places_;
     // Per sample, 1 + the number of the crossing to its right and below it; 0: none.

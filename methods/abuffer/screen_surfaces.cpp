@@ -127,6 +127,7 @@ ScreenMesh ScreenSurfaces::make_mesh(std::uint32_t instance) const {
     result.vertices = vertices(instance);
     result.corners = mesh.triangles.empty() ? nullptr : mesh.triangles.front().data();
     result.first_number = first_triangle_[instance];
+    result.triangle_count = triangle_count(instance);
     result.sharp = sharp_[instance];
     result.partners = mesh.next_on_edge.data();
     result.facing = facing_.get() + first_triangle_[instance];
