@@ -8,12 +8,11 @@
 #include <bit>
 #include <cstring>
 
-#include "image/adler32.h"
-
 namespace burin {
 namespace {
 
 constexpr std::ptrdiff_t kMaxDistance = 32768;
+constexpr std::ptrdiff_t kLongRun = 512;       // is not summed byte by byte
 constexpr std::size_t kBlockSequences = 8192;  // that are coded together
 
 std::uint64_t load_eight(const std::uint8_t* p) {
@@ -73,10 +72,12 @@ void Deflater::add(std::size_t literals, std::size_t length, std::size_t distanc
 
 void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
     sequences_.clear();
+    sum_ = Adler32();
     newest_.fill(0);
     const std::uint8_t* const begin = bytes.data();
     const std::uint8_t* const end = begin + bytes.size();
     const std::uint8_t* literals = begin;  // those before are in sequences
+    const std::uint8_t* summed = begin;    // those before are in the sum
     const std::uint8_t* p = begin;
     std::uint32_t misses = 0;
     while (end - p >= 8) {
@@ -105,9 +106,15 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
         const std::uint8_t* const behind = p + (is_run ? run_length(p, end) : common_length(p, from, end));
         while (p > literals && from > begin && p[-1] == from[-1]) --p, --from;
         add(static_cast<std::size_t>(p - literals), static_cast<std::size_t>(behind - p), distance);
+        if (is_run && behind - p >= kLongRun) {
+            sum_.add({summed, p});
+            sum_.add_pairs(p, static_cast<std::size_t>(behind - p));
+            summed = behind;
+        }
         literals = p = behind;
     }
     add(static_cast<std::size_t>(end - literals), 0, 0);
+    sum_.add({summed, end});
 }
 
 std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> bytes) {
@@ -125,7 +132,7 @@ std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> b
     }
     DeflateBlock::put_last(out);
     std::uint8_t* const end = out.finish();
-    const std::uint32_t sum = adler32(bytes);
+    const std::uint32_t sum = sum_.value();
     for (int i = 0; i < 4; ++i) end[i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
     return {out_.data(), end + 4};
 }

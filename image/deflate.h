@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "image/adler32.h"
 #include "image/deflate_block.h"
 
 namespace burin {
@@ -30,6 +31,7 @@ class Deflater {
 
     std::vector<DeflateSequence> sequences_;
     std::vector<std::uint8_t> out_;
+    Adler32 sum_;
     std::array<std::uint32_t, std::size_t{1} << kHashBits> newest_;  // place with a hash, plus 1
 };
 
