@@ -265,6 +265,10 @@ struct TileKernels {
     std::uint64_t (*find_overlaps)(const BoxView& boxes, std::size_t a, std::size_t a_count, std::size_t b, std::size_t b_count);
     /// Of such pairs of triangles, those that have no corner in common. `corners`: an array for each corner.
     std::uint64_t (*find_unconnected)(const std::uint32_t* const corners[3], std::size_t a, std::size_t b, std::uint64_t pairs);
+    /// The normals of triangles, of unit length, four numbers each, the last one 0. `is_thin`, 0 or 1: whether the square of
+    /// twice the area is at most `thin_square` of the longest edge's fourth power.
+    void (*triangle_normals)(const float* positions, const std::uint32_t* corners, std::size_t count, double thin_square,
+                             float* normals, std::uint8_t* is_thin);
 };
 
 /// A tile's key for triangles of one kind.

@@ -53,8 +53,8 @@ RowSums add_rows(const std::uint8_t* p, std::size_t rows) {
 
 }  // namespace
 
-std::uint32_t adler32(std::span<const std::uint8_t> bytes) {
-    std::uint64_t a = 1, b = 0;
+void Adler32::add(std::span<const std::uint8_t> bytes) {
+    std::uint64_t a = a_, b = b_;
     while (bytes.size() >= kRow) {
         const std::size_t rows = std::min(kMaxRows, bytes.size() / kRow);
         const RowSums sums = add_rows(bytes.data(), rows);
@@ -68,7 +68,20 @@ std::uint32_t adler32(std::span<const std::uint8_t> bytes) {
         a += byte;
         b += a;
     }
-    return static_cast<std::uint32_t>(b % kModulo << 16 | a % kModulo);
+    a_ = static_cast<std::uint32_t>(a % kModulo);
+    b_ = static_cast<std::uint32_t>(b % kModulo);
+}
+
+void Adler32::add_pairs(const std::uint8_t* pair, std::size_t count) {
+    constexpr std::size_t kMost = std::size_t{1} << 24;  // 64 bits hold their sums
+    for (; count > 0; count -= std::min(count, kMost)) {
+        const std::uint64_t n = std::min(count, kMost), second = n / 2, first = n - second;
+        // The byte with i bytes behind it counts i + 1 times.
+        const std::uint64_t first_times = first * (n + 1 - first), second_times = second * (n - second);
+        const std::uint64_t b = b_ + n * a_ + first_times * pair[0] + second_times * pair[1];
+        a_ = static_cast<std::uint32_t>((a_ + first * pair[0] + second * pair[1]) % kModulo);
+        b_ = static_cast<std::uint32_t>(b % kModulo);
+    }
 }
 
 }  // namespace burin

@@ -6,6 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "image/adler32.h"
+#include "image/deflate_block.h"
+
 namespace burin {
 
 /// Compresses rows of pixels to zlib streams (RFC 1950 and 1951), which any inflater reads.
@@ -14,26 +17,21 @@ namespace burin {
 /// enter every byte of a run into their tables, at some nanoseconds each; here a run of bytes or of
 /// pairs of bytes costs what comparing memory costs. What lies between is looked up in a hash table
 /// with one place per hash (as LZ4 does), and all is Huffman coded in blocks with codes of their
-/// own.
+/// own, or, where much is noise, with the fixed codes, and noise stored as it is.
 class Deflater {
   public:
     /// The stream is valid until the next call. It depends on `bytes` alone.
     std::span<const std::uint8_t> compress(std::span<const std::uint8_t> bytes);
 
   private:
-    /// Literal bytes, and then a copy of `length` bytes from `distance` bytes before.
-    struct Sequence {
-        std::uint32_t literals;
-        std::uint32_t length;  // any, 0 = none
-        std::uint32_t distance;
-    };
     static constexpr int kHashBits = 14;
 
     void find_sequences(std::span<const std::uint8_t> bytes);
     void add(std::size_t literals, std::size_t length, std::size_t distance);
 
-    std::vector<Sequence> sequences_;
+    std::vector<DeflateSequence> sequences_;
     std::vector<std::uint8_t> out_;
+    Adler32 sum_;
     std::array<std::uint32_t, std::size_t{1} << kHashBits> newest_;  // place with a hash, plus 1
 };
 

@@ -14,6 +14,7 @@ struct HuffmanCode {
     std::array<std::uint8_t, kSymbols> lengths{};  ///< bits; 0 = does not occur
     std::array<std::uint16_t, kSymbols> codes{};   ///< first bit lowest
 
+    explicit HuffmanCode(const std::array<std::uint8_t, kSymbols>& known_lengths) : lengths(known_lengths) { find_codes(); }
     explicit HuffmanCode(std::array<std::uint32_t, kSymbols> frequencies) {
         const auto used = [&] {
             return std::count_if(frequencies.begin(), frequencies.end(),
@@ -95,7 +96,9 @@ struct HuffmanCode {
     }
 };
 
-using LiteralCode = HuffmanCode<286, 15>;
+// Symbols 286 and 287 never occur, but have their place in the fixed code. With codes of at most 14 bits four literals can
+// be put at once.
+using LiteralCode = HuffmanCode<288, 14>;
 using DistanceCode = HuffmanCode<30, 15>;
 
 }  // namespace burin

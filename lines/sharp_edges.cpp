@@ -3,37 +3,37 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
+#include "abuffer/tile_kernels.h"
 #include "base/parallel.h"
+#include "base/unfilled_vector.h"
 
 namespace burin {
 namespace {
 
-glm::vec3 scaled_to_one(const glm::dvec3& v, double square) {
-    return glm::vec3(v * (1 / std::max(std::sqrt(square), 1e-300)));
-}
+using Normal = std::array<float, 4>;  // the last number is 0
 
 /// The polygons' normals, in single precision; with kThinTriangle where a triangle is a sliver in its own
 /// proportions, or nearly.
-std::vector<glm::vec3> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>& thin, int threads) {
-    std::vector<glm::vec3> normals(mesh.polygon_count);
-    const bool has_polygons = !mesh.polygon_normals.empty();
-    for (std::size_t p = 0; has_polygons && p < normals.size(); ++p) {
-        const glm::dvec3 normal(mesh.polygon_normals[p]);
-        normals[p] = scaled_to_one(normal, glm::dot(normal, normal));
-    }
-    parallel_for_each(thin.size(), threads, [&](std::size_t t) {
-        const auto& corners = mesh.triangles[t];
-        const glm::dvec3 a(mesh.positions[corners[0]]);
-        const glm::dvec3 ab = glm::dvec3(mesh.positions[corners[1]]) - a;
-        const glm::dvec3 ac = glm::dvec3(mesh.positions[corners[2]]) - a;
-        const glm::dvec3 bc = ac - ab, area = glm::cross(ab, ac);
-        const double longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-        const double area2 = glm::dot(area, area);
-        constexpr double kPart = 1.001 * kSliverHeightPart;
-        thin[t] = !(area2 > kPart * kPart * longest2 * longest2) ? kThinTriangle : 0;
-        if (!has_polygons) normals[t] = scaled_to_one(area, area2);
+UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>& thin, int threads) {
+    constexpr double kPart = 1.001 * kSliverHeightPart;
+    constexpr std::size_t kChunk = 1 << 14;
+    const TileKernels& kernels = best_kernels();
+    UnfilledVector<Normal> normals(thin.size());
+    parallel_for((thin.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+        const std::size_t first = chunk * kChunk, count = std::min(kChunk, thin.size() - first);
+        kernels.triangle_normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count, kPart * kPart,
+                                 normals[first].data(), &thin[first]);
+        for (std::size_t t = first; t < first + count; ++t) thin[t] *= kThinTriangle;
     });
+    if (mesh.polygon_normals.empty()) return normals;
+    normals.resize(mesh.polygon_count);
+    for (std::size_t p = 0; p < normals.size(); ++p) {
+        const glm::dvec3 normal(mesh.polygon_normals[p]);
+        const glm::vec3 unit(normal * (1 / std::max(std::sqrt(glm::dot(normal, normal)), 1e-300)));
+        normals[p] = {unit.x, unit.y, unit.z, 0};
+    }
     return normals;
 }
 
@@ -41,14 +41,16 @@ std::vector<glm::vec3> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
 
 std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria, int threads) {
     std::vector<std::uint8_t> sharp(mesh.triangles.size());
-    const std::vector<glm::vec3> normals = unit_normals(mesh, sharp, threads);
+    const UnfilledVector<Normal> normals = unit_normals(mesh, sharp, threads);
     const bool by_polygon = criteria.classes.has(LineClass::polygon);
     const bool by_material = criteria.classes.has(LineClass::material) && !mesh.polygon_material.empty();
     const bool by_crease = criteria.classes.has(LineClass::crease);
     // Single precision normals: what is close to the angle counts as sharp and is looked at again.
     const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + 1e-5f;
     const auto is_crease = [&](std::uint32_t p, std::uint32_t q) {
-        return by_crease && !(glm::dot(normals[p], normals[q]) > cos_crease);
+        const Normal& a = normals[p];
+        const Normal& b = normals[q];
+        return by_crease && !(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > cos_crease);
     };
     const auto is_sharp = [&](HalfEdge h, HalfEdge g) {
         if (mesh.is_marked(h)) return true;

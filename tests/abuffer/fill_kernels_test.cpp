@@ -97,5 +97,42 @@ TEST(FillKernels, PixelsLieInThePlanesOfTheirTriangles) {
     }
 }
 
+/// Equal to the bit to plain arithmetic, whatever the number of triangles; nothing behind them is written.
+TEST(FillKernels, NormalsOfTrianglesAreUnitVectors) {
+    Random random(7);
+    std::size_t thin = 0;
+    for (std::size_t count = 0; count < 200; ++count) {
+        const float size = std::exp2(static_cast<float>(random.integer(-40, 40)));
+        std::vector<glm::vec3> positions(6);
+        for (glm::vec3& p : positions) {
+            for (int c = 0; c < 3; ++c) p[c] = size * static_cast<float>(random.integer(-9, 9)) * (c == 1 ? 1e-3f : 1.0f);
+        }
+        std::vector<std::array<std::uint32_t, 3>> triangles(count);
+        for (auto& corners : triangles) {
+            for (std::uint32_t& corner : corners) corner = static_cast<std::uint32_t>(random.integer(0, 5));
+        }
+        const double thin_square = 1e-6 * random.integer(0, 4);
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<float> normals(4 * count + 4, 7.0f);
+            std::vector<std::uint8_t> is_thin(count + 1, 7);
+            kernels->triangle_normals(&positions[0].x, count > 0 ? triangles[0].data() : nullptr, count, thin_square, normals.data(), is_thin.data());
+            for (std::size_t t = 0; t < count; ++t) {
+                const auto corner = [&](std::size_t k) { return glm::dvec3(positions[triangles[t][k]]); };
+                const glm::dvec3 p = corner(1) - corner(0), q = corner(2) - corner(0), r = q - p, area = glm::cross(p, q);
+                const double longest = std::max({glm::dot(p, p), glm::dot(q, q), glm::dot(r, r)}), square = glm::dot(area, area);
+                const glm::vec3 unit(area * (1 / std::max(std::sqrt(square), 1e-300)));
+                for (int c = 0; c < 3; ++c) EXPECT_EQ(normals[4 * t + static_cast<std::size_t>(c)], unit[c]) << kernels->name;
+                EXPECT_EQ(normals[4 * t + 3], 0.0f);
+                const bool expected = !(square > thin_square * longest * longest);
+                EXPECT_EQ(is_thin[t], expected ? 1 : 0) << kernels->name;
+                thin += expected ? 1 : 0;
+            }
+            EXPECT_EQ(normals[4 * count], 7.0f);
+            EXPECT_EQ(is_thin[count], 7);
+        }
+    }
+    EXPECT_GT(thin, 1000u);
+}
+
 }  // namespace
 }  // namespace burin
