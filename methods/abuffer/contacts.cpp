@@ -9,8 +9,6 @@ namespace {
 
 /// So far from a line its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
-/// So far to one side of a line something covers what ends at the line there. 1/64 pixel.
-constexpr double kToOneSideSubpixels = 4;
 /// Of two triangles' coordinates.
 constexpr double kErrors = 4;
 
