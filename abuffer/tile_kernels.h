@@ -96,6 +96,56 @@ struct TriangleView {
 /// A straight part of a line on the screen, in 1/256 pixel, and the nearness of its farther end.
 struct ScreenLine {
     float ax, ay, bx, by, low;
+    bool is_exact = false;  ///< it is no longer than kLongestExact, and its ends are whole numbers
+    float reach = 0;        ///< so far beside it counts, too; it is not exact then
+};
+/// Along both axes together.
+constexpr float kLongestExact = 2048;
+
+/// A triangle that may hide lines: corners, clockwise as seen, in 1/256 pixel from a place near the lines, and the nearness of
+/// the nearest one.
+struct CrossedTriangle {
+    float x[3], y[3], highest;
+    std::uint32_t number;
+};
+
+/// A triangle on the screen and the plane of its nearness.
+struct TrianglePlane {
+    double x[3], y[3];              ///< corners in 1/256 pixel, clockwise as seen
+    double nearness, per_x, per_y;  ///< at corner 0, and change per 1/256 pixel
+    double slack;                   ///< what snapping may do to nearness
+    bool owns_edge[3];              ///< whether points on the edge after a corner belong to it
+};
+
+/// A line, and the part [begin, end] of it that is looked at.
+struct PlaneLine {
+    double x[4], y[4], nearness[4];  ///< of the line's ends and of the part's
+    double begin, end;
+    double slack;  ///< what is in front by more, and a triangle's own slack, is so for certain
+};
+
+/// Where in a part of a line a triangle is in front of it for certain.
+struct HiddenPart {
+    std::uint32_t triangle;
+    bool is_any;    ///< else the part is empty
+    bool is_level;  ///< elsewhere the triangle may be as near as the line
+    double begin, end;
+};
+
+/// A range-encoded bitmap index (Chan and Ioannidis, 1998) of triangles' boxes: both axes and nearness are cut into steps, and
+/// for each step there is a bit per triangle that begins there or before, ends there or after, or has its nearest corner
+/// there or nearer. So 64 triangles are compared with a box at once.
+struct BitmapIndex {
+    enum Table { begins_x, ends_x, begins_y, ends_y, nearest };
+    static constexpr std::size_t kTables = 5, kSteps = 64;
+    struct Axis {
+        float from = 0, steps_per_unit = 0;
+    };
+    Axis x, y, nearness;
+    std::size_t words = 0;  ///< numbers of 64 bits per step, a multiple of four
+    std::uint64_t* bits = nullptr;
+
+    std::uint64_t* at(std::size_t table, std::size_t step) const { return bits + (table * kSteps + step) * words; }
 };
 
 /// How far away something is in a picture: square blocks, row by row, each with the least nearness in it, the one to the
@@ -260,6 +310,15 @@ struct TileKernels {
     /// end, and not beside it by more than 1/16 pixel. Returns their number. Up to seven numbers more are read of each array.
     std::size_t (*find_hiding)(const TriangleView& triangles, std::size_t begin, std::size_t end, const ScreenLine& line,
                                std::uint32_t* found);
+    /// Makes an index of the triangles `listed`. Its bits must be zero.
+    void (*index_triangles)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count, const BitmapIndex& index);
+    /// Lists those of the triangles `listed` that may hide a part of a line: with a corner nearer than its farther end, and not
+    /// beside it, by more than its reach and what rounding does: that is nothing where the line is exact and a triangle no longer.
+    /// Returns their number.
+    std::size_t (*find_crossed)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count,
+                                const ScreenLine& line, std::uint32_t* found);
+    /// Where triangles are in front of a line: of those that are, or may be level with it, in their order. Returns their number.
+    std::size_t (*clip_hidden)(const TrianglePlane* const* triangles, std::size_t count, const PlaneLine& line, HiddenPart* parts);
     /// Which of at most eight boxes from `a` on overlap which of at most eight from `b` on, touching in x and y being
     /// enough: bit 8 i + k for box a + i and box b + k. Up to seven numbers more are read of each array.
     std::uint64_t (*find_overlaps)(const BoxView& boxes, std::size_t a, std::size_t a_count, std::size_t b, std::size_t b_count);

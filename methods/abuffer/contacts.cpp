@@ -9,10 +9,15 @@ namespace {
 
 /// So far from a line its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
-/// So far to one side of a line something covers what ends at the line there. 1/64 pixel.
-constexpr double kToOneSideSubpixels = 4;
 /// Of two triangles' coordinates.
 constexpr double kErrors = 4;
+
+/// False for most triangles that do not cover a place, by their corners alone.
+bool may_cover(const ScreenTriangle& t, glm::dvec2 place) {
+    const auto& [a, b, c] = t.corners;
+    return place.x >= std::min({a.x, b.x, c.x}) && place.x <= std::max({a.x, b.x, c.x}) && place.y >= std::min({a.y, b.y, c.y}) &&
+           place.y <= std::max({a.y, b.y, c.y});
+}
 
 }  // namespace
 
@@ -174,6 +179,7 @@ std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const Layer
         const SurfaceId s{t.instance, mesh.partners[h] / 3};
         const std::uint32_t number = screen_.number_of(s);
         if (number == t.number || screen_.facing(number) == edge_on || screen_.facing(number) == off_screen) continue;
+        if (!may_cover(screen_.triangle(s), place)) continue;
         const LayerTriangle neighbour = layer_triangle(screen_, s, number);
         if (neighbour.covers(place)) return neighbour;
     }

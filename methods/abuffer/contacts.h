@@ -12,6 +12,9 @@
 
 namespace burin {
 
+/// So far to one side of a line something covers what ends at the line there. 1/64 pixel.
+constexpr double kToOneSideSubpixels = 4;
+
 /// What is seen where a line lies in the plane of a surface that it is no edge of, as the foot of a wall does on a floor.
 /// Of surfaces in one plane the first one is seen (docs/decisions/0009-one-plane-one-answer.md). For parts [begin, end] of
 /// a line, as shares; `level` is how near things at one depth are, in nearness.

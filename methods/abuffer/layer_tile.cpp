@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace burin {
 namespace {
 
-/// Cells are made so small that about so many triangles begin in one.
-constexpr double kTrianglesPerCell = 80;
+/// Cells are made so small that about so many triangles begin in one: pairs are looked for one by one.
+constexpr double kTrianglesPerCell = 2048, kTrianglesPerCellOfPairs = 80;
 /// Shorter parts of lines belong to the part before. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
 constexpr float kFar = 1e30f;
-
-ScreenLine part_of(const LayerLine& line, double begin, double end, double slack) {
-    const glm::vec2 a(glm::mix(line.from, line.to, begin)), b(glm::mix(line.from, line.to, end));
-    return {a.x, a.y, b.x, b.y, static_cast<float>(line.lowest_in(begin, end) - slack)};
-}
 
 }  // namespace
 
@@ -30,12 +24,15 @@ LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const Til
       bins_(bins),
       grid_(grid),
       has_transparent_(has_transparent_surfaces(*frame.scene)),
-      finds_pairs_(finds_pairs) {}
+      finds_pairs_(finds_pairs),
+      cells_(kernels),
+      pair_cells_(kernels) {}
 
 void LayerTile::fill(std::size_t tile) {
     rect_ = grid_.tile(tile);
+    cells_.clear(rect_);
     triangles_.clear();
-    entries_.clear();
+    pair_entries_.clear();
     set_up_.clear();
     has_clipped_ = false;
     SurfaceId s;
@@ -55,25 +52,22 @@ void LayerTile::fill(std::size_t tile) {
         const auto& v = frame_.surfaces.mesh_of(s).triangles[s.triangle];
         const ScreenVertex* const vertices = screen_.vertices(s.instance);
         const ScreenVertex &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]];
+        const bool is_clockwise = screen_.facing(number) == clockwise;
+        const ScreenVertex &p = is_clockwise ? b : c, &q = is_clockwise ? c : b;
+        const auto x = [this](const ScreenVertex& at) { return static_cast<float>(at.x - cells_.corner().x); };
+        const auto y = [this](const ScreenVertex& at) { return static_cast<float>(at.y - cells_.corner().y); };
+        add({{x(a), x(p), x(q)}, {y(a), y(p), y(q)}, std::max(std::max(a.nearness, b.nearness), c.nearness), number}, kNotSetUp);
+        if (!finds_pairs_) continue;
         const auto first_vertex = static_cast<std::uint32_t>(vertices - screen_.vertices(0));
-        const FlatTriangle flat = flat_triangle(a, b, c, screen_.facing(number));
-        const auto lowest = [](float p, float q, float r) { return std::min(std::min(p, q), r); };
-        const auto highest = [](float p, float q, float r) { return std::max(std::max(p, q), r); };
-        const auto &x = flat.x, &y = flat.y;
-        add({{lowest(x[0], x[1], x[2]), lowest(y[0], y[1], y[2]), highest(x[0], x[1], x[2]), highest(y[0], y[1], y[2]),
-              lowest(a.nearness, b.nearness, c.nearness), flat.highest},
-             flat,
-             {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]},
-             number},
-            kNotSetUp);
+        pair_entries_.push_back({std::min({a.nearness, b.nearness, c.nearness}), {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]}});
     }
-    looked_at_by_.assign(entries_.size(), 0);
-    lines_looked_at_ = 0;
-    sort_into_cells();
+    cells_.sort(kTrianglesPerCell);
+    cells_.make_indices();
+    fragment_count_ += cells_.places().size();
 }
 
-void LayerTile::add(const Entry& entry, std::uint32_t set_up) {
-    entries_.push_back(entry);
+void LayerTile::add(const CrossedTriangle& triangle, std::uint32_t set_up) {
+    cells_.add(triangle);
     set_up_.push_back(set_up);
 }
 
@@ -89,107 +83,60 @@ void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
     for (LayerTriangle& triangle : clipped_layer_triangles(screen_, s, number)) {
         triangle.transmission = transmission_of(s);
         triangles_.push_back(triangle);
-        Entry entry;
+        CrossedTriangle entry;
+        Corners vertices;
         for (std::size_t k = 0; k < 3; ++k) {
-            entry.flat.x[k] = static_cast<float>(triangle.x[k]);
-            entry.flat.y[k] = static_cast<float>(triangle.y[k]);
-            entry.vertices[k] = first_vertex + triangle.vertices[k];
+            entry.x[k] = static_cast<float>(triangle.x[k] - cells_.corner().x);
+            entry.y[k] = static_cast<float>(triangle.y[k] - cells_.corner().y);
+            vertices[k] = first_vertex + triangle.vertices[k];
         }
-        const auto &x = entry.flat.x, &y = entry.flat.y;
-        entry.box = {std::min({x[0], x[1], x[2]}), std::min({y[0], y[1], y[2]}), std::max({x[0], x[1], x[2]}),
-                     std::max({y[0], y[1], y[2]}), static_cast<float>(plane.lowest - zero), static_cast<float>(plane.highest - zero)};
-        entry.flat.highest = entry.box.high;
+        entry.highest = static_cast<float>(plane.highest - zero);
         entry.number = number;
         add(entry, static_cast<std::uint32_t>(triangles_.size() - 1));
+        if (finds_pairs_) pair_entries_.push_back({static_cast<float>(plane.lowest - zero), vertices});
     }
 }
 
-const LayerTriangle& LayerTile::triangle(std::uint32_t i) {
-    if (set_up_[i] != kNotSetUp) return triangles_[set_up_[i]];
-    const std::uint32_t number = entries_[i].number;
+void LayerTile::set_up(std::uint32_t i) {
+    const std::uint32_t number = cells_[i].number;
     const SurfaceId s = screen_.surface_of(number);
-    LayerTriangle triangle = layer_triangle(screen_, s, number);
-    triangle.transmission = transmission_of(s);
     set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
-    triangles_.push_back(triangle);
-    return triangles_.back();
+    triangles_.push_back(layer_triangle(screen_, s, number));
+    triangles_.back().transmission = transmission_of(s);
 }
 
-int LayerTile::column_at(float x) const { return cell_along(x - static_cast<float>(rect_.x0 * 256), columns_); }
-int LayerTile::row_at(float y) const { return cell_along(y - static_cast<float>(rect_.y0 * 256), rows_); }
-
-int LayerTile::cell_along(float offset, int count) const {
-    return std::clamp(static_cast<int>(offset * cells_per_subpixel_), 0, count - 1);
-}
-
-void LayerTile::sort_into_cells() {
-    const double area = static_cast<double>(rect_.width()) * rect_.height();
-    const double wanted = std::sqrt(area * kTrianglesPerCell / std::max(1.0, static_cast<double>(entries_.size())));
-    cell_px_ = 1;
-    while (cell_px_ < 32 && 2 * cell_px_ <= wanted) cell_px_ *= 2;
-    cells_per_subpixel_ = 1 / static_cast<float>(cell_px_ * 256);
-    columns_ = (rect_.width() + cell_px_ - 1) / cell_px_;
-    rows_ = (rect_.height() + cell_px_ - 1) / cell_px_;
-    cell_end_.assign(static_cast<std::size_t>(columns_ * rows_) + 2, 0);
-    const auto for_cells = [&](const CellRange& range, const auto& visit) {
-        for (int row = range.first_row; row <= range.last_row; ++row) {
-            for (int column = range.first_column; column <= range.last_column; ++column) {
-                visit(static_cast<std::size_t>(row * columns_ + column));
-            }
-        }
-    };
-    // Counts are kept one place further, so that filling moves each list's end to its place.
-    cell_ranges_.resize(entries_.size());
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-        const ScreenBox& box = entries_[i].box;
-        const auto number = [](int cell) { return static_cast<std::uint8_t>(cell); };
-        cell_ranges_[i] = {number(column_at(box.x0)), number(column_at(box.x1)), number(row_at(box.y0)), number(row_at(box.y1))};
-        for_cells(cell_ranges_[i], [&](std::size_t c) { ++cell_end_[c + 2]; });
-    }
-    for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
-    cell_entries_.resize(cell_end_.back());
-    cell_triangles_.resize(cell_end_.back());
-    if (finds_pairs_) {
-        cell_boxes_.resize(cell_end_.back());
-        cell_vertices_.resize(cell_end_.back());
-    }
-    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-        for_cells(cell_ranges_[i], [&](std::size_t c) {
-            const std::size_t at = cell_end_[c + 1]++;
-            cell_entries_[at] = i;
-            cell_triangles_.set(at, entries_[i].flat);
-            if (!finds_pairs_) return;
-            cell_boxes_.set(at, entries_[i].box);
-            cell_vertices_[at] = entries_[i].vertices;
-        });
-    }
-    std::size_t largest = 0;
-    for (std::size_t i = 0; i + 2 < cell_end_.size(); ++i) {
-        largest = std::max<std::size_t>(largest, cell_end_[i + 1] - cell_end_[i]);
-    }
-    if (found_.size() < largest) found_.resize(largest);
-    fragment_count_ += cell_entries_.size();
-}
-
-/// Places in cell_entries_.
+/// Places in pair_cells_.
 std::span<const std::uint32_t> LayerTile::touching(std::size_t begin, std::size_t end, const ScreenBox& box,
                                                    float least_x0, float least_y0) {
     return {found_.data(),
             kernels_.find_touching(cell_boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
 }
 
-/// Notes where in a part of a line a triangle is in front of it.
-void LayerTile::hide(const LayerLine& line, std::uint32_t i, const PartInTile& part) {
+/// Notes where in a part of a line triangles are in front of it.
+void LayerTile::hide(const LayerLine& line, std::span<const std::uint32_t> near, const PartInTile& part) {
+    planes_.clear();
+    for (const std::uint32_t i : near) triangle(i);  // all before any is looked at: setting up moves them
+    for (const std::uint32_t i : near) planes_.push_back(&triangle(i));
+    const PlaneLine plane_line{{line.from.x, line.to.x, part.from.x, part.to.x},
+                               {line.from.y, line.to.y, part.from.y, part.to.y},
+                               {line.nearness_from, line.nearness_to, part.nearness_from, part.nearness_to},
+                               part.begin,
+                               part.end,
+                               certain_slack_};
+    parts_.resize(std::max(parts_.size(), near.size()));
+    const std::size_t count = kernels_.clip_hidden(planes_.data(), near.size(), plane_line, parts_.data());
+    for (std::size_t k = 0; k < count; ++k) hide(line, near[parts_[k].triangle], part, parts_[k]);
+}
+
+void LayerTile::hide(const LayerLine& line, std::uint32_t i, const PartInTile& part, const HiddenPart& hidden) {
     const LayerTriangle& t = triangle(i);
-    if (lies_on(line, t)) return;
+    if (line.has_more_owners && lies_on(line, t)) return;
     const double certain = certain_slack_ + t.slack;
-    const double at_begin = t.nearness_at(part.from) - part.nearness_from, at_end = t.nearness_at(part.to) - part.nearness_to;
-    if (std::max(at_begin, at_end) < -certain) return;
-    Interval clear{t.number, part.begin, part.end, t.transmission}, most = clear;
-    const bool is_any_clear = clip_where_hidden(line, certain, t, clear.begin, clear.end);
+    const Interval clear{t.number, hidden.begin, hidden.end, t.transmission};
+    Interval most{t.number, part.begin, part.end, t.transmission};
+    const bool is_any_clear = hidden.is_any;
     // What is level with the line is in front where it is seen instead: what that is, is asked last.
-    if (std::min(at_begin, at_end) <= certain && line.drawn_as != LineClass::intersection &&
-        clip_where_hidden(line, -certain, t, most.begin, most.end)) {
+    if (hidden.is_level && line.drawn_as != LineClass::intersection && clip_where_hidden(line, -certain, t, most.begin, most.end)) {
         const bool is_settled = is_any_clear && clear.begin == most.begin && clear.end == most.end;
         if (!is_settled && contacts_.is_flush(line, most.begin, most.end, t, line_slack_ + t.slack, frame_.criteria, true)) {
             contacts_of_line_.push_back({most.begin, most.end, i, false});
@@ -213,7 +160,12 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     certain_slack_ = line_slack(frame_.surfaces, line, begin, end, kCertainPx);
     const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
     const PartInTile part{begin, end, a, b, line.nearness_at(begin), line.nearness_at(end)};
-    for_triangles(line, part, line_slack_, [&](std::uint32_t entry) { hide(line, entry, part); });
+    near_.clear();
+    cells_.for_crossed(line, part.begin, part.end, line_slack_, 0, [&](std::uint32_t entry) {
+        const std::uint32_t number = cells_[entry].number;
+        if (number != line.owners[0] && number != line.owners[1]) near_.push_back(entry);
+    });
+    hide(line, near_, part);
     if (intervals_.empty()) return;
     if (line.classes.has(LineClass::border)) find_contacts(line, part);
     merge_intervals();
@@ -222,36 +174,11 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     drop_contacts(first_piece, pieces);
 }
 
-/// Calls use(entry) once for each triangle that is near a part of a line, with a corner in front of it, or behind it by no
-/// more than `slack`.
-template <typename Use>
-void LayerTile::for_triangles(const LayerLine& line, const PartInTile& part, double slack, const Use& use) {
-    ++lines_looked_at_;
-    const glm::dvec2 corner = glm::dvec2(rect_.x0, rect_.y0) * 256.0, a = part.from, b = part.to;
-    const int first_row = row_at(static_cast<float>(std::min(a.y, b.y)));
-    const int last_row = row_at(static_cast<float>(std::max(a.y, b.y)));
-    const int first_column = column_at(static_cast<float>(std::min(a.x, b.x)));
-    const int last_column = column_at(static_cast<float>(std::max(a.x, b.x)));
-    const double size = cell_px_ * 256.0;
-    for (int row = first_row; row <= last_row; ++row) {
-        for (int column = first_column; column <= last_column; ++column) {
-            double from = part.begin, to = part.end;
-            const glm::dvec2 low = corner + glm::dvec2(column, row) * size;
-            if (!clip_to_rect(line, low, low + size, from, to)) continue;
-            const Cell c = cell(column, row);
-            const std::size_t count = kernels_.find_hiding(cell_triangles_.view(), c.begin, c.end, part_of(line, from, to, slack), found_.data());
-            for (std::size_t i = 0; i < count; ++i) {
-                const std::uint32_t entry = cell_entries_[found_[i]];
-                if (std::exchange(looked_at_by_[entry], lines_looked_at_) != lines_looked_at_) use(entry);
-            }
-        }
-    }
-}
-
 /// Where a border ends in contact with a surface that goes on beyond it without any line.
 void LayerTile::find_contacts(const LayerLine& line, const PartInTile& part) {
     if (line.classes.has(LineClass::mark)) return;
-    for_triangles(line, part, line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx), [&](std::uint32_t entry) {
+    const double slack = line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx);
+    cells_.for_crossed(line, part.begin, part.end, slack, kToOneSideSubpixels, [&](std::uint32_t entry) {
         const LayerTriangle& t = triangle(entry);
         if (lies_on(line, t)) return;
         Contact contact{part.begin, part.end, entry, false};
@@ -370,10 +297,23 @@ void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin,
 void LayerTile::find_intersections(const IntersectionTest& may_intersect, const IntersectionLines& intersections,
                                    std::vector<LayerLine>& lines) {
     pairs_.clear();
-    for (int row = 0; row < rows_; ++row) {
-        for (int column = 0; column < columns_; ++column) find_pairs_in_cell(column, row);
+    pair_cells_.clear(rect_);
+    for (std::uint32_t i = 0; i < pair_entries_.size(); ++i) pair_cells_.add(cells_[i]);
+    pair_cells_.sort(kTrianglesPerCellOfPairs);
+    const std::span<const std::uint32_t> places = pair_cells_.places();
+    cell_boxes_.resize(places.size());
+    cell_vertices_.resize(places.size());
+    found_.resize(places.size());
+    for (std::size_t at = 0; at < places.size(); ++at) {
+        ScreenBox box = LayerCells::box_of(cells_[places[at]]);
+        box.low = pair_entries_[places[at]].lowest;
+        cell_boxes_.set(at, box);
+        cell_vertices_[at] = pair_entries_[places[at]].vertices;
     }
-    const auto surface_of = [this](std::uint32_t i) { return screen_.surface_of(entries_[i].number); };
+    for (int row = 0; row < pair_cells_.rows(); ++row) {
+        for (int column = 0; column < pair_cells_.columns(); ++column) find_pairs_in_cell(column, row);
+    }
+    const auto surface_of = [this](std::uint32_t i) { return screen_.surface_of(cells_[i].number); };
     for (const auto& [own, other] : pairs_) {
         if (!may_intersect.may_intersect(surface_of(own), surface_of(other))) continue;
         triangle(own);  // both before either is looked at: setting up moves them
@@ -385,10 +325,8 @@ void LayerTile::find_intersections(const IntersectionTest& may_intersect, const 
 void LayerTile::find_pairs_in_cell(int column, int row) {
     // Of all cells that both triangles touch, the one with the corner where their boxes begin to overlap
     // is responsible.
-    const float pitch = static_cast<float>(cell_px_ * 256);
-    const float x_origin = static_cast<float>(rect_.x0 * 256), y_origin = static_cast<float>(rect_.y0 * 256);
-    const float left = column == 0 ? -kFar : x_origin + pitch * static_cast<float>(column);
-    const float top = row == 0 ? -kFar : y_origin + pitch * static_cast<float>(row);
+    const float left = column == 0 ? -kFar : pair_cells_.pitch() * static_cast<float>(column);
+    const float top = row == 0 ? -kFar : pair_cells_.pitch() * static_cast<float>(row);
     const auto from = [](float begin, float border) { return begin >= border ? -kFar : border; };
     const auto have_vertex_in_common = [&](std::size_t i, std::size_t j) {
         const auto& a = cell_vertices_[i];
@@ -396,7 +334,7 @@ void LayerTile::find_pairs_in_cell(int column, int row) {
         const auto is_in_b = [&b](std::uint32_t v) { return (v == b[0]) | (v == b[1]) | (v == b[2]); };
         return (is_in_b(a[0]) | is_in_b(a[1]) | is_in_b(a[2])) != 0;
     };
-    const Cell c = cell(column, row);
+    const LayerCells::Cell c = pair_cells_.cell(column, row);
     for (std::size_t i = c.begin; i + 1 < c.end; ++i) {
         const ScreenBox box = cell_boxes_[i];
         std::optional<SidePlane> plane;
@@ -405,7 +343,7 @@ void LayerTile::find_pairs_in_cell(int column, int row) {
             if (!plane) plane = side_plane(cell_vertices_[i]);
             if (is_on_one_side(*plane, cell_vertices_[j])) continue;
             if (is_on_one_side(side_plane(cell_vertices_[j]), cell_vertices_[i])) continue;
-            pairs_.push_back({cell_entries_[i], cell_entries_[j]});
+            pairs_.push_back({pair_cells_.places()[i], pair_cells_.places()[j]});
         }
     }
 }

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "abuffer/screen_boxes.h"
-#include "abuffer/screen_triangles.h"
 #include "methods/abuffer/contacts.h"
 #include "methods/abuffer/intersecting_pairs.h"
 #include "methods/abuffer/intersection_lines.h"
 #include "methods/abuffer/layer_bins.h"
+#include "methods/abuffer/layer_cells.h"
 #include "methods/abuffer/layer_line.h"
 #include "methods/abuffer/layer_triangle.h"
 #include "render/frame.h"
@@ -65,38 +65,24 @@ class LayerTile {
         double slack = 0;  ///< what snapping does, multiplied likewise
         bool is_on_screen = false;
     };
-    struct Entry {
-        ScreenBox box;
-        FlatTriangle flat;
+    struct PairEntry {  // of an entry, for finding pairs
+        float lowest;
         Corners vertices;
-        std::uint32_t number;
-    };
-    struct CellRange {
-        std::uint8_t first_column, last_column, first_row, last_row;
-    };
-    /// A cell's list: [begin, end) of cell_entries_ and what goes with it.
-    struct Cell {
-        std::size_t begin, end;
     };
     static constexpr std::uint32_t kNotSetUp = 0xFFFFFFFFu;
 
     void add_clipped(SurfaceId s, std::uint32_t number);
-    void add(const Entry& entry, std::uint32_t set_up);
-    const LayerTriangle& triangle(std::uint32_t i);
-    double transmission_of(SurfaceId s) const;
-    void sort_into_cells();
-    int column_at(float x) const;
-    int row_at(float y) const;
-    int cell_along(float offset, int count) const;
-    Cell cell(int column, int row) const {
-        const auto i = static_cast<std::size_t>(row * columns_ + column);
-        return {cell_end_[i], cell_end_[i + 1]};
+    void add(const CrossedTriangle& triangle, std::uint32_t set_up);
+    const LayerTriangle& triangle(std::uint32_t i) {
+        if (set_up_[i] == kNotSetUp) set_up(i);
+        return triangles_[set_up_[i]];
     }
+    void set_up(std::uint32_t i);
+    double transmission_of(SurfaceId s) const;
     std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
                                             float least_y0);
-    template <typename Use>
-    void for_triangles(const LayerLine& line, const PartInTile& part, double slack, const Use& use);
-    void hide(const LayerLine& line, std::uint32_t i, const PartInTile& part);
+    void hide(const LayerLine& line, std::span<const std::uint32_t> near, const PartInTile& part);
+    void hide(const LayerLine& line, std::uint32_t i, const PartInTile& part, const HiddenPart& hidden);
     void find_contacts(const LayerLine& line, const PartInTile& part);
     void drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces);
     void find_pairs_in_cell(int column, int row);
@@ -114,22 +100,20 @@ class LayerTile {
     const PixelTiles& grid_;
     bool has_transparent_, finds_pairs_;
     PixelRect rect_;
-    int cell_px_ = 1, columns_ = 0, rows_ = 0;
-    float cells_per_subpixel_ = 0;
-    // Per triangle of the tile; what it takes to clip with one is set up when first needed.
-    std::vector<Entry> entries_;
-    std::vector<CellRange> cell_ranges_;  // per entry
+    LayerCells cells_;  // its entries are the triangles of the tile
+    LayerCells pair_cells_;                // of the same triangles, where pairs are wanted
+    std::vector<PairEntry> pair_entries_;  // likewise
+    // What it takes to clip with an entry is set up when first needed.
     std::vector<std::uint32_t> set_up_;   // per entry: which of triangles_, or kNotSetUp
-    std::vector<std::uint32_t> looked_at_by_;  // per entry: the last line, so that no line looks twice at what is in many cells
-    std::uint32_t lines_looked_at_ = 0;
     bool has_clipped_ = false;  // triangles in several parts
     std::vector<LayerTriangle> triangles_;
-    std::vector<std::uint32_t> cell_end_, cell_entries_;  // numbers of entries
-    ScreenTriangles cell_triangles_;
-    ScreenBoxes cell_boxes_;                              // where pairs are wanted
-    std::vector<Corners> cell_vertices_;                  // likewise
+    ScreenBoxes cell_boxes_;               // of the cells' triangles, where pairs are wanted
+    std::vector<Corners> cell_vertices_;   // likewise
     std::vector<std::uint32_t> found_;  // by a kernel
     std::vector<std::array<std::uint32_t, 2>> pairs_;  // of entries
+    std::vector<std::uint32_t> near_;          // entries that a line may cross
+    std::vector<const TrianglePlane*> planes_;  // theirs
+    std::vector<HiddenPart> parts_;
     std::vector<Interval> intervals_;
     std::vector<Contact> contacts_of_line_;
     std::vector<Event> events_;

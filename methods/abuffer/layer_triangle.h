@@ -12,11 +12,7 @@
 namespace burin {
 
 /// A triangle on the screen as something that hides lines.
-struct LayerTriangle {
-    std::array<double, 3> x, y;     ///< corners in 1/256 pixel, clockwise as seen
-    std::array<bool, 3> owns_edge;  ///< whether points on the edge after a corner belong to it
-    double nearness, per_x, per_y;  ///< at corner 0, and change per 1/256 pixel
-    double slack;                   ///< what snapping may do to nearness
+struct LayerTriangle : TrianglePlane {
     double transmission = 0;        ///< 0 = opaque
     std::uint32_t number, instance;
     std::array<std::uint32_t, 3> vertices;

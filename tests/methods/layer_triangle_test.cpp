@@ -1,0 +1,113 @@
+// Where triangles are in front of lines: the kernel beside clip_where_hidden().
+
+#include "methods/abuffer/layer_triangle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "tests/support/kernels.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+struct Expected {
+    std::uint32_t triangle;
+    bool is_any, is_level;
+    double begin, end;
+};
+
+TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
+    Random random(21);
+    int hidden = 0, partly = 0, level = 0, along_edges = 0;
+    for (int round = 0; round < 5000; ++round) {
+        std::vector<LayerTriangle> triangles(static_cast<std::size_t>(random.integer(0, 9)));
+        // Few places, so that lines meet corners and run along edges.
+        const int places = random.integer(0, 1) == 0 ? 8 : 5000;
+        const auto place = [&] { return static_cast<double>(random.integer(0, places)); };
+        for (LayerTriangle& t : triangles) {
+            double area = 0;
+            while (area == 0) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    t.x[k] = place();
+                    t.y[k] = place();
+                }
+                area = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
+            }
+            if (area < 0) {
+                std::swap(t.x[1], t.x[2]);
+                std::swap(t.y[1], t.y[2]);
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t n = (k + 1) % 3;
+                t.owns_edge[k] = t.y[n] < t.y[k] || (t.y[n] == t.y[k] && t.x[n] > t.x[k]);
+            }
+            t.nearness = random.integer(-2, 6);
+            t.per_x = random.integer(0, 1) == 0 ? 0 : random.real(-1, 1) / places;
+            t.per_y = random.integer(0, 1) == 0 ? 0 : random.real(-1, 1) / places;
+            t.slack = std::abs(t.per_x) + std::abs(t.per_y);
+        }
+        LayerLine line;
+        while (line.from == line.to) {
+            line.from = {place(), place()};
+            line.to = {place(), place()};
+        }
+        line.nearness_from = random.integer(0, 4);
+        line.nearness_to = random.integer(0, 1) == 0 ? line.nearness_from : random.real(0, 4);
+        double begin = 0, end = 1;
+        if (random.integer(0, 2) == 0) {
+            begin = random.real(0, 0.5);
+            end = random.real(0.5, 1);
+        }
+        const double slack = random.integer(0, 1) == 0 ? 0 : 0.25;
+        const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+        std::vector<Expected> expected;
+        std::vector<const TrianglePlane*> planes;
+        for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+            const LayerTriangle& t = triangles[i];
+            planes.push_back(&t);
+            const double certain = slack + t.slack;
+            const double at_begin = t.nearness_at(a) - line.nearness_at(begin), at_end = t.nearness_at(b) - line.nearness_at(end);
+            if (std::max(at_begin, at_end) < -certain) continue;
+            Expected e{i, false, std::min(at_begin, at_end) <= certain, begin, end};
+            e.is_any = clip_where_hidden(line, certain, t, e.begin, e.end);
+            double first = begin, last = end;
+            along_edges += clip_where_hidden(line, certain, t, first, last, true) && !e.is_any;
+            if (e.is_any || e.is_level) expected.push_back(e);
+            hidden += e.is_any;
+            partly += e.is_any && (e.begin > begin || e.end < end);
+            level += e.is_level;
+        }
+        const PlaneLine plane_line{{line.from.x, line.to.x, a.x, b.x},
+                                   {line.from.y, line.to.y, a.y, b.y},
+                                   {line.nearness_from, line.nearness_to, line.nearness_at(begin), line.nearness_at(end)},
+                                   begin,
+                                   end,
+                                   slack};
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<HiddenPart> parts(triangles.size());
+            parts.resize(kernels->clip_hidden(planes.data(), planes.size(), plane_line, parts.data()));
+            ASSERT_EQ(parts.size(), expected.size()) << kernels->name << " round " << round;
+            for (std::size_t k = 0; k < parts.size(); ++k) {
+                const HiddenPart& p = parts[k];
+                const Expected& e = expected[k];
+                EXPECT_TRUE(p.triangle == e.triangle && p.is_any == e.is_any && p.is_level == e.is_level) << kernels->name << " round " << round;
+                if (!e.is_any) continue;
+                EXPECT_TRUE(p.begin == e.begin && p.end == e.end) << kernels->name << " round " << round;
+            }
+        }
+    }
+    EXPECT_GT(hidden, 1500);
+    EXPECT_GT(partly, 1000);
+    EXPECT_GT(level, 3000);
+    EXPECT_GT(along_edges, 5);
+}
+
+}  // namespace
+}  // namespace burin
