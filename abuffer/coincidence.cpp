@@ -108,8 +108,10 @@ void SurfaceOrder::operator+=(const SurfaceOrder& o) {
     is_apart = is_apart || o.is_apart;
 }
 
-SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], bool are_of_one_mesh,
-                              double coordinate_error) {
+bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]) { return Sensitivity(projection, corners).is_front(); }
+
+SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
+                              bool may_be_one_plane, double coordinate_error) {
     SurfaceOrder order;
     const Sensitivity of_a(projection, a), of_b(projection, b);
     if (!of_a.has_plane() || !of_b.has_plane()) return order;
@@ -117,7 +119,6 @@ SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a
     const double drift = std::abs(plane_a.per_x - plane_b.per_x) + std::abs(plane_a.per_y - plane_b.per_y);
     const double snapping = plane_a.snapping_error() + plane_b.snapping_error();
     const auto change = [&](double nearness, double error) { return of_a.change(nearness, error) + of_b.change(nearness, error); };
-    const bool may_be_one_plane = !are_of_one_mesh || of_a.is_front() == of_b.is_front();
     const Region region = common_region(projection, a, b);
     if (region.is_sliver()) return order;
     for (const glm::dvec2 p : region.corners()) {

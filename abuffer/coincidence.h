@@ -24,9 +24,12 @@ struct SurfaceOrder {
     bool is_in_front() const { return has_front && !has_behind && !are_coincident(); }
 };
 
-/// Of two triangles, with corners in view space. `coordinate_error`: how exact coordinates are, in world units. Where those
-/// of one mesh face different ways, nothing but that error counts: a thin sheet has two sides.
-SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], bool are_of_one_mesh,
-                              double coordinate_error);
+/// Of two triangles, with corners in view space. `coordinate_error`: how exact coordinates are, in world units. Where the two
+/// may not be one plane, as the two sides of a thin sheet are none, nothing but that error counts.
+SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
+                              bool may_be_one_plane, double coordinate_error);
+
+/// Whether the corners of a triangle run counterclockwise as seen.
+bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]);
 
 }  // namespace burin

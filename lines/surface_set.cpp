@@ -25,7 +25,20 @@ SurfaceOrder SurfaceSet::order(SurfaceId a, SurfaceId b) const {
         glm::dvec3 corners_s[3], corners_t[3];
         view_corners(s, corners_s);
         view_corners(t, corners_t);
-        return compare_surfaces(projection, corners_s, corners_t, s.instance == t.instance, coordinate_error);
+        const auto compare_as = [&](bool may_be_one_plane) {
+            return compare_surfaces(projection, corners_s, corners_t, may_be_one_plane, coordinate_error);
+        };
+        const SurfaceOrder order = compare_as(true);
+        if (s.instance != t.instance || order.is_apart) return order;
+        // Mostly there is no need to know where bodies are.
+        const SurfaceOrder exact = compare_as(false);
+        if (!exact.is_apart) return order;
+        // A thin sheet has two sides. Bodies that are flush with each other may be wound either way.
+        const bool s_faces_eye = faces_eye(projection, corners_s), t_faces_eye = faces_eye(projection, corners_t);
+        const BodySides& sides = *instance_of(s).body_sides;
+        const int of_s = sides.of(s.triangle), of_t = sides.of(t.triangle);
+        const bool are_on_one_side = of_s == 0 || of_t == 0 ? s_faces_eye == t_faces_eye : (s_faces_eye ? of_s : -of_s) == (t_faces_eye ? of_t : -of_t);
+        return are_on_one_side ? order : exact;
     };
     if (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(b).polygon_of(b.triangle)) return {};
     // The triangles in question first: they tell for most.

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "abuffer/coincidence.h"
 #include "abuffer/depth_plane.h"
 #include "abuffer/projection.h"
 #include "abuffer/screen_polygon.h"
+#include "mesh/body_sides.h"
 #include "mesh/mesh.h"
 
 namespace burin {
@@ -36,6 +38,7 @@ struct SurfaceInstance {
     glm::dmat3 normal_to_view{1.0}; ///< takes area vectors to view space
     /// Of the mesh, see find_sharp_edges(); nullptr: not made yet.
     const std::uint8_t* sharp_edges = nullptr;
+    std::shared_ptr<const BodySides> body_sides;  ///< of the mesh
     std::uint32_t object_id = 0;    ///< from 1
     std::uint32_t first_polygon_id = 0;        ///< id of the mesh's polygon 0; ids start from 1
     std::vector<std::uint32_t> material_ids;   ///< id per material number of the mesh, from 1

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -14,5 +15,20 @@ namespace burin {
 /// nothing, between edges of more than two triangles, it lies behind the first one as that is wound. Time grows with the number
 /// of triangles.
 std::vector<std::int8_t> find_body_sides(const Mesh& mesh);
+
+/// The same of a mesh that stays, found when it is first asked for, by whichever thread.
+class BodySides {
+  public:
+    explicit BodySides(const Mesh& mesh) : mesh_(mesh) {}
+    int of(std::uint32_t triangle) const {
+        std::call_once(is_found_, [this] { sides_ = find_body_sides(mesh_); });
+        return sides_[triangle];
+    }
+
+  private:
+    const Mesh& mesh_;
+    mutable std::once_flag is_found_;
+    mutable std::vector<std::int8_t> sides_;
+};
 
 }  // namespace burin

@@ -30,7 +30,11 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     frame.criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
 
     std::vector<Box> mesh_boxes;
-    for (const Mesh& mesh : scene.meshes) mesh_boxes.push_back(box_of(mesh));
+    std::vector<std::shared_ptr<const BodySides>> body_sides;
+    for (const Mesh& mesh : scene.meshes) {
+        mesh_boxes.push_back(box_of(mesh));
+        body_sides.push_back(std::make_shared<BodySides>(mesh));
+    }
 
     SurfaceSet& surfaces = frame.surfaces;
     surfaces.view_to_world = glm::dmat3(camera.to_world);
@@ -48,6 +52,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         if (object.mesh < scene.sharp_edges.size() && !mesh.triangles.empty()) {
             instance.sharp_edges = scene.sharp_edges[object.mesh].data();
         }
+        instance.body_sides = body_sides[object.mesh];
         instance.object_id = i + 1;
         instance.first_polygon_id = static_cast<std::uint32_t>(next_polygon_id);
         next_polygon_id += mesh.polygon_count;

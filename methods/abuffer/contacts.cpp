@@ -161,10 +161,8 @@ bool Contacts::rises_in_front(SurfaceId s, SurfaceId of) const {
 /// On which side of a face its body is: 1 = towards the eye, -1 = away from it, 0 = it is a sheet.
 int Contacts::side_of_body(SurfaceId s) const {
     const SurfaceInstance& instance = screen_.surfaces().instance_of(s);
-    std::vector<std::int8_t>& sides = body_sides_[instance.mesh];
-    if (sides.empty()) sides = find_body_sides(*instance.mesh);
     const bool is_mirrored = glm::determinant(glm::dmat3(instance.to_view)) < 0;
-    const int side = sides[s.triangle];
+    const int side = instance.body_sides->of(s.triangle);
     return plane_of(s).is_counterclockwise != is_mirrored ? side : -side;
 }
 

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
-#include "mesh/body_sides.h"
 #include "methods/abuffer/layer_line.h"
 #include "methods/abuffer/layer_triangle.h"
 #include "methods/abuffer/screen_surfaces.h"
@@ -54,7 +52,6 @@ class Contacts {
     std::optional<glm::dvec2> centre_of(SurfaceId s, std::uint32_t number) const;
 
     const ScreenSurfaces& screen_;
-    mutable std::map<const Mesh*, std::vector<std::int8_t>> body_sides_;  // of meshes that were asked for
 };
 
 }  // namespace burin

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "tests/support/drawing.h"
+#include "mesh/shapes.h"
+#include "tests/support/layers.h"
 
 namespace burin {
 namespace {
@@ -61,6 +63,36 @@ TEST(SurfaceSet, ComparesTrianglesOfPolygonsWithManyCorners) {
     EXPECT_GT(discs.in_front, 0);
     EXPECT_GT(discs.behind, 0);
     EXPECT_GT(discs.coincident, 0);
+}
+
+/// Of one object, all faces near z = 0 of one box with all of another one's.
+int coincident_faces(const PolygonSoup& a, const PolygonSoup& b) {
+    const Scene scene = scene_of({joined({a, b})});
+    const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100});
+    const auto is_near_zero = [&](std::uint32_t t) {
+        const auto& corners = scene.meshes[0].triangles[t];
+        return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return std::abs(scene.meshes[0].position(v).z) < 0.1; });
+    };
+    int count = 0;
+    const auto first_of_b = static_cast<std::uint32_t>(2 * a.polygon_count()), end = static_cast<std::uint32_t>(scene.meshes[0].triangles.size());
+    for (std::uint32_t s = 0; s < first_of_b; ++s) {
+        for (std::uint32_t t = first_of_b; t < end; ++t) count += is_near_zero(s) && is_near_zero(t) && frame.surfaces.order({0, s}, {0, t}).are_coincident();
+    }
+    return count;
+}
+
+/// Bodies of one object are flush, whichever way they are wound. A thin plate has two sides, as do two sheets.
+TEST(SurfaceSet, TellsTheSidesOfBodies) {
+    const auto tilted = [](glm::dvec3 p) { return p + glm::dvec3(0, 0, 0.0015 + 2e-4 * (p.x + p.y - 100)); };
+    const PolygonSoup large = moved(make_box({60, 60, 20}), {50, 50, -10}), small = transformed(moved(make_box({30, 30, 20}), {50, 50, -10}), tilted);
+    for (const PolygonSoup& a : {large, turned(large)}) {
+        for (const PolygonSoup& b : {small, turned(small)}) EXPECT_EQ(coincident_faces(a, b), 4);
+    }
+    const PolygonSoup behind = transformed(moved(make_box({30, 30, 20}), {50, 50, 10}), tilted);  // with its back at z = 0
+    for (const PolygonSoup& b : {behind, turned(behind)}) EXPECT_EQ(coincident_faces(large, b), 0);
+    const PolygonSoup sheet = disc({50, 50, 0}, 4), other = disc({50, 50, 0.0015}, 4, 2e-4);
+    EXPECT_EQ(coincident_faces(sheet, other), 4);
+    EXPECT_EQ(coincident_faces(sheet, turned(other)), 0);
 }
 
 TEST(SurfaceSet, ComparesNoPolygonWithItself) {

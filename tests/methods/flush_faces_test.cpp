@@ -198,6 +198,25 @@ TEST(FlushFaces, HaveNoSpecksOnBuriedEdges) {
     }
 }
 
+// Parts that were mirrored, or come from several programs; turned, and written with four decimals.
+TEST(FlushFaces, MayBeWoundEitherWay) {
+    for (int seed = 0; seed < 40; ++seed) {
+        Random random(static_cast<std::uint64_t>(seed));
+        const std::vector<Block> blocks = random_blocks(random);
+        const Camera camera = camera_around(random, seed % 3 == 0 ? 5 : 40);
+        const glm::dvec3 middle(0.5 * kGrid), x = random.direction(), z = glm::normalize(glm::cross(x, random.direction()));
+        const glm::dmat3 rotation(x, glm::cross(z, x), z);
+        std::vector<PolygonSoup> alike, either_way;
+        for (const Block& block : blocks) {
+            alike.push_back(transformed(block.soup(), [&](glm::dvec3 p) { return glm::round(1e4 * (middle + rotation * (p - middle))) / 1e4; }));
+            either_way.push_back(random.integer(0, 1) == 0 ? alike.back() : turned(alike.back()));
+        }
+        const Drawing expected = drawn(test::joined(alike), camera, render_abuffer), d = drawn(test::joined(either_way), camera, render_abuffer);
+        EXPECT_LE(ink_apart(d, expected), 0.2) << seed;
+        EXPECT_LE(ink_apart(expected, d), 0.2) << seed;
+    }
+}
+
 // Where a ray passes a wall's edge within its rounding, it may see the wall; a whole seam has 60 pixels and more.
 TEST(FlushFaces, InTheReference) {
     const Camera camera = perspective_camera({11, 13, 17}, {3, 3, 3}, 30);

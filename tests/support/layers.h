@@ -35,6 +35,16 @@ inline PolygonSoup joined(const std::vector<PolygonSoup>& soups) {
     return all;
 }
 
+/// All its polygons wound the other way.
+inline PolygonSoup turned(PolygonSoup soup) {
+    for (std::size_t i = 0; i < soup.polygon_count(); ++i) {
+        const std::size_t begin = static_cast<std::size_t>(soup.polygon(i).data() - soup.corners.data());
+        std::reverse(soup.corners.begin() + static_cast<std::ptrdiff_t>(begin),
+                     soup.corners.begin() + static_cast<std::ptrdiff_t>(begin + soup.polygon(i).size()));
+    }
+    return soup;
+}
+
 /// The lines of a frame with what is in front of them.
 struct Layers {
     Frame frame;
