@@ -19,6 +19,11 @@ constexpr int kWidth = 90, kHeight = 70;
 
 struct Counts {
     int smooth = 0, rough = 0;
+
+    void operator+=(const Counts& c) {
+        smooth += c.smooth;
+        rough += c.rough;
+    }
 };
 
 /// All neighbours with something at the first one, whatever lies between them; for each mesh of the scene.
@@ -85,9 +90,7 @@ TEST(SmoothPairs, ManyAtOnceAreAsEachAlone) {
         std::vector<PolygonSoup> objects;
         objects.push_back(rough_sphere(seed, random.integer(40, 260), random.real(0, 4), random.real(0.2, 8)));
         objects.push_back(make_torus(0.9, 0.3, random.integer(5, 90), random.integer(5, 60)));
-        const Counts counts = compare(scene_of(std::move(objects)), random.direction() * random.real(2.0, 9.0), 1 << random.integer(1, 3));
-        sum.smooth += counts.smooth;
-        sum.rough += counts.rough;
+        sum += compare(scene_of(std::move(objects)), random.direction() * random.real(2.0, 9.0), 1 << random.integer(1, 3));
     }
     EXPECT_GT(sum.smooth, 20000);
     EXPECT_GT(sum.rough, 20000);
@@ -101,9 +104,7 @@ TEST(SmoothPairs, WallsAndSharpEdges) {
         Random random(seed);
         std::vector<PolygonSoup> objects{make_cylinder(0.6, 0.6, 6, random.integer(40, 2000)), rough_sphere(seed, 300, 20, 30)};
         const glm::dvec3 eye(random.real(-0.01, 0.01), 9, random.real(-0.01, 0.01));
-        const Counts counts = compare(scene_of(std::move(objects)), eye, 4);
-        sum.smooth += counts.smooth;
-        sum.rough += counts.rough;
+        sum += compare(scene_of(std::move(objects)), eye, 4);
     }
     EXPECT_GT(sum.smooth, 1000);
     EXPECT_GT(sum.rough, 1000);
@@ -119,9 +120,7 @@ TEST(SmoothPairs, Slivers) {
         for (std::size_t i = 0; i + 1 < sheet.positions.size(); i += 3) {
             sheet.positions[i] = glm::mix(sheet.positions[i + 1], sheet.positions[i], random.real(0, 3e-3));
         }
-        const Counts counts = compare(scene_of({std::move(sheet)}), {random.real(-1, 1), 3, random.real(-1, 1)}, 8);
-        sum.smooth += counts.smooth;
-        sum.rough += counts.rough;
+        sum += compare(scene_of({std::move(sheet)}), {random.real(-1, 1), 3, random.real(-1, 1)}, 8);
     }
     EXPECT_GT(sum.smooth, 1000);
     EXPECT_GT(sum.rough, 1000);
