@@ -1,6 +1,7 @@
 #include "abuffer/scan_convert.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -53,6 +54,25 @@ ScanConverter::ScanConverter(const ScreenPolygon& polygon, int samples_per_pixel
     end_row_ = first_sample_from(high_y);
     first_column_ = first_sample_from(low_x);
     end_column_ = first_sample_from(high_x);
+}
+
+SampleSpan ScanConverter::columns_in(int first, int end) const {
+    const auto middle = [](int row) { return static_cast<double>(kPitch * row + kHalfPitch); };
+    const double top = middle(first), bottom = middle(end - 1);
+    constexpr double kFar = 1e9;  // samples
+    double low = kFar, high = -kFar;
+    for (const ScanEdge& e : edges()) {
+        const auto x0 = static_cast<double>(e.x0), y0 = static_cast<double>(e.y0), y1 = static_cast<double>(e.y1);
+        if (y1 <= top || y0 > bottom) continue;
+        const double per_row = static_cast<double>(e.x1 - e.x0) * e.per_dy;  // samples per unit
+        const double column = (x0 - kHalfPitch) / kPitch;
+        const double at_top = column + (std::max(top, y0) - y0) * per_row, at_bottom = column + (std::min(bottom, y1) - y0) * per_row;
+        low = std::min({low, at_top, at_bottom});
+        high = std::max({high, at_top, at_bottom});
+    }
+    // Rounding is off by far less than a sample, and a covered one lies at a whole number from `low` on and before `high`.
+    if (low > high) return {};
+    return {static_cast<int>(std::floor(low)), static_cast<int>(std::ceil(high)) + 1};
 }
 
 SampleSpan ScanConverter::span(int row) const {

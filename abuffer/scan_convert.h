@@ -33,6 +33,9 @@ class ScanConverter {
     /// The covered samples of a row in [first_row(), end_row()).
     SampleSpan span(int row) const;
 
+    /// Columns that hold all covered samples of rows [first, end), and perhaps one more on either side.
+    SampleSpan columns_in(int first, int end) const;
+
     /// The edges that are not horizontal.
     std::span<const ScanEdge> edges() const { return {edges_.data(), edge_count_}; }
     /// Whether double precision holds all that span() computes: not for polygons thousands of pixels large or away.

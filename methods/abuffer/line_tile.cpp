@@ -303,14 +303,18 @@ int LineTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
     if (left >= right) return drawn;
     for (int strip = top & -kBlockSamples; strip < bottom; strip += kBlockSamples) {
         const int first_row = std::max(strip, top), end_row = std::min(strip + kBlockSamples, bottom);
-        int begin = left >> kBlockShift, end = ((right - 1) >> kBlockShift) + 1;
+        const SampleSpan in_strip = scan.columns_in(samples_.first_row + first_row, samples_.first_row + end_row);
+        const int first_column = std::max(left, in_strip.begin - samples_.first_column);
+        const int end_column = std::min(right, in_strip.end - samples_.first_column);
+        if (first_column >= end_column) continue;
+        int begin = first_column >> kBlockShift, end = ((end_column - 1) >> kBlockShift) + 1;
         if (has_look) {
-            const float high = highest_level_with(highest_in(plane, left, right, first_row, end_row), tile);
+            const float high = highest_level_with(highest_in(plane, first_column, end_column, first_row, end_row), tile);
             const float* const farthest = farthest_.data() + (strip >> kBlockShift) * BlockTable::kPitch;
             while (begin < end && high < farthest[begin]) ++begin;
             while (begin < end && high < farthest[end - 1]) --end;
         }
-        const int least = std::max(left, begin << kBlockShift), most = std::min(right, end << kBlockShift);
+        const int least = std::max(first_column, begin << kBlockShift), most = std::min(end_column, end << kBlockShift);
         if (least >= most) continue;
         if (scan.fits_doubles()) {
             drawn += kernels_.draw_polygon(tile, scan.edges().data(), scan.edges().size(), {least, first_row, most, end_row}, plane);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "abuffer/polygon_sides.h"
 #include "base/parallel.h"
 
 namespace burin {
@@ -184,12 +185,26 @@ class Binner {
 
     void add_large(const LargePolygon& large, const Box& box, Records& records) const {
         const auto index = static_cast<std::uint32_t>(records.polygons.size());
+        const PolygonSides sides(large.polygon);
         bool touches = false;
         for_tiles(box, [&](std::uint32_t tile, const SampleBox& samples) {
+            if (is_beside(sides, tile)) return;
             (samples.is_thin() ? records.thin_large : records.large).push_back({tile, index});
             touches = true;
         });
         if (touches) records.polygons.push_back(large);
+    }
+
+    /// Also beside all that lies less than a pixel from a tile's samples: what looks for surfaces beside lines.
+    bool is_beside(const PolygonSides& sides, std::uint32_t tile) const {
+        const auto tiles = static_cast<std::uint32_t>(grid_.columns);
+        const auto first = [&](std::uint32_t at, std::int32_t origin) {
+            return (std::int64_t{origin} + (std::int64_t{at} << grid_.tile_shift)) << grid_.pitch_shift;
+        };
+        const std::int64_t x = first(tile % tiles, grid_.first_column), y = first(tile / tiles, grid_.first_row);
+        const std::int64_t width = std::int64_t{(1 << grid_.tile_shift) + 1} << grid_.pitch_shift;
+        constexpr std::int64_t kBeside = kSubpixelsPerPixel;
+        return sides.leave_out(x - kBeside, y - kBeside, x + width + kBeside, y + width + kBeside);
     }
 
     TileTriangle in_tile(TileTriangle t, std::uint32_t tile, const SampleBox& samples) const {

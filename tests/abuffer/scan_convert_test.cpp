@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -118,6 +120,37 @@ TEST(ScanConvert, TrianglesOfAPolygonCoverEachSampleOnce) {
                     << "trial " << trial << ", row " << row << ", column " << column;
             }
         }
+    }
+}
+
+TEST(ScanConvert, ColumnsOfSomeRowsHoldWhatIsCoveredThereAndLittleMore) {
+    for (int trial = 0; trial < 20000; ++trial) {
+        Random random(static_cast<std::uint64_t>(trial));
+        const bool ties = trial % 2 == 0;
+        const int size_px = trial % 3 == 0 ? 60000 : 12;  // with a third of them doubles round
+        const ScreenPolygon t = triangle(random_point(random, size_px, ties), random_point(random, size_px, ties),
+                                         random_point(random, size_px, ties));
+        const ScanConverter scan(t, random.integer(0, 1) != 0 ? 2 : 4);
+        if (scan.first_row() >= scan.end_row()) continue;
+        const int first = random.integer(scan.first_row(), scan.end_row() - 1);
+        const int end = std::min(first + random.integer(1, 8), scan.end_row());
+        SampleSpan all{std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};
+        for (int row = first; row < end; ++row) {
+            const SampleSpan span = scan.span(row);
+            all = {std::min(all.begin, span.begin), std::max(all.end, span.end)};
+        }
+        // Diagonal slivers touch no sample of some rows.
+        if (all.begin >= all.end) continue;
+        const SampleSpan columns = scan.columns_in(first, end);
+        ASSERT_LE(columns.begin, all.begin) << "trial " << trial;
+        ASSERT_GE(columns.end, all.end) << "trial " << trial;
+        // A corner between two rows may reach farther than what is covered in them.
+        const bool has_corner = std::any_of(t.corners.begin(), t.corners.begin() + 3, [&](const SubpixelPoint& p) {
+            return p.y > 64 * (first - 1) && p.y < 128 * (end + 1);
+        });
+        if (has_corner) continue;
+        ASSERT_GE(columns.begin, all.begin - 1) << "trial " << trial;
+        ASSERT_LE(columns.end, all.end + 1) << "trial " << trial;
     }
 }
 
