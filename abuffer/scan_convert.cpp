@@ -1,7 +1,6 @@
 #include "abuffer/scan_convert.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -72,7 +71,8 @@ SampleSpan ScanConverter::columns_in(int first, int end) const {
     }
     // Rounding is off by far less than a sample, and a covered one lies at a whole number from `low` on and before `high`.
     if (low > high) return {};
-    return {static_cast<int>(std::floor(low)), static_cast<int>(std::ceil(high)) + 1};
+    const int left = static_cast<int>(low), right = static_cast<int>(high);
+    return {left - (low < left ? 1 : 0), right + (high > right ? 2 : 1)};
 }
 
 SampleSpan ScanConverter::span(int row) const {
