@@ -89,7 +89,9 @@ class FineLines::BlockClipper {
         const double certain = line_slack(screen_.surfaces(), line, begin, end, kCertainPx);
         const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
         const bool is_border = line.owners[0] == line.owners[1];
+        const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         hidden_.clear();
+        double reached = begin;  // as far as no piece is left
         bool is_hidden = false;
         for_triangles(glm::mix(line.from, line.to, begin), glm::mix(line.from, line.to, end), line.lowest_in(begin, end) - slack,
                       [&](const LayerTriangle& t) {
@@ -115,15 +117,15 @@ class FineLines::BlockClipper {
                           } else if (!is_any_hidden) {
                               return true;
                           }
-                          is_hidden = from <= begin && to >= end;
                           hidden_.push_back({from, to});
+                          reached = hidden_up_to(reached, shortest);
+                          is_hidden = end - reached <= shortest;
                           return !is_hidden;
                       });
         if (is_hidden) return;
         std::sort(hidden_.begin(), hidden_.end(),
                   [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
-        const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
-        double reached = begin;
+        reached = begin;
         for (const Interval& h : hidden_) {
             add_wide(candidate, reached, h.begin, shortest, segments);
             reached = std::max(reached, h.end);
@@ -135,6 +137,15 @@ class FineLines::BlockClipper {
     struct Interval {
         double begin, end;
     };
+
+    /// How far what is hidden goes on from a place, but for gaps too short to be drawn.
+    double hidden_up_to(double reached, double shortest) const {
+        const auto goes_on = [&](const Interval& h) { return h.begin - reached <= shortest && h.end > reached; };
+        for (auto next = hidden_.end(); (next = std::find_if(hidden_.begin(), hidden_.end(), goes_on)) != hidden_.end();) {
+            reached = next->end;
+        }
+        return reached;
+    }
 
     struct Place {
         std::uint32_t first = 0, count = 0;
