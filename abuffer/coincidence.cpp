@@ -43,16 +43,21 @@ class Region {
 
     /// What lies to the right of the way from one point to another.
     void clip(glm::dvec2 from, glm::dvec2 to) {
-        std::array<glm::dvec2, kMost> kept{};
-        std::size_t kept_count = 0;
-        const auto side = [&](glm::dvec2 p) { return cross(to - from, p - from); };
-        for (std::size_t i = 0; i < count_ && kept_count + 2 <= kMost; ++i) {
-            const glm::dvec2 p = corners_[i], q = corners_[i + 1 == count_ ? 0 : i + 1];
-            const double at_p = side(p), at_q = side(q);
-            if (at_p >= 0) kept[kept_count++] = p;
-            if ((at_p < 0) != (at_q < 0)) kept[kept_count++] = glm::mix(p, q, at_p / (at_p - at_q));
+        std::array<double, kMost> side;
+        bool is_all = true;
+        for (std::size_t i = 0; i < count_; ++i) {
+            side[i] = cross(to - from, corners_[i] - from);
+            is_all = is_all && side[i] >= 0;
         }
-        corners_ = kept;
+        if (is_all) return;
+        std::array<glm::dvec2, kMost> kept;
+        std::size_t kept_count = 0;
+        for (std::size_t i = 0; i < count_ && kept_count + 2 <= kMost; ++i) {
+            const std::size_t next = i + 1 == count_ ? 0 : i + 1;
+            if (side[i] >= 0) kept[kept_count++] = corners_[i];
+            if ((side[i] < 0) != (side[next] < 0)) kept[kept_count++] = glm::mix(corners_[i], corners_[next], side[i] / (side[i] - side[next]));
+        }
+        std::copy_n(kept.begin(), kept_count, corners_.begin());
         count_ = kept_count;
     }
     void clip(const Region& other) {
@@ -64,7 +69,7 @@ class Region {
     static constexpr std::size_t kMost = 2 * ScreenPolygon::kMaxCorners + 8;  // each side of another one adds a corner
     static double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-    std::array<glm::dvec2, kMost> corners_{};
+    std::array<glm::dvec2, kMost> corners_;
     std::size_t count_ = 0;
 };
 

@@ -148,10 +148,16 @@ void LineTile::settle_contests() {
 
 /// Mostly asked of the same two for one sample after the other.
 const LineTile::Relation& LineTile::relation(std::uint32_t loser, std::uint32_t winner) {
-    constexpr std::size_t kRemembered = 512;
-    if (relations_.empty()) relations_.resize(kRemembered);
-    Relation& r = relations_[(loser * 31u + winner) % kRemembered];
+    constexpr std::size_t kAtFirst = 512, kMost = std::size_t{1} << 18;
+    // In a heap of nearly equal surfaces each is asked about each, for every sample: room for all saves most of the time.
+    if (relations_.empty() || (forgotten_ > relations_.size() && relations_.size() < kMost)) {
+        relations_.assign(std::max(kAtFirst, 4 * relations_.size()), {});
+        forgotten_ = 0;
+    }
+    const std::uint64_t mixed = (std::uint64_t{loser} << 32 | winner) * 0x9E3779B97F4A7C15u;
+    Relation& r = relations_[(mixed >> 32) % relations_.size()];
     if (r.loser == loser && r.winner == winner) return r;
+    if (r.loser != r.winner) ++forgotten_;
     SurfaceOrder o;
     if (loser < winner || may_be_in_front(loser, winner)) o = order(loser, winner);
     r = {loser, winner, o.is_in_front(), is_fold_over(loser, winner), loser < winner && o.are_coincident()};

@@ -94,7 +94,8 @@ class LineTile {
     std::vector<Contest> contests_;
     std::uint32_t contest_count_ = 0, contests_used_ = 0;
     std::vector<std::uint8_t> is_open_;  // per sample: whether a loser may win after all
-    std::vector<Relation> relations_;    // some that are known
+    std::vector<Relation> relations_;    // some that are known, by a hash
+    std::size_t forgotten_ = 0;          // how often one took another's place
 };
 
 }  // namespace burin
