@@ -43,9 +43,10 @@ struct Nearest {
     }
 };
 
-double distance_to_box(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high) {
-    const glm::dvec3 outside = glm::max(glm::dvec3(low) - p, p - glm::dvec3(high));
-    return glm::length(glm::max(outside, glm::dvec3(0.0)));
+/// Whether a box may be so near to a point; the margin keeps rounding from hiding an equally near one.
+bool is_box_near(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high, double reach) {
+    const glm::dvec3 outside = glm::max(glm::max(glm::dvec3(low) - p, p - glm::dvec3(high)), glm::dvec3(0.0));
+    return glm::dot(outside, outside) <= reach * reach * (1 + 1e-9);
 }
 
 }  // namespace
@@ -121,7 +122,8 @@ void BorderIndex::search(const Segment& own, const MayBeNear& may_be_near, const
     const double length = glm::length(along);
     visit_leaves(may_be_near, [&](std::uint32_t i) {
         const Segment& other = segments_[i];
-        if (other.polygon != own.polygon && are_nearly_parallel(along, length, other)) visit(other);
+        const bool may_be = other.polygon != own.polygon && may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b));
+        if (may_be && are_nearly_parallel(along, length, other)) visit(other);
     });
 }
 
@@ -139,11 +141,7 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     const Segment* const own = find(half_edge);
     if (own == nullptr) return std::nullopt;
     Nearest nearest{kReachPart * glm::length(direction_of(*own)), {}};
-    // The margin keeps rounding from hiding an equally near one.
-    search(*own,
-           [&](const glm::vec3& low, const glm::vec3& high) {
-               return distance_to_box(at, low, high) <= nearest.reach * (1 + 1e-12);
-           },
+    search(*own, [&](const glm::vec3& low, const glm::vec3& high) { return is_box_near(at, low, high, nearest.reach); },
            [&](const Segment& other) { nearest.offer(other, at); });
     return nearest.partner;
 }
@@ -160,9 +158,7 @@ void BorderIndex::find_candidates(HalfEdge half_edge, SeamCandidates& candidates
         return glm::all(glm::lessThanEqual(glm::dvec3(other_low), high)) &&
                glm::all(glm::lessThanEqual(low, glm::dvec3(other_high)));
     };
-    search(*own, may_be_near, [&](const Segment& other) {
-        if (may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b))) candidates.segments_.push_back(other);
-    });
+    search(*own, may_be_near, [&](const Segment& other) { candidates.segments_.push_back(other); });
 }
 
 std::optional<HalfEdge> BorderIndex::SeamCandidates::nearest(const glm::dvec3& at) const {

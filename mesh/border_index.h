@@ -60,7 +60,7 @@ class BorderIndex {
     /// Calls visit(number of a segment) for all in boxes that may_be_near(low, high).
     template <typename MayBeNear, typename Visit>
     void visit_leaves(const MayBeNear& may_be_near, const Visit& visit) const;
-    /// Calls visit(segment) for those of other polygons that are nearly parallel to `own`, in boxes that
+    /// Calls visit(segment) for those of other polygons that are nearly parallel to `own` and whose boxes
     /// may_be_near(low, high).
     template <typename MayBeNear, typename Visit>
     void search(const Segment& own, const MayBeNear& may_be_near, const Visit& visit) const;

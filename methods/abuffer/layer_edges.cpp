@@ -335,18 +335,21 @@ class LayerEdgeFinder::Rules {
         const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), along = glm::dvec3(mesh.positions[end_of(mesh, h)]) - a;
         const double square = glm::dot(along, along);
         std::vector<double> ends;
+        bool has_crack = false;
         for (const BorderIndex::Segment& other : candidates.segments()) {
             if (!is_crack_beside(s.instance, edge, other.half_edge)) continue;
+            has_crack = true;
             for (const glm::vec3& end : {other.a, other.b}) {
                 const double in_space = glm::dot(glm::dvec3(end) - a, along) / square;
                 if (in_space > edge.begin && in_space < edge.end) ends.push_back(share_on_screen(screen_, edge, in_space));
             }
         }
+        if (!has_crack) return {{}};
         std::sort(ends.begin(), ends.end());
         const double shortest = kWidestCrackSubpixels / glm::distance(edge.from, edge.to);  // a crack is no part of its own
         std::vector<BorderPart> parts;
         const auto add_part = [&](double begin, double end) {
-            const auto partner = seam_partner(s, h, edge, 0.5 * (begin + end));
+            const auto partner = seam_partner(s, h, edge, candidates, 0.5 * (begin + end));
             if (!parts.empty() && parts.back().partner == partner) {
                 parts.back().end = end;
             } else {
@@ -379,10 +382,11 @@ class LayerEdgeFinder::Rules {
     }
 
     /// The border of another patch that runs along, nearer than a pixel and level, at a share of edge_on_screen().
-    std::optional<HalfEdge> seam_partner(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, double on_screen) const {
+    std::optional<HalfEdge> seam_partner(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge,
+                                         const BorderIndex::SeamCandidates& candidates, double on_screen) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
-        const auto partner = mesh.borders.seam_partner(h, glm::mix(a, b, share_in_space(screen_, edge, on_screen)));
+        const auto partner = candidates.nearest(glm::mix(a, b, share_in_space(screen_, edge, on_screen)));
         if (!partner) return std::nullopt;
         const auto other = edge_on_screen(screen_, s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
         if (!other) return std::nullopt;
