@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -12,9 +13,8 @@ namespace burin {
 /// plane or outside the guard band, and its triangles need clipping.
 struct alignas(16) ScreenVertex {
     static constexpr std::int32_t kOffScreen = std::numeric_limits<std::int32_t>::min();
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-    float nearness = 0;
+    std::int32_t x, y;  // not 0 by default: millions are made without a value, and projected
+    float nearness;
 };
 
 /// A triangle whose corners all lie on the screen.
@@ -48,7 +48,9 @@ struct ScreenMesh {
     std::uint32_t triangle_count = 0;
     const std::uint8_t* sharp = nullptr;      ///< per triangle, bit k: edge k is sharp; kMayBeSliver
     const std::uint32_t* partners = nullptr;  ///< half-edges on the other side, three per triangle
-    const std::uint8_t* facing = nullptr;     ///< Facing, per triangle
+    /// Facing, per triangle. Kernels may read kFacingPadding bytes behind the last one.
+    const std::uint8_t* facing = nullptr;
+    static constexpr std::size_t kFacingPadding = 3;
     /// Per triangle, bit k: edge k may be a line. 0: the triangle is plain (see SampleTile).
     const std::uint8_t* line_edges = nullptr;
 };

@@ -226,6 +226,17 @@ struct TileTriangle {
     std::int32_t last_row() const { return static_cast<std::int32_t>(blocks >> 21 & 31u); }
 };
 
+/// What cull() lists, an array per number.
+struct CulledTriangles {
+    std::uint32_t* keys;       ///< of their tiles: tile_key()
+    std::uint32_t* triangles;  ///< the rest of a TileTriangle
+    float* highest;
+    std::uint32_t* blocks;
+    std::size_t count;
+    std::uint32_t* others;  ///< numbers of those that are not in two by two tiles or fewer, or not small
+    std::size_t other_count;
+};
+
 /// What a tile lists separately. `thin` ones have no column or no row of samples in their box.
 enum TriangleKind : std::uint32_t { wound_counterclockwise, wound_clockwise, thin, kTriangleKinds };
 
@@ -237,11 +248,11 @@ struct TileKernels {
     /// Projects and snaps vertices; `positions` are three numbers each.
     void (*project)(const ScreenTransform& transform, const float* positions, std::size_t count,
                     ScreenVertex* vertices);
-    /// Sets the facing of triangles [begin, end) of a mesh (`facing`: that of the mesh's first one) and
-    /// lists those that may touch samples of the grid, and the keys of their tiles, kSeveralTiles (then the
-    /// blocks mean nothing) or kNotSmall. Returns their number. The lists need room for end - begin + 8.
-    std::size_t (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
-                        std::uint8_t* facing, TileTriangle* triangles, std::uint32_t* keys);
+    /// Sets the facing of triangles [begin, end) of a mesh (`facing`: that of the mesh's first one) and lists those that may
+    /// touch samples of the grid, once for each tile. Those that may be too large for draw_small(), are not all on the screen
+    /// or lie in more tiles are listed as `others`. Needs room for 4 * (end - begin) + 8 and for end - begin + 8 others.
+    void (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid, std::uint8_t* facing,
+                 CulledTriangles& found);
     /// Once the facing of all triangles is known: sets ScreenMesh::line_edges for triangles [begin, end) of a
     /// mesh (`line_edges`: that of the mesh's first one). Other bits of `sharp` are kept there.
     void (*find_line_edges)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint8_t* line_edges);
@@ -334,8 +345,6 @@ struct TileKernels {
 /// A tile's key for triangles of one kind.
 constexpr std::uint32_t tile_key(std::uint32_t tile, TriangleKind kind) { return kTriangleKinds * tile + kind; }
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
-/// Too large for draw_small(), or not all on the screen.
-constexpr std::uint32_t kNotSmall = 0xFFFFFFFEu;
 /// In 1/256 pixel. Products of such lengths fit 32 bits.
 constexpr std::int32_t kLargestSmallTriangle = 1 << 14;
 

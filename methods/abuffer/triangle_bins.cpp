@@ -45,9 +45,19 @@ struct Records {
 
 /// Buffers of one thread.
 struct Scratch {
-    std::vector<TileTriangle> triangles, more_triangles;  // what the kernel found; those in several tiles
-    std::vector<std::uint32_t> keys, more_keys;           // of their tiles
-    std::vector<std::uint32_t> count, used;                // per key; keys with a count
+    static constexpr std::size_t kOthers = kChunkTriangles + 8, kRoom = 4 * std::size_t{kChunkTriangles} + 8;
+    std::vector<std::uint32_t> keys, triangles, blocks, others;
+    std::vector<float> highest;
+    std::vector<TileTriangle> more_triangles;  // of the others, once for each tile
+    std::vector<std::uint32_t> more_keys;
+    std::vector<std::uint32_t> count, used;  // per key; keys with a count
+
+    CulledTriangles found() {
+        for (auto* list : {&keys, &triangles, &blocks}) list->resize(kRoom);
+        highest.resize(kRoom);
+        others.resize(kOthers);
+        return {keys.data(), triangles.data(), highest.data(), blocks.data(), 0, others.data(), 0};
+    }
 };
 
 SpanPlane plane_of_triangle(const ScreenTriangle& t, std::uint32_t id) {
@@ -73,13 +83,12 @@ class Binner {
         : surfaces_(surfaces), grid_(grid), kernels_(kernels) {}
 
     void bin(const TriangleChunk& chunk, Scratch& scratch, Records& records) const {
-        const std::size_t room = kChunkTriangles + 8;
-        scratch.triangles.resize(room);
-        scratch.keys.resize(room);
         scratch.count.resize(kTriangleKinds * tile_count(), 0);
-        const std::size_t found = kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_,
-                                                surfaces_.facings(chunk.instance), scratch.triangles.data(),
-                                                scratch.keys.data());
+        scratch.more_triangles.clear();
+        scratch.more_keys.clear();
+        CulledTriangles found = scratch.found();
+        kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_, surfaces_.facings(chunk.instance), found);
+        for (std::size_t i = 0; i < found.other_count; ++i) add_other({chunk.instance, found.others[i]}, scratch, records);
         sort(chunk.instance, found, scratch, records);
     }
 
@@ -89,29 +98,16 @@ class Binner {
         return static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(rows);
     }
 
-    /// Sorts by counting keys. What is not in exactly one tile goes ways of its own.
-    void sort(std::uint32_t instance, std::size_t found, Scratch& scratch, Records& records) const {
+    /// By counting keys.
+    void sort(std::uint32_t instance, const CulledTriangles& found, Scratch& scratch, Records& records) const {
         auto& count = scratch.count;
         scratch.used.clear();
-        scratch.more_triangles.clear();
-        scratch.more_keys.clear();
         const auto add = [&](std::uint32_t key) {
             if (count[key]++ == 0) scratch.used.push_back(key);
         };
-        for (std::size_t i = 0; i < found; ++i) {
-            const std::uint32_t key = scratch.keys[i];
-            if (key < kNotSmall) {
-                add(key);
-            } else if (key == kNotSmall) {
-                add_not_small({instance, scratch.triangles[i].triangle}, records);
-            } else {
-                find_tiles(instance, scratch.triangles[i], scratch);
-            }
-        }
+        for (std::size_t i = 0; i < found.count; ++i) add(found.keys[i]);
         for (const std::uint32_t key : scratch.more_keys) add(key);
-        std::uint32_t total = 0;
-        for (const std::uint32_t key : scratch.used) total += count[key];
-        records.small = std::make_unique_for_overwrite<TileTriangle[]>(total);
+        records.small = std::make_unique_for_overwrite<TileTriangle[]>(found.count + scratch.more_keys.size());
         TileTriangle* const small = records.small.get();
         std::uint32_t begin = 0;
         for (const std::uint32_t key : scratch.used) {
@@ -120,8 +116,8 @@ class Binner {
                 .push_back({key / kTriangleKinds, {instance, count[key], kind, small + begin}});
             begin += std::exchange(count[key], begin);
         }
-        for (std::size_t i = 0; i < found; ++i) {
-            if (scratch.keys[i] < kNotSmall) small[count[scratch.keys[i]]++] = scratch.triangles[i];
+        for (std::size_t i = 0; i < found.count; ++i) {
+            small[count[found.keys[i]]++] = {found.triangles[i], found.highest[i], found.blocks[i]};
         }
         for (std::size_t i = 0; i < scratch.more_keys.size(); ++i) {
             small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
@@ -129,19 +125,8 @@ class Binner {
         for (const std::uint32_t key : scratch.used) count[key] = 0;
     }
 
-    /// Lists a small triangle once for every tile that it may touch. Not a part of sort(), whose variables would no longer
-    /// fit into registers.
-    [[gnu::noinline]] void find_tiles(std::uint32_t instance, const TileTriangle& found, Scratch& scratch) const {
-        const ScreenTriangle t = surfaces_.triangle({instance, found.triangle});
-        const bool turned = surfaces_.facing(surfaces_.number_of({instance, found.triangle})) == clockwise;
-        for_tiles(box_of(t.corners, 3), [&](std::uint32_t touched, const SampleBox& samples) {
-            scratch.more_triangles.push_back(in_tile(found, touched, samples));
-            const TriangleKind kind = samples.is_thin() ? thin : turned ? wound_clockwise : wound_counterclockwise;
-            scratch.more_keys.push_back(tile_key(touched, kind));
-        });
-    }
-
-    void add_not_small(SurfaceId s, Records& records) const {
+    /// What is large, not all on the screen, or in many tiles.
+    void add_other(SurfaceId s, Scratch& scratch, Records& records) const {
         const std::uint32_t number = surfaces_.number_of(s);
         const ScreenTriangle t = surfaces_.triangle(s);
         const bool is_off = std::any_of(std::begin(t.corners), std::end(t.corners), [](const ScreenVertex& v) {
@@ -154,12 +139,25 @@ class Binner {
         const std::int64_t area = doubled_area(t.corners[0], t.corners[1], t.corners[2]);
         surfaces_.set_facing(number, area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
         if (area == 0) return;
+        const Box box = box_of(t.corners, 3);
+        if (box.x1 - box.x0 < kLargestSmallTriangle && box.y1 - box.y0 < kLargestSmallTriangle) return add_small(s, t, box, scratch);
         LargePolygon large;
         large.surface = s;
         large.polygon.count = 3;
         for (std::size_t k = 0; k < 3; ++k) large.polygon.corners[k] = {t.corners[k].x, t.corners[k].y};
         large.plane = plane_of_triangle(t, number << 1);
-        add_large(large, box_of(t.corners, 3), records);
+        add_large(large, box, records);
+    }
+
+    /// Lists a small triangle once for every tile that it may touch.
+    void add_small(SurfaceId s, const ScreenTriangle& t, const Box& box, Scratch& scratch) const {
+        const bool turned = surfaces_.facing(surfaces_.number_of(s)) == clockwise;
+        const float highest = std::max({t.corners[0].nearness, t.corners[1].nearness, t.corners[2].nearness});
+        for_tiles(box, [&](std::uint32_t touched, const SampleBox& samples) {
+            scratch.more_triangles.push_back(in_tile({s.triangle, highest, 0}, touched, samples));
+            const TriangleKind kind = samples.is_thin() ? thin : turned ? wound_clockwise : wound_counterclockwise;
+            scratch.more_keys.push_back(tile_key(touched, kind));
+        });
     }
 
     void bin_clipped(SurfaceId s, std::uint32_t number, Records& records) const {

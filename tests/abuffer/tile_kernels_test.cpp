@@ -201,6 +201,22 @@ TEST(TileKernels, PolygonsAreDrawnRowByRow) {
     EXPECT_GT(drawn, 50000);
 }
 
+/// What cull() finds of all triangles: once for each tile, and the others.
+struct Culled {
+    Culled(const TileKernels& kernels, Triangles& triangles, const TileGrid& grid)
+        : keys(4 * triangles.count() + 8), others(triangles.count() + 8) {
+        std::vector<std::uint32_t> numbers(keys.size()), blocks(keys.size());
+        std::vector<float> highest(keys.size());
+        CulledTriangles found{keys.data(), numbers.data(), highest.data(), blocks.data(), 0, others.data(), 0};
+        kernels.cull(triangles.mesh, 0, triangles.count(), grid, triangles.facing.data(), found);
+        keys.resize(found.count);
+        others.resize(found.other_count);
+        for (std::size_t i = 0; i < found.count; ++i) kept.push_back({numbers[i], highest[i], blocks[i]});
+    }
+    std::vector<std::uint32_t> keys, others;
+    std::vector<TileTriangle> kept;
+};
+
 TEST(TileKernels, CullingLosesNoSample) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         const int per_pixel = 2 << seed % 3;
@@ -209,20 +225,17 @@ TEST(TileKernels, CullingLosesNoSample) {
         triangles.vertices[7].x += 4 * kLargestSmallTriangle;  // of triangle 2
         const TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), 7, false};
         for (const TileKernels* kernels : all_kernels()) {
-            std::vector<TileTriangle> kept(triangles.count() + 8);
-            std::vector<std::uint32_t> keys(triangles.count() + 8);
-            const std::size_t found = kernels->cull(triangles.mesh, 0, triangles.count(), grid, triangles.facing.data(),
-                                                    kept.data(), keys.data());
-            kept.resize(found);
+            const Culled culled(*kernels, triangles, grid);
+            const std::vector<TileTriangle>& kept = culled.kept;
+            const std::size_t found = kept.size();
             EXPECT_LT(found, triangles.count());
             const auto place_of = [&](std::uint32_t t) {
                 return static_cast<std::size_t>(
                     std::find_if(kept.begin(), kept.end(), [t](const TileTriangle& k) { return k.triangle == t; }) -
                     kept.begin());
             };
-            const auto key_of = [&](std::uint32_t t) { return place_of(t) == found ? 0xFFFFu : keys[place_of(t)]; };
-            EXPECT_EQ(key_of(1), kNotSmall);
-            EXPECT_EQ(key_of(2), kNotSmall);
+            const auto key_of = [&](std::uint32_t t) { return place_of(t) == found ? 0xFFFFu : culled.keys[place_of(t)]; };
+            EXPECT_EQ(culled.others, (std::vector<std::uint32_t>{1, 2}));
             for (std::uint32_t t = 3; t < triangles.count(); ++t) {
                 const std::int64_t area = triangles.area(t);
                 EXPECT_EQ(triangles.facing[t], area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
@@ -247,12 +260,55 @@ TEST(TileKernels, CullingLosesNoSample) {
     }
 }
 
+/// Each tile on its own lists what the grid as a whole does for it.
+TEST(TileKernels, TrianglesOfSeveralTilesAreListedForEach) {
+    constexpr int kShift = 5, kTiles = 4, kSize = 1 << kShift;
+    std::size_t in_several = 0, in_many = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const int per_pixel = 2 << seed % 3;
+        Triangles triangles(300 + seed, per_pixel, 0, 0);
+        const TileGrid grid{0, 0, kTiles * kSize, kTiles * kSize, kTiles, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), kShift, seed % 2 == 0};
+        for (const TileKernels* kernels : all_kernels()) {
+            const Culled culled(*kernels, triangles, grid);
+            std::vector<int> times(triangles.count());
+            for (int tile = 0; tile < kTiles * kTiles; ++tile) {
+                // The same tile as a whole picture, which has only what may touch it.
+                TileGrid own = grid;
+                own.first_column = tile % kTiles * kSize;
+                own.first_row = tile / kTiles * kSize;
+                own.width = own.height = kSize;
+                own.columns = 1;
+                const Culled expected(*kernels, triangles, own);
+                std::vector<std::array<std::uint32_t, 3>> listed, alone;
+                for (std::size_t i = 0; i < culled.kept.size(); ++i) {
+                    const std::uint32_t kind = culled.keys[i] % kTriangleKinds;
+                    if (culled.keys[i] / kTriangleKinds != static_cast<std::uint32_t>(tile)) continue;
+                    listed.push_back({culled.kept[i].triangle, kind, culled.kept[i].blocks});
+                    ++times[culled.kept[i].triangle];
+                }
+                for (std::size_t i = 0; i < expected.kept.size(); ++i) {
+                    const std::uint32_t t = expected.kept[i].triangle;
+                    const bool is_other = std::find(culled.others.begin(), culled.others.end(), t) != culled.others.end();
+                    in_many += is_other ? 1 : 0;
+                    if (!is_other) alone.push_back({t, expected.keys[i], expected.kept[i].blocks});
+                }
+                std::sort(listed.begin(), listed.end());
+                std::sort(alone.begin(), alone.end());
+                EXPECT_EQ(listed, alone) << kernels->name << " seed " << seed << " tile " << tile;
+            }
+            in_several += static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [](int n) { return n > 1; }));
+        }
+    }
+    EXPECT_GT(in_several, 1000u);
+    EXPECT_GT(in_many, 100u);
+}
+
 TEST(TileKernels, EdgesThatMayBeLinesAreFound) {
     Random random(11);
     const Facing facings[] = {edge_on, clockwise, counterclockwise, off_screen};
     for (const TileKernels* kernels : all_kernels()) {
         constexpr std::uint32_t kCount = 999;
-        std::vector<std::uint8_t> facing(kCount), sharp(kCount), found(kCount, 77);
+        std::vector<std::uint8_t> facing(kCount + ScreenMesh::kFacingPadding), sharp(kCount), found(kCount, 77);
         std::vector<std::uint32_t> partners(3 * kCount);
         for (std::uint32_t t = 0; t < kCount; ++t) {
             // Mostly one way and smooth, or none would be plain.
@@ -303,12 +359,9 @@ TEST(TileKernels, ThinTrianglesAreKeptIfWanted) {
         TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), 7, true};
         for (const TileKernels* kernels : all_kernels()) {
             const auto cull = [&] {
+                const Culled culled(*kernels, triangles, grid);
                 std::vector<std::pair<TileTriangle, std::uint32_t>> kept;
-                std::vector<TileTriangle> found(triangles.count() + 8);
-                std::vector<std::uint32_t> keys(triangles.count() + 8);
-                const std::size_t count = kernels->cull(triangles.mesh, 0, triangles.count(), grid, triangles.facing.data(),
-                                                        found.data(), keys.data());
-                for (std::size_t i = 0; i < count; ++i) kept.push_back({found[i], keys[i]});
+                for (std::size_t i = 0; i < culled.kept.size(); ++i) kept.push_back({culled.kept[i], culled.keys[i]});
                 return kept;
             };
             grid.keeps_thin = true;
