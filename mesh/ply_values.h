@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mesh/ply_header.h"
+#include "mesh/row_kernels.h"
 #include "mesh/row_scan.h"
 #include "mesh/text_scan.h"
 
@@ -75,7 +76,9 @@ class AsciiValues {
     /// at. `axis_of` says for every value of a row which coordinate it is, or -1.
     std::size_t plain_positions(std::span<const int> axis_of, std::span<glm::dvec3> rows) {
         const bool begins_with_xyz = axis_of[0] == 0 && axis_of[1] == 1 && axis_of[2] == 2;
-        return plain_rows(rows.size(), [&](const char* p, std::size_t row, std::size_t) {
+        const std::size_t first =
+            begins_with_xyz && axis_of.size() == 3 ? read_lines(kernels_->positions, rows.size(), &rows.data()->x) : 0;
+        return plain_rows(first, rows.size(), [&](const char* p, std::size_t row, std::size_t) {
             std::size_t column = 0;
             if (begins_with_xyz && has_reach(p)) {
                 if (const char* const next = scan_three_decimals(p, &rows[row].x)) {
@@ -104,13 +107,11 @@ class AsciiValues {
         std::array<std::size_t, kMax> lines;
     };
     std::size_t plain_triangles(std::size_t max_count, PlainTriangles& rows) {
-        return plain_rows(max_count, [&](const char* p, std::size_t row, std::size_t line) {
+        const std::size_t first = read_lines(kernels_->triangles, max_count, rows.corners.data());
+        for (std::size_t i = 0; i < first; ++i) rows.lines[i] = line_ - (first - 1) + i;
+        return plain_rows(first, max_count, [&](const char* p, std::size_t row, std::size_t line) {
             if (end_ - p < kScanReach || p[0] != '3' || !is_blank(p[1])) return kNotPlain;
             rows.lines[row] = line;
-            if (has_reach(p)) {
-                const char* const next = scan_three_integers(p + 2, &rows.corners[3 * row]);
-                if (next != nullptr) return next;
-            }
             ++p;
             for (std::size_t k = 0; k < 3; ++k) {
                 p = skip_blanks(p);
@@ -125,11 +126,20 @@ class AsciiValues {
   private:
     static constexpr const char* kNotPlain = nullptr;
 
-    /// Calls read_row(place, row, line) for one row after the other; it returns the place behind.
+    /// Rows that are a line each, from here on; how many there were.
+    template <typename Value>
+    std::size_t read_lines(std::size_t (*read)(const char*&, const char*, std::size_t, Value*), std::size_t max_count, Value* values) {
+        skip_space();
+        if (!has_reach(p_) || max_count == 0) return 0;
+        const std::size_t count = read(p_, end_ - kRowReach, max_count, values);
+        line_ += count > 0 ? count - 1 : 0;
+        return count;
+    }
+    /// Calls read_row(place, row, line) for one row after the other, from number `row` on; it returns the place behind.
     template <typename ReadRow>
-    std::size_t plain_rows(std::size_t max_count, ReadRow read_row) {
+    std::size_t plain_rows(std::size_t row, std::size_t max_count, ReadRow read_row) {
         const char* p = p_;  // in a register, and so is the line: each row waits for the one before
-        std::size_t line = line_, row = 0;
+        std::size_t line = line_;
         for (; row < max_count; ++row) {
             p = behind_space(p, line);
             const char* const next = read_row(p, row, line);
@@ -157,6 +167,7 @@ class AsciiValues {
         return true;
     }
 
+    const RowKernels* kernels_ = &best_row_kernels();
     const char* begin_;
     const char* p_;
     const char* end_;
