@@ -63,13 +63,14 @@ std::size_t triangles(const char*& p, const char* limit, std::size_t max_rows, s
     return max_rows;
 }
 
-constexpr double kPowers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+constexpr unsigned kMostDigits = 15;
+constexpr double kPowers[kMostDigits] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
 
 /// Leaves the point out of sixteen characters, of which so many stand behind it.
 struct PointShuffles {
-    signed char of[9][16] = {};
+    signed char of[kMostDigits][16] = {};
     constexpr PointShuffles() {
-        for (int places = 0; places <= 8; ++places) {
+        for (int places = 0; places < static_cast<int>(kMostDigits); ++places) {
             for (int i = 0; i < 16; ++i) of[places][i] = static_cast<signed char>(i < 16 - places ? i - 1 : i);
         }
     }
@@ -101,7 +102,8 @@ std::size_t positions(const char*& p, const char* limit, std::size_t max_rows, d
             const auto end = static_cast<unsigned>(_tzcnt_u64(others));
             others = _blsr_u64(others);
             const unsigned whole = point - begin - static_cast<unsigned>(negative), places = end - point - 1;
-            const bool has_sizes = (((whole - 1) | whole | (places - 1)) & ~7u) == 0;  // 1..7 and 1..8
+            // One at least of each; what is less than that is a large number here.
+            const bool has_sizes = (((whole - 1) | (places - 1) | (whole + places)) & ~kMostDigits) == 0;
             if (!has_sizes || row[point] != '.' || end > 63) return count;
             if (k < 2 && row[end] != ' ') return count;
             const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(row + end - 16));
@@ -120,7 +122,7 @@ std::size_t positions(const char*& p, const char* limit, std::size_t max_rows, d
         const __m128i ten_thousands = _mm_set1_epi32(1 << 16 | 10000);
         const __m128i xy = _mm_madd_epi16(_mm_packus_epi32(fours[0], fours[1]), ten_thousands);
         const __m128i z = _mm_madd_epi16(_mm_packus_epi32(fours[2], fours[2]), ten_thousands);
-        // Up to 15 digits fit a double, so each division is the only rounding.
+        // So many digits fit a double, so each division is the only rounding.
         const __m256d part = _mm256_set_pd(1, 1e8, 1, 1e8);
         const __m256d magnitudes = _mm256_hadd_pd(_mm256_mul_pd(_mm256_cvtepi32_pd(xy), part),
                                                   _mm256_mul_pd(_mm256_cvtepi32_pd(z), part));  // x z y z
