@@ -73,6 +73,7 @@ std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> tex
     struct Piece {
         AsciiValues values;
         std::uint64_t first_row, row_count;
+        const char* begin = nullptr;  // of its first row
         std::uint64_t read = 0;
         LargestIndex largest{};
     };
@@ -87,6 +88,8 @@ std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> tex
     }
     parallel_for(pieces.size(), threads, [&](std::size_t i, int) {
         Piece& p = pieces[i];
+        p.values.at_end();  // goes to the first row
+        p.begin = p.values.rest().data();
         p.read = read(p.values, p.first_row, p.row_count, p.largest);
         p.values.at_end();
     });
@@ -96,8 +99,8 @@ std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> tex
         count += p.read;
         if (p.largest.index > largest.index) largest = p.largest;
         values = p.values;
-        const bool leads_on = i + 1 < pieces.size() && p.read == p.row_count &&
-                              p.values.line() - first_line == pieces[i + 1].first_row;
+        // The place tells, not the line: a row may have ended in the middle of one.
+        const bool leads_on = i + 1 < pieces.size() && p.read == p.row_count && p.values.rest().data() == pieces[i + 1].begin;
         if (!leads_on) break;
     }
     return count;

@@ -121,6 +121,15 @@ TEST_P(PlainPly, ErrorsNameTheLine) {
     }
 }
 
+TEST_P(PlainPly, ARowWithANumberTooFewShiftsAllThatFollow) {
+    for (const int row : {1, 300, kVertices - 1}) {
+        std::vector<std::string> rows = plain_rows();
+        std::string& text = rows[static_cast<std::size_t>(row)];
+        text = "0.000001 " + text.substr(text.rfind(' ') + 1) + " 255";
+        EXPECT_TRUE(refuses(rows, {"ends in the middle"})) << row;
+    }
+}
+
 TEST_P(PlainPly, AFileThatEndsTooEarlyIsRefused) {
     std::vector<std::string> rows = plain_rows();
     rows.back() = "3 0 1";
