@@ -340,6 +340,12 @@ struct TileKernels {
     /// twice the area is at most `thin_square` of the longest edge's fourth power.
     void (*triangle_normals)(const float* positions, const std::uint32_t* corners, std::size_t count, double thin_square,
                              float* normals, std::uint8_t* is_thin);
+    /// Which edges of triangles from `first` on are not plainly smooth: joined to one other triangle, wound like it, at an
+    /// angle whose cosine is greater than `cos_crease`. `found`: for each of them, bit k = edge k, added to what is there.
+    /// Half-edge 3 t + k begins at vertex `begins`; `next_on_edge` has rings of those on one edge. Numbers of half-edges must be
+    /// below 2^31.
+    void (*find_creases)(const std::uint32_t* begins, const std::uint32_t* next_on_edge, const float* normals, std::size_t first,
+                         std::size_t count, float cos_crease, std::uint8_t* found);
 };
 
 /// A tile's key for triangles of one kind.

@@ -5,6 +5,8 @@ namespace burin {
 /// For a program that soon needs much memory, again and again: what it frees stays with it, to be used again, and
 /// comes in huge pages. The first write to fresh memory costs more than most work on it. Not for programs that
 /// are to stay below a limit, for holes between what is in use are kept, too.
-void keep_freed_memory() noexcept;
+///
+/// Of the program's `threads` (0: one per core) four share a heap: what one frees another can use.
+void keep_freed_memory(int threads) noexcept;
 
 }  // namespace burin

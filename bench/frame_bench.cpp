@@ -273,7 +273,7 @@ int main(int argc, char** argv) {
         std::fputs("usage: frame_bench MODEL WIDTH HEIGHT RUNS [scaling]\n", stderr);
         return 2;
     }
-    burin::keep_freed_memory();  // as the program does
+    burin::keep_freed_memory(2);  // as the program does
     try {
         std::fputs(burin::bench::measure_frames(argv[1], width, height, runs, has_scaling).c_str(),
                    stdout);

@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
         std::fputs("usage: load_bench MODEL.ply RUNS\n", stderr);
         return 2;
     }
-    burin::keep_freed_memory();  // as the program does
+    burin::keep_freed_memory(1);  // as the program does
     try {
         std::fputs(burin::bench::measure_loading(argv[1], runs).c_str(), stdout);
         return 0;

@@ -35,7 +35,7 @@ void print_error(const char* prefix, const char* message) {
 void run(const burin::Arguments& arguments) {
     switch (arguments.command) {
         case burin::Command::render:
-            if (arguments.memory_bytes == 0) burin::keep_freed_memory();
+            if (arguments.memory_bytes == 0) burin::keep_freed_memory(arguments.threads);
             return run_render(arguments);
         case burin::Command::info: return run_info(arguments);
         case burin::Command::explain: return run_explain(arguments);

@@ -76,8 +76,14 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
     };
     if (sharp.empty()) return sharp;
     const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !by_polygon && !by_material;
-    if (has_only_creases) {
-        find([&](HalfEdge h, HalfEdge g) { return is_crease(h / 3, g / 3); });
+    if (has_only_creases && by_crease && mesh.next_on_edge.size() < std::size_t{1} << 31) {
+        constexpr std::size_t kChunk = 1 << 14;
+        const TileKernels& kernels = best_kernels();
+        parallel_for((sharp.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+            const std::size_t first = chunk * kChunk, count = std::min(kChunk, sharp.size() - first);
+            kernels.find_creases(mesh.triangles.front().data(), mesh.next_on_edge.data(), normals.front().data(), first, count, cos_crease,
+                                 &sharp[first]);
+        });
     } else {
         find(is_sharp);
     }

@@ -43,24 +43,33 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
                        const std::vector<std::uint32_t>& welded, Mesh& mesh) {
     constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
     const std::size_t count = soup.polygon_count();
-    std::vector<std::uint32_t> local =
-        large_vector(positions.size(), kUnused);  // number in the object
+    // Numbers in the object: of vertices, and of the first ones of those that fall together.
+    std::vector<std::uint32_t> local = large_vector(positions.size(), kUnused), local_of_first = local;
     std::vector<std::uint8_t> is_corner(positions.size(), 0);
     reserve_large(mesh.positions, positions.size());
     reserve_large(mesh.triangles, count);
+    // Each vertex is asked what it falls together with once, not whenever it is used.
+    const auto use = [&](std::uint32_t v) {
+        is_corner[v] = 1;
+        std::uint32_t& number = local_of_first[welded[v]];
+        if (number == kUnused) {
+            number = static_cast<std::uint32_t>(mesh.positions.size());
+            mesh.positions.push_back(positions[v]);
+        }
+        local[v] = number;
+    };
     for (std::size_t i = 0; i < count; ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
         const std::uint32_t* const corners = &soup.corners[3 * i];
-        for (int k = 0; k < 3; ++k) is_corner[corners[k]] = 1;
-        std::array<std::uint32_t, 3> t{welded[corners[0]], welded[corners[1]], welded[corners[2]]};
         // Vertices that are one make no area, and those that are not have different places.
-        if (!has_area(positions[t[0]], positions[t[1]], positions[t[2]])) continue;
-        for (std::uint32_t& v : t) {
-            if (local[v] == kUnused) {
-                local[v] = static_cast<std::uint32_t>(mesh.positions.size());
-                mesh.positions.push_back(positions[v]);
-            }
-            v = local[v];
+        if (!has_area(positions[corners[0]], positions[corners[1]], positions[corners[2]])) {
+            for (int k = 0; k < 3; ++k) is_corner[corners[k]] = 1;
+            continue;
+        }
+        std::array<std::uint32_t, 3> t;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (local[corners[k]] == kUnused) use(corners[k]);
+            t[k] = local[corners[k]];
         }
         mesh.triangles.push_back(t);
     }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <utility>
 
 #include "base/huge_pages.h"
@@ -30,19 +31,6 @@ class EdgeTable {
 
     static constexpr HalfEdge kFull = kNoHalfEdge;
 
-    /// Notes half-edge h as the newest one on edge uv. Returns the newest before, h itself if there
-    /// was none, kFull if there is no place: then there is none for any half-edge of this edge.
-    HalfEdge exchange(std::uint32_t u, std::uint32_t v, HalfEdge h) {
-        const std::uint32_t owner = owner_of(u, v), other = u ^ v ^ owner;
-        const HalfEdge before = exchange_in(owner, other, h);
-        // A bucket that is full stays full, so that the next half-edge will come here too.
-        return before == kFull ? exchange_in(other, owner, h) : before;
-    }
-    void prefetch(std::uint32_t u, std::uint32_t v) const {
-        __builtin_prefetch(&buckets_.get()[owner_of(u, v)], 1);
-    }
-
-  private:
     /// The vertex in whose bucket the edge is if there is place. The choice is even, however
     /// vertices are numbered: a vertex of a closed surface has six edges on average, so three are
     /// in its bucket.
@@ -50,44 +38,56 @@ class EdgeTable {
         const std::uint32_t u_owns = 0u - ((u < v ? 1u : 0u) ^ ((u ^ v) & 1));
         return v ^ ((u ^ v) & u_owns);
     }
-    /// Without branches, which would guess wrong half of the time.
-    HalfEdge exchange_in(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
-        const std::uint32_t key = other + 1;  // 0 = free
-        Bucket& bucket = buckets_.get()[owner];
-        const std::uint32_t is_known = slots_with(bucket.keys, key);
-        // The slot of the edge, else the first one that is free.
-        const std::uint32_t places = is_known | slots_with(bucket.keys, 0) << kSlots;
-        if (places == 0) return kFull;
-        const int slot = std::countr_zero(places) % static_cast<int>(kSlots);
-        const HalfEdge newest = bucket.half_edges[slot];
-        put_key(bucket.keys, slot, key);
-        bucket.half_edges[slot] = h;
-        return is_known != 0 ? newest : h;
+    void prefetch(std::uint32_t owner) const { __builtin_prefetch(&buckets_.get()[owner], 1); }
+
+    /// Notes half-edge h as the newest one on the edge between `owner` (which owner_of() tells) and another vertex.
+    /// Returns the newest before, h itself if there was none, kFull if there is no place: then there is none for any
+    /// half-edge of this edge.
+    HalfEdge exchange(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
+        const HalfEdge before = exchange_in(owner, other, h);
+        // A bucket that is full stays full, so that the next half-edge will come here too.
+        return before == kFull ? exchange_in(other, owner, h) : before;
     }
 
+  private:
     static constexpr std::uint32_t kSlots = 4;
     struct alignas(16) Bucket {
-        std::uint32_t keys[kSlots];
-        HalfEdge half_edges[kSlots];
+        std::uint32_t keys[kSlots];              // the other vertex + 1; 0 = free, and so are all behind
+        std::uint32_t newest_half_edge[kSlots];  // + 1; 0 = none
     };
-    /// Bit i: keys[i] is `key`.
-    static std::uint32_t slots_with(const std::uint32_t (&keys)[kSlots], std::uint32_t key) {
+
+    /// Without branches, which would guess wrong half of the time.
+    HalfEdge exchange_in(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
+        const std::uint32_t key = other + 1;
+        Bucket& bucket = buckets_.get()[owner];
+        const std::uint32_t slots = slots_for(bucket.keys, key);
+        if (slots == 0) return kFull;
+        const auto slot = static_cast<std::uint32_t>(std::countr_zero(slots));
+        const std::uint32_t newest = bucket.newest_half_edge[slot];
+        put_key(bucket.keys, slot, key);
+        bucket.newest_half_edge[slot] = h + 1;
+        const std::uint32_t is_known = 0u - (newest != 0 ? 1u : 0u);  // a condition would become a branch
+        return h ^ ((h ^ (newest - 1)) & is_known);
+    }
+    /// Bit i: keys[i] is `key` or free. The first of them is the place of the key.
+    static std::uint32_t slots_for(const std::uint32_t (&keys)[kSlots], std::uint32_t key) {
 #ifdef __SSE2__
         const __m128i all = _mm_load_si128(reinterpret_cast<const __m128i*>(keys));
-        const __m128i equal = _mm_cmpeq_epi32(all, _mm_set1_epi32(static_cast<int>(key)));
-        return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(equal)));
+        const __m128i is_free = _mm_cmpeq_epi32(all, _mm_setzero_si128());
+        const __m128i is_key = _mm_cmpeq_epi32(all, _mm_set1_epi32(static_cast<int>(key)));
+        return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(_mm_or_si128(is_free, is_key))));
 #else
         std::uint32_t slots = 0;
-        for (std::uint32_t i = 0; i < kSlots; ++i) slots |= (keys[i] == key ? 1u : 0u) << i;
+        for (std::uint32_t i = 0; i < kSlots; ++i) slots |= (keys[i] == key || keys[i] == 0 ? 1u : 0u) << i;
         return slots;
 #endif
     }
     /// keys[slot] = key where there is 0 or the same. All are written, for what is soon read at once would
     /// wait for one that was written alone.
-    static void put_key(std::uint32_t (&keys)[kSlots], int slot, std::uint32_t key) {
+    static void put_key(std::uint32_t (&keys)[kSlots], std::uint32_t slot, std::uint32_t key) {
 #ifdef __SSE2__
         auto* const all = reinterpret_cast<__m128i*>(keys);
-        const __m128i at = _mm_cmpeq_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(slot));
+        const __m128i at = _mm_cmpeq_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(static_cast<int>(slot)));
         const __m128i put = _mm_and_si128(at, _mm_set1_epi32(static_cast<int>(key)));
         _mm_store_si128(all, _mm_or_si128(_mm_load_si128(all), put));
 #else
@@ -120,18 +120,17 @@ void link_by_sorting(std::vector<LeftOver>& left_over, std::vector<HalfEdge>& ne
     }
 }
 
+/// Equal for two triangles on one edge if and only if they have the same third vertex.
+std::uint32_t vertices_xor(const std::array<std::uint32_t, 3>& triangle) { return triangle[0] ^ triangle[1] ^ triangle[2]; }
+
 /// Whether a triangle has the vertices of an earlier one in the ring of its half-edge h; true also for
 /// long rings. Triangles on one edge are twins if their third vertices are one.
 bool has_twin(std::span<const std::array<std::uint32_t, 3>> triangles,
               const std::vector<HalfEdge>& next_on_edge, HalfEdge h) {
-    const auto vertices = [&](HalfEdge g) {
-        const auto& [a, b, c] = triangles[g / 3];
-        return a ^ b ^ c;
-    };
-    const std::uint32_t own = vertices(h);
+    const std::uint32_t own = vertices_xor(triangles[h / 3]);
     int length = 0;
     for (HalfEdge g = next_on_edge[h]; g != h; g = next_on_edge[g]) {
-        if (vertices(g) == own || ++length > 32) return true;
+        if (vertices_xor(triangles[g / 3]) == own || ++length > 32) return true;
     }
     return false;
 }
@@ -144,33 +143,49 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
     reserve_large(next_on_edge, 3 * triangles.size());
     EdgeTable table(vertex_count);
     std::vector<LeftOver> left_over;
-    constexpr std::size_t kAhead = 16;
     bool twins = false;
     // Notes half-edge h; whether its edge was known.
-    const auto link = [&](std::uint32_t u, std::uint32_t v, HalfEdge h) {
-        const HalfEdge before = table.exchange(u, v, h);
+    const auto link = [&](HalfEdge* next, std::uint32_t owner, std::uint32_t other, HalfEdge h) {
+        const HalfEdge before = table.exchange(owner, other, h);
         if (before == EdgeTable::kFull) {
-            left_over.push_back({std::min(u, v), std::max(u, v), h});
+            left_over.push_back({std::min(owner, other), std::max(owner, other), h});
             return true;
         }
         // The newest one of a ring leads back to the oldest.
-        std::swap(next_on_edge[h], next_on_edge[before]);
+        next[h] = next[before];
+        next[before] = h;
         return before != h;
     };
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        if ((t & 0xFFFF) == 0) throw_if_interrupted();
-        if (t + kAhead < triangles.size()) {
-            const auto& [a, b, c] = triangles[t + kAhead];
-            table.prefetch(a, b);
-            table.prefetch(b, c);
-            table.prefetch(c, a);
+    // The table is far larger than the nearest caches: the buckets of a triangle are asked for some triangles before.
+    constexpr std::size_t kAhead = 16;
+    std::array<std::array<std::uint32_t, 3>, 2 * kAhead> owners;
+    const auto look_ahead = [&](std::size_t t) {
+        const auto& [a, b, c] = triangles[t];
+        auto& own = owners[t % owners.size()];
+        own = {EdgeTable::owner_of(a, b), EdgeTable::owner_of(b, c), EdgeTable::owner_of(c, a)};
+        for (const std::uint32_t owner : own) table.prefetch(owner);
+    };
+    for (std::size_t t = 0; t < std::min(kAhead, triangles.size()); ++t) look_ahead(t);
+    constexpr std::size_t kBlock = 1024;
+    for (std::size_t first = 0; first < triangles.size(); first += kBlock) {
+        if (first % (64 * kBlock) == 0) throw_if_interrupted();
+        const std::size_t end = std::min(triangles.size(), first + kBlock);
+        next_on_edge.resize(3 * end);
+        HalfEdge* const next = next_on_edge.data();
+        std::iota(next + 3 * first, next + 3 * end, static_cast<HalfEdge>(3 * first));
+        for (std::size_t t = first; t < end; ++t) {
+            if (t + kAhead < triangles.size()) look_ahead(t + kAhead);
+            const auto& [a, b, c] = triangles[t];
+            const auto& [o_ab, o_bc, o_ca] = owners[t % owners.size()];
+            const auto h = static_cast<HalfEdge>(3 * t);
+            const bool ab = link(next, o_ab, a ^ b ^ o_ab, h), bc = link(next, o_bc, b ^ c ^ o_bc, h + 1),
+                       ca = link(next, o_ca, c ^ a ^ o_ca, h + 2);
+            // Twins share all three edges. What most triangles can be told by is asked of all, for no guess at
+            // which of them have three known edges is right.
+            const HalfEdge g = next[h];
+            const bool may_be_twin = (next[g] != h) | (vertices_xor(triangles[g / 3]) == (a ^ b ^ c));
+            if (ab & bc & ca & (g != h) & may_be_twin) twins = twins || has_twin(triangles, next_on_edge, h);
         }
-        const auto [a, b, c] = triangles[t];
-        const auto h = static_cast<HalfEdge>(3 * t);
-        next_on_edge.insert(next_on_edge.end(), {h, h + 1, h + 2});
-        const bool ab = link(a, b, h), bc = link(b, c, h + 1), ca = link(c, a, h + 2);
-        // Twins share all three edges.
-        if (ab & bc & ca && next_on_edge[h] != h) twins = twins || has_twin(triangles, next_on_edge, h);
     }
     link_by_sorting(left_over, next_on_edge);
     for (const LeftOver& l : left_over) twins = twins || has_twin(triangles, next_on_edge, l.half_edge);

@@ -45,7 +45,21 @@ inline std::uint64_t read_triangle_rows(AsciiValues& values, std::uint64_t first
     return count;
 }
 
-/// Reads plain rows, up to `rows` of them, in pieces of the text on all threads, each piece taken
+/// Reads rows of positions in any form into `rows`, from here on, until one has something else than numbers or one
+/// that is no coordinate; how many.
+inline std::size_t read_position_rows(AsciiValues& values, std::span<const int> axis_of, std::span<glm::dvec3> rows) {
+    for (std::size_t count = 0;; ++count) {
+        count += values.plain_positions(axis_of, rows.subspan(count));
+        if (count == rows.size()) return count;
+        AsciiValues behind = values;
+        glm::dvec3 position;
+        if (!behind.position(axis_of, position) || !is_coordinate(position)) return count;
+        rows[count] = position;
+        values = behind;
+    }
+}
+
+/// Reads rows, up to `rows` of them, in pieces of the text on all threads, each piece taken
 /// to have a row per line: read(values, first row, count, largest) reads a piece's and returns how
 /// many it could. Ends with the first piece that has anything else, and leaves `values` there.
 /// Returns how many rows were read.
@@ -59,6 +73,7 @@ std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> tex
     struct Piece {
         AsciiValues values;
         std::uint64_t first_row, row_count;
+        const char* begin = nullptr;  // of its first row
         std::uint64_t read = 0;
         LargestIndex largest{};
     };
@@ -73,6 +88,8 @@ std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> tex
     }
     parallel_for(pieces.size(), threads, [&](std::size_t i, int) {
         Piece& p = pieces[i];
+        p.values.at_end();  // goes to the first row
+        p.begin = p.values.rest().data();
         p.read = read(p.values, p.first_row, p.row_count, p.largest);
         p.values.at_end();
     });
@@ -82,8 +99,8 @@ std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> tex
         count += p.read;
         if (p.largest.index > largest.index) largest = p.largest;
         values = p.values;
-        const bool leads_on = i + 1 < pieces.size() && p.read == p.row_count &&
-                              p.values.line() == pieces[i + 1].values.line();
+        // The place tells, not the line: a row may have ended in the middle of one.
+        const bool leads_on = i + 1 < pieces.size() && p.read == p.row_count && p.values.rest().data() == pieces[i + 1].begin;
         if (!leads_on) break;
     }
     return count;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "mesh/ply_header.h"
+#include "mesh/row_kernels.h"
 #include "mesh/row_scan.h"
 #include "mesh/text_scan.h"
 
@@ -21,6 +23,11 @@ inline bool to_integer(double number, std::int64_t& value) {
     if (!(std::abs(number) <= 9e15) || number != std::floor(number)) return false;
     value = static_cast<std::int64_t>(number);
     return true;
+}
+
+/// Neither infinite nor NaN, and not too large either.
+inline bool is_coordinate(const glm::dvec3& p) {
+    return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate && std::abs(p.z) <= kLargestCoordinate;
 }
 
 /// Values of an ASCII body, in order. The values of one item stand on one line by convention, but
@@ -75,7 +82,11 @@ class AsciiValues {
     /// at. `axis_of` says for every value of a row which coordinate it is, or -1.
     std::size_t plain_positions(std::span<const int> axis_of, std::span<glm::dvec3> rows) {
         const bool begins_with_xyz = axis_of[0] == 0 && axis_of[1] == 1 && axis_of[2] == 2;
-        return plain_rows(rows.size(), [&](const char* p, std::size_t row, std::size_t) {
+        const bool is_xyz = begins_with_xyz && axis_of.size() == 3;
+        const auto read_some = [&](std::size_t row) {
+            return is_xyz ? read_lines(kernels_->positions, rows.size() - row, &rows[row].x) : 0;
+        };
+        return plain_rows(rows.size(), read_some, [&](const char* p, std::size_t row, std::size_t) {
             std::size_t column = 0;
             if (begins_with_xyz && has_reach(p)) {
                 if (const char* const next = scan_three_decimals(p, &rows[row].x)) {
@@ -97,6 +108,16 @@ class AsciiValues {
         });
     }
 
+    /// Reads one row in any form. False where it has something else than numbers; `this` is anywhere in it then.
+    bool position(std::span<const int> axis_of, glm::dvec3& position) {
+        for (const int axis : axis_of) {
+            double value = 0;
+            if (!(axis < 0 ? skip(PlyType::float64, 1) : number(PlyType::float64, value))) return false;
+            if (axis >= 0) position[axis] = value;
+        }
+        return true;
+    }
+
     /// Triangles, each of them a row of the number 3 and three vertex numbers on one line.
     struct PlainTriangles {
         static constexpr std::size_t kMax = 1024;
@@ -104,13 +125,14 @@ class AsciiValues {
         std::array<std::size_t, kMax> lines;
     };
     std::size_t plain_triangles(std::size_t max_count, PlainTriangles& rows) {
-        return plain_rows(max_count, [&](const char* p, std::size_t row, std::size_t line) {
+        const auto read_some = [&](std::size_t row) {
+            const std::size_t count = read_lines(kernels_->triangles, max_count - row, &rows.corners[3 * row]);
+            for (std::size_t i = 0; i < count; ++i) rows.lines[row + i] = line_ - (count - 1) + i;
+            return count;
+        };
+        return plain_rows(max_count, read_some, [&](const char* p, std::size_t row, std::size_t line) {
             if (end_ - p < kScanReach || p[0] != '3' || !is_blank(p[1])) return kNotPlain;
             rows.lines[row] = line;
-            if (has_reach(p)) {
-                const char* const next = scan_three_integers(p + 2, &rows.corners[3 * row]);
-                if (next != nullptr) return next;
-            }
             ++p;
             for (std::size_t k = 0; k < 3; ++k) {
                 p = skip_blanks(p);
@@ -125,20 +147,38 @@ class AsciiValues {
   private:
     static constexpr const char* kNotPlain = nullptr;
 
-    /// Calls read_row(place, row, line) for one row after the other; it returns the place behind.
-    template <typename ReadRow>
-    std::size_t plain_rows(std::size_t max_count, ReadRow read_row) {
-        const char* p = p_;  // in a register, and so is the line: each row waits for the one before
-        std::size_t line = line_, row = 0;
-        for (; row < max_count; ++row) {
-            p = behind_space(p, line);
-            const char* const next = read_row(p, row, line);
-            if (next == kNotPlain) break;
-            p = next;
+    /// Rows that are a line each, from here on; how many there were.
+    template <typename Value>
+    std::size_t read_lines(std::size_t (*read)(const char*&, const char*, std::size_t, Value*), std::size_t max_count, Value* values) {
+        skip_space();
+        if (!has_reach(p_) || max_count == 0) return 0;
+        const std::size_t count = read(p_, end_ - kRowReach, max_count, values);
+        line_ += count > 0 ? count - 1 : 0;
+        return count;
+    }
+    /// Calls read_some(row), which reads rows from that one on and returns how many, and where it can go no further
+    /// read_row(place, row, line), which reads one and returns the place behind it.
+    template <typename ReadSome, typename ReadRow>
+    std::size_t plain_rows(std::size_t max_count, const ReadSome& read_some, const ReadRow& read_row) {
+        constexpr std::size_t kOneByOne = 32;  // before some are tried again
+        for (std::size_t row = 0; row < max_count;) {
+            row += read_some(row);
+            const char* p = p_;  // in a register, and so is the line: each row waits for the one before
+            std::size_t line = line_;
+            const std::size_t end = std::min(max_count, row + kOneByOne);
+            bool is_plain = true;
+            for (; row < end; ++row) {
+                p = behind_space(p, line);
+                const char* const next = read_row(p, row, line);
+                is_plain = next != kNotPlain;
+                if (!is_plain) break;
+                p = next;
+            }
+            p_ = p;
+            line_ = line;
+            if (!is_plain) return row;
         }
-        p_ = p;
-        line_ = line;
-        return row;
+        return max_count;
     }
     bool has_reach(const char* p) const { return p - begin_ >= kRowReachBack && end_ - p >= kRowReach; }
     const char* skip_blanks(const char* p) const {
@@ -157,6 +197,7 @@ class AsciiValues {
         return true;
     }
 
+    const RowKernels* kernels_ = &best_row_kernels();
     const char* begin_;
     const char* p_;
     const char* end_;

@@ -145,10 +145,7 @@ class BodyReader {
                     position[axis_of[i]] = number(element.properties[i]);
                 }
             }
-            const double largest =
-                std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
-            if (!(largest <= kLargestCoordinate) ||
-                std::isnan(position.x + position.y + position.z)) {
+            if (!is_coordinate(position)) {
                 fail("a coordinate is not finite or beyond 1e30; repair or re-export the file");
             }
             soup_.positions.push_back(position);
@@ -166,8 +163,8 @@ class BodyReader {
                     values_, text_pieces(), element.count, threads_, largest_,
                     [&](AsciiValues& values, std::uint64_t first, std::uint64_t count,
                         LargestIndex&) {
-                        return values.plain_positions(
-                            axis_of, std::span(soup_.positions).subspan(before + first, count));
+                        return read_position_rows(
+                            values, axis_of, std::span(soup_.positions).subspan(before + first, count));
                     });
                 soup_.positions.resize(before + item_);
             }

@@ -84,9 +84,9 @@ inline const char* scan_three_integers([[maybe_unused]] const char* p,
 #endif
 }
 
-/// Reads three numbers like -12.345, each with 1..7 digits before its point and 1..8 behind it.
+/// Reads three numbers like -12.345, each with a digit at least on either side of its point and 15 at most.
 /// Returns the place behind them, where a space or a line feed stands, or nullptr for any other text.
-/// Values are those of scan_plain_decimal().
+/// Values are those of scan_number().
 inline const char* scan_three_decimals([[maybe_unused]] const char* p,
                                        [[maybe_unused]] double* values) {
 #ifdef __SSE2__
@@ -106,7 +106,7 @@ inline const char* scan_three_decimals([[maybe_unused]] const char* p,
         const char behind = p[end];
         if (behind != ' ' && !(k == 2 && behind == '\n')) return nullptr;
         const int whole = point - begin - negative, places = end - point - 1;
-        if (static_cast<unsigned>(whole - 1) > 6 || static_cast<unsigned>(places - 1) > 7) return nullptr;
+        if (whole < 1 || places < 1 || whole + places > 15) return nullptr;
         // All digits as one number: two views of the text leave out the point.
         const __m128i is_fraction = last_bytes(places);
         const __m128i digits = _mm_or_si128(_mm_and_si128(is_fraction, load_sixteen(p + end - 16)),

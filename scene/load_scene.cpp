@@ -180,16 +180,20 @@ bool has_transparent_surfaces(const Scene& scene) {
 PointSource scene_points(const Scene& scene) {
     return [&scene](const std::function<void(std::span<const glm::dvec3>)>& visit) {
         std::array<glm::dvec3, 512> some;
+        const auto visit_all = [&](const Mesh& mesh, const auto& place) {
+            for (std::size_t first = 0; first < mesh.positions.size(); first += some.size()) {
+                const std::size_t count = std::min(some.size(), mesh.positions.size() - first);
+                for (std::size_t i = 0; i < count; ++i) some[i] = place(mesh.position(static_cast<std::uint32_t>(first + i)));
+                visit(std::span(some).first(count));
+            }
+        };
         for (const SceneObject& object : scene.objects) {
             const Mesh& mesh = scene.meshes[object.mesh];
             const glm::dmat4 to_world = object.to_world;
-            for (std::size_t first = 0; first < mesh.positions.size(); first += some.size()) {
-                const std::size_t count = std::min(some.size(), mesh.positions.size() - first);
-                for (std::size_t i = 0; i < count; ++i) {
-                    const glm::dvec3 p = mesh.position(static_cast<std::uint32_t>(first + i));
-                    some[i] = glm::dvec3(to_world * glm::dvec4(p, 1.0));
-                }
-                visit(std::span(some).first(count));
+            if (to_world == glm::dmat4(1.0)) {
+                visit_all(mesh, [](const glm::dvec3& p) { return p; });
+            } else {
+                visit_all(mesh, [&](const glm::dvec3& p) { return glm::dvec3(to_world * glm::dvec4(p, 1.0)); });
             }
         }
     };

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "abuffer/projection.h"
@@ -132,6 +134,52 @@ TEST(FillKernels, NormalsOfTrianglesAreUnitVectors) {
         }
     }
     EXPECT_GT(thin, 1000u);
+}
+
+/// On rings of all lengths, wound alike and not, with angles on either side of the limit and at it.
+TEST(FillKernels, CreasesAreWhatIsNotPlainlySmooth) {
+    std::size_t creases = 0, smooth = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        Random random(seed);
+        const auto triangles = static_cast<std::size_t>(random.integer(1, 60));
+        const std::size_t half_edges = 3 * triangles;
+        std::vector<std::uint32_t> begins(half_edges), next(half_edges), order(half_edges);
+        for (std::uint32_t& b : begins) b = static_cast<std::uint32_t>(random.integer(0, 5));
+        std::iota(order.begin(), order.end(), 0u);
+        for (std::size_t i = half_edges; i-- > 1;) std::swap(order[i], order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
+        for (std::size_t i = 0; i < half_edges;) {
+            const std::size_t length = std::min(half_edges - i, static_cast<std::size_t>(random.integer(0, 5) == 0 ? random.integer(1, 4) : 2));
+            for (std::size_t k = 0; k < length; ++k) next[order[i + k]] = order[i + (k + 1) % length];
+            i += length;
+        }
+        std::vector<float> normals(4 * triangles);
+        for (std::size_t t = 0; t < triangles; ++t) {
+            const std::array<float, 4> normal = random.integer(0, 2) > 0 ? std::array{0.6f, 0.8f, 0.0f, 0.0f} : std::array{0.0f, 1.0f, 0.0f, 0.0f};
+            std::copy(normal.begin(), normal.end(), normals.begin() + static_cast<std::ptrdiff_t>(4 * t));
+        }
+        const float cos_crease = std::array{0.7f, 0.8f, 0.9f}[static_cast<std::size_t>(random.integer(0, 2))];
+        const auto first = static_cast<std::size_t>(random.integer(0, static_cast<int>(triangles) - 1));
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<std::uint8_t> found(triangles - first + 1, 8);
+            kernels->find_creases(begins.data(), next.data(), normals.data(), first, triangles - first, cos_crease, found.data());
+            for (std::size_t t = first; t < triangles; ++t) {
+                unsigned expected = 8;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::size_t h = 3 * t + k, g = next[h];
+                    float cosine = 0;
+                    for (std::size_t c = 0; c < 3; ++c) cosine += normals[4 * t + c] * normals[4 * (g / 3) + c];
+                    const bool is_pair = g != h && next[g] == h;
+                    const bool is_smooth = is_pair && begins[g] != begins[h] && cosine > cos_crease;
+                    expected |= is_smooth ? 0u : 1u << k;
+                    ++(is_smooth ? smooth : creases);
+                }
+                ASSERT_EQ(found[t - first], expected) << kernels->name << ", seed " << seed << ", triangle " << t;
+            }
+            EXPECT_EQ(found.back(), 8);
+        }
+    }
+    EXPECT_GT(creases, 1000u);
+    EXPECT_GT(smooth, 1000u);
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 // one way ends and the other goes on must not show, in what is read and in what errors say.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "mesh/ply_pieces.h"
 #include "mesh/readers.h"
 #include "tests/mesh/model_files.h"
 #include "tests/support/random.h"
@@ -70,13 +73,14 @@ TEST_P(PlainPly, UnusualSpellingsMeanTheSame) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         Random random(seed);
         std::vector<std::string> rows = plain;
-        const int rarity = seed % 2 == 0 ? 3 : 400;
+        const int rarity = seed % 2 == 0 ? 4 : 400;
         for (std::string& row : rows) {
             const std::size_t blank = row.find(' ');
             switch (random.integer(0, rarity)) {
                 case 0: row = "\t" + row.substr(0, blank) + "  \t" + row.substr(blank) + " \r"; break;
                 case 1: row = row[0] == '-' ? row : "+" + row; break;
                 case 2: row = row.substr(0, blank) + "\n\n" + row.substr(blank + 1); break;
+                case 4: row = row.find('.') < blank ? row.substr(0, blank) + "e0" + row.substr(blank) : row; break;
                 case 3: row.insert(row[0] == '-' ? 1 : 0, "00000000000000000000"); break;
                 default: break;
             }
@@ -117,10 +121,40 @@ TEST_P(PlainPly, ErrorsNameTheLine) {
     }
 }
 
+TEST_P(PlainPly, ARowWithANumberTooFewShiftsAllThatFollow) {
+    for (const int row : {1, 300, kVertices - 1}) {
+        std::vector<std::string> rows = plain_rows();
+        std::string& text = rows[static_cast<std::size_t>(row)];
+        text = "0.000001 " + text.substr(text.rfind(' ') + 1) + " 255";
+        EXPECT_TRUE(refuses(rows, {"ends in the middle"})) << row;
+    }
+}
+
 TEST_P(PlainPly, AFileThatEndsTooEarlyIsRefused) {
     std::vector<std::string> rows = plain_rows();
     rows.back() = "3 0 1";
     EXPECT_TRUE(refuses(rows, {"ends in the middle"}));
+}
+
+/// No piece's rows are read a second time by one thread.
+TEST(PlyPieces, AllAreUsed) {
+    std::string text;
+    std::vector<glm::dvec3> expected;
+    for (int i = 0; i < kVertices; ++i) {
+        expected.emplace_back(0.5 * i, -0.25 * i, 1e-3);
+        text += std::to_string(0.5 * i) + " " + std::to_string(-0.25 * i) + (i % 7 == 0 ? " 1e-3\n" : " 0.001\n");
+    }
+    AsciiValues values(text, 1);
+    const std::vector<TextPiece> pieces = split_at_lines(values.rest(), values.line(), 4);
+    ASSERT_GT(pieces.size(), 4u);
+    std::vector<glm::dvec3> positions(expected.size());
+    LargestIndex largest;
+    const auto read_piece = [&](AsciiValues& piece, std::uint64_t first, std::uint64_t count, LargestIndex&) {
+        return read_position_rows(piece, std::array{0, 1, 2}, std::span(positions).subspan(first, count));
+    };
+    EXPECT_EQ(read_in_pieces(values, pieces, expected.size(), 4, largest, read_piece), expected.size());
+    EXPECT_TRUE(values.at_end());
+    EXPECT_EQ(positions, expected);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <bit>
 #include <string>
 
+#include "tests/mesh/plain_decimal.h"
 #include "tests/support/random.h"
 
 namespace burin {
@@ -86,15 +87,14 @@ TEST(RowScan, ReadsThreeDecimalsLikeOneAfterTheOther) {
         const bool is_short = random.integer(0, 1) == 0;
         const std::string text = row_of(random, [&] {
             const std::string sign = random.integer(0, 1) == 0 ? "-" : "";
-            return sign + (is_short ? digits(random, 1, 2) : digits(random, 1, 8)) + "." + digits(random, 1, is_short ? 6 : 9);
+            return sign + (is_short ? digits(random, 1, 2) : digits(random, 1, 8)) + "." + digits(random, 1, is_short ? 6 : 12);
         });
         for (const char around : {' ', '7', '\n', '-'}) {
             const Row row(text, around);
             std::array<double, 3> expected{}, values{};
             const char* const next = scan_three_decimals(row.begin, values.data());
-            const char* const end = scan_one_by_one(row.begin, expected, scan_plain_decimal);
-            // A number without a point is left to the one-by-one way.
-            refused += next == nullptr && end != nullptr && std::count(row.begin, end, '.') == 3 ? 1 : 0;
+            const char* const end = scan_one_by_one(row.begin, expected, test::plain_decimal);
+            refused += next == nullptr && end != nullptr ? 1 : 0;
             if (next == nullptr) continue;
             ASSERT_EQ(next, end) << "seed " << seed << ": " << text;
             for (std::size_t k = 0; k < 3; ++k) {
