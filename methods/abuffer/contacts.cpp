@@ -84,8 +84,7 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
         if (gap > level) return false;
         if (gap < -level) continue;
         const SurfaceId other = screen_.surface_of(cover.number);
-        const SurfaceOrder order = surfaces.order(s, other);
-        if (!order.are_coincident()) {
+        if (!surfaces.order_near(s, other, *beside / double{kSubpixelsPerPixel}).are_coincident()) {
             if (rises_in_front(s, other)) return false;
             continue;
         }
