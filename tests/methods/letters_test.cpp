@@ -8,6 +8,7 @@
 
 #include "mesh/shapes.h"
 #include "methods/reference.h"
+#include "tests/support/ink_apart.h"
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
@@ -139,6 +140,27 @@ TEST(Letters, InAPlateOfSeveralFacesAreNotSeen) {
     }
 }
 
+// The floor is cut behind the eye: what is left of a triangle, and of its neighbours, is more than one triangle.
+TEST(Letters, InAFloorThatReachesBehindTheEyeAreNotSeen) {
+    Outline ring;
+    for (int i = 0; i <= 24; ++i) ring.push_back(glm::dvec2(0.5) + 0.5 * glm::dvec2(std::cos(glm::radians(15.0 * i)), std::sin(glm::radians(15.0 * i))));
+    for (int i = 24; i >= 0; --i) ring.push_back(glm::dvec2(0.5) + 0.3 * glm::dvec2(std::cos(glm::radians(15.0 * i)), std::sin(glm::radians(15.0 * i))));
+    ring[24] = ring[0];
+    ring[25] = ring.back();
+    const PolygonSoup floor = moved(make_box({6, 3, 0.3}), {1, 0.5, -0.15});
+    const PolygonSoup text = joined({moved(body(kL), {-1, 0, 0}), moved(body(kA), {0.1, 0, 0}), moved(body(ring), {1.2, 0, 0}), moved(body(kE), {2.3, 0, 0})});
+    for (int seed = 0; seed < 60; ++seed) {
+        Random random(static_cast<std::uint64_t>(seed));
+        const glm::dvec3 target(random.real(-1, 2), random.real(0, 1), 0);
+        const double reach = seed % 2 == 0 ? 3 : 0.6;
+        const Camera camera = perspective_camera(target + glm::dvec3(random.real(-reach, reach), random.real(-reach, reach), random.real(0.03, 0.25)), target, 60);
+        const Drawing d = drawn(joined({text, floor}), camera, 0), expected = drawn(floor, camera, 0);
+        // Not to the bit: a letter that ends less than a sample before the floor's own outline may make that wider.
+        EXPECT_EQ(ink_apart(d, expected), 0) << seed;
+        EXPECT_EQ(ink_apart(expected, d), 0) << seed;
+    }
+}
+
 // What is behind a curtain with one layer in front is what is seen without it. (A letter's back is in the plate: sheets.)
 TEST(Letters, InAPlateAreNotAmongHiddenLines) {
     for (const Outline& outline : {kL, kE, kFrame}) {
@@ -169,16 +191,7 @@ TEST(Letters, OnTheirOwnKeepTheirOutline) {
         for (const Outline& outline : {kL, kA}) {
             Scene scene = scene_of({joined({body(outline), back})});
             const Drawing d(scene, camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_abuffer), truth(scene, camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_reference);
-            for (int y = 1; y + 1 < kPx; ++y) {
-                for (int x = 1; x + 1 < kPx; ++x) {
-                    double near = 0;
-                    for (int v = y - 1; v <= y + 1; ++v) {
-                        for (int u = x - 1; u <= x + 1; ++u) near = std::max(near, d.line(u, v));
-                    }
-                    if (truth.line(x, y) <= 0.3) continue;
-                    EXPECT_GT(near, 0.1) << seed << ", at " << x << ',' << y;
-                }
-            }
+            EXPECT_LE(ink_apart(truth, d), 0.5) << seed;
         }
     }
 }
