@@ -6,8 +6,6 @@
 namespace burin {
 namespace {
 
-/// Cells are so many pixels wide.
-constexpr int kCellShift = 3 + 8;
 /// Gaps narrower than folds that are no contours. 1/64 pixel.
 constexpr double kNegligibleSubpixels = 4;
 /// What two samples on one plane are off it at most, for a first look: a part of a pixel's width, and of what the plane
@@ -16,20 +14,13 @@ constexpr double kAboutLevelPx = 1.0 / 16, kAboutLevelRise = 1.0 / 16;
 
 }  // namespace
 
-bool FlushCover::covers(const NeighbourSamples& pair, const float (&nearness)[2], HalfEdge edge) {
+bool FlushCover::is_covered(const NeighbourSamples& pair, glm::ivec2 block) {
     const SurfaceId first = pair.surfaces[0], second = pair.surfaces[1];
-    if (first.instance != second.instance || first.is_background()) return false;
-    if (edge != kNoHalfEdge) {  // where the two meet, they do so at the line
-        const std::uint32_t one = edge / 3, other = screen_.mesh(first.instance).partners[edge] / 3;
-        if ((one == first.triangle && other == second.triangle) || (one == second.triangle && other == first.triangle)) return false;
-    }
-    if (!may_be_level(pair, nearness)) return false;
     if (!are_flush(first, second, pair.place(0.5))) return false;
-    if (!is_filled_) fill();
+    const std::vector<Face>& faces = faces_from(block);
     covered_.clear();
-    const glm::ivec2 cell = cell_of({pair.x, pair.y});
     const glm::ivec2 low(pair.x, pair.y), high = low + (pair.down ? glm::ivec2(0, pair.pitch) : glm::ivec2(pair.pitch, 0));
-    for (const Face& face : cells_[static_cast<std::size_t>(cell.y * columns_ + cell.x)]) {
+    for (const Face& face : faces) {
         if (glm::any(glm::greaterThan(face.low, high)) || glm::any(glm::lessThan(face.high, low))) continue;
         const Interval part = part_within(pair, face.surface);
         if (!(part.begin < part.end)) continue;
@@ -46,16 +37,20 @@ bool FlushCover::covers(const NeighbourSamples& pair, const float (&nearness)[2]
     return reached + slack >= 1;
 }
 
-/// False for nearly all pairs that are not of one plane.
 bool FlushCover::may_be_level(const NeighbourSamples& pair, const float (&nearness)[2]) const {
-    const SurfaceId a = pair.surfaces[0];
-    const std::uint8_t facing = screen_.mesh(a.instance).facing[a.triangle];
-    if (facing == off_screen) return true;
+    const SurfaceId s = pair.surfaces[0];
+    const ScreenMesh& mesh = screen_.mesh(s.instance);
+    if (mesh.facing[s.triangle] == off_screen) return true;
+    const std::uint32_t* const corners = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
+    const ScreenVertex &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]], &c = mesh.vertices[corners[2]];
+    const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
+    const double rise_u = static_cast<double>(b.nearness - a.nearness), rise_v = static_cast<double>(c.nearness - a.nearness);
+    // Its plane's rise from one sample to the other.
+    const double along = pair.down ? ux * rise_v - vx * rise_u : vy * rise_u - uy * rise_v, area = ux * vy - uy * vx;
+    const double from = static_cast<double>(nearness[0]), rise = static_cast<double>(nearness[1]) - from;
     const Projection& p = screen_.surfaces().projection;
-    const double from = static_cast<double>(nearness[0]), to = static_cast<double>(nearness[1]);
-    const double pixel = p.orthographic ? 1 / p.focal_px : (from + screen_.surfaces().farthest_nearness) / p.focal_px;
-    const glm::dvec2 there = pair.place(1);
-    return std::abs(extended_nearness(screen_.triangle(a), there.x, there.y) - to) <= kAboutLevelPx * pixel + kAboutLevelRise * std::abs(to - from);
+    const double pixel = (p.orthographic ? 1 : from + screen_.surfaces().farthest_nearness) / p.focal_px;
+    return std::abs(along * pair.pitch - rise * area) <= (kAboutLevelPx * pixel + kAboutLevelRise * std::abs(rise)) * std::abs(area);
 }
 
 /// Whether two triangles lie in one plane without a line between them. Those that have nothing in common on the screen are
@@ -69,26 +64,30 @@ bool FlushCover::are_flush(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const 
     return (contact_classes(surfaces, a, b, at, criteria_) & criteria_.classes).empty() && surfaces.order_near(a, b, at).are_coincident();
 }
 
-void FlushCover::fill() {
-    is_filled_ = true;
-    rect_ = bins_.tile(tile_);
-    const glm::ivec2 last = cell_of(glm::ivec2(rect_.x1, rect_.y1) * kSubpixelsPerPixel);
-    columns_ = last.x + 1;
-    rows_ = last.y + 1;
-    cells_.resize(std::max(cells_.size(), static_cast<std::size_t>(columns_ * rows_)));
-    for (std::vector<Face>& cell : cells_) cell.clear();
+/// Those that pairs may reach which begin in a block of samples: they end in it or in the next one.
+const std::vector<FlushCover::Face>& FlushCover::faces_from(glm::ivec2 block) {
+    const auto at = static_cast<std::size_t>(block.y * BlockTable::kPitch + block.x);
+    if (faces_.empty()) faces_.resize(BlockTable::kSize);
+    std::vector<Face>& faces = faces_[at];
+    if (std::find(filled_.begin(), filled_.end(), at) != filled_.end()) return faces;
+    filled_.push_back(at);
+    faces.clear();
     for (const auto runs : {bins_.runs_in(tile_), bins_.thin_runs_in(tile_)}) {
         for (const TriangleRun& run : runs) {
-            for (std::uint32_t i = 0; i < run.count; ++i) add({run.instance, run.triangles[i].triangle});
+            for (std::uint32_t i = 0; i < run.count; ++i) {
+                const TileTriangle& t = run.triangles[i];
+                if (t.first_column() > block.x + 1 || t.last_column() < block.x || t.first_row() > block.y + 1 || t.last_row() < block.y) continue;
+                add({run.instance, t.triangle}, faces);
+            }
         }
     }
     for (const auto numbers : {bins_.large_in(tile_), bins_.thin_large_in(tile_)}) {
-        for (const std::uint32_t i : numbers) add(bins_.large(i).surface);
+        for (const std::uint32_t i : numbers) add(bins_.large(i).surface, faces);
     }
+    return faces;
 }
 
-/// To the cells from which a pair reaches it.
-void FlushCover::add(SurfaceId s) {
+void FlushCover::add(SurfaceId s, std::vector<Face>& faces) const {
     const Facing facing = screen_.facing(screen_.number_of(s));
     if (facing == edge_on) return;
     Face face{s, glm::ivec2(0), glm::ivec2(0)};
@@ -106,16 +105,7 @@ void FlushCover::add(SurfaceId s) {
         face.low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
         face.high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
     }
-    const glm::ivec2 first = cell_of(face.low - kSubpixelsPerPixel), last = cell_of(face.high);
-    for (int y = first.y; y <= last.y; ++y) {
-        for (int x = first.x; x <= last.x; ++x) cells_[static_cast<std::size_t>(y * columns_ + x)].push_back(face);
-    }
-}
-
-glm::ivec2 FlushCover::cell_of(glm::ivec2 subpixel) const {
-    const glm::ivec2 last = glm::ivec2(rect_.width(), rect_.height()) * kSubpixelsPerPixel;
-    const glm::ivec2 within = glm::clamp(subpixel - glm::ivec2(rect_.x0, rect_.y0) * kSubpixelsPerPixel, glm::ivec2(0), last);
-    return {within.x >> kCellShift, within.y >> kCellShift};
+    faces.push_back(face);
 }
 
 /// Of a convex polygon; a corner on the line counts to one side, as samples on an edge belong to one.

@@ -357,9 +357,10 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
     crossing.occludes = is_occluding(decision);
     if (crossing.classes.empty() && !(keeps_undrawn_ && crossing.occludes)) return false;
     if (!crossing.classes.has(LineClass::mark)) {
-        const std::size_t first = samples_.index(samples_.first_column + pair.column, samples_.first_row + pair.row);
+        const std::size_t first = pair.row * static_cast<std::size_t>(samples_.stride) + pair.column;
         const std::size_t second = first + (pair.down ? static_cast<std::size_t>(samples_.stride) : 1);
-        if (flush_.covers(neighbours, {samples_.nearness[first], samples_.nearness[second]}, decision.edge.half_edge)) return false;
+        const float nearness[2] = {samples_.nearness[first], samples_.nearness[second]};
+        if (flush_.covers(neighbours, {pair.column, pair.row}, nearness, decision.edge.half_edge)) return false;
     }
     crossing.pixel = glm::mix(a, b, std::clamp(decision.fraction, 0.0, 1.0));
     crossing.towards_front = decision.front == 0 ? a - b : b - a;
