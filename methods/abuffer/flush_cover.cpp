@@ -38,6 +38,10 @@ bool FlushCover::is_covered(const NeighbourSamples& pair, glm::ivec2 block) {
 }
 
 bool FlushCover::may_be_level(const NeighbourSamples& pair, const float (&nearness)[2]) const {
+    const double from = static_cast<double>(nearness[0]), rise = static_cast<double>(nearness[1]) - from;
+    const Projection& p = screen_.surfaces().projection;
+    const double pixel = (p.orthographic ? 1 : from + screen_.surfaces().farthest_nearness) / p.focal_px;
+    const double limit = kAboutLevelPx * pixel + kAboutLevelRise * std::abs(rise);
     const SurfaceId s = pair.surfaces[0];
     const ScreenMesh& mesh = screen_.mesh(s.instance);
     if (mesh.facing[s.triangle] == off_screen) return true;
@@ -47,10 +51,7 @@ bool FlushCover::may_be_level(const NeighbourSamples& pair, const float (&nearne
     const double rise_u = static_cast<double>(b.nearness - a.nearness), rise_v = static_cast<double>(c.nearness - a.nearness);
     // Its plane's rise from one sample to the other.
     const double along = pair.down ? ux * rise_v - vx * rise_u : vy * rise_u - uy * rise_v, area = ux * vy - uy * vx;
-    const double from = static_cast<double>(nearness[0]), rise = static_cast<double>(nearness[1]) - from;
-    const Projection& p = screen_.surfaces().projection;
-    const double pixel = (p.orthographic ? 1 : from + screen_.surfaces().farthest_nearness) / p.focal_px;
-    return std::abs(along * pair.pitch - rise * area) <= (kAboutLevelPx * pixel + kAboutLevelRise * std::abs(rise)) * std::abs(area);
+    return std::abs(along * pair.pitch - rise * area) <= limit * std::abs(area);
 }
 
 /// Whether two triangles lie in one plane without a line between them. Those that have nothing in common on the screen are
