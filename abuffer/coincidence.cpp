@@ -103,6 +103,40 @@ class Sensitivity {
     double divisor_;
 };
 
+/// The planes of two triangles.
+class PlanePair {
+  public:
+    PlanePair(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3])
+        : projection_(projection), of_a_(projection, a), of_b_(projection, b) {
+        if (!has_both()) return;
+        plane_a_ = exact_depth_plane(projection, a);
+        plane_b_ = exact_depth_plane(projection, b);
+        drift_ = std::abs(plane_a_.per_x - plane_b_.per_x) + std::abs(plane_a_.per_y - plane_b_.per_y);
+        snapping_ = plane_a_.snapping_error() + plane_b_.snapping_error();
+    }
+
+    bool has_both() const { return of_a_.has_plane() && of_b_.has_plane(); }
+    SurfaceOrder at(glm::dvec2 p, bool may_be_one_plane, double coordinate_error) const {
+        const auto change = [&](double nearness, double error) { return of_a_.change(nearness, error) + of_b_.change(nearness, error); };
+        const double nearness = plane_a_.extended_to(p), gap = nearness - plane_b_.extended_to(p);
+        const double error = change(nearness, coordinate_error);
+        const double visible = change(nearness, 0.5 * kCoincidentPx * projection_.pixel_size(projection_.distance(nearness)));
+        const double certain = error + snapping_;
+        SurfaceOrder order;
+        order.have_common_place = true;
+        (gap > certain ? order.has_front : gap < -certain ? order.has_behind : order.has_level) = true;
+        const double allowed = may_be_one_plane ? std::max(error, visible) : error;
+        order.is_apart = !(std::abs(gap) + kAroundPx * drift_ <= allowed);  // so is what is not a number
+        return order;
+    }
+
+  private:
+    const Projection& projection_;
+    Sensitivity of_a_, of_b_;
+    DepthPlane plane_a_, plane_b_;
+    double drift_ = 0, snapping_ = 0;
+};
+
 }  // namespace
 
 void SurfaceOrder::operator+=(const SurfaceOrder& o) {
@@ -117,26 +151,19 @@ bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]) { r
 
 SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
                               bool may_be_one_plane, double coordinate_error) {
-    SurfaceOrder order;
-    const Sensitivity of_a(projection, a), of_b(projection, b);
-    if (!of_a.has_plane() || !of_b.has_plane()) return order;
-    const DepthPlane plane_a = exact_depth_plane(projection, a), plane_b = exact_depth_plane(projection, b);
-    const double drift = std::abs(plane_a.per_x - plane_b.per_x) + std::abs(plane_a.per_y - plane_b.per_y);
-    const double snapping = plane_a.snapping_error() + plane_b.snapping_error();
-    const auto change = [&](double nearness, double error) { return of_a.change(nearness, error) + of_b.change(nearness, error); };
+    const PlanePair planes(projection, a, b);
+    if (!planes.has_both()) return {};
     const Region region = common_region(projection, a, b);
+    SurfaceOrder order;
     if (region.is_sliver()) return order;
-    for (const glm::dvec2 p : region.corners()) {
-        order.have_common_place = true;
-        const double nearness = plane_a.extended_to(p), gap = nearness - plane_b.extended_to(p);
-        const double error = change(nearness, coordinate_error);
-        const double visible = change(nearness, 0.5 * kCoincidentPx * projection.pixel_size(projection.distance(nearness)));
-        const double certain = error + snapping;
-        (gap > certain ? order.has_front : gap < -certain ? order.has_behind : order.has_level) = true;
-        const double allowed = may_be_one_plane ? std::max(error, visible) : error;
-        order.is_apart = order.is_apart || !(std::abs(gap) + kAroundPx * drift <= allowed);  // so is what is not a number
-    }
+    for (const glm::dvec2 p : region.corners()) order += planes.at(p, may_be_one_plane, coordinate_error);
     return order;
+}
+
+SurfaceOrder compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], glm::dvec2 place,
+                            bool may_be_one_plane, double coordinate_error) {
+    const PlanePair planes(projection, a, b);
+    return planes.has_both() ? planes.at(place, may_be_one_plane, coordinate_error) : SurfaceOrder{};
 }
 
 }  // namespace burin

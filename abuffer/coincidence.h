@@ -28,6 +28,9 @@ struct SurfaceOrder {
 /// may not be one plane, as the two sides of a thin sheet are none, nothing but that error counts.
 SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
                               bool may_be_one_plane, double coordinate_error);
+/// The same of their planes at one place, in pixels.
+SurfaceOrder compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], glm::dvec2 place,
+                            bool may_be_one_plane, double coordinate_error);
 
 /// Whether the corners of a triangle run counterclockwise as seen.
 bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]);

@@ -21,38 +21,40 @@ std::pair<std::uint32_t, std::uint32_t> triangles_of_polygon(const Mesh& mesh, s
 }  // namespace
 
 SurfaceOrder SurfaceSet::order(SurfaceId a, SurfaceId b) const {
-    const auto compare = [&](SurfaceId s, SurfaceId t) {
-        glm::dvec3 corners_s[3], corners_t[3];
-        view_corners(s, corners_s);
-        view_corners(t, corners_t);
-        const auto compare_as = [&](bool may_be_one_plane) {
-            return compare_surfaces(projection, corners_s, corners_t, may_be_one_plane, coordinate_error);
-        };
-        const SurfaceOrder order = compare_as(true);
-        if (s.instance != t.instance || order.is_apart) return order;
-        // Mostly there is no need to know where bodies are.
-        const SurfaceOrder exact = compare_as(false);
-        if (!exact.is_apart) return order;
-        // A thin sheet has two sides. Bodies that are flush with each other may be wound either way.
-        const bool s_faces_eye = faces_eye(projection, corners_s), t_faces_eye = faces_eye(projection, corners_t);
-        const BodySides& sides = *instance_of(s).body_sides;
-        const int of_s = sides.of(s.triangle), of_t = sides.of(t.triangle);
-        const bool are_on_one_side = of_s == 0 || of_t == 0 ? s_faces_eye == t_faces_eye : (s_faces_eye ? of_s : -of_s) == (t_faces_eye ? of_t : -of_t);
-        return are_on_one_side ? order : exact;
-    };
     if (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(b).polygon_of(b.triangle)) return {};
     // The triangles in question first: they tell for most.
-    SurfaceOrder order = compare(a, b);
+    SurfaceOrder order = compare(a, b, nullptr);
     const auto [begin_a, end_a] = triangles_of_polygon(mesh_of(a), a.triangle);
     const auto [begin_b, end_b] = triangles_of_polygon(mesh_of(b), b.triangle);
     if (std::uint64_t{end_a - begin_a} * (end_b - begin_b) > kMostComparisons) return order;
     for (std::uint32_t s = begin_a; s < end_a; ++s) {
         for (std::uint32_t t = begin_b; t < end_b; ++t) {
             if (order.is_apart) return order;
-            if (s != a.triangle || t != b.triangle) order += compare({a.instance, s}, {b.instance, t});
+            if (s != a.triangle || t != b.triangle) order += compare({a.instance, s}, {b.instance, t}, nullptr);
         }
     }
     return order;
+}
+
+SurfaceOrder SurfaceSet::compare(SurfaceId s, SurfaceId t, const glm::dvec2* place) const {
+    glm::dvec3 corners_s[3], corners_t[3];
+    view_corners(s, corners_s);
+    view_corners(t, corners_t);
+    const auto compare_as = [&](bool may_be_one_plane) {
+        if (place != nullptr) return compare_planes(projection, corners_s, corners_t, *place, may_be_one_plane, coordinate_error);
+        return compare_surfaces(projection, corners_s, corners_t, may_be_one_plane, coordinate_error);
+    };
+    const SurfaceOrder order = compare_as(true);
+    if (s.instance != t.instance || order.is_apart) return order;
+    // Mostly there is no need to know where bodies are.
+    const SurfaceOrder exact = compare_as(false);
+    if (!exact.is_apart) return order;
+    // A thin sheet has two sides. Bodies that are flush with each other may be wound either way.
+    const bool s_faces_eye = faces_eye(projection, corners_s), t_faces_eye = faces_eye(projection, corners_t);
+    const BodySides& sides = *instance_of(s).body_sides;
+    const int of_s = sides.of(s.triangle), of_t = sides.of(t.triangle);
+    const bool are_on_one_side = of_s == 0 || of_t == 0 ? s_faces_eye == t_faces_eye : (s_faces_eye ? of_s : -of_s) == (t_faces_eye ? of_t : -of_t);
+    return are_on_one_side ? order : exact;
 }
 
 }  // namespace burin

@@ -77,6 +77,13 @@ struct SurfaceSet {
     /// How the polygons of two triangles lie to each other, or the two triangles, if the polygons have many corners. Not all
     /// places are looked at where they are apart. Nothing for triangles of one polygon.
     SurfaceOrder order(SurfaceId a, SurfaceId b) const;
+    /// The same of the planes of the two triangles at a place on the screen, in pixels.
+    SurfaceOrder order_at(SurfaceId a, SurfaceId b, glm::dvec2 place) const { return compare(a, b, &place); }
+    /// order(), or order_at() if the polygons have no place in common.
+    SurfaceOrder order_near(SurfaceId a, SurfaceId b, glm::dvec2 place) const {
+        const SurfaceOrder known = order(a, b);
+        return known.have_common_place ? known : order_at(a, b, place);
+    }
     bool coincide(SurfaceId a, SurfaceId b) const { return order(a, b).are_coincident(); }
     ScreenPolygon screen_polygon(SurfaceId s) const {
         glm::dvec3 corners[3];
@@ -115,6 +122,10 @@ struct SurfaceSet {
         for (const SurfaceInstance& i : instances) count += i.mesh->triangles.size();
         return count;
     }
+
+  private:
+    /// Of two triangles, at one place or wherever both are.
+    SurfaceOrder compare(SurfaceId s, SurfaceId t, const glm::dvec2* place) const;
 };
 
 }  // namespace burin

@@ -84,8 +84,7 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
         if (gap > level) return false;
         if (gap < -level) continue;
         const SurfaceId other = screen_.surface_of(cover.number);
-        const SurfaceOrder order = surfaces.order(s, other);
-        if (!order.are_coincident()) {
+        if (!surfaces.order_near(s, other, *beside / double{kSubpixelsPerPixel}).are_coincident()) {
             if (rises_in_front(s, other)) return false;
             continue;
         }
@@ -166,17 +165,32 @@ int Contacts::side_of_body(SurfaceId s) const {
     return plane_of(s).is_counterclockwise != is_mirrored ? side : -side;
 }
 
-/// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place.
+/// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place. Of what is cut,
+/// as a floor that reaches behind the eye, all parts.
 std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t, Over over) const {
     if (t.covers(place)) return t;
     const ScreenMesh& mesh = screen_.mesh(t.instance);
-    const HalfEdge first = 3 * screen_.surface_of(t.number).triangle;
+    const SurfaceId own = screen_.surface_of(t.number);
+    const auto part_at_place = [&](SurfaceId s, std::uint32_t number) -> std::optional<LayerTriangle> {
+        for (const LayerTriangle& part : clipped_layer_triangles(screen_, s, number)) {
+            if (part.covers(place)) return part;
+        }
+        return std::nullopt;
+    };
+    if (screen_.facing(t.number) == off_screen) {
+        if (const auto part = part_at_place(own, t.number)) return part;
+    }
+    const HalfEdge first = 3 * own.triangle;
     for (HalfEdge h = first; h < first + 3; ++h) {
         const bool is_plain = mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0;
         if (over == Over::plain_edges && !is_plain) continue;
         const SurfaceId s{t.instance, mesh.partners[h] / 3};
         const std::uint32_t number = screen_.number_of(s);
-        if (number == t.number || screen_.facing(number) == edge_on || screen_.facing(number) == off_screen) continue;
+        if (number == t.number || screen_.facing(number) == edge_on) continue;
+        if (screen_.facing(number) == off_screen) {
+            if (const auto part = part_at_place(s, number)) return part;
+            continue;
+        }
         if (!may_cover(screen_.triangle(s), place)) continue;
         const LayerTriangle neighbour = layer_triangle(screen_, s, number);
         if (neighbour.covers(place)) return neighbour;

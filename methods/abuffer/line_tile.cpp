@@ -42,6 +42,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
                                                           frame.criteria.classes.has(LineClass::border))),
       fast_(screen, frame.criteria),
+      flush_(screen, bins, frame.criteria),
       fade_(frame.scene->lines.crease_fade()) {}
 
 SampleView LineTile::view() {
@@ -65,6 +66,7 @@ SampleView LineTile::view() {
 
 void LineTile::draw(std::size_t tile) {
     rect_ = bins_.tile(tile);
+    flush_.set_tile(tile);
     if (contests_.empty()) contests_.resize(1 << 14);
     draw_all(tile);
     if (contest_count_ > contests_.size()) {  // once more, with room for all
@@ -364,6 +366,12 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
     if (crossing.opacity == 0) crossing.classes = {};
     crossing.occludes = is_occluding(decision);
     if (crossing.classes.empty() && !(keeps_undrawn_ && crossing.occludes)) return false;
+    if (!crossing.classes.has(LineClass::mark)) {
+        const std::size_t first = pair.row * static_cast<std::size_t>(samples_.stride) + pair.column;
+        const std::size_t second = first + (pair.down ? static_cast<std::size_t>(samples_.stride) : 1);
+        const float nearness[2] = {samples_.nearness[first], samples_.nearness[second]};
+        if (flush_.covers(neighbours, {pair.column, pair.row}, nearness, decision.edge.half_edge)) return false;
+    }
     crossing.pixel = glm::mix(a, b, std::clamp(decision.fraction, 0.0, 1.0));
     crossing.towards_front = decision.front == 0 ? a - b : b - a;
     const HalfEdge h = decision.edge.half_edge;

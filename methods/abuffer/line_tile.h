@@ -8,6 +8,7 @@
 #include "lines/line_segment.h"
 #include "lines/merge_segments.h"
 #include "methods/abuffer/fast_decision.h"
+#include "methods/abuffer/flush_cover.h"
 #include "methods/abuffer/triangle_bins.h"
 #include "render/frame.h"
 
@@ -67,6 +68,7 @@ class LineTile {
     const TileKernels& kernels_;
     bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;
+    FlushCover flush_;
     CreaseFade fade_;
     PixelRect rect_;
     SampleTile samples_;

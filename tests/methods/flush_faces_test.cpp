@@ -8,6 +8,7 @@
 
 #include "mesh/shapes.h"
 #include "methods/reference.h"
+#include "tests/support/ink_apart.h"
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
@@ -73,21 +74,6 @@ PolygonSoup union_of(const std::vector<Block>& blocks) {
         }
     }
     return soup;
-}
-
-/// Ink of one picture where the other has none within a pixel.
-double ink_apart(const Drawing& a, const Drawing& b) {
-    double apart = 0;
-    for (int y = 1; y + 1 < a.height(); ++y) {
-        for (int x = 1; x + 1 < a.width(); ++x) {
-            double near = 0;
-            for (int v = y - 1; v <= y + 1; ++v) {
-                for (int u = x - 1; u <= x + 1; ++u) near = std::max(near, b.line(u, v));
-            }
-            if (near < 0.1) apart += a.line(x, y);
-        }
-    }
-    return apart;
 }
 
 Camera camera_around(Random& random, double fov_deg) {
