@@ -39,6 +39,12 @@ class ScreenTriangles {
         }
         numbers_[6][i] = t.highest;
     }
+    FlatTriangle get(std::size_t i) const {
+        const auto at = [&](std::size_t k) { return numbers_[k][i]; };
+        return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6)};
+    }
+    /// So many have been made room for.
+    std::size_t capacity() const { return std::max(numbers_[0].size(), kPadding) - kPadding; }
     TriangleView view() const {
         const auto at = [this](std::size_t k) { return numbers_[k].data(); };
         return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6)};

@@ -51,7 +51,9 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
             if (candidates_.size() < count_) {
                 candidates_.resize(count_);
                 triangles_.resize(count_);
+                places_.resize(count_);
             }
+            places_[index] = {block_x, block_y};
             candidates_[index].clear();
             triangles_[index].clear();
         }
@@ -106,19 +108,20 @@ void FineBlocks::add_small(const TriangleRun& run) {
         const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
         const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
         sort_triangle({mesh.first_number + t, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
-                       std::max({a.y, b.y, c.y}),
-                       flat_triangle(a, b, c, static_cast<Facing>(mesh.facing[t]))});
+                       std::max({a.y, b.y, c.y})},
+                      flat_triangle(a, b, c, static_cast<Facing>(mesh.facing[t])));
     }
 }
 
 void FineBlocks::add_large(const LargePolygon& large) {
     const ScreenPolygon& polygon = large.polygon;
-    HidingTriangle t{screen_.number_of(large.surface), false, 0, 0, -1, -1, kAllOfTheScreen};
+    HidingTriangle t{screen_.number_of(large.surface), false, 0, 0, -1, -1};
+    FlatTriangle flat = kAllOfTheScreen;
     const Facing facing = screen_.facing(t.number);
     t.is_clipped = facing == off_screen;
     if (!t.is_clipped) {
         const auto [a, b, c] = screen_.triangle(large.surface).corners;
-        t.flat = flat_triangle(a, b, c, facing);
+        flat = flat_triangle(a, b, c, facing);
     }
     t.x0 = t.x1 = polygon.corners[0].x;
     t.y0 = t.y1 = polygon.corners[0].y;
@@ -129,27 +132,35 @@ void FineBlocks::add_large(const LargePolygon& large) {
         t.x1 = std::max(t.x1, p.x);
         t.y1 = std::max(t.y1, p.y);
     }
-    sort_triangle(t);
+    // It may fill the tile, and few blocks have candidates.
+    const int left = grid_.at(t.x0) - first_x_, right = grid_.at(t.x1) - first_x_;
+    const int top = grid_.at(t.y0) - first_y_, bottom = grid_.at(t.y1) - first_y_;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const glm::ivec2 at = places_[i];
+        const bool touches = at.x >= left && at.x <= right && at.y >= top && at.y <= bottom;
+        if (touches && hides_something(t, flat.highest, at.x, at.y)) triangles_[i].add(t, flat);
+    }
 }
 
-void FineBlocks::sort_triangle(const HidingTriangle& t) {
+bool FineBlocks::hides_something(const HidingTriangle& t, float highest, int block_x, int block_y) const {
+    const int origin_x = kCells * (first_x_ + block_x), origin_y = kCells * (first_y_ + block_y);
+    const int x0 = std::max(cell_of(t.x0) - origin_x, 0), x1 = std::min(cell_of(t.x1) - origin_x, kCells - 1);
+    const int y0 = std::max(cell_of(t.y0) - origin_y, 0), y1 = std::min(cell_of(t.y1) - origin_y, kCells - 1);
+    for (int y = y0; y <= y1; ++y) {
+        for (int x = x0; x <= x1; ++x) {
+            if (highest > farthest_[cell_at(kCells * block_x + x, kCells * block_y + y)]) return true;
+        }
+    }
+    return false;
+}
+
+void FineBlocks::sort_triangle(const HidingTriangle& t, const FlatTriangle& flat) {
     const int left = std::max(grid_.at(t.x0) - first_x_, 0), right = std::min(grid_.at(t.x1) - first_x_, columns_ - 1);
     const int top = std::max(grid_.at(t.y0) - first_y_, 0), bottom = std::min(grid_.at(t.y1) - first_y_, rows_ - 1);
-    const auto hides_something = [&](int x, int y) {
-        const int origin_x = kCells * (first_x_ + x), origin_y = kCells * (first_y_ + y);
-        const int x0 = std::max(cell_of(t.x0) - origin_x, 0), x1 = std::min(cell_of(t.x1) - origin_x, kCells - 1);
-        const int y0 = std::max(cell_of(t.y0) - origin_y, 0), y1 = std::min(cell_of(t.y1) - origin_y, kCells - 1);
-        for (int cell_y = y0; cell_y <= y1; ++cell_y) {
-            for (int cell_x = x0; cell_x <= x1; ++cell_x) {
-                if (t.flat.highest > farthest_[cell_at(kCells * x + cell_x, kCells * y + cell_y)]) return true;
-            }
-        }
-        return false;
-    };
     for (int y = top; y <= bottom; ++y) {
         for (int x = left; x <= right; ++x) {
             const std::uint32_t index = index_[block_at(x, y)];
-            if (index != kNone && hides_something(x, y)) triangles_[index].push_back(t);
+            if (index != kNone && hides_something(t, flat.highest, x, y)) triangles_[index].add(t, flat);
         }
     }
 }

@@ -20,9 +20,29 @@ struct FineCandidate {
 /// A triangle that may hide candidates, and its box on the screen in 1/256 pixel.
 struct HidingTriangle {
     std::uint32_t number;
-    bool is_clipped;  ///< by the near plane or the guard band; then `flat` covers the whole screen
+    bool is_clipped;  ///< by the near plane or the guard band; its FlatTriangle covers the whole screen
     std::int32_t x0, y0, x1, y1;
-    FlatTriangle flat;
+};
+
+/// Some of them, with their corners as kernels want them. Buffers are used again.
+class HidingTriangles {
+  public:
+    void clear() { triangles_.clear(); }
+    void add(const HidingTriangle& t, const FlatTriangle& flat) {
+        if (triangles_.size() == flat_.capacity()) flat_.resize(2 * triangles_.size() + 32);
+        flat_.set(triangles_.size(), flat);
+        triangles_.push_back(t);
+    }
+    std::size_t size() const { return triangles_.size(); }
+    auto begin() const { return triangles_.begin(); }
+    auto end() const { return triangles_.end(); }
+    const HidingTriangle& operator[](std::size_t i) const { return triangles_[i]; }
+    FlatTriangle flat(std::size_t i) const { return flat_.get(i); }
+    TriangleView view() const { return flat_.view(); }
+
+  private:
+    std::vector<HidingTriangle> triangles_;
+    ScreenTriangles flat_;
 };
 
 /// The blocks of a tile that have candidates, and the triangles that may hide them there: all that touch
@@ -39,7 +59,7 @@ class FineBlocks {
     /// Numbers of candidates.
     std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_[block]; }
     /// In no particular order.
-    std::span<const HidingTriangle> triangles(std::size_t block) const { return triangles_[block]; }
+    const HidingTriangles& triangles(std::size_t block) const { return triangles_[block]; }
 
   private:
     /// A block is cut into so many cells along each side, for a triangle beside all candidates to be left out.
@@ -58,7 +78,8 @@ class FineBlocks {
     void note_least(glm::ivec2 low, glm::ivec2 high, float lowest);
     void add_small(const TriangleRun& run);
     void add_large(const LargePolygon& large);
-    void sort_triangle(const HidingTriangle& t);
+    void sort_triangle(const HidingTriangle& t, const FlatTriangle& flat);
+    bool hides_something(const HidingTriangle& t, float highest, int block_x, int block_y) const;
 
     const ScreenSurfaces& screen_;
     const TriangleBins& bins_;
@@ -73,7 +94,8 @@ class FineBlocks {
     int sample_blocks_ = 0;             // along each side
     std::vector<std::uint32_t> nearer_;
     std::vector<std::vector<std::uint32_t>> candidates_;  // per block
-    std::vector<std::vector<HidingTriangle>> triangles_;
+    std::vector<HidingTriangles> triangles_;
+    std::vector<glm::ivec2> places_;  // of those with candidates
 };
 
 }  // namespace burin

@@ -41,45 +41,22 @@ class FineLines::BlockClipper {
         : screen_(screen), contacts_(screen), kernels_(kernels), criteria_(criteria) {}
 
     /// `corner`: of the block, in 1/256 pixel.
-    void set_triangles(std::span<const HidingTriangle> triangles, glm::ivec2 corner) {
-        given_ = triangles;
+    void set_triangles(const HidingTriangles& triangles, glm::ivec2 corner) {
+        given_ = &triangles;
         corner_ = corner;
         cells_ = 1;
         cell_shift_ = SampleBlocks::kShift;
-        const auto count_of_cells = [&] { return static_cast<std::size_t>(cells_ * cells_); };
         while (cells_ < kMostCells && triangles.size() > kTrianglesPerCell * count_of_cells()) {
             cells_ *= 2;
             --cell_shift_;
         }
-        // Counts are kept one place further, so that filling moves each list's end to its place.
-        for (;; cells_ /= 2, ++cell_shift_) {
-            cell_end_.assign(count_of_cells() + 2, 0);
-            std::size_t count = 0;
-            for (const HidingTriangle& t : triangles) {
-                for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
-                    ++cell_end_[cell + 2];
-                    ++count;
-                });
-            }
-            if (cells_ == 1 || count <= kMostPlaces * triangles.size()) break;  // large ones would fill all cells
-        }
-        for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
-        in_cells_.resize(cell_end_.back());
-        triangles_.resize(cell_end_.back());
-        beside_.resize(cell_end_.back());
-        for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-            const HidingTriangle& t = triangles[i];
-            for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
-                const std::size_t at = cell_end_[cell + 1]++;
-                in_cells_[at] = i;
-                triangles_.set(at, t.flat);
-            });
-        }
+        sort_to_cells();
+        beside_.resize(cells_ == 1 ? triangles.size() : cell_end_.back());
         places_.assign(triangles.size(), {});
         set_up_.clear();
     }
     /// How many triangles are in a cell, on average.
-    std::size_t triangles_per_cell() const { return in_cells_.size() / static_cast<std::size_t>(cells_ * cells_); }
+    std::size_t triangles_per_cell() const { return cells_ == 1 ? given_->size() : in_cells_.size() / count_of_cells(); }
 
     void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
         const LayerLine& line = candidate.line;
@@ -151,17 +128,49 @@ class FineLines::BlockClipper {
         std::uint32_t first = 0, count = 0;
     };
 
+    std::size_t count_of_cells() const { return static_cast<std::size_t>(cells_ * cells_); }
+
+    /// Lists the triangles in each cell they touch; with a single one there is nothing to do.
+    void sort_to_cells() {
+        // Counts are kept one place further, so that filling moves each list's end to its place.
+        for (; cells_ > 1; cells_ /= 2, ++cell_shift_) {
+            cell_end_.assign(count_of_cells() + 2, 0);
+            std::size_t count = 0;
+            for (const HidingTriangle& t : *given_) {
+                for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
+                    ++cell_end_[cell + 2];
+                    ++count;
+                });
+            }
+            if (count <= kMostPlaces * given_->size()) break;  // large ones would fill all cells
+        }
+        if (cells_ == 1) return;
+        for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
+        in_cells_.resize(cell_end_.back());
+        triangles_.resize(cell_end_.back());
+        for (std::uint32_t i = 0; i < given_->size(); ++i) {
+            const HidingTriangle& t = (*given_)[i];
+            for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
+                const std::size_t at = cell_end_[cell + 1]++;
+                in_cells_[at] = i;
+                triangles_.set(at, given_->flat(i));
+            });
+        }
+    }
+
     /// Calls use(triangle) for those beside the way from a to b that are nearer than `least`, until it says false.
     template <typename Use>
     void for_triangles(glm::dvec2 a, glm::dvec2 b, double least, const Use& use) {
         const ScreenLine part{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
                               static_cast<float>(std::max(least, -1e30))};
         bool goes_on = true;
+        const bool has_cells = cells_ > 1;
+        const TriangleView triangles = has_cells ? triangles_.view() : given_->view();
         for_cells(glm::ivec2(glm::floor(glm::min(a, b))), glm::ivec2(glm::ceil(glm::max(a, b))), [&](std::size_t cell) {
-            const std::size_t count =
-                kernels_.find_hiding(triangles_.view(), cell_end_[cell], cell_end_[cell + 1], part, beside_.data());
+            const std::size_t first = has_cells ? cell_end_[cell] : 0, end = has_cells ? cell_end_[cell + 1] : given_->size();
+            const std::size_t count = kernels_.find_hiding(triangles, first, end, part, beside_.data());
             for (std::size_t at = 0; at < count && goes_on; ++at) {
-                const std::uint32_t i = in_cells_[beside_[at]];
+                const std::uint32_t i = has_cells ? in_cells_[beside_[at]] : beside_[at];
                 if (places_[i].count == 0) set_up(i);
                 for (std::uint32_t k = 0; k < places_[i].count && goes_on; ++k) {
                     goes_on = use(set_up_[places_[i].first + k]);
@@ -185,13 +194,14 @@ class FineLines::BlockClipper {
     }
 
     void set_up(std::size_t i) {
-        const SurfaceId s = screen_.surface_of(given_[i].number);
+        const HidingTriangle& given = (*given_)[i];
+        const SurfaceId s = screen_.surface_of(given.number);
         places_[i].first = static_cast<std::uint32_t>(set_up_.size());
-        if (given_[i].is_clipped) {
-            const auto parts = clipped_layer_triangles(screen_, s, given_[i].number);
+        if (given.is_clipped) {
+            const auto parts = clipped_layer_triangles(screen_, s, given.number);
             set_up_.insert(set_up_.end(), parts.begin(), parts.end());
         } else {
-            set_up_.push_back(layer_triangle(screen_, s, given_[i].number));
+            set_up_.push_back(layer_triangle(screen_, s, given.number));
         }
         places_[i].count = static_cast<std::uint32_t>(set_up_.size()) - places_[i].first;
     }
@@ -297,10 +307,10 @@ class FineLines::BlockClipper {
     Contacts contacts_;
     const TileKernels& kernels_;
     const LineCriteria& criteria_;
-    std::span<const HidingTriangle> given_;
+    const HidingTriangles* given_ = nullptr;
     glm::ivec2 corner_{0};
     int cells_ = 1, cell_shift_ = SampleBlocks::kShift;  // along each side, and log2 of a cell's width in 1/256 pixel
-    std::vector<std::uint32_t> cell_end_, in_cells_;  // lists of given triangles, one per cell
+    std::vector<std::uint32_t> cell_end_, in_cells_;  // lists of given triangles, one per cell of several
     ScreenTriangles triangles_;                       // of them, which tell of most that they hide nothing
     std::vector<std::uint32_t> beside_;
     std::vector<Place> places_;  // of given triangles in set_up_

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "tests/support/polygon_rect.h"
 #include "tests/support/random.h"
 
 namespace burin {
@@ -28,31 +29,6 @@ ScreenPolygon random_polygon(Random& random, int reach) {
     return polygon;
 }
 
-struct Rect {
-    int x0, y0, x1, y1;
-};
-
-/// Clips the polygon at the rectangle's sides: an independent way to tell whether anything is in common.
-bool touches(const ScreenPolygon& polygon, const Rect& r) {
-    std::vector<glm::dvec2> left;
-    for (int i = 0; i < polygon.count; ++i) left.emplace_back(polygon.corners[static_cast<std::size_t>(i)].x, polygon.corners[static_cast<std::size_t>(i)].y);
-    const auto clip = [&](const auto& inside) {
-        std::vector<glm::dvec2> kept;
-        for (std::size_t i = 0; i < left.size(); ++i) {
-            const glm::dvec2 a = left[i], b = left[(i + 1) % left.size()];
-            const double da = inside(a), db = inside(b);
-            if (da >= 0) kept.push_back(a);
-            if ((da >= 0) != (db >= 0)) kept.push_back(a + (b - a) * (da / (da - db)));
-        }
-        left = kept;
-    };
-    clip([&](glm::dvec2 p) { return p.x - r.x0; });
-    clip([&](glm::dvec2 p) { return r.x1 - p.x; });
-    clip([&](glm::dvec2 p) { return p.y - r.y0; });
-    clip([&](glm::dvec2 p) { return r.y1 - p.y; });
-    return !left.empty();
-}
-
 TEST(PolygonSides, NeverLeaveOutWhatThePolygonTouches) {
     int left_out = 0, beside = 0;
     for (int trial = 0; trial < 100000; ++trial) {
@@ -60,11 +36,12 @@ TEST(PolygonSides, NeverLeaveOutWhatThePolygonTouches) {
         const int reach = trial % 4 == 0 ? 12 : trial % 4 == 1 ? 16000000 : 6000;
         const ScreenPolygon polygon = random_polygon(random, reach);
         const int x = random.integer(-reach, reach), y = random.integer(-reach, reach);
-        const Rect r{x, y, x + random.integer(0, reach / 2), y + random.integer(0, reach / 2)};
-        const bool is_out = PolygonSides(polygon).leave_out(r.x0, r.y0, r.x1, r.y1);
-        ASSERT_FALSE(is_out && touches(polygon, r)) << "trial " << trial;
+        const int right = x + random.integer(0, reach / 2), bottom = y + random.integer(0, reach / 2);
+        const bool is_out = PolygonSides(polygon).leave_out(x, y, right, bottom);
+        const bool is_touched = test::touches(polygon, {x, y}, {right, bottom});
+        ASSERT_FALSE(is_out && is_touched) << "trial " << trial;
         left_out += is_out ? 1 : 0;
-        beside += touches(polygon, r) ? 0 : 1;
+        beside += is_touched ? 0 : 1;
     }
     EXPECT_GT(left_out, beside / 2);  // the rest lies beside the box
 }

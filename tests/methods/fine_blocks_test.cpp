@@ -7,6 +7,7 @@
 
 #include "methods/abuffer/layer_triangle.h"
 #include "tests/support/drawing.h"
+#include "tests/support/polygon_rect.h"
 #include "tests/support/random.h"
 
 namespace burin {
@@ -47,14 +48,15 @@ struct Box {
 /// What a triangle covers, in 1/256 pixel, and its greatest nearness.
 struct Cover {
     Box box;
+    ScreenPolygon polygon;
     double nearest;
 };
 Cover cover_of(const ScreenSurfaces& screen, SurfaceId s) {
-    Cover cover{{}, -std::numeric_limits<double>::infinity()};
+    Cover cover{{}, {}, -std::numeric_limits<double>::infinity()};
     if (screen.facing(screen.number_of(s)) == off_screen) {
-        const ScreenPolygon polygon = screen.surfaces().screen_polygon(s);
-        for (int i = 0; i < polygon.count; ++i) {
-            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+        cover.polygon = screen.surfaces().screen_polygon(s);
+        for (int i = 0; i < cover.polygon.count; ++i) {
+            const SubpixelPoint p = cover.polygon.corners[static_cast<std::size_t>(i)];
             cover.box.reach({p.x, p.y});
             cover.nearest = std::numeric_limits<double>::infinity();
         }
@@ -62,6 +64,7 @@ Cover cover_of(const ScreenSurfaces& screen, SurfaceId s) {
     }
     for (const ScreenVertex& v : screen.triangle(s).corners) {
         cover.box.reach({v.x, v.y});
+        cover.polygon.corners[static_cast<std::size_t>(cover.polygon.count++)] = {v.x, v.y};
         cover.nearest = std::max(cover.nearest, static_cast<double>(v.nearness));
     }
     return cover;
@@ -109,9 +112,9 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
                     Box box;
                     box.reach(line.from);
                     box.reach(line.to);
-                    if (!box.touches(cover.box) || cover.nearest <= std::min(line.nearness_from, line.nearness_to)) continue;
+                    if (!box.touches(cover.box) || !touches(cover.polygon, box.low, box.high) || cover.nearest <= std::min(line.nearness_from, line.nearness_to)) continue;
                     ASSERT_LT(block_of[i], blocks.count());
-                    const auto listed = blocks.triangles(block_of[i]);
+                    const HidingTriangles& listed = blocks.triangles(block_of[i]);
                     const auto count = std::count_if(listed.begin(), listed.end(), [n](const HidingTriangle& t) { return t.number == n; });
                     ASSERT_EQ(count, 1) << "seed " << seed << " tile " << tile << " triangle " << n;
                     ++hiding;
