@@ -1,6 +1,7 @@
 #include "mesh/body_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace burin {
@@ -51,6 +52,24 @@ std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
     }
     std::replace(sides.begin(), sides.end(), kSheet, std::int8_t{0});
     return sides;
+}
+
+bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
+    constexpr std::size_t kMost = 64;
+    std::array<std::uint32_t, kMost> near;  // wound as the first one
+    std::size_t count = 0;
+    near[count++] = a;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t t = near[i];
+        if (t == b) return true;
+        for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+            const HalfEdge g = mesh.next_on_edge[h];
+            const bool is_alike = g != h && mesh.next_on_edge[g] == h && mesh.triangles[g / 3][g % 3] != mesh.triangles[t][h - 3 * t];
+            const bool is_known = std::find(near.data(), near.data() + count, g / 3) != near.data() + count;
+            if (is_alike && !is_known && count < kMost) near[count++] = g / 3;
+        }
+    }
+    return false;
 }
 
 }  // namespace burin

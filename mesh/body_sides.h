@@ -16,7 +16,11 @@ namespace burin {
 /// of triangles.
 std::vector<std::int8_t> find_body_sides(const Mesh& mesh);
 
-/// The same of a mesh that stays, found when it is first asked for, by whichever thread.
+/// Whether two triangles are near each other on one body, and wound alike: then its side is the same for both. False also
+/// where more than a few triangles lie between them.
+bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b);
+
+/// find_body_sides() of a mesh that stays, found when it is first asked for, by whichever thread.
 class BodySides {
   public:
     explicit BodySides(const Mesh& mesh) : mesh_(mesh) {}

