@@ -27,6 +27,8 @@ class BorderIndex {
     explicit BorderIndex(std::vector<Segment> segments);
 
     std::span<const Segment> segments() const { return segments_; }
+    /// The numbers of all segments, those near each other mostly one after the other: for whoever asks what is near each.
+    std::span<const std::uint32_t> by_place() const { return order_; }
 
     /// The border edge of another polygon that runs along `half_edge` at the point `at` on it, if
     /// there is one: nearly parallel, and nearer than 1/20 of the edge's length, which covers the

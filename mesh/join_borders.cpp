@@ -41,8 +41,9 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
     std::vector<Crack> cracks, beside;
     std::vector<std::uint32_t> near;
     std::vector<bool> is_in_pile(sides.segments().size());
-    for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
-        if ((i & 0xFFF) == 0) throw_if_interrupted();
+    std::size_t asked = 0;
+    for (const std::uint32_t i : sides.mesh().borders.by_place()) {
+        if ((asked++ & 0xFFF) == 0) throw_if_interrupted();
         const double widest = sides.widest(i, sides.length(i));
         if (!(widest > 0)) continue;
         const Segment& s = sides.segments()[i];

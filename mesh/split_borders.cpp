@@ -34,13 +34,15 @@ void find_cuts(const CrackSides& sides, std::uint32_t i, std::vector<std::uint32
     for (const std::uint32_t j : near) {
         const Segment& t = sides.segments()[j];
         const glm::dvec3 way = glm::dvec3(t.b) - glm::dvec3(t.a);
-        if (std::abs(glm::dot(along, way)) < kCosParallel * sides.length(j) || !sides.are_beside(i, j)) continue;
+        if (std::abs(glm::dot(along, way)) < kCosParallel * sides.length(j)) continue;
         const double widest = std::min(most, std::max(sides.widest(i, sides.length(j)), 0.05 * length));
+        const std::size_t before = cuts.size();
         for (const glm::dvec3 corner : {glm::dvec3(t.a), glm::dvec3(t.b)}) {
             const double at = glm::dot(corner - a, along);
             const bool is_inside = at > 0 && at < length && glm::distance(corner, a) > widest && glm::distance(corner, b) > widest;
             if (is_inside && glm::distance(corner, a + at * along) <= widest) cuts.push_back({s.half_edge, at / length});
         }
+        if (cuts.size() > before && !sides.are_beside(i, j)) cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(before), cuts.end());
     }
     const auto begin = cuts.begin() + static_cast<std::ptrdiff_t>(first);
     std::sort(begin, cuts.end(), [](const Cut& p, const Cut& q) { return p.share < q.share; });
@@ -85,11 +87,13 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
     const std::size_t most_cuts = 16 * sides.segments().size();
     std::vector<Cut> cuts;
     std::vector<std::uint32_t> near;
-    for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
-        if ((i & 0xFFF) == 0) throw_if_interrupted();
-        find_cuts(sides, i, near, cuts);  // half-edges are in order
+    std::size_t asked = 0;
+    for (const std::uint32_t i : mesh.borders.by_place()) {
+        if ((asked++ & 0xFFF) == 0) throw_if_interrupted();
+        find_cuts(sides, i, near, cuts);
         if (cuts.size() > most_cuts) return std::nullopt;
     }
+    std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& p, const Cut& q) { return p.half_edge < q.half_edge; });
     if (cuts.empty()) return std::nullopt;
     Mesh result = with_polygons_of(mesh);
     result.positions = mesh.positions;
