@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/interrupt.h"
@@ -74,44 +73,50 @@ class TouchedBox {
 
 }  // namespace
 
-BorderIndex::BorderIndex(std::vector<Segment> segments)
-    : segments_(std::move(segments)), order_(segments_.size()) {
+BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(segments)) {
     if (segments_.empty()) return;
-    std::iota(order_.begin(), order_.end(), 0u);
+    std::vector<Place> places;
+    places.reserve(segments_.size());
+    for (std::uint32_t i = 0; i < segments_.size(); ++i) places.push_back({segments_[i].a + segments_[i].b, i});
+    order_.resize(segments_.size());
     nodes_.reserve(segments_.size());
     nodes_.emplace_back();
-    build(0, 0, static_cast<std::uint32_t>(order_.size()));
+    build(0, 0, places);
 }
 
-void BorderIndex::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+void BorderIndex::build(std::uint32_t node, std::uint32_t first, std::span<Place> places) {
+    const auto count = static_cast<std::uint32_t>(places.size());
     if (count > 0xFFFF) throw_if_interrupted();
-    const auto begin = order_.begin() + first;
     Node box;
-    box.low = glm::min(segments_[*begin].a, segments_[*begin].b);
-    box.high = glm::max(segments_[*begin].a, segments_[*begin].b);
-    const auto middle = [&](std::uint32_t i) { return segments_[i].a + segments_[i].b; };  // twice that
-    glm::vec3 low = middle(*begin), high = low;  // of middles: long segments say nothing about where to cut
-    for (auto it = begin; it != begin + count; ++it) {
-        const Segment& s = segments_[*it];
-        box.low = glm::min(box.low, glm::min(s.a, s.b));
-        box.high = glm::max(box.high, glm::max(s.a, s.b));
-        low = glm::min(low, middle(*it));
-        high = glm::max(high, middle(*it));
-    }
-    box.first = first;
-    box.count = count;
     if (count > kLeafSize) {
+        glm::vec3 low = places.front().middle, high = low;  // of middles: long segments say nothing about where to cut
+        for (const Place& place : places) {
+            low = glm::min(low, place.middle);
+            high = glm::max(high, place.middle);
+        }
         const glm::vec3 size = high - low;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
         const std::uint32_t half = count / 2;
-        std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t i, std::uint32_t j) {
-            return middle(i)[axis] < middle(j)[axis];
-        });
+        std::nth_element(places.begin(), places.begin() + half, places.end(),
+                         [&](const Place& p, const Place& q) { return p.middle[axis] < q.middle[axis]; });
         box.first = static_cast<std::uint32_t>(nodes_.size());
-        box.count = 0;
         nodes_.resize(nodes_.size() + 2);
-        build(box.first, first, half);
-        build(box.first + 1, first + half, count - half);
+        build(box.first, first, places.first(half));
+        build(box.first + 1, first + half, places.subspan(half));
+        const Node &left = nodes_[box.first], &right = nodes_[box.first + 1];
+        box.low = glm::min(left.low, right.low);
+        box.high = glm::max(left.high, right.high);
+    } else {
+        box.first = first;
+        box.count = count;
+        box.low = glm::vec3(std::numeric_limits<float>::infinity());
+        box.high = -box.low;
+        for (const Place& place : places) {
+            const Segment& s = segments_[place.segment];
+            box.low = glm::min(box.low, glm::min(s.a, s.b));
+            box.high = glm::max(box.high, glm::max(s.a, s.b));
+            order_[first++] = place.segment;
+        }
     }
     nodes_[node] = box;
 }

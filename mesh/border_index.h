@@ -66,7 +66,11 @@ class BorderIndex {
     /// may_be_near(low, high).
     template <typename MayBeNear, typename Visit>
     void search(const Segment& own, const MayBeNear& may_be_near, const Visit& visit) const;
-    void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+    struct Place {
+        glm::vec3 middle;  // twice that
+        std::uint32_t segment;
+    };
+    void build(std::uint32_t node, std::uint32_t first, std::span<Place> places);
 
     std::vector<Segment> segments_;  // by half-edge
     std::vector<std::uint32_t> order_;
