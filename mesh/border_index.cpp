@@ -49,26 +49,12 @@ bool is_box_near(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& hig
     return glm::dot(outside, outside) <= reach * reach * (1 + 1e-9);
 }
 
-/// A box as single precision tells what touches it: exactly the boxes that touch it in double precision do.
-class TouchedBox {
-  public:
-    TouchedBox(const glm::dvec3& low, const glm::dvec3& high) {
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
-        for (int k = 0; k < 3; ++k) {
-            low_[k] = static_cast<float>(low[k]);
-            if (static_cast<double>(low_[k]) < low[k]) low_[k] = std::nextafter(low_[k], kInfinity);
-            high_[k] = static_cast<float>(high[k]);
-            if (static_cast<double>(high_[k]) > high[k]) high_[k] = std::nextafter(high_[k], -kInfinity);
-        }
+/// Whether a box touches another one.
+struct TouchedBox {
+    glm::dvec3 low, high;
+    bool operator()(const glm::vec3& other_low, const glm::vec3& other_high) const {
+        return glm::all(glm::lessThanEqual(glm::dvec3(other_low), high)) && glm::all(glm::lessThanEqual(low, glm::dvec3(other_high)));
     }
-    bool operator()(const glm::vec3& low, const glm::vec3& high) const {
-        bool touches = true;  // without branches: they would be guesses
-        for (int k = 0; k < 3; ++k) touches &= (low[k] <= high_[k]) & (low_[k] <= high[k]);
-        return touches;
-    }
-
-  private:
-    glm::vec3 low_, high_;
 };
 
 }  // namespace
@@ -157,7 +143,7 @@ void BorderIndex::search(const Segment& own, const MayBeNear& may_be_near, const
 
 void BorderIndex::find_in_box(const glm::dvec3& low, const glm::dvec3& high, std::vector<std::uint32_t>& found) const {
     if (nodes_.empty()) return;
-    visit_leaves(TouchedBox(low, high), [&](std::uint32_t i) { found.push_back(i); });
+    visit_leaves(TouchedBox{low, high}, [&](std::uint32_t i) { found.push_back(i); });
 }
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
@@ -175,7 +161,7 @@ void BorderIndex::find_candidates(HalfEdge half_edge, SeamCandidates& candidates
     if (own == nullptr) return;
     candidates.reach_ = kReachPart * glm::length(direction_of(*own));
     const double margin = candidates.reach_ * (1 + 1e-6);
-    const TouchedBox may_be_near(glm::dvec3(glm::min(own->a, own->b)) - margin, glm::dvec3(glm::max(own->a, own->b)) + margin);
+    const TouchedBox may_be_near{glm::dvec3(glm::min(own->a, own->b)) - margin, glm::dvec3(glm::max(own->a, own->b)) + margin};
     search(*own, may_be_near, [&](const Segment& other) { candidates.segments_.push_back(other); });
 }
 
