@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/cache_line.h"
+
 namespace burin {
 
 /// What is visible at every sample of a rectangle of an image's sample grid: Patel's resolved
@@ -23,8 +25,8 @@ struct SampleTile {
     int columns = 0, rows = 0;
     int stride = 0;
     int samples_per_pixel = 4;
-    std::vector<float> nearness;
-    std::vector<std::uint32_t> ids;
+    std::vector<float, CacheLineAllocator<float>> nearness;
+    std::vector<std::uint32_t, CacheLineAllocator<std::uint32_t>> ids;
 
     void reset(int column, int row, int column_count, int row_count, int per_pixel) {
         first_column = column;

@@ -288,11 +288,11 @@ struct TileKernels {
     /// Whether pairs are samples of one smooth surface: from the first one's triangle, a walk along the row or column comes to
     /// the other one's in few steps, over edges that are not sharp, and between them triangles that face the same way, are no
     /// slivers, and not so deep and narrow that snapping may turn them. Sets `is_smooth` to 1 or 0. Triangles of other meshes
-    /// are not smooth; the mesh must have `sharp`.
+    /// are not smooth; the mesh must have `sharp` and `line_edges`.
     void (*find_smooth)(const SampleView& tile, const ScreenMesh& mesh, const SmoothLimits& limits, const SamplePair* pairs,
                         std::size_t count, std::uint8_t* is_smooth);
     /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
-    /// three counts more than asked for may be written.
+    /// seven counts more than asked for may be written.
     void (*count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,
                           std::int32_t pixels, std::uint8_t* counts);
     /// Fills in all but the ids of triangles that are polygons of their own; none may be off screen.

@@ -31,7 +31,7 @@ glm::dvec2 inwards(const LineCrossing& c, glm::dvec2 center) {
 void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 center,
          std::vector<LineSegment>& segments, const LineCrossing* other_end = nullptr) {
     if (from == to) return;
-    LineSegment segment;
+    LineSegment& segment = segments.emplace_back();  // in place: copying would wait for what was just stored
     segment.from = from;
     segment.to = to;
     segment.is_drawn = !style.classes.empty();
@@ -48,7 +48,6 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 c
     segment.front_on_left = ((to == style.pixel) != runs_back ? -side : side) < 0;
     segment.line_key = style.line_key;
     segment.opacity = style.opacity;
-    segments.push_back(segment);
 }
 
 bool has_edge(const LineCrossing& c) { return c.edge_ends[0] != c.edge_ends[1]; }

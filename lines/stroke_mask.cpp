@@ -17,10 +17,11 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
         touched_.assign(masks_.size(), 0);
         return;
     }
-    for (std::size_t i = 0; i < masks_.size(); ++i) {
-        if (touched_[i] == 0) continue;
-        masks_[i] = StrokeMask{};
-        touched_[i] = 0;
+    for (std::size_t first = 0; first < touched_.size(); first += 8) {
+        std::uint64_t eight = eight_bytes(&touched_[first]);
+        if (eight == 0) continue;
+        std::fill_n(&touched_[first], 8, std::uint8_t{0});
+        for (; eight != 0; eight &= eight - 1) masks_[first + static_cast<std::size_t>(std::countr_zero(eight) / 8)] = StrokeMask{};
     }
 }
 

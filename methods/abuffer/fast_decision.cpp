@@ -91,9 +91,9 @@ FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i)
     return end;
 }
 
-/// `touched`: what it is in contact with, else nullptr.
-LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched) {
-    LineDecision decision;
+/// `touched`: what it is in contact with, else nullptr. `decision`: a new one, filled in where it is, for copying would wait for
+/// what was just stored.
+void FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched, LineDecision& decision) {
     const std::uint32_t instance = pair.surfaces[i].instance;
     const HalfEdge h = walk.half_edge;
     const SurfaceId own{instance, walk.triangle};
@@ -121,7 +121,6 @@ LineDecision FastDecision::end_of_surface(const NeighbourSamples& pair, int i, c
         decision.classes |= LineClass::border;
         decision.reason = LineReason::ends_at_border;
     }
-    return decision;
 }
 
 /// Whether what is seen lies in one plane, or the surface that goes on does so under the one that ends.
@@ -158,7 +157,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
             return true;
         }
         if (other.is_background()) {
-            decision = end_of_surface(pair, i, w, nullptr);
+            end_of_surface(pair, i, w, nullptr, decision);
             nearness = nearness_of(i, w);
             return true;
         }
@@ -182,7 +181,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
     if (is_behind(i)) return false;  // they may pass through each other before it
     const bool touches = ends[i].gap <= ends[i].tolerance;
     if (touches && may_be_flush(pair, i)) return false;
-    decision = end_of_surface(pair, i, walks_[i], touches ? &ends[i] : nullptr);
+    end_of_surface(pair, i, walks_[i], touches ? &ends[i] : nullptr, decision);
     nearness = ends[i].nearness;
     return true;
 }

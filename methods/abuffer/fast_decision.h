@@ -38,7 +38,7 @@ class FastDecision {
         SurfaceId behind;        // the other one's triangle
     };
     End look_behind(const NeighbourSamples& pair, int i) const;
-    LineDecision end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched);
+    void end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched, LineDecision& decision);
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
     bool may_be_wall(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const;
     bool may_be_flush(const NeighbourSamples& pair, int ends) const;

@@ -139,6 +139,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         FastWalk::Step& next = result.steps[result.step_count];
         const HalfEdge entry = mesh.partners[current->exit];
         const bool over_seam = entry == current->exit;
+        const bool is_sharp = mesh.sharp == nullptr || (mesh.sharp[current->triangle] >> (current->exit - 3 * current->triangle) & 1) != 0;
         if (over_seam) {
             Way beyond(mesh, pair, backwards);
             const FastWalk::End end = step_over_seam(way, instance, *current, beyond, next);
@@ -149,7 +150,8 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             }
             way.look_at(next.triangle);
         } else {
-            if (mesh.partners[entry] != current->exit || !way.look_at(entry / 3)) return;
+            // An edge that is not sharp has one partner.
+            if ((is_sharp && mesh.partners[entry] != current->exit) || !way.look_at(entry / 3)) return;
             next = way.step_from(entry, current->left);
         }
         const bool unfolds = current->left < farthest->left && next.left >= farthest->left;
@@ -163,8 +165,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         }
         bool goes_on = next.left > before_wall->left + kNoAdvance, is_farthest = next.left >= farthest->left;
         if (std::abs(next.left - before_wall->left) < snapping) {
-            const auto distance_at = [&](HalfEdge h) { return distance_of(surfaces_.projection, surfaces_.farthest_nearness + way.nearness_at(h)); };
-            if (is_deep(surfaces_.projection, distance_at(before_wall->exit), distance_at(next.exit))) {
+            if (are_apart(way.nearness_at(before_wall->exit), way.nearness_at(next.exit))) {
                 const glm::dvec2 from = way.at(0) / double{kSubpixelsPerPixel}, to = way.at(1) / double{kSubpixelsPerPixel};
                 goes_on = is_beyond(surfaces_, instance, from, to, next.exit, before_wall->exit).value_or(goes_on);
                 is_farthest = is_farthest || goes_on;
@@ -181,7 +182,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         } else if (slivers > 0 || over_seam) {
             note_contact(instance, last_solid, next.triangle, way.at(current->left), current->left, result);
             slivers = 0;
-        } else if (mesh.sharp == nullptr || (mesh.sharp[current->triangle] >> current->exit % 3 & 1) != 0) {
+        } else if (is_sharp) {
             note_edge(instance, *current, result);
         }
         if (!sliver) last_solid = next.triangle;
@@ -275,6 +276,15 @@ DepthPlane FastWalker::plane(SurfaceId s) const {
     plane.at_origin = surfaces_.farthest_nearness + qa -
                       (plane.per_x * a.x + plane.per_y * a.y) / kSubpixelsPerPixel;
     return plane;
+}
+
+/// is_deep() between two places. Mostly their nearness says that it is not so, which takes no division.
+bool FastWalker::are_apart(double nearness_a, double nearness_b) const {
+    const Projection& p = surfaces_.projection;
+    const double a = surfaces_.farthest_nearness + nearness_a, b = surfaces_.farthest_nearness + nearness_b;
+    constexpr double kRounding = 1e-6;
+    if (std::abs(a - b) * p.focal_px < (2 - kRounding) * (p.orthographic ? 1.0 : std::min(a, b))) return false;
+    return is_deep(p, distance_of(p, a), distance_of(p, b));
 }
 
 /// Whether two places are equally far from the eye, as far as lines care, where a surface is as steep as a triangle.

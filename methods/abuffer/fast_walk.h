@@ -95,6 +95,7 @@ class FastWalker {
                       FastWalk& result) const;
     void note(LineClassSet classes, SurfaceEdge edge, double fraction, FastWalk& result) const;
     std::optional<HalfEdge> seam_beyond(std::uint32_t instance, HalfEdge border, double along);
+    bool are_apart(double nearness_a, double nearness_b) const;
     bool is_level(double nearness_a, double nearness_b, SurfaceId steep) const;
 
     const ScreenSurfaces& screen_;

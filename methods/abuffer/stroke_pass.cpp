@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <optional>
 #include <span>
 
 #include "base/parallel.h"
@@ -24,16 +24,21 @@ class StrokePass::Bins {
           columns_((region.width() + kTilePx - 1) / kTilePx),
           rows_((region.height() + kTilePx - 1) / kTilePx) {
         end_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-        const auto visit_all = [&](const auto& visit) {
-            for (const auto& list : segments) {
-                for (const LineSegment& s : list) for_tiles(s, reach_px, [&](std::size_t tile) { visit(tile, s); });
+        std::vector<Place> places;
+        for (const auto& list : segments) {
+            for (const LineSegment& s : list) {
+                const std::optional<Place> place = place_of(s, reach_px);
+                if (!place) continue;
+                places.push_back(*place);
+                for_tiles(*place, [&](std::size_t tile) { ++end_[tile + 1]; });
             }
-        };
-        visit_all([&](std::size_t tile, const LineSegment&) { ++end_[tile + 1]; });
+        }
         for (std::size_t i = 1; i < end_.size(); ++i) end_[i] += end_[i - 1];
         sorted_.resize(end_.back());
         std::vector<std::size_t> next = end_;
-        visit_all([&](std::size_t tile, const LineSegment& s) { sorted_[next[tile]++] = &s; });
+        for (const Place& place : places) {
+            for_tiles(place, [&](std::size_t tile) { sorted_[next[tile]++] = place.segment; });
+        }
     }
     std::size_t tile_count() const { return end_.size() - 1; }
     PixelRect tile(std::size_t i) const {
@@ -46,17 +51,23 @@ class StrokePass::Bins {
     }
 
   private:
-    template <typename Visit>
-    void for_tiles(const LineSegment& s, double reach, const Visit& visit) const {
+    /// A segment and the columns and rows of tiles that its stroke may reach, the last ones included.
+    struct Place {
+        const LineSegment* segment;
+        int x0, y0, x1, y1;
+    };
+    std::optional<Place> place_of(const LineSegment& s, double reach) const {
         const glm::dvec2 origin(region_.x0, region_.y0);
         const glm::dvec2 low = (glm::min(s.from, s.to) - reach - origin) / double(kTilePx);
         const glm::dvec2 high = (glm::max(s.from, s.to) + reach - origin) / double(kTilePx);
-        const int x0 = std::max(static_cast<int>(std::floor(low.x)), 0);
-        const int y0 = std::max(static_cast<int>(std::floor(low.y)), 0);
-        const int x1 = std::min(static_cast<int>(std::floor(high.x)), columns_ - 1);
-        const int y1 = std::min(static_cast<int>(std::floor(high.y)), rows_ - 1);
-        for (int y = y0; y <= y1; ++y) {
-            for (int x = x0; x <= x1; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
+        if (!(high.x >= 0 && high.y >= 0 && low.x < columns_ && low.y < rows_)) return std::nullopt;
+        return Place{&s, static_cast<int>(std::max(low.x, 0.0)), static_cast<int>(std::max(low.y, 0.0)),
+                     static_cast<int>(std::min(high.x, columns_ - 1.0)), static_cast<int>(std::min(high.y, rows_ - 1.0))};
+    }
+    template <typename Visit>
+    void for_tiles(const Place& place, const Visit& visit) const {
+        for (int y = place.y0; y <= place.y1; ++y) {
+            for (int x = place.x0; x <= place.x1; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
         }
     }
 
@@ -100,13 +111,14 @@ class StrokePass::Printer {
             touched_.push_back({column, row});
         });
         for (const auto [column, row] : touched_) {
-            Coverages coverages{};
+            LinePixel pixel;
             strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
                 const int fresh = kernels_.count_bits(mask.rows.data(), taken.rows.data());
-                coverages[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(fresh) /
+                pixel.coverage[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(fresh) /
                                                           (StrokeMask::kRows * StrokeMask::kColumns);
             });
-            film.draw_over(rect.x0 + column, rect.y0 + row, colored(coverages));
+            color(pixel);
+            film.draw_over(rect.x0 + column, rect.y0 + row, pixel);
         }
     }
 
@@ -125,7 +137,10 @@ class StrokePass::Printer {
             if (filtered_[i] == Coverages{}) continue;
             clamp(filtered_[i]);
             const int x = static_cast<int>(i) % rect.width(), y = static_cast<int>(i) / rect.width();
-            film.draw_over(rect.x0 + x, rect.y0 + y, colored(filtered_[i]));
+            LinePixel pixel;
+            pixel.coverage = filtered_[i];
+            color(pixel);
+            film.draw_over(rect.x0 + x, rect.y0 + y, pixel);
         }
     }
 
@@ -142,14 +157,11 @@ class StrokePass::Printer {
         }
     }
 
-    LinePixel colored(const Coverages& coverages) const {
-        LinePixel result;
-        result.coverage = coverages;
-        for (std::size_t c = 0; c < coverages.size(); ++c) {
-            if (coverages[c] == 0) continue;
-            result.color += glm::vec4(style_.color_of(static_cast<LineClass>(c)), 1.0f) * coverages[c];
+    void color(LinePixel& pixel) const {
+        for (std::size_t c = 0; c < pixel.coverage.size(); ++c) {
+            if (pixel.coverage[c] == 0) continue;
+            pixel.color += glm::vec4(style_.color_of(static_cast<LineClass>(c)), 1.0f) * pixel.coverage[c];
         }
-        return result;
     }
 
     const LineStyle& style_;

@@ -25,9 +25,13 @@ TEST(FillKernels, CoveredSamplesAreCounted) {
     for (const int s : {2, 4, 8}) {
         SampleTile tile;
         tile.reset(0, 0, 65, 65, s);
-        for (std::uint32_t& id : tile.ids) id = random.integer(0, 1) == 0 ? SampleTile::kBackground : random.bits() >> 1;
+        // Runs and noise.
+        for (std::size_t i = 0; i < tile.ids.size(); ++i) {
+            const bool is_noise = i / 16 % 2 == 0, is_covered = is_noise ? random.integer(0, 1) == 0 : i / 32 % 2 == 0;
+            tile.ids[i] = is_covered ? random.bits() >> 1 : SampleTile::kBackground;
+        }
         for (const TileKernels* kernels : all_kernels()) {
-            std::uint8_t counts[64 + 3];
+            std::uint8_t counts[64 + 7];
             kernels->count_covered(tile.ids.data(), tile.stride, s, 64 / s, counts);
             for (int x = 0; x < 64 / s; ++x) {
                 int expected = 0;
