@@ -13,18 +13,6 @@ constexpr double kTrianglesPerCell = 2048, kTrianglesPerCellOfPairs = 80;
 constexpr double kShortestPiecePx = 1.0 / 32;
 constexpr float kFar = 1e30f;
 
-/// Corners and vertices of triangles that come soon in a list, as far as they are of one mesh with the numbers [first, end).
-void ask_early(std::span<const std::uint32_t> list, std::size_t i, std::uint32_t first, std::uint32_t end, const ScreenMesh& mesh) {
-    constexpr std::size_t kCornersAhead = 24, kVerticesAhead = 12;
-    const auto corners_of = [&](std::size_t k) -> const std::uint32_t* {
-        return k < list.size() && list[k] >= first && list[k] < end ? mesh.corners + 3 * static_cast<std::size_t>(list[k] - first) : nullptr;
-    };
-    if (const std::uint32_t* const corners = corners_of(i + kCornersAhead)) __builtin_prefetch(corners);
-    if (const std::uint32_t* const corners = corners_of(i + kVerticesAhead)) {
-        for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(mesh.vertices + corners[k]);
-    }
-}
-
 }  // namespace
 
 LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
@@ -58,7 +46,6 @@ void LayerTile::fill(std::size_t tile) {
             end = first + static_cast<std::uint32_t>(frame_.surfaces.mesh_of(s).triangles.size());
         }
         s.triangle = number - first;
-        ask_early(list, i, first, end, screen_.mesh(s.instance));
         if (value != number) {
             add_clipped(s, number);
             continue;
@@ -321,7 +308,7 @@ void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin,
         piece.begin = start;
         piece.end = to;
         piece.invisibility = static_cast<std::uint8_t>(std::min(opaque, 255));
-        piece.transmission = static_cast<std::uint8_t>(std::lround(255 * transmission));
+        if (is_behind_glass) piece.transmission = static_cast<std::uint8_t>(std::lround(255 * transmission));
         const double from = start;
         start = to;
         if (piece.invisibility == 0 && !is_behind_glass) return;
