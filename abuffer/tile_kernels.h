@@ -128,8 +128,8 @@ struct PlaneLine {
 struct HiddenPart {
     std::uint32_t triangle;
     bool is_any;    ///< else the part is empty
-    bool is_level;  ///< elsewhere the triangle may be as near as the line
-    double begin, end;
+    bool is_level;  ///< it is in front, or may be as near as the line, in [level_begin, level_end]
+    double begin, end, level_begin, level_end;
 };
 
 /// A range-encoded bitmap index (Chan and Ioannidis, 1998) of triangles' boxes: both axes and nearness are cut into steps, and
@@ -331,6 +331,8 @@ struct TileKernels {
                                 const ScreenLine& line, std::uint32_t* found);
     /// Where triangles are in front of a line: of those that are, or may be level with it, in their order. Returns their number.
     std::size_t (*clip_hidden)(const TrianglePlane* const* triangles, std::size_t count, const PlaneLine& line, HiddenPart* parts);
+    /// Puts numbers in order: for few of them. Up to three numbers more are read.
+    void (*sort_few)(const double* values, std::size_t count, double* sorted);
     /// Which of at most eight boxes from `a` on overlap which of at most eight from `b` on, touching in x and y being
     /// enough: bit 8 i + k for box a + i and box b + k. Up to seven numbers more are read of each array.
     std::uint64_t (*find_overlaps)(const BoxView& boxes, std::size_t a, std::size_t a_count, std::size_t b, std::size_t b_count);

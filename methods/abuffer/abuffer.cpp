@@ -155,9 +155,8 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         layer_segments.push_back(layers.take_segments());
         const PixelRect part = is_last ? finisher.take_rest() : finisher.take(layer_tiles.only(piece.rows).rect().y1);
         if (part.height() == 0) continue;
-        layers.draw_below(part, segments, layer_segments, film);
-        finisher.draw(part, segments);
-        layers.draw_above(film);
+        LayerStrokes behind(frame, kernels, stats.threads, part, layer_segments);
+        finisher.draw(part, segments, &behind);
         hand_on(part);
         if (!has_cap) continue;
         drop_above(part.y1 - finisher.reach_px(), segments);

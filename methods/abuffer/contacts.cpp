@@ -38,13 +38,15 @@ bool Contacts::is_seen_instead(const LayerLine& line, double begin, double end, 
 }
 
 bool Contacts::is_in_front(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const {
+    for (const std::uint32_t owner : line.owners) {
+        if (have_vertex_in_common(screen_.surface_of(owner), t)) return false;
+    }
     const auto touching = touching_place(line, begin, end, t, level);
     if (!touching) return false;
     const glm::dvec2 middle = glm::mix(line.from, line.to, 0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
     bool is_any_behind = false;
     for (const std::uint32_t owner : line.owners) {
         const SurfaceId s = screen_.surface_of(owner);
-        if (have_vertex_in_common(s, t)) return false;
         const auto beside = place_beside(s, owner, *touching);
         if (!beside) continue;
         const glm::dvec2 right(-along.y, along.x), side = glm::dot(*beside - *touching, right) < 0 ? -right : right;
@@ -71,26 +73,44 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
     if (!touching) return false;
     const glm::dvec2 middle = glm::mix(line.from, line.to, 0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
     const glm::dvec2 right = kToOneSideSubpixels * glm::dvec2(-along.y, along.x);
-    const auto on_left = what_covers(middle - right, t, Over::plain_edges), on_right = what_covers(middle + right, t, Over::plain_edges);
-    if (!on_left || !on_right) return false;
     const SurfaceSet& surfaces = screen_.surfaces();
-    bool is_any_flush = false;
+    struct Side {
+        bool is_known = false;
+        std::optional<LayerTriangle> cover;
+    };
+    Side sides[2];
+    const auto cover_on = [&](bool is_left) -> const std::optional<LayerTriangle>& {
+        Side& side = sides[is_left ? 0 : 1];
+        if (!side.is_known) side = {true, what_covers(is_left ? middle - right : middle + right, t, Over::plain_edges)};
+        return side.cover;
+    };
+    // What is asked last takes longest.
+    struct Level {
+        SurfaceId own, other;
+        glm::dvec2 place;
+    };
+    Level levels[2];
+    int level_count = 0;
     for (const std::uint32_t owner : line.owners) {
         const SurfaceId s = screen_.surface_of(owner);
         const auto beside = place_beside(s, owner, *touching);
         if (!beside) continue;
-        const LayerTriangle& cover = glm::dot(*beside - *touching, right) < 0 ? *on_left : *on_right;
-        const double gap = screen_.nearness_of(owner, *beside) - cover.nearness_at(*beside);
+        const auto& cover = cover_on(glm::dot(*beside - *touching, right) < 0);
+        if (!cover) return false;
+        const double gap = screen_.nearness_of(owner, *beside) - cover->nearness_at(*beside);
         if (gap > level) return false;
-        if (gap < -level) continue;
-        const SurfaceId other = screen_.surface_of(cover.number);
-        if (!surfaces.order_near(s, other, *beside / double{kSubpixelsPerPixel}).are_coincident()) {
-            if (rises_in_front(s, other)) return false;
+        if (gap >= -level) levels[level_count++] = {s, screen_.surface_of(cover->number), *beside / double{kSubpixelsPerPixel}};
+    }
+    if (level_count == 0 || !cover_on(true) || !cover_on(false)) return false;
+    bool is_any_flush = false;
+    for (int i = 0; i < level_count; ++i) {
+        const auto& [own, other, place] = levels[i];
+        if (!surfaces.order_near(own, other, place).are_coincident()) {
+            if (rises_in_front(own, other)) return false;
             continue;
         }
-        if (on_one_side && side_of_body(s) != side_of_body(other)) return false;
-        const LineClassSet contact = contact_classes(surfaces, s, other, *beside / double{kSubpixelsPerPixel}, criteria);
-        if (!(contact & criteria.classes).empty()) return false;
+        if (on_one_side && side_of_body(own) != side_of_body(other)) return false;
+        if (!(contact_classes(surfaces, own, other, place, criteria) & criteria.classes).empty()) return false;
         is_any_flush = true;
     }
     return is_any_flush;

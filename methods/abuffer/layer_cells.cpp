@@ -90,7 +90,7 @@ void LayerCells::make_indices() {
         indices_[i].make(kernels_, triangles_.data(), places_.data() + c.begin, c.end - c.begin, bounds);
         largest = std::max(largest, c.end - c.begin);
     }
-    looked_at_by_.assign(triangles_.size(), 0);
+    if (count > 1) looked_at_by_.assign(triangles_.size(), 0);
     lines_looked_at_ = 0;
     if (found_.size() < largest) {
         found_.resize(largest);

@@ -43,10 +43,15 @@ class LayerCells {
     /// Numbers of triangles, cell by cell.
     std::span<const std::uint32_t> places() const { return places_; }
 
-    /// Calls use(number) once for each triangle that is near the part [begin, end] of a line, with a corner in front of it, or
+    /// Calls use(number) once for each triangle that is near the part [begin, end] of a line within the square, with a corner in front of it, or
     /// behind it by no more than `slack`. `reach`: how far beside the line a triangle may lie. 1/256 pixel.
     template <typename Use>
     void for_crossed(const LayerLine& line, double begin, double end, double slack, float reach, const Use& use) {
+        if (columns_ * rows_ == 1) {
+            const std::size_t count = find_crossed(0, line, begin, end, slack, reach);
+            for (std::size_t i = 0; i < count; ++i) use(found_[i]);
+            return;
+        }
         ++lines_looked_at_;
         const glm::dvec2 corner(corner_), a = glm::mix(line.from, line.to, begin) - corner, b = glm::mix(line.from, line.to, end) - corner;
         const Range range = range_of(glm::vec2(glm::min(a, b)) - reach, glm::vec2(glm::max(a, b)) + reach);

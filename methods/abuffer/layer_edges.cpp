@@ -84,21 +84,19 @@ class LayerEdgeFinder::Rules {
     std::optional<HalfEdge> base_of_thin(SurfaceId s) const {
         const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
         const ScreenVertex* const v = screen_.vertices(s.instance);
-        double longest = -1;
-        HalfEdge base = 0;
+        double squares[3];
         for (unsigned k = 0; k < 3; ++k) {
             const ScreenVertex &a = v[t[k]], &b = v[t[(k + 1) % 3]];
             if (a.x == ScreenVertex::kOffScreen) return std::nullopt;
             const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y;
-            const double length = dx * dx + dy * dy;
-            if (length > longest) {
-                longest = length;
-                base = 3 * s.triangle + k;
-            }
+            squares[k] = dx * dx + dy * dy;
         }
+        const double longest = std::max(squares[0], std::max(squares[1], squares[2]));
         const auto area = static_cast<double>(doubled_area(v[t[0]], v[t[1]], v[t[2]]));
         if (area * area >= kThinSubpixels * kThinSubpixels * longest) return std::nullopt;
-        return base;
+        unsigned base = 0;
+        while (squares[base] != longest) ++base;
+        return 3 * s.triangle + base;
     }
 
     HalfEdge longer_of_others(std::uint32_t instance, HalfEdge h) const {

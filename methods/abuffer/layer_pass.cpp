@@ -115,8 +115,7 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
       threads_(threads),
       all_tiles_(tiles_of(frame)),
       tiles_(all_tiles_),
-      intersections_(frame, screen, region_of_lines(frame)),
-      strokes_(frame, kernels, threads) {
+      intersections_(frame, screen, region_of_lines(frame)) {
     if (IntersectionLines::are_wanted(frame.criteria.classes) && !knows_pairs()) may_intersect_.emplace(*frame.scene);
 }
 

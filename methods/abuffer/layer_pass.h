@@ -18,10 +18,10 @@ struct LayerTileResult {
 };
 
 /// What is behind the first surface: keeps all layers of all tiles in turn, composites transparent
-/// surfaces, and finds and draws hidden lines and lines seen through transparent surfaces.
+/// surfaces, and finds hidden lines and lines seen through transparent surfaces.
 ///
 /// A picture is made in one or more pieces, each some rows of tiles: find_lines(), sort(), composite()
-/// and find_pieces() for one, with what touches it shown; then its lines are drawn.
+/// and find_pieces() for one, with what touches it shown; then its lines are drawn (LayerStrokes).
 /// Intersections are found from the scene's pairs of triangles if it has them and all instances are shown, else tile by
 /// tile; they are the same.
 class LayerPass {
@@ -56,14 +56,6 @@ class LayerPass {
     /// Of all that was found since the last call; it is forgotten.
     std::vector<LayerSegment> take_segments();
 
-    /// After all pixels of this part were put and before the visible lines are drawn.
-    void draw_below(PixelRect part, const std::vector<std::vector<LineSegment>>& visible,
-                    const std::vector<std::vector<LayerSegment>>& segments, Film& film) {
-        strokes_.draw_below(part, visible, segments, film);
-    }
-    /// After the visible lines.
-    void draw_above(Film& film) const { strokes_.draw_above(film); }
-
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
@@ -84,7 +76,6 @@ class LayerPass {
     IntersectionLines intersections_;
     std::optional<IntersectionTest> may_intersect_;  // where tiles look for intersections
     LayerBins bins_;
-    LayerStrokes strokes_;
     std::vector<LayerLine> lines_;
     std::vector<LayerTileResult> results_;  // tile by tile, not joined yet
     std::vector<LayerPiece> pieces_;

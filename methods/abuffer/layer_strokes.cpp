@@ -2,26 +2,21 @@
 
 #include <algorithm>
 
-#include "base/parallel.h"
 #include "lines/pen.h"
-#include "methods/abuffer/tile_lists.h"
-#include "methods/abuffer/visible_strokes.h"
 
 namespace burin {
 namespace {
 
-constexpr int kTilePx = 32;
-template <typename Segment>
-TileLists<const Segment*> sort_by_tile(const std::vector<std::vector<Segment>>& segments, const PixelTiles& grid,
-                                       double reach_px) {
-    std::vector<std::vector<typename TileLists<const Segment*>::Record>> records(segments.size());
+TileLists<const LayerSegment*> sort_by_tile(std::span<const std::vector<LayerSegment>> segments, const PixelTiles& grid,
+                                            double reach_px) {
+    std::vector<std::vector<TileLists<const LayerSegment*>::Record>> records(segments.size());
     for (std::size_t i = 0; i < segments.size(); ++i) {
-        for (const Segment& s : segments[i]) {
+        for (const LayerSegment& s : segments[i]) {
             grid.visit(glm::min(s.from, s.to) - reach_px, glm::max(s.from, s.to) + reach_px,
                        [&](std::uint32_t tile) { records[i].push_back({tile, &s}); });
         }
     }
-    return TileLists<const Segment*>(records, grid.count());
+    return TileLists<const LayerSegment*>(records, grid.count());
 }
 
 void remove(StrokeMask& mask, const StrokeMask& taken) {
@@ -59,6 +54,7 @@ class TileStrokes {
         p.is_used = true;
         return p;
     }
+    PixelRect rect() const { return rect_; }
     /// Those that pixel() was asked for.
     std::span<const std::size_t> used() const { return used_; }
 
@@ -88,13 +84,13 @@ class TileStrokes {
         }
     }
 
+    /// Of a pixel, without the samples taken.
+    float share(const StrokeMask& mask, const StrokeMask& taken = {}) const {
+        return static_cast<float>(kernels_.count_bits(mask.rows.data(), taken.rows.data())) / (StrokeMask::kRows * StrokeMask::kColumns);
+    }
+
   private:
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * rect_.width() + column); }
-    float share(const StrokeMask& mask) const {
-        static constexpr StrokeMask kNothing{};
-        return static_cast<float>(kernels_.count_bits(mask.rows.data(), kNothing.rows.data())) /
-               (StrokeMask::kRows * StrokeMask::kColumns);
-    }
 
     const FilterTable* filter_;
     const TileKernels& kernels_;
@@ -153,38 +149,64 @@ void cut_off_lobes(TileStrokes::Pixel& pixel) {
     for (float& c : pixel.seen_through.coverage) c = std::clamp(c, 0.0f, 1.0f);
 }
 
+/// All samples that opaque strokes take; hidden lines shine through what fades.
+StrokeMask taken_by(const VisibleStrokes& visible, int column, int row) {
+    StrokeMask taken;
+    visible.for_classes(column, row, [&](LineClass, const StrokeMask& mask, const StrokeMask&, float opacity) {
+        if (opacity == 1.0f) unite(taken, mask);
+    });
+    return taken;
+}
+
+/// All kinds of lines are disjoint; visible ones come later and cover their share, `ink`.
+void put(const LineStyle& style, int x, int y, float ink, const glm::vec4& seen_through, float hidden_share, float hidden_seen,
+         Film& film) {
+    const float left = 1.0f - ink;
+    const glm::vec4 hidden_color(style.hidden.color, 1.0f);
+    glm::vec4 seen = seen_through + hidden_color * hidden_seen;
+    seen *= left > 0 ? std::min(1.0f / left, 1.0f / std::max(seen.a, 1e-6f)) : 0.0f;
+    film.draw_hidden(x, y, hidden_color * hidden_share, seen);
+}
+
 }  // namespace
 
-void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<LineSegment>>& visible,
-                              const std::vector<std::vector<LayerSegment>>& layers, Film& film) {
-    const LineStyle& style = frame_.scene->lines.style;
-    // What is not in front of all is drawn on both sides.
-    const Pen pen(style.width_px), hidden_pen(style.hidden_width_px());
-    const auto filter = FilterTable::make(style.filter);
-    const int reach = reach_px(style.filter);
-    const PixelTiles grid(part, kTilePx);
-    const auto visible_in = sort_by_tile(visible, grid, Pen(style.width_px, style.side).radius_px + reach + 1);
-    const auto layers_in = sort_by_tile(layers, grid, std::max(pen.radius_px, hidden_pen.radius_px) + reach + 1);
-    seen_through_.assign(grid.count(), {});
-    std::vector<TileStrokes> workers(static_cast<std::size_t>(threads_), TileStrokes(filter.get(), kernels_));
-    std::vector<VisibleStrokes> in_front(static_cast<std::size_t>(threads_), VisibleStrokes(frame_, kernels_));
-    parallel_for(grid.count(), threads_, [&](std::size_t tile, int worker) {
-        const auto list = layers_in.of(tile);
-        if (list.empty()) return;
-        TileStrokes& strokes = workers[static_cast<std::size_t>(worker)];
-        const PixelRect inner = grid.tile(tile);
-        const PixelRect rect{inner.x0 - reach, inner.y0 - reach, inner.x1 + reach, inner.y1 + reach};
-        strokes.reset(rect);
-        VisibleStrokes& visible_strokes = in_front[static_cast<std::size_t>(worker)];
-        visible_strokes.draw(visible_in.of(tile), rect);
-        visible_strokes.for_touched([&](int column, int row) {
+class LayerStrokes::Worker {
+  public:
+    Worker(const LineStyle& style, const FilterTable* filter, const TileKernels& kernels)
+        : style_(style), filter_(filter), reach_(reach_px(style.filter)), pen_(style.width_px), hidden_pen_(style.hidden_width_px()), strokes_(filter, kernels) {}
+
+    void draw_below(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible, Film& film) {
+        seen_through_.clear();
+        const LayerSegment& first = *list.front();
+        const bool is_plain = filter_ == nullptr && std::all_of(list.begin(), list.end(), [&](const LayerSegment* s) {
+            return s->is_hidden && s->transmission == first.transmission;
+        });
+        strokes_.reset({inner.x0 - reach_, inner.y0 - reach_, inner.x1 + reach_, inner.y1 + reach_});
+        if (is_plain) {
+            draw_plain(list, inner, visible, film);
+        } else {
+            draw_all(list, inner, visible, film);
+        }
+    }
+
+    void draw_above(Film& film) const {
+        for (const SeenThrough& p : seen_through_) film.add_lines(p.x, p.y, p.lines);
+    }
+
+  private:
+    struct SeenThrough {
+        int x, y;
+        LinePixel lines;
+    };
+
+    void draw_all(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible, Film& film) {
+        const PixelRect rect = strokes_.rect();
+        visible.for_touched([&](int column, int row) {
             const auto i = static_cast<std::size_t>(row * rect.width() + column);
-            TileStrokes::Pixel& own = strokes.pixel(i);
-            visible_strokes.for_classes(column, row, [&](LineClass, const StrokeMask& mask, const StrokeMask&, float opacity) {
-                if (opacity == 1.0f) unite(own.visible, mask);  // hidden lines shine through what fades
-            });
-            strokes.spread(i, own.visible, [&](TileStrokes::Pixel& pixel, float share) {
-                pixel.ink += visible_strokes.pen().strength * share;
+            TileStrokes::Pixel& own = strokes_.pixel(i);
+            own.visible = taken_by(visible, column, row);
+            strokes_.spread(i, own.visible, [&](TileStrokes::Pixel& pixel, float share) {
+                pixel.ink += visible.pen().strength * share;
             });
         });
         // The least weakened ones first: they cover the others.
@@ -192,30 +214,56 @@ void LayerStrokes::draw_below(PixelRect part, const std::vector<std::vector<Line
         for (const LayerSegment* s : list) transmissions.push_back(s->transmission);
         std::sort(transmissions.rbegin(), transmissions.rend());
         transmissions.erase(std::unique(transmissions.begin(), transmissions.end()), transmissions.end());
-        for (const int t : transmissions) draw_seen_through(list, t, pen, style, strokes);
-        for (const int t : transmissions) draw_hidden(list, t, hidden_pen, strokes);
-        for (const std::size_t i : strokes.used()) {
-            TileStrokes::Pixel& pixel = strokes.pixel(i);
+        for (const int t : transmissions) draw_seen_through(list, t, pen_, style_, strokes_);
+        for (const int t : transmissions) draw_hidden(list, t, hidden_pen_, strokes_);
+        for (const std::size_t i : strokes_.used()) {
+            TileStrokes::Pixel& pixel = strokes_.pixel(i);
             const int x = rect.x0 + static_cast<int>(i) % rect.width();
             const int y = rect.y0 + static_cast<int>(i) / rect.width();
             const bool is_inner = x >= inner.x0 && y >= inner.y0 && x < inner.x1 && y < inner.y1;
             if (!pixel.is_touched || !is_inner) continue;
-            if (filter) cut_off_lobes(pixel);
-            // All kinds of lines are disjoint; visible ones come later and cover their share.
-            const float left = 1.0f - pixel.ink;
-            const glm::vec4 hidden_color(style.hidden.color, 1.0f);
-            glm::vec4 seen = pixel.seen_through.color + hidden_color * pixel.hidden_seen;
-            seen *= left > 0 ? std::min(1.0f / left, 1.0f / std::max(seen.a, 1e-6f)) : 0.0f;
-            film.draw_hidden(x, y, hidden_color * pixel.hidden_share, seen);
-            if (pixel.seen_through.color.a > 0) seen_through_[tile].push_back({x, y, pixel.seen_through});
+            if (filter_ != nullptr) cut_off_lobes(pixel);
+            put(style_, x, y, pixel.ink, pixel.seen_through.color, pixel.hidden_share, pixel.hidden_seen, film);
+            if (pixel.seen_through.color.a > 0) seen_through_.push_back({x, y, pixel.seen_through});
         }
-    });
+    }
+
+    /// The same where all lines are hidden and none covers another: pixels by themselves.
+    void draw_plain(std::span<const LayerSegment* const> list, PixelRect rect, const VisibleStrokes& visible, Film& film) {
+        const float strength = hidden_pen_.strength * static_cast<float>(list.front()->transmission) / 255.0f;
+        const auto all = [](const LayerSegment&) { return true; };
+        strokes_.draw(list, hidden_pen_.radius_px, all, [&](std::size_t i, const StrokeMask& mask) {
+            const int column = static_cast<int>(i) % rect.width(), row = static_cast<int>(i) / rect.width();
+            const StrokeMask taken = taken_by(visible, column, row);
+            put(style_, rect.x0 + column, rect.y0 + row, visible.pen().strength * strokes_.share(taken), glm::vec4(0.0f),
+                strength * strokes_.share(mask), strength * strokes_.share(mask, taken), film);
+        });
+    }
+
+    const LineStyle& style_;
+    const FilterTable* filter_;
+    int reach_;
+    Pen pen_, hidden_pen_;
+    TileStrokes strokes_;
+    std::vector<SeenThrough> seen_through_;
+};
+
+LayerStrokes::LayerStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
+                           std::span<const std::vector<LayerSegment>> layers)
+    : filter_(FilterTable::make(frame.scene->lines.style.filter)), grid_(part, kTilePx) {
+    // What is not in front of all is drawn on both sides.
+    const LineStyle& style = frame.scene->lines.style;
+    const double radius_px = std::max(Pen(style.width_px).radius_px, Pen(style.hidden_width_px()).radius_px);
+    lists_ = sort_by_tile(layers, grid_, radius_px + reach_px(style.filter) + 1);
+    for (int i = 0; i < threads; ++i) workers_.emplace_back(style, filter_.get(), kernels);
 }
 
-void LayerStrokes::draw_above(Film& film) const {
-    for (const auto& list : seen_through_) {
-        for (const SeenThrough& p : list) film.add_lines(p.x, p.y, p.lines);
-    }
+LayerStrokes::~LayerStrokes() = default;
+
+void LayerStrokes::draw_below(int worker, std::size_t tile, const VisibleStrokes& visible, Film& film) {
+    workers_[static_cast<std::size_t>(worker)].draw_below(lists_.of(tile), grid_.tile(tile), visible, film);
 }
+
+void LayerStrokes::draw_above(int worker, Film& film) const { workers_[static_cast<std::size_t>(worker)].draw_above(film); }
 
 }  // namespace burin

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "abuffer/tile_kernels.h"
-#include "lines/line_segment.h"
+#include "lines/pixel_filter.h"
+#include "methods/abuffer/tile_lists.h"
+#include "methods/abuffer/visible_strokes.h"
 #include "render/film.h"
 #include "render/frame.h"
 
@@ -17,29 +21,31 @@ struct LayerSegment {
     std::uint8_t transmission = 255;  ///< what transparent surfaces in front let through, 255 = all
 };
 
-/// Draws lines behind surfaces: below the visible lines into the beauty, hidden ones into their own
-/// channels, and those seen through transparent surfaces into the channels of the visible lines.
+/// Draws lines behind surfaces in one part of the picture: below the visible lines into the beauty, hidden ones into their
+/// own channels, and those seen through transparent surfaces into the channels of the visible lines. Tile by tile, together
+/// with the visible strokes, which cover them.
 class LayerStrokes {
   public:
-    LayerStrokes(const Frame& frame, const TileKernels& kernels, int threads)
-        : frame_(frame), kernels_(kernels), threads_(threads) {}
+    static constexpr int kTilePx = 32;
 
-    /// Before the visible lines of this part are drawn, which are given, too: what they will cover stays
-    /// free.
-    void draw_below(PixelRect part, const std::vector<std::vector<LineSegment>>& visible,
-                    const std::vector<std::vector<LayerSegment>>& layers, Film& film);
-    /// After them.
-    void draw_above(Film& film) const;
+    /// `layers` must outlive it.
+    LayerStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
+                 std::span<const std::vector<LayerSegment>> layers);
+    ~LayerStrokes();
+
+    bool has_any(std::size_t tile) const { return !lists_.of(tile).empty(); }
+    /// Before the visible lines of this tile are drawn, which are given: what they will cover stays free.
+    void draw_below(int worker, std::size_t tile, const VisibleStrokes& visible, Film& film);
+    /// After them, on the same thread.
+    void draw_above(int worker, Film& film) const;
 
   private:
-    struct SeenThrough {
-        int x, y;
-        LinePixel lines;
-    };
-    const Frame& frame_;
-    const TileKernels& kernels_;
-    int threads_;
-    std::vector<std::vector<SeenThrough>> seen_through_;  // per tile
+    class Worker;
+
+    std::unique_ptr<const FilterTable> filter_;
+    PixelTiles grid_;
+    TileLists<const LayerSegment*> lists_;
+    std::vector<Worker> workers_;
 };
 
 }  // namespace burin

@@ -37,8 +37,9 @@ void LayerTile::fill(std::size_t tile) {
     has_clipped_ = false;
     SurfaceId s;
     std::uint32_t first = 0, end = 0;
-    for (const std::uint32_t value : bins_.triangles(tile)) {
-        const std::uint32_t number = value & ~LayerBins::kClipped;
+    const std::span<const std::uint32_t> list = bins_.triangles(tile);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::uint32_t value = list[i], number = value & ~LayerBins::kClipped;
         if (number >= end) {
             s = screen_.surface_of(number);
             first = number - s.triangle;
@@ -125,18 +126,17 @@ void LayerTile::hide(const LayerLine& line, std::span<const std::uint32_t> near,
                                certain_slack_};
     parts_.resize(std::max(parts_.size(), near.size()));
     const std::size_t count = kernels_.clip_hidden(planes_.data(), near.size(), plane_line, parts_.data());
-    for (std::size_t k = 0; k < count; ++k) hide(line, near[parts_[k].triangle], part, parts_[k]);
+    for (std::size_t k = 0; k < count; ++k) hide(line, near[parts_[k].triangle], parts_[k]);
 }
 
-void LayerTile::hide(const LayerLine& line, std::uint32_t i, const PartInTile& part, const HiddenPart& hidden) {
+void LayerTile::hide(const LayerLine& line, std::uint32_t i, const HiddenPart& hidden) {
     const LayerTriangle& t = triangle(i);
     if (line.has_more_owners && lies_on(line, t)) return;
-    const double certain = certain_slack_ + t.slack;
     const Interval clear{t.number, hidden.begin, hidden.end, t.transmission};
-    Interval most{t.number, part.begin, part.end, t.transmission};
+    const Interval most{t.number, hidden.level_begin, hidden.level_end, t.transmission};
     const bool is_any_clear = hidden.is_any;
     // What is level with the line is in front where it is seen instead: what that is, is asked last.
-    if (hidden.is_level && line.drawn_as != LineClass::intersection && clip_where_hidden(line, -certain, t, most.begin, most.end)) {
+    if (hidden.is_level && line.drawn_as != LineClass::intersection) {
         const bool is_settled = is_any_clear && clear.begin == most.begin && clear.end == most.end;
         if (!is_settled && contacts_.is_flush(line, most.begin, most.end, t, line_slack_ + t.slack, frame_.criteria, true)) {
             contacts_of_line_.push_back({most.begin, most.end, i, false});
@@ -240,21 +240,55 @@ void LayerTile::merge_intervals() {
     intervals_.resize(count);
 }
 
+/// Puts numbers in order.
+void LayerTile::sort(std::vector<double>& values) {
+    constexpr std::size_t kFew = 64, kReadMore = 3;
+    const std::size_t count = values.size();
+    if (count < 2) return;
+    if (count > kFew) return std::sort(values.begin(), values.end());
+    values.resize(count + kReadMore);
+    sorted_.resize(count);
+    kernels_.sort_few(values.data(), count, sorted_.data());
+    values.swap(sorted_);
+}
+
+/// Where layers begin and end between the ends of a line, in order. Returns how many opaque ones are in front where it begins.
+int LayerTile::find_events(double begin, double end) {
+    events_.clear();
+    begins_.clear();
+    ends_.clear();
+    int opaque = 0;
+    for (const Interval& i : intervals_) {
+        const bool is_opaque = i.transmission == 0;
+        if (!is_opaque) {
+            if (i.begin > begin) events_.push_back({i.begin, 0});
+            if (i.end < end) events_.push_back({i.end, 0});
+            continue;
+        }
+        if (i.begin <= begin) {
+            ++opaque;
+        } else {
+            begins_.push_back(i.begin);
+        }
+        if (i.end < end) ends_.push_back(i.end);
+    }
+    const bool has_transparent = !events_.empty();
+    sort(begins_);
+    sort(ends_);
+    auto next_end = ends_.begin();
+    for (const double at : begins_) {
+        for (; next_end != ends_.end() && *next_end < at; ++next_end) events_.push_back({*next_end, -1});
+        events_.push_back({at, 1});
+    }
+    for (; next_end != ends_.end(); ++next_end) events_.push_back({*next_end, -1});
+    if (has_transparent) std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
+    return opaque;
+}
+
 /// Counts the layers in front from one end of the line to the other.
 void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                       std::vector<LayerPiece>& pieces) {
-    events_.clear();
-    int opaque = 0;  // in front where the line begins
-    for (const Interval& i : intervals_) {
-        const int more = i.transmission == 0 ? 1 : 0;
-        if (i.begin <= begin) {
-            opaque += more;
-        } else {
-            events_.push_back({i.begin, more});
-        }
-        if (i.end < end) events_.push_back({i.end, -more});
-    }
-    std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
+    int opaque = find_events(begin, end);
     const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
     double start = begin;
     const std::size_t first_piece = pieces.size();
@@ -274,7 +308,7 @@ void LayerTile::sweep(const LayerLine& line, std::uint32_t number, double begin,
         piece.begin = start;
         piece.end = to;
         piece.invisibility = static_cast<std::uint8_t>(std::min(opaque, 255));
-        piece.transmission = static_cast<std::uint8_t>(std::lround(255 * transmission));
+        if (is_behind_glass) piece.transmission = static_cast<std::uint8_t>(std::lround(255 * transmission));
         const double from = start;
         start = to;
         if (piece.invisibility == 0 && !is_behind_glass) return;

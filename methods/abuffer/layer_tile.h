@@ -82,13 +82,15 @@ class LayerTile {
     std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
                                             float least_y0);
     void hide(const LayerLine& line, std::span<const std::uint32_t> near, const PartInTile& part);
-    void hide(const LayerLine& line, std::uint32_t i, const PartInTile& part, const HiddenPart& hidden);
+    void hide(const LayerLine& line, std::uint32_t i, const HiddenPart& hidden);
     void find_contacts(const LayerLine& line, const PartInTile& part);
     void drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces);
     void find_pairs_in_cell(int column, int row);
     SidePlane side_plane(const Corners& corners) const;
     bool is_on_one_side(const SidePlane& plane, const Corners& corners) const;
     void merge_intervals();
+    void sort(std::vector<double>& values);
+    int find_events(double begin, double end);
     void sweep(const LayerLine& line, std::uint32_t number, double begin, double end,
                std::vector<LayerPiece>& pieces);
 
@@ -116,6 +118,7 @@ class LayerTile {
     std::vector<HiddenPart> parts_;
     std::vector<Interval> intervals_;
     std::vector<Contact> contacts_of_line_;
+    std::vector<double> begins_, ends_, sorted_;  // of opaque intervals
     std::vector<Event> events_;
     double line_slack_ = 0, certain_slack_ = 0;  // of the line that is looked at
     std::uint64_t fragment_count_ = 0;

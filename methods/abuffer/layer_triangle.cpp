@@ -13,12 +13,11 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 /// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for
 /// triangles without area.
 bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
-    glm::dvec2 p[3] = {corners[0], corners[1], corners[2]};
-    const double area = cross(p[1] - p[0], p[2] - p[0]);
-    if (area < 0) {
-        std::swap(p[1], p[2]);
-        std::swap(triangle.vertices[1], triangle.vertices[2]);
-    }
+    const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    // Without a branch: it would be a guess.
+    const std::size_t second = area < 0 ? 2 : 1;
+    const glm::dvec2 p[3] = {corners[0], corners[second], corners[3 - second]};
+    triangle.vertices = {triangle.vertices[0], triangle.vertices[second], triangle.vertices[3 - second]};
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec2 along = p[(k + 1) % 3] - p[k];
         triangle.x[k] = p[k].x;
@@ -144,12 +143,7 @@ bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {
     return common == 2;
 }
 
-bool only_grazes(const ScreenSurfaces& screen, const LayerLine& line, const LayerTriangle& t) {
-    const auto is_at_end = [&](std::uint32_t v) {
-        const std::uint64_t node = std::uint64_t{t.instance} << 32 | v;
-        return node == line.nodes[0] || node == line.nodes[1];
-    };
-    if (std::none_of(t.vertices.begin(), t.vertices.end(), is_at_end)) return false;
+bool is_grazed_at_end(const ScreenSurfaces& screen, const LayerLine& line, const LayerTriangle& t) {
     if (screen.facing(t.number) == off_screen) return false;  // a part of it
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;

@@ -49,7 +49,16 @@ bool lies_on(const LayerLine& line, const LayerTriangle& triangle);
 
 /// Whether a triangle that has a vertex in common with a line covers only a rim of it narrower than vertices are snapped,
 /// 1/256 pixel, where its surface ends or folds: a fold so narrow may lie on either side of its edge.
-bool only_grazes(const ScreenSurfaces& screen, const LayerLine& line, const LayerTriangle& triangle);
+bool is_grazed_at_end(const ScreenSurfaces& screen, const LayerLine& line, const LayerTriangle& triangle);
+/// The same of any triangle.
+inline bool only_grazes(const ScreenSurfaces& screen, const LayerLine& line, const LayerTriangle& t) {
+    bool has_end = false;
+    for (const std::uint32_t v : t.vertices) {
+        const std::uint64_t node = std::uint64_t{t.instance} << 32 | v;
+        has_end |= (node == line.nodes[0]) | (node == line.nodes[1]);
+    }
+    return has_end && is_grazed_at_end(screen, line, t);
+}
 
 /// Things at one depth are nearer to each other than this part of a pixel's width.
 constexpr double kLevelPx = 1.0 / 16;

@@ -33,7 +33,7 @@ class RowFinisher {
     double finish_as(int worker, PixelRect rows, StrokePass::Lists lines);
 
     /// The same in two steps, each on all threads.
-    void draw(PixelRect rows, StrokePass::Lists lines) { strokes_.draw(rows, lines); }
+    void draw(PixelRect rows, StrokePass::Lists lines, LayerStrokes* behind = nullptr) { strokes_.draw(rows, lines, behind); }
     void hand_on(PixelRect rows) const;
 
   private:

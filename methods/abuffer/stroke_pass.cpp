@@ -12,7 +12,7 @@
 namespace burin {
 namespace {
 
-constexpr int kTilePx = 32;
+constexpr int kTilePx = LayerStrokes::kTilePx;
 
 }  // namespace
 
@@ -102,9 +102,14 @@ class StrokePass::Printer {
     Printer(const Frame& frame, const TileKernels& kernels)
         : style_(frame.scene->lines.style), kernels_(kernels), strokes_(frame, kernels) {}
 
+    /// What print() draws and what is asked for strokes(): tile by tile.
+    void draw(std::span<const LineSegment* const> segments, PixelRect rect, int reach) {
+        strokes_.draw(segments, {rect.x0 - reach, rect.y0 - reach, rect.x1 + reach, rect.y1 + reach});
+    }
+    const VisibleStrokes& strokes() const { return strokes_; }
+
     /// Each pixel sees its own square.
-    void print(std::span<const LineSegment* const> segments, PixelRect rect, Film& film) {
-        strokes_.draw(segments, rect);
+    void print(PixelRect rect, Film& film) {
         touched_.clear();
         strokes_.for_touched([&](int column, int row) {
             if (touched_.empty() || touched_.back().row != row) film.prefetch(rect.x0 + column, rect.y0 + row);
@@ -123,9 +128,7 @@ class StrokePass::Printer {
     }
 
     /// Each pixel sees what the filter's weights make of its surroundings.
-    void print(std::span<const LineSegment* const> segments, PixelRect rect, const FilterTable& filter, Film& film) {
-        constexpr int kReach = FilterTable::kReach;
-        strokes_.draw(segments, {rect.x0 - kReach, rect.y0 - kReach, rect.x1 + kReach, rect.y1 + kReach});
+    void print(PixelRect rect, const FilterTable& filter, Film& film) {
         filtered_.assign(static_cast<std::size_t>(rect.width() * rect.height()), Coverages{});
         strokes_.for_touched([&](int column, int row) {
             strokes_.for_classes(column, row, [&](LineClass c, StrokeMask mask, const StrokeMask& taken, float opacity) {
@@ -186,25 +189,31 @@ StrokePass::Bins StrokePass::sort(PixelRect part, Lists lines) const {
     return {lines, part, Pen(style.width_px, style.side).radius_px + reach_px(style.filter) + 1.0};
 }
 
-void StrokePass::print(int worker, std::span<const LineSegment* const> lines, PixelRect tile) {
-    if (lines.empty()) return;
+void StrokePass::print(int worker, const Bins& bins, std::size_t index, LayerStrokes* behind) {
+    const auto lines = bins.segments(index);
+    const bool has_behind = behind != nullptr && behind->has_any(index);
+    if (lines.empty() && !has_behind) return;
     Printer& printer = printers_[static_cast<std::size_t>(worker)];
+    const PixelRect tile = bins.tile(index);
+    printer.draw(lines, tile, filter_ ? FilterTable::kReach : 0);
+    if (has_behind) behind->draw_below(worker, index, printer.strokes(), film_);
     if (filter_) {
-        printer.print(lines, tile, *filter_, film_);
+        printer.print(tile, *filter_, film_);
     } else {
-        printer.print(lines, tile, film_);
+        printer.print(tile, film_);
     }
+    if (has_behind) behind->draw_above(worker, film_);
 }
 
-void StrokePass::draw(PixelRect part, Lists lines) {
+void StrokePass::draw(PixelRect part, Lists lines, LayerStrokes* behind) {
     const Bins bins = sort(part, lines);
     parallel_for(bins.tile_count(), static_cast<int>(printers_.size()),
-                 [&](std::size_t i, int worker) { print(worker, bins.segments(i), bins.tile(i)); });
+                 [&](std::size_t i, int worker) { print(worker, bins, i, behind); });
 }
 
 void StrokePass::draw_as(int worker, PixelRect part, Lists lines) {
     const Bins bins = sort(part, lines);
-    for (std::size_t i = 0; i < bins.tile_count(); ++i) print(worker, bins.segments(i), bins.tile(i));
+    for (std::size_t i = 0; i < bins.tile_count(); ++i) print(worker, bins, i, nullptr);
 }
 
 }  // namespace burin

@@ -20,7 +20,7 @@ using namespace test;
 struct Expected {
     std::uint32_t triangle;
     bool is_any, is_level;
-    double begin, end;
+    double begin, end, level_begin, level_end;
 };
 
 TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
@@ -75,7 +75,8 @@ TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
             const double certain = slack + t.slack;
             const double at_begin = t.nearness_at(a) - line.nearness_at(begin), at_end = t.nearness_at(b) - line.nearness_at(end);
             if (std::max(at_begin, at_end) < -certain) continue;
-            Expected e{i, false, std::min(at_begin, at_end) <= certain, begin, end};
+            Expected e{i, false, false, begin, end, begin, end};
+            e.is_level = std::min(at_begin, at_end) <= certain && clip_where_hidden(line, -certain, t, e.level_begin, e.level_end);
             e.is_any = clip_where_hidden(line, certain, t, e.begin, e.end);
             double first = begin, last = end;
             along_edges += clip_where_hidden(line, certain, t, first, last, true) && !e.is_any;
@@ -98,6 +99,7 @@ TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
                 const HiddenPart& p = parts[k];
                 const Expected& e = expected[k];
                 EXPECT_TRUE(p.triangle == e.triangle && p.is_any == e.is_any && p.is_level == e.is_level) << kernels->name << " round " << round;
+                if (e.is_level) EXPECT_TRUE(p.level_begin == e.level_begin && p.level_end == e.level_end) << kernels->name << " round " << round;
                 if (!e.is_any) continue;
                 EXPECT_TRUE(p.begin == e.begin && p.end == e.end) << kernels->name << " round " << round;
             }
@@ -105,8 +107,25 @@ TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
     }
     EXPECT_GT(hidden, 1500);
     EXPECT_GT(partly, 1000);
-    EXPECT_GT(level, 3000);
+    EXPECT_GT(level, 800);
     EXPECT_GT(along_edges, 5);
+}
+
+TEST(LayerTriangle, FewNumbersAreSorted) {
+    Random random(7);
+    for (int round = 0; round < 2000; ++round) {
+        std::vector<double> values(static_cast<std::size_t>(random.integer(0, 70)));
+        for (double& v : values) v = random.integer(0, 1) == 0 ? random.real(0, 1) : random.integer(0, 4) / 4.0;
+        std::vector<double> expected = values;
+        std::sort(expected.begin(), expected.end());
+        std::vector<double> read = values;
+        read.resize(values.size() + 3);
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<double> sorted(values.size());
+            kernels->sort_few(read.data(), values.size(), sorted.data());
+            EXPECT_EQ(sorted, expected) << kernels->name << " round " << round;
+        }
+    }
 }
 
 }  // namespace
