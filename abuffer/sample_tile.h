@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/cache_line.h"
+#include "abuffer/cache_line.h"
 
 namespace burin {
 

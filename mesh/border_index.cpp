@@ -150,8 +150,13 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     const Segment* const own = find(half_edge);
     if (own == nullptr) return std::nullopt;
     Nearest nearest{kReachPart * glm::length(direction_of(*own)), {}};
-    search(*own, [&](const glm::vec3& low, const glm::vec3& high) { return is_box_near(at, low, high, nearest.reach); },
-           [&](const Segment& other) { nearest.offer(other, at); });
+    const glm::dvec3 along = direction_of(*own);
+    const double length = glm::length(along);
+    visit_leaves([&](const glm::vec3& low, const glm::vec3& high) { return is_box_near(at, low, high, nearest.reach); },
+                 [&](std::uint32_t i) {  // a look at its box would take as long as its distance
+                     const Segment& other = segments_[i];
+                     if (other.polygon != own->polygon && are_nearly_parallel(along, length, other)) nearest.offer(other, at);
+                 });
     return nearest.partner;
 }
 

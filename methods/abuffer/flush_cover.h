@@ -29,7 +29,7 @@ class FlushCover {
     bool covers(const NeighbourSamples& pair, glm::ivec2 sample, const float (&nearness)[2], HalfEdge edge) {
         const SurfaceId first = pair.surfaces[0], second = pair.surfaces[1];
         if (first.instance != second.instance || first.is_background() || meet_at(first, second, edge)) return false;
-        return may_be_level(pair, nearness) && is_covered(pair, sample >> kBlockShift);
+        return may_be_level(pair, nearness) && !stands_in_front(edge, first) && is_covered(pair, sample >> kBlockShift);
     }
 
   private:
@@ -49,6 +49,8 @@ class FlushCover {
         const std::uint32_t one = edge / 3, other = screen_.mesh(a.instance).partners[edge] / 3;
         return (one == a.triangle && other == b.triangle) || (one == b.triangle && other == a.triangle);
     }
+    /// Whether a face at the line rises in front of a plane, as a fin does that stands on it between the samples.
+    bool stands_in_front(HalfEdge edge, SurfaceId plane) const;
     /// False for nearly all pairs that are not of one plane.
     bool may_be_level(const NeighbourSamples& pair, const float (&nearness)[2]) const;
     bool is_covered(const NeighbourSamples& pair, glm::ivec2 block);

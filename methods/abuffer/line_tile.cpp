@@ -153,7 +153,7 @@ const LineTile::Relation& LineTile::relation(std::uint32_t loser, std::uint32_t 
     constexpr std::size_t kAtFirst = 512, kMost = std::size_t{1} << 18;
     // In a heap of nearly equal surfaces each is asked about each, for every sample: room for all saves most of the time.
     if (relations_.empty() || (forgotten_ > relations_.size() && relations_.size() < kMost)) {
-        relations_.assign(std::max(kAtFirst, 4 * relations_.size()), {});
+        relations_.assign(std::clamp(4 * relations_.size(), kAtFirst, kMost), {});
         forgotten_ = 0;
     }
     const std::uint64_t mixed = (std::uint64_t{loser} << 32 | winner) * 0x9E3779B97F4A7C15u;
