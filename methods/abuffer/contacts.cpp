@@ -4,13 +4,13 @@
 #include <cmath>
 #include <iterator>
 
+#include "methods/abuffer/face_plane.h"
+
 namespace burin {
 namespace {
 
 /// So far from a line its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
-/// Of two triangles' coordinates.
-constexpr double kErrors = 4;
 
 /// False for most triangles that do not cover a place, by their corners alone.
 bool may_cover(const ScreenTriangle& t, glm::dvec2 place) {
@@ -106,7 +106,7 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
     for (int i = 0; i < level_count; ++i) {
         const auto& [own, other, place] = levels[i];
         if (!surfaces.order_near(own, other, place).are_coincident()) {
-            if (rises_in_front(own, other)) return false;
+            if (rises_in_front(surfaces, own, FacePlane(surfaces, other))) return false;
             continue;
         }
         if (on_one_side && side_of_body(own) != side_of_body(other)) return false;
@@ -148,41 +148,12 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
     return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
 }
 
-/// In view space.
-struct Contacts::FacePlane {
-    glm::dvec3 corner, to_eye;  // a unit normal
-    bool is_counterclockwise;   // as seen
-
-    double height(const glm::dvec3& p) const { return glm::dot(to_eye, p - corner); }
-};
-
-Contacts::FacePlane Contacts::plane_of(SurfaceId s) const {
-    const SurfaceSet& surfaces = screen_.surfaces();
-    glm::dvec3 c[3];
-    surfaces.view_corners(s, c);
-    const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
-    const bool turns_to_eye = glm::dot(normal, surfaces.projection.orthographic ? glm::dvec3(0, 0, 1) : -c[0]) >= 0;
-    return {c[0], normal * ((turns_to_eye ? 1 : -1) / std::max(glm::length(normal), 1e-300)), turns_to_eye};
-}
-
-/// Whether a part of a triangle is nearer to the eye than the plane of another one: asked in space, for beside a line snapping
-/// may decide it on the screen.
-bool Contacts::rises_in_front(SurfaceId s, SurfaceId of) const {
-    const SurfaceSet& surfaces = screen_.surfaces();
-    const FacePlane plane = plane_of(of);
-    glm::dvec3 own[3];
-    surfaces.view_corners(s, own);
-    return std::any_of(std::begin(own), std::end(own), [&](const glm::dvec3& corner) {
-        return plane.height(corner) > kErrors * surfaces.coordinate_error;
-    });
-}
-
 /// On which side of a face its body is: 1 = towards the eye, -1 = away from it, 0 = it is a sheet.
 int Contacts::side_of_body(SurfaceId s) const {
     const SurfaceInstance& instance = screen_.surfaces().instance_of(s);
     const bool is_mirrored = glm::determinant(glm::dmat3(instance.to_view)) < 0;
     const int side = instance.body_sides->of(s.triangle);
-    return plane_of(s).is_counterclockwise != is_mirrored ? side : -side;
+    return FacePlane(screen_.surfaces(), s).is_counterclockwise != is_mirrored ? side : -side;
 }
 
 /// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place. Of what is cut,

@@ -41,9 +41,6 @@ class Contacts {
     std::optional<glm::dvec2> touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
                                              double level) const;
     std::optional<glm::dvec2> place_beside(SurfaceId s, std::uint32_t owner, glm::dvec2 at) const;
-    struct FacePlane;
-    FacePlane plane_of(SurfaceId s) const;
-    bool rises_in_front(SurfaceId s, SurfaceId of) const;
     int side_of_body(SurfaceId s) const;
     enum class Over { any_edge, plain_edges };
     std::optional<LayerTriangle> what_covers(glm::dvec2 place, const LayerTriangle& t, Over over) const;

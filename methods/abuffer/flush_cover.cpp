@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/abuffer/face_plane.h"
+
 namespace burin {
 namespace {
 
-/// Coordinates are off by so many times what they are rounded by.
-constexpr double kErrors = 4;
 /// Gaps narrower than folds that are no contours. 1/64 pixel.
 constexpr double kNegligibleSubpixels = 4;
 /// What two samples on one plane are off it at most, for a first look: a part of a pixel's width, and of what the plane
@@ -56,23 +56,12 @@ bool FlushCover::may_be_level(const NeighbourSamples& pair, const float (&nearne
     return std::abs(along * pair.pitch - rise * area) <= limit * std::abs(area);
 }
 
-bool FlushCover::stands_in_front(HalfEdge edge, SurfaceId plane) const {
+bool FlushCover::stands_in_front(HalfEdge edge, SurfaceId face) const {
     if (edge == kNoHalfEdge) return false;
     const SurfaceSet& surfaces = screen_.surfaces();
-    const Projection& p = surfaces.projection;
-    glm::dvec3 c[3];
-    surfaces.view_corners(plane, c);
-    const glm::dvec3 area = glm::cross(c[1] - c[0], c[2] - c[0]);
-    const bool turns_to_eye = glm::dot(area, p.orthographic ? glm::dvec3(0, 0, 1) : -c[0]) >= 0;
-    const glm::dvec3 to_eye = area * ((turns_to_eye ? 1 : -1) / std::max(glm::length(area), 1e-300));
-    const auto rises = [&](std::uint32_t triangle) {
-        glm::dvec3 corners[3];
-        surfaces.view_corners({plane.instance, triangle}, corners);
-        return std::any_of(std::begin(corners), std::end(corners), [&](const glm::dvec3& corner) {
-            return glm::dot(to_eye, corner - c[0]) > kErrors * surfaces.coordinate_error + kCoincidentPx * p.pixel_size(-corner.z);
-        });
-    };
-    return rises(edge / 3) || rises(screen_.mesh(plane.instance).partners[edge] / 3);
+    const FacePlane plane(surfaces, face);
+    const auto rises = [&](HalfEdge h) { return rises_in_front(surfaces, {face.instance, h / 3}, plane, kCoincidentPx); };
+    return rises(edge) || rises(screen_.mesh(face.instance).partners[edge]);
 }
 
 /// Whether two triangles lie in one plane without a line between them. Those that have nothing in common on the screen are

@@ -49,8 +49,8 @@ class FlushCover {
         const std::uint32_t one = edge / 3, other = screen_.mesh(a.instance).partners[edge] / 3;
         return (one == a.triangle && other == b.triangle) || (one == b.triangle && other == a.triangle);
     }
-    /// Whether a face at the line rises in front of a plane, as a fin does that stands on it between the samples.
-    bool stands_in_front(HalfEdge edge, SurfaceId plane) const;
+    /// Whether a surface at the line rises in front of a face's plane, as a fin does that stands on it between the samples.
+    bool stands_in_front(HalfEdge edge, SurfaceId face) const;
     /// False for nearly all pairs that are not of one plane.
     bool may_be_level(const NeighbourSamples& pair, const float (&nearness)[2]) const;
     bool is_covered(const NeighbourSamples& pair, glm::ivec2 block);

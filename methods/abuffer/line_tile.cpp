@@ -150,7 +150,7 @@ void LineTile::settle_contests() {
 
 /// Mostly asked of the same two for one sample after the other.
 const LineTile::Relation& LineTile::relation(std::uint32_t loser, std::uint32_t winner) {
-    constexpr std::size_t kAtFirst = 512, kMost = std::size_t{1} << 18;
+    constexpr std::size_t kAtFirst = 512, kMost = std::size_t{1} << 16;
     // In a heap of nearly equal surfaces each is asked about each, for every sample: room for all saves most of the time.
     if (relations_.empty() || (forgotten_ > relations_.size() && relations_.size() < kMost)) {
         relations_.assign(std::clamp(4 * relations_.size(), kAtFirst, kMost), {});

@@ -9,7 +9,7 @@ std::optional<HalfEdge> SeamMemory::partner(const BorderIndex& borders, HalfEdge
     if (is_other) entry = {&borders, half_edge, Use::once, {}};
     // What is asked for once needs no list, and one of very many is found faster by place.
     if (!is_other && entry.use == Use::once) {
-        constexpr std::size_t kFew = 128;
+        constexpr std::size_t kFew = 32;
         borders.find_candidates(half_edge, entry.candidates);
         entry.use = entry.candidates.segments().size() <= kFew ? Use::has_list : Use::has_many;
         if (entry.use == Use::has_many) entry.candidates = {};
