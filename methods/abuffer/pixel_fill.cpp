@@ -194,7 +194,7 @@ void PixelFiller::clear(PixelRect rect, Film& film) const {
     finish_stream_stores();
 }
 
-void PixelFiller::fill(const LineTile& tile, Film& film) {
+void PixelFiller::fill(const SurfaceTile& tile, Film& film) {
     const PixelRect rect = in_crop(tile.rect());
     if (rect.x0 >= rect.x1 || rect.y0 >= rect.y1) return;
     const SampleTile& samples = tile.samples();

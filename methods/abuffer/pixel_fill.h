@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "methods/abuffer/line_tile.h"
+#include "methods/abuffer/surface_tile.h"
 #include "render/film.h"
 
 namespace burin {
@@ -14,7 +14,7 @@ class PixelFiller {
     PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels);
 
     /// Puts the pixels of a tile that lie in the frame's crop.
-    void fill(const LineTile& tile, Film& film);
+    void fill(const SurfaceTile& tile, Film& film);
     /// Puts the background there.
     void clear(PixelRect rect, Film& film) const;
 

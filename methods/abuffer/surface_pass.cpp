@@ -81,7 +81,8 @@ void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher
     stats.prepare_s += watch.lap();
 
     const auto workers = static_cast<std::size_t>(threads_);
-    std::vector<std::unique_ptr<LineTile>> tiles(workers);
+    std::vector<std::unique_ptr<SurfaceTile>> tiles(workers);
+    std::vector<std::unique_ptr<LineTile>> line_tiles(workers);
     std::vector<std::unique_ptr<PixelFiller>> fillers(workers);
     std::vector<FineParts> fine_parts(workers, FineParts(screen_, kernels_, completes_lines(*frame_.scene)));
     std::vector<std::vector<FinePart>> parts(workers);
@@ -104,7 +105,10 @@ void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher
     const bool has_limit = finisher != nullptr && finisher->hands_on();
     const auto draw_tile = [&](std::size_t index, int worker) {
         const auto w = static_cast<std::size_t>(worker);
-        if (!tiles[w]) tiles[w] = std::make_unique<LineTile>(frame_, screen_, bins, per_pixel, kernels_);
+        if (!tiles[w]) {
+            tiles[w] = std::make_unique<SurfaceTile>(frame_, screen_, bins, per_pixel, kernels_);
+            line_tiles[w] = std::make_unique<LineTile>(frame_, screen_, bins, *tiles[w], kernels_);
+        }
         if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame_, screen_, kernels_);
         if (has_fine && !fine_lines[w]) fine_lines[w] = std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region);
         std::vector<LineSegment>& lines = segments[before + index];
@@ -124,7 +128,7 @@ void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher
         } else {
             tiles[w]->draw(index);
             times[w].raster += lap.lap();
-            tiles[w]->find_lines(lines);
+            line_tiles[w]->find_lines(index, lines);
             if (has_fine) add_fine_lines();
             times[w].lines += lap.lap();
             fillers[w]->fill(*tiles[w], film);

@@ -10,7 +10,8 @@
 #include <numbers>
 
 #include "mesh/shapes.h"
-#include "methods/abuffer/line_tile.h"
+#include "methods/abuffer/fast_decision.h"
+#include "methods/abuffer/surface_tile.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
@@ -150,7 +151,7 @@ Comparison compare_decisions(const Scene& scene, int samples) {
         make_frame(scene, perspective_camera(kEye, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
     const TriangleBins bins(screen, frame.crop, samples, best_kernels(), 1);
-    LineTile tile(frame, screen, bins, samples, best_kernels());
+    SurfaceTile tile(frame, screen, bins, samples, best_kernels());
     FastDecision fast(screen, frame.criteria);
     const std::int32_t pitch = kSubpixelsPerPixel / samples;
     Comparison result;

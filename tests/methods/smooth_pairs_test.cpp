@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "mesh/shapes.h"
-#include "methods/abuffer/line_tile.h"
+#include "methods/abuffer/fast_decision.h"
+#include "methods/abuffer/surface_tile.h"
 #include "tests/support/drawing.h"
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
@@ -31,7 +32,7 @@ Counts compare(const Scene& scene, glm::dvec3 eye, int samples) {
     const Frame frame = make_frame(scene, perspective_camera(eye, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
     const TriangleBins bins(screen, frame.crop, samples, best_kernels(), 1);
-    LineTile tile(frame, screen, bins, samples, best_kernels());
+    SurfaceTile tile(frame, screen, bins, samples, best_kernels());
     const FastDecision fast(screen, frame.criteria);
     const std::int32_t pitch = kSubpixelsPerPixel / samples;
     Counts counts;
