@@ -51,7 +51,7 @@ class ScreenTriangles {
     }
 
   private:
-    static constexpr std::size_t kPadding = 7;  // what kernels may read too far
+    static constexpr std::size_t kPadding = 15;  // what kernels may read too far
     std::array<std::vector<float>, 7> numbers_;
 };
 

@@ -114,7 +114,7 @@ TEST(BoxKernels, TrianglesThatMayHideALineAreFound) {
         const glm::dvec2 origin(sign * random.integer(is_near ? 0 : 1 << 21, is_near ? 1000000 : 1 << 23), random.integer(0, 1000000));
         std::vector<float> numbers[7];
         std::vector<glm::dvec2> corners[kCount];
-        for (std::size_t i = 0; i < kCount + 7; ++i) {
+        for (std::size_t i = 0; i < kCount + 15; ++i) {
             glm::dvec2 p[3];
             const glm::dvec2 center = origin + glm::dvec2(random.integer(0, 8192), random.integer(0, 8192));
             for (glm::dvec2& at : p) at = glm::floor(center + size * glm::dvec2(random.real(-1, 1), random.real(-1, 1)));
@@ -204,8 +204,8 @@ TEST(BoxKernels, LinesJustInsideLargeTrianglesAreFound) {
         const glm::dvec2 p[3] = {corner(-along), corner(along), corner(inwards)};
         std::vector<float> numbers[6];
         for (std::size_t k = 0; k < 3; ++k) {
-            numbers[k].assign(8, static_cast<float>(p[k].x));
-            numbers[3 + k].assign(8, static_cast<float>(p[k].y));
+            numbers[k].assign(16, static_cast<float>(p[k].x));
+            numbers[3 + k].assign(16, static_cast<float>(p[k].y));
         }
         // A line that touches it from outside, or crosses it at its end.
         const glm::dvec2 edge = glm::normalize(p[1] - p[0]), normal(-edge.y, edge.x);
@@ -216,7 +216,7 @@ TEST(BoxKernels, LinesJustInsideLargeTrianglesAreFound) {
         for (std::size_t k = 0; k < 3; ++k) is_inside = is_inside && cross(p[(k + 1) % 3] - p[k], a - p[k]) > 0;
         if (!is_inside) continue;
         ++inside;
-        const std::vector<float> highest(8, 1.0f);
+        const std::vector<float> highest(16, 1.0f);
         const TriangleView view{{numbers[0].data(), numbers[1].data(), numbers[2].data()},
                                 {numbers[3].data(), numbers[4].data(), numbers[5].data()},
                                 highest.data()};
