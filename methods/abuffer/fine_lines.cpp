@@ -70,9 +70,8 @@ class FineLines::BlockClipper {
         hidden_.clear();
         double reached = begin;  // as far as no piece is left
         bool is_hidden = false;
-        for_triangles(glm::mix(line.from, line.to, begin), glm::mix(line.from, line.to, end), line.lowest_in(begin, end) - slack,
+        for_triangles(line, glm::mix(line.from, line.to, begin), glm::mix(line.from, line.to, end), line.lowest_in(begin, end) - slack,
                       [&](const LayerTriangle& t) {
-                          if (lies_on(line, t)) return true;
                           // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
                           // apart.
                           const bool is_own_mesh = t.instance == candidate.part.edge.instance;
@@ -158,9 +157,10 @@ class FineLines::BlockClipper {
         }
     }
 
-    /// Calls use(triangle) for those beside the way from a to b that are nearer than `least`, until it says false.
+    /// Calls use(triangle) for those beside the way from a to b that are nearer than `least`, and that the line is no edge of,
+    /// until it says false.
     template <typename Use>
-    void for_triangles(glm::dvec2 a, glm::dvec2 b, double least, const Use& use) {
+    void for_triangles(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, double least, const Use& use) {
         const ScreenLine part{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
                               static_cast<float>(std::max(least, -1e30))};
         bool goes_on = true;
@@ -171,9 +171,11 @@ class FineLines::BlockClipper {
             const std::size_t count = kernels_.find_hiding(triangles, first, end, part, beside_.data());
             for (std::size_t at = 0; at < count && goes_on; ++at) {
                 const std::uint32_t i = has_cells ? in_cells_[beside_[at]] : beside_[at];
+                if (is_owner(line, (*given_)[i].number)) continue;
                 if (places_[i].count == 0) set_up(i);
                 for (std::uint32_t k = 0; k < places_[i].count && goes_on; ++k) {
-                    goes_on = use(set_up_[places_[i].first + k]);
+                    const LayerTriangle& t = set_up_[places_[i].first + k];
+                    goes_on = lies_on(line, t) || use(t);
                 }
             }
         });
@@ -270,10 +272,10 @@ class FineLines::BlockClipper {
         const double nearness = line.nearness_at(t);
         std::optional<LayerTriangle> behind;
         double nearest = -kFar;
-        for_triangles(beyond, beyond, -kFar, [&](const LayerTriangle& triangle) {
+        for_triangles(line, beyond, beyond, -kFar, [&](const LayerTriangle& triangle) {
             const double other = triangle.nearness_at(at);
             const bool is_nearest = other > nearest || (behind && other == nearest && triangle.number < behind->number);
-            if (lies_on(line, triangle) || !triangle.covers(beyond) || !is_nearest) return true;
+            if (!triangle.covers(beyond) || !is_nearest) return true;
             behind = triangle;
             nearest = other;
             return true;

@@ -132,7 +132,7 @@ std::optional<HalfEdge> partner_over(const ScreenSurfaces& screen, const LayerTr
 }
 
 bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {
-    if (triangle.number == line.owners[0] || triangle.number == line.owners[1]) return true;
+    if (is_owner(line, triangle.number)) return true;
     if (!line.has_more_owners) return false;
     int common = 0;
     for (const std::uint64_t node : line.nodes) {

@@ -44,6 +44,9 @@ std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen,
 /// Of a triangle on the screen, the other half-edge on the edge after a corner, if exactly two triangles meet there.
 std::optional<HalfEdge> partner_over(const ScreenSurfaces& screen, const LayerTriangle& triangle, std::size_t corner);
 
+inline bool is_owner(const LayerLine& line, std::uint32_t triangle) {
+    return triangle == line.owners[0] || triangle == line.owners[1];
+}
 /// Whether a line is an edge of a triangle, which cannot hide it then.
 bool lies_on(const LayerLine& line, const LayerTriangle& triangle);
 
