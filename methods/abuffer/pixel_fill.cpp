@@ -17,6 +17,18 @@ HalfColor half_color(const glm::vec4& color) {
     return {Film::to_half(color.r), Film::to_half(color.g), Film::to_half(color.b), Film::to_half(color.a)};
 }
 
+/// Whether any sample of those pixels has a surface.
+bool is_covered(const SampleTile& samples, PixelRect rect) {
+    const int s = samples.samples_per_pixel;
+    for (int y = rect.y0 * s; y < rect.y1 * s; ++y) {
+        const std::uint32_t* const row = &samples.ids[samples.index(rect.x0 * s, y)];
+        std::uint32_t all = SampleTile::kBackground;
+        for (int x = 0; x < rect.width() * s; ++x) all &= row[x];
+        if (all != SampleTile::kBackground) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels)
@@ -194,21 +206,28 @@ void PixelFiller::clear(PixelRect rect, Film& film) const {
     finish_stream_stores();
 }
 
-void PixelFiller::fill(const LineTile& tile, Film& film) {
-    const PixelRect rect = in_crop(tile.rect());
-    if (rect.x0 >= rect.x1 || rect.y0 >= rect.y1) return;
-    const SampleTile& samples = tile.samples();
+void PixelFiller::fill_part(const SampleTile& samples, PixelRect part, Film& film) {
     const bool has_geometry = film.has_geometry();
     if (has_geometry) {
-        find_looks(samples, rect);
+        find_looks(samples, part);
         make_looks();
     }
     const bool is_paper = frame_.scene->surfaces.shading == SurfaceShading::paper;
-    if (is_paper) put_paper(samples, rect, film);
-    for (int y = rect.y0; y < rect.y1; ++y) {
-        if (has_geometry) put_geometry(rect, y, film);
-        if (!is_paper) put_shaded(samples, rect, y, film);
+    if (is_paper) put_paper(samples, part, film);
+    for (int y = part.y0; y < part.y1; ++y) {
+        if (has_geometry) put_geometry(part, y, film);
+        if (!is_paper) put_shaded(samples, part, y, film);
     }
+}
+
+void PixelFiller::fill(const LineTile& tile, Film& film) {
+    film.for_parts(in_crop(tile.rect()), [&](PixelRect part) {
+        if (is_covered(tile.samples(), part)) {
+            fill_part(tile.samples(), part, film);
+        } else {
+            clear(part, film);
+        }
+    });
     finish_stream_stores();
 }
 
