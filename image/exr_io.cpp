@@ -1,10 +1,5 @@
 #include "image/exr_io.h"
 
-#include <ImathBox.h>
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/openexr.h>
 
 #include <algorithm>
@@ -30,31 +25,16 @@
 namespace burin {
 namespace {
 
-Imf::PixelType exr_type(PixelType type) {
+exr_pixel_type_t exr_type(PixelType type) {
     switch (type) {
         case PixelType::float16:
-            return Imf::HALF;
+            return EXR_PIXEL_HALF;
         case PixelType::float32:
-            return Imf::FLOAT;
+            return EXR_PIXEL_FLOAT;
         case PixelType::uint32:
-            return Imf::UINT;
+            return EXR_PIXEL_UINT;
     }
-    return Imf::FLOAT;
-}
-
-/// Slices for the rows of the data window that start at `channel.bytes`.
-Imf::FrameBuffer frame_buffer(const Image& image) {
-    Imf::FrameBuffer buffer;
-    for (const Channel& channel : image.channels()) {
-        const std::size_t x_stride = size_of(channel.type);
-        const std::size_t y_stride = x_stride * static_cast<std::size_t>(image.width());
-        const Imath::V2i origin(image.data().x0, image.data().y0);
-        char* const base = reinterpret_cast<char*>(const_cast<std::byte*>(channel.bytes.data()));
-        buffer.insert(channel.name,
-                      Imf::Slice::Make(exr_type(channel.type), base, origin, image.width(),
-                                       image.height(), x_stride, y_stride));
-    }
-    return buffer;
+    return EXR_PIXEL_FLOAT;
 }
 
 /// Bytes as ZIP compression packs them: first all of even number and then the others, of each the difference to the byte
@@ -182,8 +162,8 @@ class RowPacker {
                         std::uint8_t* to = row.data();
                         for (std::size_t k = i; k < end; ++k) {
                             const std::span<const std::uint8_t> part = row_of(*blocks[k], c, y);
-                            // The next row comes soon, and from too many places for the processor to tell.
-                            for (std::size_t at = 0; at < part.size(); at += 64) __builtin_prefetch(part.data() + part.size() + at);
+                            // The end of the next row, which comes soon, and from too many places for the processor to tell.
+                            for (std::size_t at = 0; at < part.size(); at += 64) __builtin_prefetch(part.data() + part.size() + at + 63);
                             std::memcpy(to, part.data(), part.size());
                             to += part.size();
                         }
@@ -239,8 +219,7 @@ class ChunkFile {
                                            EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
         for (const std::size_t c : order) {
             const ChannelFormat& channel = channels[c];
-            const auto type = static_cast<exr_pixel_type_t>(exr_type(channel.type));
-            check(exr_add_channel(context_, part, channel.name.c_str(), type,
+            check(exr_add_channel(context_, part, channel.name.c_str(), exr_type(channel.type),
                                   EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
         }
         for (const auto& [name, text] : options.texts) {
@@ -396,28 +375,6 @@ void write_exr(const std::string& path, const Image& image, const ExrOptions& op
         writer.write_chunk(strip, image.data().y0 + static_cast<int>(i) * ExrWriter::kChunkRows);
     });
     writer.finish();
-}
-
-Image read_exr(const std::string& path) {
-    try {
-        Imf::InputFile input(path.c_str());
-        const auto rect = [](const Imath::Box2i& b) {
-            return PixelRect{b.min.x, b.min.y, b.max.x + 1, b.max.y + 1};
-        };
-        Image image(rect(input.header().displayWindow()), rect(input.header().dataWindow()));
-        const Imf::ChannelList& channels = input.header().channels();
-        for (auto it = channels.begin(); it != channels.end(); ++it) {
-            const Imf::PixelType type = it.channel().type;
-            image.add(it.name(), type == Imf::HALF    ? PixelType::float16
-                                 : type == Imf::FLOAT ? PixelType::float32
-                                                      : PixelType::uint32);
-        }
-        input.setFrameBuffer(frame_buffer(image));
-        input.readPixels(image.data().y0, image.data().y1 - 1);
-        return image;
-    } catch (const std::exception& error) {
-        throw InputError(path + ": cannot read: " + error.what());
-    }
 }
 
 }  // namespace burin

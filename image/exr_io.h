@@ -43,7 +43,4 @@ class ExrWriter {
 /// Writes all channels of an image, with its display and data windows. Throws InputError.
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
 
-/// Reads all channels of a single-part flat EXR. Throws InputError. For tests and tools.
-Image read_exr(const std::string& path);
-
 }  // namespace burin

@@ -1,4 +1,5 @@
 #include "image/exr_io.h"
+#include "image/exr_reader.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
