@@ -305,20 +305,24 @@ class ExrWriter::State {
             std::unique_ptr<Tool> tool = take_tool();
             rows.packed(tool->bytes, tool->runs);
             const std::span<const std::uint8_t> stream = tool->deflater.compress(tool->bytes, tool->runs);
-            Chunk chunk;
-            chunk.is_ready = true;
-            if (stream.size() < tool->bytes.size()) {
-                chunk.bytes.assign(stream.begin(), stream.end());
-            } else {
-                rows.raw(chunk.bytes);  // readers know by the size that nothing is compressed
+            std::vector<std::uint8_t> raw;
+            std::span<const std::uint8_t> bytes = stream;
+            if (stream.size() >= tool->bytes.size()) {
+                rows.raw(raw);  // readers know by the size that nothing is compressed
+                bytes = raw;
             }
             const std::lock_guard lock(mutex_);
-            tools_.push_back(std::move(tool));
-            waiting_[static_cast<std::size_t>((y - data_.y0) / kChunkRows)] = std::move(chunk);
-            for (; next_ < waiting_.size() && waiting_[next_].is_ready; ++next_) {
-                chunks_->write_chunk(data_.y0 + static_cast<int>(next_) * kChunkRows, waiting_[next_].bytes);
-                waiting_[next_].bytes = std::vector<std::uint8_t>();  // {} would keep its memory
+            const auto chunk = static_cast<std::size_t>((y - data_.y0) / kChunkRows);
+            if (chunk == next_) {
+                write_next(bytes);
+                while (next_ < waiting_.size() && !waiting_[next_].empty()) {
+                    const std::vector<std::uint8_t> waited = std::move(waiting_[next_]);
+                    write_next(waited);
+                }
+            } else {
+                waiting_[chunk].assign(bytes.begin(), bytes.end());
             }
+            tools_.push_back(std::move(tool));
         });
     }
 
@@ -331,10 +335,10 @@ class ExrWriter::State {
     }
 
   private:
-    struct Chunk {
-        std::vector<std::uint8_t> bytes;
-        bool is_ready = false;
-    };
+    void write_next(std::span<const std::uint8_t> bytes) {
+        chunks_->write_chunk(data_.y0 + static_cast<int>(next_) * kChunkRows, bytes);
+        ++next_;
+    }
     struct Tool {  // of one thread at a time
         Deflater deflater;
         UnfilledVector<std::uint8_t> bytes;
@@ -355,7 +359,7 @@ class ExrWriter::State {
     AtomicFile file_;
     std::optional<ChunkFile> chunks_;
     std::mutex mutex_;  // over all that follows
-    std::vector<Chunk> waiting_;
+    std::vector<std::vector<std::uint8_t>> waiting_;  // by their numbers
     std::size_t next_ = 0;
     std::vector<std::unique_ptr<Tool>> tools_;
 };

@@ -46,29 +46,33 @@ void PixelFiller::find_looks(const SampleTile& samples, PixelRect rect) {
     const int s = samples.samples_per_pixel;
     const auto width = static_cast<std::size_t>(rect.width());
     look_at_.resize(width * static_cast<std::size_t>(rect.height()));
-    numbers_.assign(1, 0);
-    std::uint32_t above[kWidth], here[kWidth];
-    std::fill_n(above, kWidth, SampleTile::kBackground);
+    numbers_.resize(look_at_.size() + 1);
+    std::size_t count = 1;
+    struct Pixel {
+        std::uint32_t id;
+        std::uint16_t look;
+    };
+    Pixel above[kWidth];
+    std::fill_n(above, width, Pixel{SampleTile::kBackground, 0});
     std::size_t at = 0;
     for (int y = rect.y0; y < rect.y1; ++y) {
-        const std::uint32_t* id = &samples.ids[samples.index(rect.x0 * s + s / 2, y * s + s / 2)];
-        std::uint32_t left = SampleTile::kBackground;
-        for (std::size_t x = 0; x < width; ++x, ++at, id += s) {
-            here[x] = *id;
-            if (*id == SampleTile::kBackground) {
-                look_at_[at] = 0;
-            } else if (*id == left) {
-                look_at_[at] = look_at_[at - 1];
-            } else if (*id == above[x]) {
-                look_at_[at] = look_at_[at - width];
-            } else {
-                look_at_[at] = static_cast<std::uint16_t>(numbers_.size());
-                numbers_.push_back(*id >> 1);
-            }
-            left = *id;
+        const std::uint32_t* sample = &samples.ids[samples.index(rect.x0 * s + s / 2, y * s + s / 2)];
+        Pixel left{SampleTile::kBackground, 0};
+        // Without branches, which would guess wrong where triangles are small.
+        for (std::size_t x = 0; x < width; ++x, ++at, sample += s) {
+            const std::uint32_t id = *sample;
+            const std::uint32_t is_surface = id != SampleTile::kBackground ? 1u : 0u, is_left = id == left.id ? 1u : 0u;
+            const std::uint32_t is_new = is_surface & (is_left ^ 1u) & (id != above[x].id ? 1u : 0u);
+            const auto choose = [](std::uint32_t condition, std::uint32_t a, std::uint32_t b) { return b ^ ((a ^ b) & (0u - condition)); };
+            const std::uint32_t known = choose(is_left, left.look, above[x].look) & (0u - is_surface);
+            left = {id, static_cast<std::uint16_t>(choose(is_new, static_cast<std::uint32_t>(count), known))};
+            above[x] = left;
+            look_at_[at] = left.look;
+            numbers_[count] = id >> 1;
+            count += is_new;
         }
-        std::copy_n(here, width, above);
     }
+    numbers_.resize(count);
 }
 
 void PixelFiller::make_looks() {
