@@ -63,10 +63,7 @@ struct Film::Pool {
 
 Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes)
     : Film(display, crop, layers, classes, kWholeShift, kWholeShift) {
-    Block& whole = add_block(0);
-    for (std::uint16_t* const plane : whole.planes.lines_hidden) {  // not put for each pixel
-        if (plane != nullptr) std::fill_n(plane, whole.image.pixel_count(), std::uint16_t{0});
-    }
+    add_block(0, true);
 }
 
 Film Film::in_bands(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes) {
@@ -133,7 +130,7 @@ void Film::fill_with_background(Block& block) const {
     });
 }
 
-Film::Block& Film::add_block(std::size_t number) {
+Film::Block& Film::add_block(std::size_t number, bool all_is_put) {
     const std::lock_guard lock(pool_->mutex);
     if (Block* const block = block_of(number)) return *block;  // another thread was faster
     const PixelRect rect = rect_of(number);
@@ -151,7 +148,10 @@ Film::Block& Film::add_block(std::size_t number) {
         pool_->made.push_back(make_block(rect));
         block = pool_->made.back().get();
     }
-    if (!is_whole()) fill_with_background(*block);
+    if (!all_is_put) fill_with_background(*block);
+    for (std::uint16_t* const plane : block->planes.lines_hidden) {  // not put for each pixel
+        if (plane != nullptr) std::fill_n(plane, block->image.pixel_count(), std::uint16_t{0});
+    }
     pool_->used += pixels;
     blocks_[number].store(block, std::memory_order_release);
     return *block;
@@ -191,6 +191,11 @@ Film::Place Film::place_of(int x, int y) {
 }
 
 bool Film::has_geometry() const { return layers_.depth || layers_.normal || layers_.ids; }
+
+void Film::expect_all_of(PixelRect part) {
+    const std::size_t number = number_of(part.x0, part.y0);
+    if (block_of(number) == nullptr && rect_of(number) == part) add_block(number, true);
+}
 
 template <typename Use>
 void Film::for_row(int x0, int x1, int y, const Use& use) {

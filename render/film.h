@@ -92,6 +92,8 @@ class Film {
         }
     }
 
+    /// Before all pixels of a part of one block are put: where it is the whole block, this need not begin as background.
+    void expect_all_of(PixelRect part);
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
     bool has_geometry() const;
@@ -149,7 +151,7 @@ class Film {
     std::unique_ptr<Block> make_block(PixelRect rect) const;
     void fill_with_background(Block& block) const;
     void check_memory(std::size_t pixels) const;
-    Block& add_block(std::size_t number);
+    Block& add_block(std::size_t number, bool all_is_put = false);
     /// nullptr where it is missing.
     Block* block_of(std::size_t number) const { return blocks_[number].load(std::memory_order_acquire); }
     std::size_t number_of(int x, int y) const {

@@ -227,6 +227,7 @@ void PixelFiller::fill_part(const SampleTile& samples, PixelRect part, Film& fil
 void PixelFiller::fill(const LineTile& tile, Film& film) {
     film.for_parts(in_crop(tile.rect()), [&](PixelRect part) {
         if (is_covered(tile.samples(), part)) {
+            film.expect_all_of(part);
             fill_part(tile.samples(), part, film);
         } else {
             clear(part, film);
