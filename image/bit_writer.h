@@ -30,6 +30,10 @@ class BitWriter {
         out_ = std::copy(bytes.begin(), bytes.end(), finish());
         pending_ = count_ = 0;
     }
+    /// Where whole bytes end.
+    std::uint8_t* place() const { return out_; }
+    /// Goes on elsewhere, for the memory has moved.
+    void move_to(std::uint8_t* out) { out_ = out; }
     /// The byte behind all; the rest of the last one is filled with zeros.
     std::uint8_t* finish() {
         flush();

@@ -70,7 +70,7 @@ void Deflater::add(std::size_t literals, std::size_t length, std::size_t distanc
                           static_cast<std::uint32_t>(distance)});
 }
 
-void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
+void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<const Run> runs) {
     sequences_.clear();
     sum_ = Adler32();
     newest_.fill(0);
@@ -80,6 +80,13 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
     const std::uint8_t* summed = begin;    // those before are in the sum
     const std::uint8_t* p = begin;
     std::uint32_t misses = 0;
+    // As run_length(), which begins near the end of a run that is known.
+    const auto behind_run = [&](const std::uint8_t* at) {
+        const auto place = static_cast<std::size_t>(at - begin);
+        while (!runs.empty() && runs.front().end < place + 8) runs = runs.subspan(1);
+        if (!runs.empty() && runs.front().begin <= place) at += (runs.front().end - place - 8) & ~std::size_t{1};
+        return at + run_length(at, end);
+    };
     while (end - p >= 8) {
         const std::uint64_t here = load_eight(p);
         const std::uint8_t* from = nullptr;
@@ -103,7 +110,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
         }
         misses /= 2;
         const std::size_t distance = static_cast<std::size_t>(p - from);
-        const std::uint8_t* const behind = p + (is_run ? run_length(p, end) : common_length(p, from, end));
+        const std::uint8_t* const behind = is_run ? behind_run(p) : p + common_length(p, from, end);
         while (p > literals && from > begin && p[-1] == from[-1]) --p, --from;
         add(static_cast<std::size_t>(p - literals), static_cast<std::size_t>(behind - p), distance);
         if (is_run && behind - p >= kLongRun) {
@@ -117,9 +124,10 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes) {
     sum_.add({summed, end});
 }
 
-std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> bytes) {
-    find_sequences(bytes);
-    out_.resize(2 * bytes.size() + DeflateBlock::kMaxCodesBytes * (sequences_.size() / kBlockSequences + 1) + 64);
+std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> bytes, std::span<const Run> runs) {
+    find_sequences(bytes, runs);
+    constexpr std::size_t kRest = 64;  // what is put before, between and behind blocks
+    out_.resize(std::max(out_.size(), kRest));
     BitWriter out(out_.data());
     out.put(0x0178, 16);  // a window of 32 KB, fastest compression
     const std::uint8_t* from = bytes.data();
@@ -127,6 +135,10 @@ std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> b
         const std::size_t count = std::min(kBlockSequences, sequences_.size() - first);
         const auto sequences = std::span(sequences_).subspan(first, count);
         const DeflateBlock block(sequences, from);
+        // No more memory than is needed, for it is fresh at first.
+        const auto used = static_cast<std::size_t>(out.place() - out_.data());
+        out_.resize(std::max(out_.size(), used + block.most_bytes() + kRest));
+        out.move_to(out_.data() + used);
         block.put(out);
         from = block.end();
     }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/unfilled_vector.h"
 #include "image/adler32.h"
 #include "image/deflate_block.h"
 
@@ -20,17 +21,23 @@ namespace burin {
 /// own, or, where much is noise, with the fixed codes, and noise stored as it is.
 class Deflater {
   public:
-    /// The stream is valid until the next call. It depends on `bytes` alone.
-    std::span<const std::uint8_t> compress(std::span<const std::uint8_t> bytes);
+    /// Bytes [begin, end), each of which is the one two before.
+    struct Run {
+        std::size_t begin, end;
+    };
+
+    /// The stream is valid until the next call. It depends on `bytes` alone. Of `runs`, long ones that are known, in order,
+    /// not all bytes are looked at.
+    std::span<const std::uint8_t> compress(std::span<const std::uint8_t> bytes, std::span<const Run> runs = {});
 
   private:
     static constexpr int kHashBits = 14;
 
-    void find_sequences(std::span<const std::uint8_t> bytes);
+    void find_sequences(std::span<const std::uint8_t> bytes, std::span<const Run> runs);
     void add(std::size_t literals, std::size_t length, std::size_t distance);
 
     std::vector<DeflateSequence> sequences_;
-    std::vector<std::uint8_t> out_;
+    UnfilledVector<std::uint8_t> out_;
     Adler32 sum_;
     std::array<std::uint32_t, std::size_t{1} << kHashBits> newest_;  // place with a hash, plus 1
 };

@@ -166,15 +166,23 @@ DeflateBlock::DeflateBlock(std::span<const DeflateSequence> sequences, const std
             stored_bits_ += 8 * std::uint64_t{s.literals} + kStoredBlockBits;
         }
         p += s.literals + s.length;
+        literals_ += s.literals;
         if (s.length == 0) continue;
         std::uint32_t& distances = distances_[distance_symbol(s.distance).symbol];
         for_each_piece(s.length, [&](std::uint32_t length, std::uint32_t times) {
             coded_[length_symbol(length).symbol] += times;
             distances += times;
+            pieces_ += times;
         });
     }
     coded_[kEndOfBlock] = 1;
     end_ = p;
+}
+
+std::size_t DeflateBlock::most_bytes() const {
+    constexpr std::size_t kCodesBytes = 640;
+    // A literal takes up to 14 bits, or its byte and a share in what is beside stored ones; a piece up to 47 bits.
+    return kCodesBytes + 2 * literals_ + 6 * pieces_;
 }
 
 void DeflateBlock::put(BitWriter& out) const {

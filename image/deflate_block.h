@@ -20,13 +20,11 @@ struct DeflateSequence {
 /// their own, or with the fixed codes and noise stored between them.
 class DeflateBlock {
   public:
-    /// What its codes take at most. All else takes no more than two bytes for each byte: a literal up to 14 bits, a copy of
-    /// six bytes or more up to 47.
-    static constexpr std::size_t kMaxCodesBytes = 640;
-
     /// `bytes`: what the sequences stand for.
     DeflateBlock(std::span<const DeflateSequence> sequences, const std::uint8_t* bytes);
     void put(BitWriter& out) const;
+    /// What put() writes at most.
+    std::size_t most_bytes() const;
     /// Behind the bytes.
     const std::uint8_t* end() const { return end_; }
 
@@ -50,6 +48,7 @@ class DeflateBlock {
     std::array<std::uint32_t, 30> distances_{};
     std::array<std::uint32_t, 256> storable_{};  // bytes that may be stored, which takes stored_bits_
     std::uint64_t stored_bits_ = 0;
+    std::size_t literals_ = 0, pieces_ = 0;  // how many there are, of copies
 };
 
 }  // namespace burin

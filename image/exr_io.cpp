@@ -1,14 +1,10 @@
 #include "image/exr_io.h"
 
-#include <ImathBox.h>
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/openexr.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -23,101 +19,174 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/parallel.h"
+#include "base/unfilled_vector.h"
 #include "image/deflate.h"
 
 namespace burin {
 namespace {
 
-Imf::PixelType exr_type(PixelType type) {
+exr_pixel_type_t exr_type(PixelType type) {
     switch (type) {
         case PixelType::float16:
-            return Imf::HALF;
+            return EXR_PIXEL_HALF;
         case PixelType::float32:
-            return Imf::FLOAT;
+            return EXR_PIXEL_FLOAT;
         case PixelType::uint32:
-            return Imf::UINT;
+            return EXR_PIXEL_UINT;
     }
-    return Imf::FLOAT;
+    return EXR_PIXEL_FLOAT;
 }
 
-/// Slices for the rows of the data window that start at `channel.bytes`.
-Imf::FrameBuffer frame_buffer(const Image& image) {
-    Imf::FrameBuffer buffer;
-    for (const Channel& channel : image.channels()) {
-        const std::size_t x_stride = size_of(channel.type);
-        const std::size_t y_stride = x_stride * static_cast<std::size_t>(image.width());
-        const Imath::V2i origin(image.data().x0, image.data().y0);
-        char* const base = reinterpret_cast<char*>(const_cast<std::byte*>(channel.bytes.data()));
-        buffer.insert(channel.name,
-                      Imf::Slice::Make(exr_type(channel.type), base, origin, image.width(),
-                                       image.height(), x_stride, y_stride));
-    }
-    return buffer;
-}
-
-/// Rows of an image as ZIP compression packs them: up to 16 at once, each of them channel by
-/// channel in the order of names. First all bytes of even number and then the others, of each the
-/// difference to the byte before, plus 128 (OpenEXR's "zip" with its predictor).
-class RowPacker {
+/// Bytes as ZIP compression packs them: first all of even number and then the others, of each the difference to the byte
+/// before, plus 128 (OpenEXR's "zip" with its predictor).
+class PairSplitter {
   public:
-    /// `order`: of the channels.
-    RowPacker(const Image& image, std::span<const std::size_t> order, int first_row, int end_row)
-        : image_(image), order_(order), first_row_(first_row), end_row_(end_row) {}
-
-    /// The bytes as they are.
-    void raw(std::vector<std::uint8_t>& bytes) const {
-        bytes.clear();
-        for_each_row([&](std::span<const std::uint8_t> row) {
-            bytes.insert(bytes.end(), row.begin(), row.end());
-        });
+    /// The runs that are known go to `runs`.
+    PairSplitter(std::span<std::uint8_t> bytes, std::vector<Deflater::Run>& runs)
+        : begin_(bytes.data()), even_(begin_), odd_(even_ + bytes.size() / 2), first_odd_(odd_), runs_(runs) {
+        runs_.clear();
     }
-    /// The bytes, sorted and as differences.
-    void packed(std::vector<std::uint8_t>& bytes) const {
-        std::size_t size = 0;
-        for_each_row([&](std::span<const std::uint8_t> row) { size += row.size(); });
-        bytes.resize(size);
-        // Rows have even numbers of bytes, so that all start with an even one.
-        std::uint8_t* even = bytes.data();
-        std::uint8_t* odd = even + size / 2;
-        std::uint8_t last_even = 128, last_odd = 0;  // the first byte stays what it is
-        std::uint8_t first_odd = 0;
-        for_each_row([&](std::span<const std::uint8_t> row) {
-            const std::uint8_t* const p = row.data();
-            const std::size_t pairs = row.size() / 2;
-            if (even == bytes.data()) first_odd = p[1];
-            even[0] = difference(p[0], last_even);
-            odd[0] = difference(p[1], last_odd);
-            for (std::size_t i = 1; i < pairs; ++i) {
-                even[i] = difference(p[2 * i], p[2 * i - 2]);
-                odd[i] = difference(p[2 * i + 1], p[2 * i - 1]);
-            }
-            last_even = p[2 * pairs - 2];
-            last_odd = p[2 * pairs - 1];
-            even += pairs;
-            odd += pairs;
-        });
-        bytes[size / 2] = difference(first_odd, last_even);
+
+    /// An even number of bytes.
+    void put(std::span<const std::uint8_t> bytes) {
+        const std::uint8_t* const p = bytes.data();
+        const std::size_t pairs = bytes.size() / 2;
+        std::uint8_t *const even = even_, *const odd = odd_;  // bytes might be parts of members
+        if (odd == first_odd_) first_odd_byte_ = p[1];
+        even[0] = difference(p[0], last_even_);
+        odd[0] = difference(p[1], last_odd_);
+        for (std::size_t i = 1; i < pairs; ++i) {
+            even[i] = difference(p[2 * i], p[2 * i - 2]);
+            odd[i] = difference(p[2 * i + 1], p[2 * i - 1]);
+        }
+        last_even_ = p[2 * pairs - 2];
+        last_odd_ = p[2 * pairs - 1];
+        even_ += pairs;
+        odd_ += pairs;
+    }
+    /// Pixels of the same 2 or 4 bytes: from the second one on, differences repeat, and from the fourth one on they are
+    /// those two before.
+    void repeat(std::span<const std::uint8_t> pixel, std::size_t count) {
+        const std::size_t whole = std::min<std::size_t>(count, 3);
+        for (std::size_t i = 0; i < whole; ++i) put(pixel);
+        if (count <= whole) return;
+        const std::size_t pairs = (count - whole) * pixel.size() / 2;
+        fill_pairs(even_, pairs, pixel.size() / 2);
+        fill_pairs(odd_, pairs, pixel.size() / 2);
+        add_run(runs_, even_, pairs);
+        add_run(odd_runs_, odd_, pairs);
+        even_ += pairs;
+        odd_ += pairs;
+    }
+    /// After all bytes: the odd ones follow the even ones.
+    void finish() {
+        *first_odd_ = difference(first_odd_byte_, last_even_);
+        runs_.insert(runs_.end(), odd_runs_.begin(), odd_runs_.end());
     }
 
   private:
     static std::uint8_t difference(std::uint8_t value, std::uint8_t before) {
         return static_cast<std::uint8_t>(value - before + 128);
     }
-    template <typename Use>
-    void for_each_row(const Use& use) const {
-        for (int y = first_row_; y < end_row_; ++y) {
-            for (const std::size_t c : order_) {
-                const Channel& channel = image_.channels()[c];
-                const std::size_t size = size_of(channel.type) * static_cast<std::size_t>(image_.width());
-                const auto* const bytes = reinterpret_cast<const std::uint8_t*>(channel.bytes.data());
-                use(std::span(bytes + static_cast<std::size_t>(y) * size, size));
-            }
+    /// Goes on as the `period` (1 or 2) bytes before.
+    static void fill_pairs(std::uint8_t* to, std::size_t count, std::size_t period) {
+        const std::uint8_t first = *(to - period), second = to[-1];
+        if (first == second) {
+            std::memset(to, first, count);
+        } else {
+            for (std::size_t i = 0; i < count; ++i) to[i] = i % 2 == 0 ? first : second;
         }
     }
 
-    const Image& image_;
+    void add_run(std::vector<Deflater::Run>& runs, const std::uint8_t* at, std::size_t count) const {
+        const auto place = static_cast<std::size_t>(at - begin_);
+        runs.push_back({place, place + count});
+    }
+
+    std::uint8_t* const begin_;
+    std::uint8_t *even_, *odd_;
+    std::uint8_t* const first_odd_;
+    std::vector<Deflater::Run>& runs_;
+    std::vector<Deflater::Run> odd_runs_;
+    std::uint8_t last_even_ = 128, last_odd_ = 0;  // the first byte stays what it is
+    std::uint8_t first_odd_byte_ = 0;
+};
+
+/// Rows of a strip as they are compressed: up to 16 at once, each of them channel by channel in the order of names.
+class RowPacker {
+  public:
+    /// `order`: of the channels, whose types are given.
+    RowPacker(const ImageStrip& strip, std::span<const PixelType> types, std::span<const std::size_t> order, int first_row, int end_row)
+        : strip_(strip), types_(types), order_(order), first_row_(first_row), end_row_(end_row) {}
+
+    /// The bytes as they are.
+    void raw(std::vector<std::uint8_t>& bytes) const {
+        bytes.clear();
+        for_each_run([&](std::span<const std::uint8_t> run) { bytes.insert(bytes.end(), run.begin(), run.end()); },
+                     [&](std::span<const std::uint8_t> pixel, std::size_t count) {
+                         for (; count > 0; --count) bytes.insert(bytes.end(), pixel.begin(), pixel.end());
+                     });
+    }
+    /// The bytes, sorted and as differences, and runs of them.
+    void packed(UnfilledVector<std::uint8_t>& bytes, std::vector<Deflater::Run>& runs) const {
+        std::size_t pixel_size = 0;
+        for (const PixelType type : types_) pixel_size += size_of(type);
+        bytes.resize(pixel_size * width_of(strip_.data) * static_cast<std::size_t>(end_row_ - first_row_));
+        PairSplitter split(bytes, runs);
+        for_each_run([&](std::span<const std::uint8_t> run) { split.put(run); },
+                     [&](std::span<const std::uint8_t> pixel, std::size_t count) { split.repeat(pixel, count); });
+        split.finish();
+    }
+
+  private:
+    static std::size_t width_of(PixelRect rect) { return static_cast<std::size_t>(rect.width()); }
+    static const std::uint8_t* bytes_of(const std::byte* p) { return reinterpret_cast<const std::uint8_t*>(p); }
+
+    /// In order: put(bytes) of pixels that are there, repeat(bytes of one, count) of those that are not.
+    template <typename Put, typename Repeat>
+    void for_each_run(const Put& put, const Repeat& repeat) const {
+        const auto& blocks = strip_.blocks;
+        UnfilledVector<std::uint8_t> row;  // of blocks side by side
+        for (int y = first_row_; y < end_row_; ++y) {
+            for (const std::size_t c : order_) {
+                const std::size_t size = size_of(types_[c]);
+                for (std::size_t i = 0, end; i < blocks.size(); i = end) {
+                    const bool is_there = blocks[i] != nullptr;
+                    for (end = i + 1; end < blocks.size() && (blocks[end] != nullptr) == is_there;) ++end;
+                    if (!is_there) {
+                        repeat(std::span(bytes_of(strip_.background[c].data()), size), pixels_of(i, end));
+                    } else if (end == i + 1) {
+                        put(row_of(*blocks[i], c, y));
+                    } else {
+                        row.resize(pixels_of(i, end) * size);
+                        std::uint8_t* to = row.data();
+                        for (std::size_t k = i; k < end; ++k) {
+                            const std::span<const std::uint8_t> part = row_of(*blocks[k], c, y);
+                            // The end of the next row, which comes soon, and from too many places for the processor to tell.
+                            for (std::size_t at = 0; at < part.size(); at += 64) __builtin_prefetch(part.data() + part.size() + at + 63);
+                            std::memcpy(to, part.data(), part.size());
+                            to += part.size();
+                        }
+                        put(row);
+                    }
+                }
+            }
+        }
+    }
+    std::size_t pixels_of(std::size_t first_block, std::size_t end_block) const {
+        const auto width = static_cast<std::size_t>(strip_.block_width);
+        return std::min(end_block * width, width_of(strip_.data)) - first_block * width;
+    }
+    static std::span<const std::uint8_t> row_of(const Image& block, std::size_t c, int y) {
+        const Channel& channel = block.channels()[c];
+        const std::size_t size = size_of(channel.type) * width_of(block.data());
+        return {bytes_of(channel.bytes.data()) + static_cast<std::size_t>(y) * size, size};
+    }
+
+    const ImageStrip& strip_;
+    std::span<const PixelType> types_;
     std::span<const std::size_t> order_;
-    int first_row_, end_row_;  // in the image
+    int first_row_, end_row_;  // in the strip
 };
 
 /// A file of OpenEXR's C library, which takes chunks that are compressed already.
@@ -150,8 +219,7 @@ class ChunkFile {
                                            EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
         for (const std::size_t c : order) {
             const ChannelFormat& channel = channels[c];
-            const auto type = static_cast<exr_pixel_type_t>(exr_type(channel.type));
-            check(exr_add_channel(context_, part, channel.name.c_str(), type,
+            check(exr_add_channel(context_, part, channel.name.c_str(), exr_type(channel.type),
                                   EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
         }
         for (const auto& [name, text] : options.texts) {
@@ -221,6 +289,7 @@ class ExrWriter::State {
     State(const std::string& path, PixelRect display, PixelRect data, const std::vector<ChannelFormat>& channels,
           const ExrOptions& options)
         : path_(path), data_(data), order_(sorted_by_name(channels)), file_(path) {
+        for (const ChannelFormat& channel : channels) types_.push_back(channel.type);
         naming_file(path_, [&] {
             if (channels.empty()) throw InputError(path_ + ": cannot write: the image has no channels");
             chunks_.emplace(file_, path_);
@@ -229,27 +298,31 @@ class ExrWriter::State {
         waiting_.resize(static_cast<std::size_t>((data.height() + kChunkRows - 1) / kChunkRows));
     }
 
-    void write_chunk(const Image& part, int y) {
+    void write_chunk(const ImageStrip& part, int y) {
         naming_file(path_, [&] {
-            const int first = y - part.data().y0;
-            const RowPacker rows(part, order_, first, std::min(y + kChunkRows, data_.y1) - part.data().y0);
+            const int y0 = part.data.y0;
+            const RowPacker rows(part, types_, order_, y - y0, std::min(y + kChunkRows, data_.y1) - y0);
             std::unique_ptr<Tool> tool = take_tool();
-            rows.packed(tool->bytes);
-            const std::span<const std::uint8_t> stream = tool->deflater.compress(tool->bytes);
-            Chunk chunk;
-            chunk.is_ready = true;
-            if (stream.size() < tool->bytes.size()) {
-                chunk.bytes.assign(stream.begin(), stream.end());
-            } else {
-                rows.raw(chunk.bytes);  // readers know by the size that nothing is compressed
+            rows.packed(tool->bytes, tool->runs);
+            const std::span<const std::uint8_t> stream = tool->deflater.compress(tool->bytes, tool->runs);
+            std::vector<std::uint8_t> raw;
+            std::span<const std::uint8_t> bytes = stream;
+            if (stream.size() >= tool->bytes.size()) {
+                rows.raw(raw);  // readers know by the size that nothing is compressed
+                bytes = raw;
             }
             const std::lock_guard lock(mutex_);
-            tools_.push_back(std::move(tool));
-            waiting_[static_cast<std::size_t>((y - data_.y0) / kChunkRows)] = std::move(chunk);
-            for (; next_ < waiting_.size() && waiting_[next_].is_ready; ++next_) {
-                chunks_->write_chunk(data_.y0 + static_cast<int>(next_) * kChunkRows, waiting_[next_].bytes);
-                waiting_[next_].bytes = std::vector<std::uint8_t>();  // {} would keep its memory
+            const auto chunk = static_cast<std::size_t>((y - data_.y0) / kChunkRows);
+            if (chunk == next_) {
+                write_next(bytes);
+                while (next_ < waiting_.size() && !waiting_[next_].empty()) {
+                    const std::vector<std::uint8_t> waited = std::move(waiting_[next_]);
+                    write_next(waited);
+                }
+            } else {
+                waiting_[chunk].assign(bytes.begin(), bytes.end());
             }
+            tools_.push_back(std::move(tool));
         });
     }
 
@@ -262,13 +335,14 @@ class ExrWriter::State {
     }
 
   private:
-    struct Chunk {
-        std::vector<std::uint8_t> bytes;
-        bool is_ready = false;
-    };
+    void write_next(std::span<const std::uint8_t> bytes) {
+        chunks_->write_chunk(data_.y0 + static_cast<int>(next_) * kChunkRows, bytes);
+        ++next_;
+    }
     struct Tool {  // of one thread at a time
         Deflater deflater;
-        std::vector<std::uint8_t> bytes;
+        UnfilledVector<std::uint8_t> bytes;
+        std::vector<Deflater::Run> runs;
     };
     std::unique_ptr<Tool> take_tool() {
         const std::lock_guard lock(mutex_);
@@ -280,11 +354,12 @@ class ExrWriter::State {
 
     std::string path_;
     PixelRect data_;
+    std::vector<PixelType> types_;
     std::vector<std::size_t> order_;
     AtomicFile file_;
     std::optional<ChunkFile> chunks_;
     std::mutex mutex_;  // over all that follows
-    std::vector<Chunk> waiting_;
+    std::vector<std::vector<std::uint8_t>> waiting_;  // by their numbers
     std::size_t next_ = 0;
     std::vector<std::unique_ptr<Tool>> tools_;
 };
@@ -293,38 +368,17 @@ ExrWriter::ExrWriter(const std::string& path, PixelRect display, PixelRect data,
                      const std::vector<ChannelFormat>& channels, const ExrOptions& options)
     : state_(std::make_unique<State>(path, display, data, channels, options)) {}
 ExrWriter::~ExrWriter() = default;
-void ExrWriter::write_chunk(const Image& part, int y) { state_->write_chunk(part, y); }
+void ExrWriter::write_chunk(const ImageStrip& part, int y) { state_->write_chunk(part, y); }
 void ExrWriter::finish() { state_->finish(); }
 
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
     ExrWriter writer(path, image.display(), image.data(), image.formats(), options);
+    const ImageStrip strip = strip_of(image);
     const auto chunks = static_cast<std::size_t>((image.height() + ExrWriter::kChunkRows - 1) / ExrWriter::kChunkRows);
     parallel_for(chunks, resolve_thread_count(options.threads), [&](std::size_t i, int) {
-        writer.write_chunk(image, image.data().y0 + static_cast<int>(i) * ExrWriter::kChunkRows);
+        writer.write_chunk(strip, image.data().y0 + static_cast<int>(i) * ExrWriter::kChunkRows);
     });
     writer.finish();
-}
-
-Image read_exr(const std::string& path) {
-    try {
-        Imf::InputFile input(path.c_str());
-        const auto rect = [](const Imath::Box2i& b) {
-            return PixelRect{b.min.x, b.min.y, b.max.x + 1, b.max.y + 1};
-        };
-        Image image(rect(input.header().displayWindow()), rect(input.header().dataWindow()));
-        const Imf::ChannelList& channels = input.header().channels();
-        for (auto it = channels.begin(); it != channels.end(); ++it) {
-            const Imf::PixelType type = it.channel().type;
-            image.add(it.name(), type == Imf::HALF    ? PixelType::float16
-                                 : type == Imf::FLOAT ? PixelType::float32
-                                                      : PixelType::uint32);
-        }
-        input.setFrameBuffer(frame_buffer(image));
-        input.readPixels(image.data().y0, image.data().y1 - 1);
-        return image;
-    } catch (const std::exception& error) {
-        throw InputError(path + ": cannot read: " + error.what());
-    }
 }
 
 }  // namespace burin

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "image/image_strip.h"
 
 namespace burin {
 
@@ -30,7 +31,7 @@ class ExrWriter {
     /// Compresses rows [y, y + kChunkRows), or what the data window has of them, and writes them as soon as all above
     /// are. They are within `part`, which has those channels, in that order, and the data window's columns. Each chunk
     /// once, in any order, at once on as many threads as one likes.
-    void write_chunk(const Image& part, int y);
+    void write_chunk(const ImageStrip& part, int y);
     /// After all chunks.
     void finish();
 
@@ -41,8 +42,5 @@ class ExrWriter {
 
 /// Writes all channels of an image, with its display and data windows. Throws InputError.
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
-
-/// Reads all channels of a single-part flat EXR. Throws InputError. For tests and tools.
-Image read_exr(const std::string& path);
 
 }  // namespace burin

@@ -55,8 +55,8 @@ class Image {
 
     PixelRect display() const { return display_; }
     PixelRect data() const { return data_; }
-    /// Has the same pixels stand for other rows.
-    void move_to(int y0) { data_ = {data_.x0, y0, data_.x1, y0 + height()}; }
+    /// Has the same pixels stand for others.
+    void move_to(int x0, int y0) { data_ = {x0, y0, x0 + width(), y0 + height()}; }
     int width() const { return data_.width(); }
     int height() const { return data_.height(); }
     std::size_t pixel_count() const {

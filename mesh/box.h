@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <limits>
+#include <span>
 
 #include "mesh/mesh.h"
 
@@ -25,11 +28,30 @@ struct Box {
     }
 };
 
-/// Around a mesh's positions, as seen from its origin.
-inline Box box_of(const Mesh& mesh) {
+/// Around positions. Four are compared at a time, number by number.
+inline Box box_of(std::span<const glm::vec3> positions) {
+    constexpr std::size_t kNumbers = 12;
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    float low[kNumbers], high[kNumbers];
+    std::fill_n(low, kNumbers, std::numeric_limits<float>::infinity());
+    std::fill_n(high, kNumbers, -std::numeric_limits<float>::infinity());
+    std::size_t i = 0;
+    for (; i + 4 <= positions.size(); i += 4) {
+        const float* const p = &positions[i].x;
+        for (std::size_t k = 0; k < kNumbers; ++k) {
+            low[k] = p[k] < low[k] ? p[k] : low[k];
+            high[k] = p[k] > high[k] ? p[k] : high[k];
+        }
+    }
     Box box;
-    for (const glm::vec3& p : mesh.positions) box.add(glm::dvec3(p));
+    for (std::size_t k = 0; k < kNumbers; k += 3) {
+        box.low = glm::min(box.low, glm::dvec3(low[k], low[k + 1], low[k + 2]));
+        box.high = glm::max(box.high, glm::dvec3(high[k], high[k + 1], high[k + 2]));
+    }
+    for (; i < positions.size(); ++i) box.add(glm::dvec3(positions[i]));
     return box;
 }
+/// Around a mesh's positions, as seen from its origin.
+inline Box box_of(const Mesh& mesh) { return box_of(mesh.positions); }
 
 }  // namespace burin

@@ -20,26 +20,23 @@ namespace {
 
 double largest_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// Whether choose_origin() will find that the model lies around 0 or near it, if that is plain to see:
-/// some corners alone make it large enough for all vertices to be near.
-bool is_plainly_near_zero(const PolygonSoup& soup) {
+/// If no vertex is so far from 0, choose_origin() finds 0: some corners alone make the model large enough for that.
+double plainly_near(const PolygonSoup& soup) {
+    if (soup.corners.empty()) return 0;
     glm::dvec3 low = soup.positions[soup.corners[0]], high = low;
     const std::size_t step = soup.corners.size() / 1024 + 1;
     for (std::size_t i = 0; i < soup.corners.size(); i += step) {
         low = glm::min(low, soup.positions[soup.corners[i]]);
         high = glm::max(high, soup.positions[soup.corners[i]]);
     }
-    const double near = 16 * largest_of(0.5 * (high - low));
-    bool is_near = true;
-    for (const glm::dvec3& p : soup.positions) is_near &= largest_of(p) < near;
-    return is_near;
+    return 16 * largest_of(0.5 * (high - low));
 }
 
 /// Where to put 0 so that single precision resolves the model: its centre if the model lies more
 /// than 16 of its own half sizes away from 0, else 0 itself (and coordinates keep their values).
 /// Vertices that no polygon uses, such as a stray one at 0, do not count.
 glm::dvec3 choose_origin(const PolygonSoup& soup) {
-    if (soup.corners.empty() || is_plainly_near_zero(soup)) return glm::dvec3(0.0);
+    if (soup.corners.empty()) return glm::dvec3(0.0);
     std::vector<std::uint8_t> is_corner(soup.positions.size(), 0);
     for (const std::uint32_t v : soup.corners) is_corner[v] = 1;
     glm::dvec3 low = soup.positions[soup.corners[0]], high = low;
@@ -50,6 +47,21 @@ glm::dvec3 choose_origin(const PolygonSoup& soup) {
     }
     const glm::dvec3 center = 0.5 * (low + high);
     return largest_of(center) > 16 * largest_of(0.5 * (high - low)) ? center : glm::dvec3(0.0);
+}
+
+/// Puts positions, as seen from the origin that is chosen for them, into `rounded`. Returns the origin.
+glm::dvec3 round_positions(const PolygonSoup& soup, std::vector<glm::vec3>& rounded) {
+    reserve_large(rounded, soup.positions.size());
+    glm::dvec3 largest(0.0);
+    for (const glm::dvec3& p : soup.positions) {
+        rounded.push_back(glm::vec3(p) + 0.0f);  // + 0 turns -0 into 0
+        largest = glm::max(largest, glm::abs(p));
+    }
+    if (largest_of(largest) < plainly_near(soup)) return glm::dvec3(0.0);
+    const glm::dvec3 origin = choose_origin(soup);
+    if (origin == glm::dvec3(0.0)) return origin;
+    for (std::size_t i = 0; i < rounded.size(); ++i) rounded[i] = glm::vec3(soup.positions[i] - origin) + 0.0f;
+    return origin;
 }
 
 void check_triangle_count(const std::string& object, std::size_t triangles) {
@@ -177,12 +189,8 @@ Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
 }  // namespace
 
 std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
-    const glm::dvec3 origin = choose_origin(soup);
     std::vector<glm::vec3> positions;
-    reserve_large(positions, soup.positions.size());
-    for (const glm::dvec3& p : soup.positions) {
-        positions.push_back(glm::vec3(p - origin) + 0.0f);  // + 0 turns -0 into 0
-    }
+    const glm::dvec3 origin = round_positions(soup, positions);
     throw_if_interrupted();
     std::vector<std::uint32_t> welded = weld_vertices(positions);
     std::vector<Mesh> meshes;

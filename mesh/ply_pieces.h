@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
+#include <mutex>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
@@ -62,9 +63,9 @@ inline std::size_t read_position_rows(AsciiValues& values, std::span<const int> 
 /// Reads rows, up to `rows` of them, in pieces of the text on all threads, each piece taken
 /// to have a row per line: read(values, first row, count, largest) reads a piece's and returns how
 /// many it could. Ends with the first piece that has anything else, and leaves `values` there.
-/// Returns how many rows were read.
+/// Returns how many rows were read. `cutter` cuts the text that `values` is in.
 template <typename ReadPiece>
-std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> text_pieces,
+std::uint64_t read_in_pieces(AsciiValues& values, LineCutter& cutter,
                              std::uint64_t rows, int threads, LargestIndex& largest,
                              const ReadPiece& read) {
     values.at_end();  // goes to the first row
@@ -77,17 +78,29 @@ std::uint64_t read_in_pieces(AsciiValues& values, std::span<const TextPiece> tex
         std::uint64_t read = 0;
         LargestIndex largest{};
     };
-    std::vector<Piece> pieces{{values, 0, rows}};
-    for (const TextPiece& p : text_pieces) {
-        if (p.line <= first_line || p.line - first_line >= rows) continue;
-        const std::uint64_t row = p.line - first_line;
-        const std::string_view from_here =
-            text.substr(static_cast<std::size_t>(p.begin - text.data()));
-        pieces.back().row_count = row - pieces.back().first_row;
-        pieces.push_back({AsciiValues(from_here, p.line), row, rows - row});
-    }
-    parallel_for(pieces.size(), threads, [&](std::size_t i, int) {
-        Piece& p = pieces[i];
+    std::deque<Piece> pieces;
+    std::mutex taking;
+    const auto take = [&]() -> Piece* {
+        const std::lock_guard lock(taking);
+        if (pieces.empty()) {
+            pieces.push_back({values, 0, rows});
+            while (cutter.next() != nullptr && cutter.next()->line <= first_line) cutter.take();
+        } else {
+            const TextPiece* const next = cutter.next();
+            if (next == nullptr || next->line - first_line >= rows) return nullptr;
+            const std::string_view from_here = text.substr(static_cast<std::size_t>(next->begin - text.data()));
+            const std::uint64_t row = next->line - first_line;
+            pieces.push_back({AsciiValues(from_here, next->line), row, rows - row});
+            cutter.take();
+        }
+        Piece& piece = pieces.back();
+        if (cutter.next() != nullptr) piece.row_count = std::min<std::uint64_t>(cutter.next()->line - first_line, rows) - piece.first_row;
+        return &piece;
+    };
+    parallel_for(cutter.most_left() + 1, threads, [&](std::size_t, int) {
+        Piece* const taken = take();
+        if (taken == nullptr) return;
+        Piece& p = *taken;
         p.values.at_end();  // goes to the first row
         p.begin = p.values.rest().data();
         p.read = read(p.values, p.first_row, p.row_count, p.largest);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -160,7 +161,7 @@ class BodyReader {
                 const std::size_t before = soup_.positions.size();
                 soup_.positions.resize(before + element.count);
                 item_ = read_in_pieces(
-                    values_, text_pieces(), element.count, threads_, largest_,
+                    values_, cutter(), element.count, threads_, largest_,
                     [&](AsciiValues& values, std::uint64_t first, std::uint64_t count,
                         LargestIndex&) {
                         return read_position_rows(
@@ -187,7 +188,7 @@ class BodyReader {
                 std::min(element.count - item_, (PolygonSoup::kMaxCorners - before) / 3);
             if (item_ == 0 && goes_parallel()) {
                 soup_.corners.resize(before + 3 * most);
-                item_ = read_in_pieces(values_, text_pieces(), most, threads_, largest_,
+                item_ = read_in_pieces(values_, cutter(), most, threads_, largest_,
                                        [&](AsciiValues& values, std::uint64_t first,
                                            std::uint64_t count, LargestIndex& largest) {
                                            return read_triangle_rows(
@@ -213,10 +214,9 @@ class BodyReader {
 
     /// Threads pay for themselves where there is enough to read.
     bool goes_parallel() const { return threads_ != 1 && values_.rest().size() > 65536; }
-    std::span<const TextPiece> text_pieces() {
-        if (text_pieces_.empty())
-            text_pieces_ = split_at_lines(values_.rest(), values_.line(), threads_);
-        return text_pieces_;
+    LineCutter& cutter() {
+        if (!cutter_) cutter_.emplace(values_.rest(), values_.line(), LineCutter::size_for(values_.rest().size(), threads_));
+        return *cutter_;
     }
 
     /// One value of a vertex number list. Faces may stand before the vertices, so the upper bound
@@ -369,7 +369,7 @@ class BodyReader {
     std::uint64_t item_ = 0;
     LargestIndex largest_;
     int threads_;
-    std::vector<TextPiece> text_pieces_;  // of the body, once asked for
+    std::optional<LineCutter> cutter_;  // of the body, once asked for
 };
 
 }  // namespace

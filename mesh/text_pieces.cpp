@@ -30,22 +30,21 @@ std::size_t count_feeds(std::string_view text) {
 
 }  // namespace
 
-std::vector<TextPiece> split_at_lines(std::string_view text, std::size_t first_line, int threads) {
-    const std::size_t wanted =
-        text.size() / (8 * static_cast<std::size_t>(resolve_thread_count(threads)));
-    const std::size_t size = std::clamp<std::size_t>(wanted, 4096, 1 << 20);
-    const std::size_t count = text.size() / size + 1;
-    std::vector<std::size_t> feeds(count);
-    parallel_for(count, threads,
-                 [&](std::size_t i, int) { feeds[i] = count_feeds(text.substr(i * size, size)); });
-    std::vector<TextPiece> pieces{{text.data(), first_line}};
-    std::size_t line = first_line;
-    for (std::size_t i = 1; i < count; ++i) {
-        line += feeds[i - 1];  // that of the character at i * size
-        const std::size_t feed = text.find('\n', i * size);
-        if (feeds[i] > 0) pieces.push_back({text.data() + feed + 1, line + 1});
-    }
-    return pieces;
+LineCutter::LineCutter(std::string_view text, std::size_t first_line, std::size_t size)
+    : text_(text), size_(size), line_(first_line), next_{text.data(), first_line} {}
+
+std::size_t LineCutter::size_for(std::size_t text_size, int threads) {
+    return std::clamp<std::size_t>(text_size / (8 * static_cast<std::size_t>(resolve_thread_count(threads))), 4096, 1 << 18);
+}
+
+void LineCutter::take() {
+    // Cuts are looked for from multiples of the size on.
+    const std::size_t begin = static_cast<std::size_t>(next_.begin - text_.data());
+    const std::size_t end = std::min((begin / size_ + 1) * size_, text_.size());
+    line_ += count_feeds(text_.substr(place_, end - place_));
+    place_ = end;
+    const std::size_t feed = text_.find('\n', place_);
+    next_ = feed == std::string_view::npos ? TextPiece{} : TextPiece{text_.data() + feed + 1, line_ + 1};
 }
 
 }  // namespace burin

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <cstring>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -17,14 +18,16 @@
 namespace burin {
 namespace {
 
-constexpr int kWholeShift = 31;  // one band has all rows
-
-/// Calls add(name, type, plane) for the channels of the chosen layers.
+/// Calls add(name, type, plane, background) for the channels of the chosen layers; the last one is what a channel has where
+/// there is no surface and no line.
 template <typename Planes, typename Add>
 void for_channels(const LayerSet& layers, LineClassSet classes, Planes& planes, const Add& add) {
+    const auto add_half = [&](const std::string& name, std::uint16_t*& plane) { add(name, PixelType::float16, plane, std::uint16_t{0}); };
+    const auto add_float = [&](const std::string& name, float*& plane, float background) { add(name, PixelType::float32, plane, background); };
+    const auto add_number = [&](const std::string& name, std::uint32_t*& plane) { add(name, PixelType::uint32, plane, std::uint32_t{0}); };
     const auto add_rgba = [&](const std::string& prefix, std::uint16_t* (&of)[4]) {
         const char* const names[4] = {"R", "G", "B", "A"};
-        for (int c = 0; c < 4; ++c) add(prefix + names[c], PixelType::float16, of[c]);
+        for (int c = 0; c < 4; ++c) add_half(prefix + names[c], of[c]);
     };
     if (layers.beauty) add_rgba("", planes.beauty);
     if (layers.lines) add_rgba("lines.", planes.lines);
@@ -32,18 +35,18 @@ void for_channels(const LayerSet& layers, LineClassSet classes, Planes& planes, 
     if (layers.lines_hidden) add_rgba("lines_hidden.", planes.lines_hidden);
     for (std::size_t i = 0; i < kLineClassCount && layers.coverage; ++i) {
         if (!classes.has(static_cast<LineClass>(i))) continue;
-        add("coverage." + std::string(kLineClassNames[i]), PixelType::float16, planes.coverage[i]);
+        add_half("coverage." + std::string(kLineClassNames[i]), planes.coverage[i]);
     }
-    if (layers.depth) add("Z", PixelType::float32, planes.depth);
+    if (layers.depth) add_float("Z", planes.depth, std::numeric_limits<float>::infinity());
     if (layers.normal) {
-        add("N.X", PixelType::float32, planes.normal[0]);
-        add("N.Y", PixelType::float32, planes.normal[1]);
-        add("N.Z", PixelType::float32, planes.normal[2]);
+        add_float("N.X", planes.normal[0], 0);
+        add_float("N.Y", planes.normal[1], 0);
+        add_float("N.Z", planes.normal[2], 0);
     }
     if (layers.ids) {
-        add("id.object", PixelType::uint32, planes.ids[0]);
-        add("id.material", PixelType::uint32, planes.ids[1]);
-        add("id.polygon", PixelType::uint32, planes.ids[2]);
+        add_number("id.object", planes.ids[0]);
+        add_number("id.material", planes.ids[1]);
+        add_number("id.polygon", planes.ids[2]);
     }
 }
 
@@ -51,29 +54,35 @@ void for_channels(const LayerSet& layers, LineClassSet classes, Planes& planes, 
 
 std::uint16_t Film::to_half(float value) { return half_from_float(std::min(value, 65504.0f)); }
 
-struct Film::Opening {
+struct Film::Pool {
     std::mutex mutex;
-    std::size_t bands = 0;                      // that are open
-    std::vector<std::unique_ptr<Band>> closed;  // for others: between them a heap would fall to pieces
+    std::size_t used = 0;                       // pixels, of blocks in the film
+    std::vector<std::unique_ptr<Block>> made;
+    std::vector<Block*> closed;                 // of them, for others: between them a heap would fall to pieces
 };
 
 Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes)
-    : Film(display, crop, layers, classes, kWholeShift) {
-    open(crop.y0, crop.y1);
+    : Film(display, crop, layers, classes, kWholeShift, kWholeShift) {
+    add_block(0, true);
 }
 
 Film Film::in_bands(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes) {
-    return {display, crop, layers, classes, std::countr_zero(static_cast<unsigned>(kBandRows))};
+    const auto shift = [](int size) { return std::countr_zero(static_cast<unsigned>(size)); };
+    return {display, crop, layers, classes, shift(kBlockColumns), shift(kBandRows)};
 }
 
-Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int band_shift)
+Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int column_shift, int row_shift)
     : display_(display),
       crop_(crop),
       layers_(layers),
       classes_(classes),
-      band_shift_(band_shift),
-      bands_(number_of(std::max(crop.y0, crop.y1 - 1)) + 1),
-      opening_(std::make_unique<Opening>()) {}
+      column_shift_(column_shift),
+      row_shift_(row_shift),
+      columns_((static_cast<std::size_t>(std::max(crop.width() - 1, 0)) >> column_shift) + 1),
+      blocks_(columns_ * ((static_cast<std::size_t>(std::max(crop.height() - 1, 0)) >> row_shift) + 1)),
+      pool_(std::make_unique<Pool>()) {
+    for (const ChannelFormat& channel : channels()) bytes_per_pixel_ += size_of(channel.type);
+}
 
 Film::~Film() = default;
 Film::Film(Film&&) noexcept = default;
@@ -82,16 +91,13 @@ Film& Film::operator=(Film&&) noexcept = default;
 std::vector<ChannelFormat> Film::channels() const {
     std::vector<ChannelFormat> channels;
     Planes none;
-    for_channels(layers_, classes_, none, [&](const std::string& name, PixelType type, const auto*) { channels.push_back({name, type}); });
+    for_channels(layers_, classes_, none, [&](const std::string& name, PixelType type, const auto*, auto) { channels.push_back({name, type}); });
     return channels;
 }
 
-void Film::check_memory(std::size_t bands) const {
-    const double rows = std::min(std::ldexp(static_cast<double>(bands), band_shift_), double(crop_.height()));
-    std::size_t bytes_per_pixel = 0;
-    for (const ChannelFormat& channel : channels()) bytes_per_pixel += size_of(channel.type);
-    const double needed = crop_.width() * rows * static_cast<double>(bytes_per_pixel);
-    const double physical = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+void Film::check_memory(std::size_t pixels) const {
+    static const double physical = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    const double needed = static_cast<double>(pixels) * static_cast<double>(bytes_per_pixel_);
     if (needed <= 0.8 * physical) return;
     throw InputError("an image of " + std::to_string(crop_.width()) + "x" + std::to_string(crop_.height()) +
                      " pixels needs " + std::to_string(static_cast<long>(needed / 1e9)) + " GB, this machine has " +
@@ -99,66 +105,108 @@ void Film::check_memory(std::size_t bands) const {
                      "; use a smaller --size, fewer --layers, or render parts with --crop");
 }
 
-PixelRect Film::rows_of(std::size_t band) const {
-    const std::int64_t first = crop_.y0 + (static_cast<std::int64_t>(band) << band_shift_);
-    const std::int64_t end = std::min<std::int64_t>(first + (std::int64_t{1} << band_shift_), crop_.y1);
-    return {crop_.x0, static_cast<int>(first), crop_.x1, static_cast<int>(end)};
+PixelRect Film::rect_of(std::size_t block) const {
+    const auto begin = [](std::size_t number, int origin, int shift) {
+        return static_cast<int>(origin + (static_cast<std::int64_t>(number) << shift));
+    };
+    const int x0 = begin(block % columns_, crop_.x0, column_shift_), y0 = begin(block / columns_, crop_.y0, row_shift_);
+    return {x0, y0, std::min(crop_.x1, first_of_next(x0, crop_.x0, column_shift_)),
+            std::min(crop_.y1, first_of_next(y0, crop_.y0, row_shift_))};
 }
 
-std::unique_ptr<Film::Band> Film::make_band(PixelRect rows) const {
-    auto band = std::make_unique<Band>();
-    band->image = Image(display_, rows);
-    for_channels(layers_, classes_, band->planes, [&](const std::string& name, PixelType type, auto*& plane) {
+std::unique_ptr<Film::Block> Film::make_block(PixelRect rect) const {
+    auto block = std::make_unique<Block>();
+    block->image = Image(display_, rect);
+    for_channels(layers_, classes_, block->planes, [&](const std::string& name, PixelType type, auto*& plane, auto) {
         using Value = std::remove_pointer_t<std::remove_reference_t<decltype(plane)>>;
-        plane = band->image.add_unfilled(name, type).template as<Value>().data();
+        plane = block->image.add_unfilled(name, type).template as<Value>().data();
     });
-    return band;
+    return block;
 }
 
-void Film::open(int y0, int y1) {
-    y0 = std::max(y0, crop_.y0);
-    y1 = std::min(y1, crop_.y1);
-    if (y0 >= y1) return;
-    const std::lock_guard lock(opening_->mutex);
-    const auto first = bands_.begin() + static_cast<std::ptrdiff_t>(number_of(y0));
-    const auto end = bands_.begin() + static_cast<std::ptrdiff_t>(number_of(y1 - 1)) + 1;
-    const auto missing = static_cast<std::size_t>(std::count(first, end, nullptr));
-    if (missing > 0) check_memory(opening_->bands + missing);
-    for (std::size_t i = number_of(y0); i <= number_of(y1 - 1); ++i) {
-        if (bands_[i] != nullptr) continue;
-        const PixelRect rows = rows_of(i);
-        auto& closed = opening_->closed;
-        if (!closed.empty() && closed.back()->image.height() == rows.height()) {
-            bands_[i] = std::move(closed.back());
-            closed.pop_back();
-            bands_[i]->image.move_to(rows.y0);
-        } else {
-            bands_[i] = make_band(rows);
-        }
-        for (std::uint16_t* const plane : bands_[i]->planes.lines_hidden) {  // not put for each pixel
-            if (plane != nullptr) std::fill_n(plane, bands_[i]->image.pixel_count(), std::uint16_t{0});
-        }
-        ++opening_->bands;
+void Film::fill_with_background(Block& block) const {
+    for_channels(layers_, classes_, block.planes, [&](const std::string&, PixelType, auto* plane, auto background) {
+        std::fill_n(plane, block.image.pixel_count(), background);
+    });
+}
+
+Film::Block& Film::add_block(std::size_t number, bool all_is_put) {
+    const std::lock_guard lock(pool_->mutex);
+    if (Block* const block = block_of(number)) return *block;  // another thread was faster
+    const PixelRect rect = rect_of(number);
+    const std::size_t pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+    check_memory(pool_->used + pixels);
+    const auto same = std::find_if(pool_->closed.rbegin(), pool_->closed.rend(), [&](const Block* closed) {
+        return closed->image.width() == rect.width() && closed->image.height() == rect.height();
+    });
+    Block* block;
+    if (same != pool_->closed.rend()) {
+        block = *same;
+        pool_->closed.erase(std::next(same).base());
+        block->image.move_to(rect.x0, rect.y0);
+    } else {
+        pool_->made.push_back(make_block(rect));
+        block = pool_->made.back().get();
     }
+    if (!all_is_put) fill_with_background(*block);
+    for (std::uint16_t* const plane : block->planes.lines_hidden) {  // not put for each pixel
+        if (plane != nullptr) std::fill_n(plane, block->image.pixel_count(), std::uint16_t{0});
+    }
+    pool_->used += pixels;
+    blocks_[number].store(block, std::memory_order_release);
+    return *block;
+}
+
+ImageStrip Film::band(std::size_t number) const {
+    const std::size_t first = number * columns_;
+    ImageStrip strip{rect_of(first), std::min(crop_.width(), kBlockColumns), {}, {}};
+    strip.data.x1 = crop_.x1;
+    for (std::size_t i = first; i < first + columns_; ++i) {
+        const Block* const block = block_of(i);
+        strip.blocks.push_back(block == nullptr ? nullptr : &block->image);
+    }
+    Planes none;
+    for_channels(layers_, classes_, none, [&](const std::string&, PixelType, const auto*, auto background) {
+        std::memcpy(strip.background.emplace_back().data(), &background, sizeof background);
+    });
+    return strip;
 }
 
 void Film::close(std::size_t number) {
-    const std::lock_guard lock(opening_->mutex);
-    if (bands_[number] == nullptr) return;
-    opening_->closed.push_back(std::move(bands_[number]));
-    --opening_->bands;
+    const std::lock_guard lock(pool_->mutex);
+    for (std::size_t i = number * columns_; i < (number + 1) * columns_; ++i) {
+        Block* const block = blocks_[i].exchange(nullptr, std::memory_order_acq_rel);
+        if (block == nullptr) continue;
+        pool_->closed.push_back(block);
+        pool_->used -= block->image.pixel_count();
+    }
 }
 
-Film::Place Film::place_of(int x, int y) const {
-    const int row = y - crop_.y0;
-    const Band& band = *bands_[number_of(y)];
-    const std::size_t row_in_band = static_cast<std::size_t>(row) & ((std::size_t{1} << band_shift_) - 1);
-    return {band.planes, row_in_band * static_cast<std::size_t>(crop_.width()) + static_cast<std::size_t>(x - crop_.x0)};
+Film::Place Film::place_of(int x, int y) {
+    const std::size_t number = number_of(x, y);
+    Block* block = block_of(number);
+    if (block == nullptr) block = &add_block(number);
+    const auto row = static_cast<std::size_t>(y - block->image.data().y0), column = static_cast<std::size_t>(x - block->image.data().x0);
+    return {block->planes, row * static_cast<std::size_t>(block->image.width()) + column};
 }
 
 bool Film::has_geometry() const { return layers_.depth || layers_.normal || layers_.ids; }
 
+void Film::expect_all_of(PixelRect part) {
+    const std::size_t number = number_of(part.x0, part.y0);
+    if (block_of(number) == nullptr && rect_of(number) == part) add_block(number, true);
+}
+
+template <typename Use>
+void Film::for_row(int x0, int x1, int y, const Use& use) {
+    for_parts({x0, y, x1, y + 1}, [&](PixelRect part) {
+        const auto [planes, begin] = place_of(part.x0, y);
+        use(planes, begin, static_cast<std::size_t>(part.width()), static_cast<std::size_t>(part.x0 - x0));
+    });
+}
+
 void Film::put_background(int x0, int x1, int y) {
+    if (!is_whole()) return;
     const auto [planes, begin] = place_of(x0, y);
     const std::size_t count = static_cast<std::size_t>(x1 - x0);
     const auto clear = [&](auto* plane, auto value) {
@@ -178,49 +226,55 @@ void Film::put_background(int x0, int x1, int y) {
 }
 
 void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
-    const auto [planes, begin] = place_of(x0, y);
-    const std::size_t count = static_cast<std::size_t>(x1 - x0);
-    const auto fill = [&](std::uint16_t* plane, std::uint16_t value) {
-        if (plane != nullptr) std::fill_n(plane + begin, count, value);
-    };
-    for (std::size_t c = 0; c < 4; ++c) {
-        fill(planes.beauty[c], color[c]);
-        fill(planes.surface[c], color[c]);
-        fill(planes.lines[c], 0);
-    }
-    for (std::uint16_t* plane : planes.coverage) fill(plane, 0);
+    for_row(x0, x1, y, [&](const Planes& planes, std::size_t begin, std::size_t count, std::size_t) {
+        const auto fill = [&](std::uint16_t* plane, std::uint16_t value) {
+            if (plane != nullptr) std::fill_n(plane + begin, count, value);
+        };
+        for (std::size_t c = 0; c < 4; ++c) {
+            fill(planes.beauty[c], color[c]);
+            fill(planes.surface[c], color[c]);
+            fill(planes.lines[c], 0);
+        }
+        for (std::uint16_t* plane : planes.coverage) fill(plane, 0);
+    });
 }
 
 void Film::put_colors(int x0, int x1, int y, const std::array<const std::uint16_t*, 4>& colors) {
-    const auto [planes, begin] = place_of(x0, y);
-    const std::size_t count = static_cast<std::size_t>(x1 - x0);
-    const auto clear = [&](std::uint16_t* plane) {
-        if (plane != nullptr) std::fill_n(plane + begin, count, std::uint16_t{0});
-    };
-    for (std::size_t c = 0; c < 4; ++c) {
-        for (std::uint16_t* plane : {planes.beauty[c], planes.surface[c]}) {
-            if (plane != nullptr) std::copy_n(colors[c], count, plane + begin);
+    for_row(x0, x1, y, [&](const Planes& planes, std::size_t begin, std::size_t count, std::size_t from) {
+        const auto clear = [&](std::uint16_t* plane) {
+            if (plane != nullptr) std::fill_n(plane + begin, count, std::uint16_t{0});
+        };
+        for (std::size_t c = 0; c < 4; ++c) {
+            for (std::uint16_t* plane : {planes.beauty[c], planes.surface[c]}) {
+                if (plane != nullptr) std::copy_n(colors[c] + from, count, plane + begin);
+            }
+            clear(planes.lines[c]);
         }
-        clear(planes.lines[c]);
-    }
-    for (std::uint16_t* plane : planes.coverage) clear(plane);
+        for (std::uint16_t* plane : planes.coverage) clear(plane);
+    });
 }
 
 void Film::put_geometry(int x0, int x1, int y, const GeometryRow& row) {
-    const auto [planes, begin] = place_of(x0, y);
-    const std::size_t count = static_cast<std::size_t>(x1 - x0);
-    const auto stream = [&](auto* plane, const auto* values) {  // nothing is drawn over these
-        if (plane != nullptr) stream_copy(values, count, plane + begin);
-    };
-    stream(planes.depth, row.distance);
-    for (std::size_t c = 0; c < 3; ++c) {
-        stream(planes.normal[c], row.normal[c]);
-        stream(planes.ids[c], row.ids[c]);
-    }
+    for_row(x0, x1, y, [&](const Planes& planes, std::size_t begin, std::size_t count, std::size_t from) {
+        const auto copy = [&](auto* plane, const auto* values) {
+            if (plane == nullptr) return;
+            if (is_whole()) {  // nothing is drawn over these
+                stream_copy(values + from, count, plane + begin);
+            } else {
+                std::copy_n(values + from, count, plane + begin);
+            }
+        };
+        copy(planes.depth, row.distance);
+        for (std::size_t c = 0; c < 3; ++c) {
+            copy(planes.normal[c], row.normal[c]);
+            copy(planes.ids[c], row.ids[c]);
+        }
+    });
 }
 
 void Film::prefetch(int x, int y) const {
-    const auto [planes, i] = place_of(x, y);
+    if (block_of(number_of(x, y)) == nullptr) return;
+    const auto [planes, i] = const_cast<Film*>(this)->place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
         if (planes.lines[c] != nullptr) __builtin_prefetch(planes.lines[c] + i, 1);
         if (planes.beauty[c] != nullptr) __builtin_prefetch(planes.beauty[c] + i, 1);

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "abuffer/tile_kernels.h"
 #include "image/image.h"
+#include "image/image_strip.h"
 #include "lines/line_class.h"
 
 namespace burin {
@@ -50,16 +54,19 @@ struct LinePixel {
 /// Collects pixels into the channels of the chosen layers. Different threads may put different
 /// pixels at the same time.
 ///
-/// A film lies in memory as a whole, or in bands of rows that are there only between open() and close(): so a picture
-/// whose rows are written as they are finished takes no more than some of them.
+/// A film lies in memory as a whole, or in blocks, of which there are only those that something was put into, until their
+/// band, a row of blocks, is closed: so a picture whose rows are written as they are finished takes no more than some of
+/// them, and its background nothing.
 class Film {
   public:
-    static constexpr int kBandRows = 32;  ///< whole chunks of an EXR
+    static constexpr int kBandRows = 32;      ///< whole chunks of an EXR
+    static constexpr int kBlockColumns = 32;
 
     /// `display` is the whole picture, `crop` the part that pixels are put for: each of them must be. Throws InputError
     /// when this machine has not enough memory for it.
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
-    /// In bands, none of which is open.
+    /// In blocks. What is not put is background. Putting throws InputError when this machine has not enough memory for the
+    /// blocks that are there.
     static Film in_bands(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
     ~Film();
     Film(Film&&) noexcept;
@@ -68,14 +75,25 @@ class Film {
     PixelRect display() const { return display_; }
     PixelRect crop() const { return crop_; }
     std::vector<ChannelFormat> channels() const;
-    /// Has all bands that rows [y0, y1) touch, as far as they are in the crop. Any thread may call it. Throws InputError
-    /// when this machine has not enough memory for what is open. A whole film is always open.
-    void open(int y0, int y1);
-    /// One that is open.
-    const Image& band(std::size_t number) const { return bands_[number]->image; }
-    /// Gives its memory up, to be used for others.
+    /// Rows of a film in blocks.
+    ImageStrip band(std::size_t number) const;
+    /// After it was read: gives its memory up, to be used for others.
     void close(std::size_t number);
 
+    /// Calls use(part) for the parts of a rectangle, within the crop, that lie in one block each.
+    template <typename Use>
+    void for_parts(PixelRect rect, const Use& use) const {
+        for (int y = rect.y0, y1; y < rect.y1; y = y1) {
+            y1 = std::min(rect.y1, first_of_next(y, crop_.y0, row_shift_));
+            for (int x = rect.x0, x1; x < rect.x1; x = x1) {
+                x1 = std::min(rect.x1, first_of_next(x, crop_.x0, column_shift_));
+                use(PixelRect{x, y, x1, y1});
+            }
+        }
+    }
+
+    /// Before all pixels of a part of one block are put: where it is the whole block, this need not begin as background.
+    void expect_all_of(PixelRect part);
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
     bool has_geometry() const;
@@ -84,7 +102,8 @@ class Film {
     void put_colors(int x0, int x1, int y, const std::array<const std::uint16_t*, 4>& colors);
     /// Puts their depth, normals and ids, if has_geometry(). Before other threads read these, finish_stream_stores() is due.
     void put_geometry(int x0, int x1, int y, const GeometryRow& row);
-    /// Puts the background into pixels [x0, x1) of a row; then finish_stream_stores() is due, too.
+    /// Puts the background into pixels [x0, x1) of a row that nothing else is put into; then finish_stream_stores() is due,
+    /// too.
     void put_background(int x0, int x1, int y);
     /// Has the memory fetched that draw_over() will change of a pixel and of those to its right, up to 32 pixels in all.
     void prefetch(int x, int y) const;
@@ -101,7 +120,7 @@ class Film {
     /// After draw_over(): adds to the line channels, but not to the beauty.
     void add_lines(int x, int y, const LinePixel& lines);
     /// Of a whole film.
-    const Image& image() const { return bands_.front()->image; }
+    const Image& image() const { return block_of(0)->image; }
 
   private:
     struct Planes {  // channel data, nullptr where a layer is not wanted
@@ -114,31 +133,51 @@ class Film {
         float* normal[3] = {};
         std::uint32_t* ids[3] = {};
     };
-    struct Band {
+    struct Block {
         Image image;
         Planes planes;
     };
-    struct Opening;
+    struct Pool;
 
-    /// Bands have 2^`band_shift` rows.
-    Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int band_shift);
-    PixelRect rows_of(std::size_t band) const;
-    std::unique_ptr<Band> make_band(PixelRect rows) const;
-    void check_memory(std::size_t bands) const;
-    std::size_t number_of(int y) const { return static_cast<std::size_t>(y - crop_.y0) >> band_shift_; }
-    /// The band with a row, and a pixel's place in it.
+    /// Blocks have 2^`column_shift` columns and 2^`row_shift` rows.
+    Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int column_shift, int row_shift);
+    bool is_whole() const { return blocks_.size() == 1 && row_shift_ == kWholeShift; }
+    /// The first pixel of the next block, along one axis.
+    static int first_of_next(int at, int origin, int shift) {
+        const std::int64_t next = ((std::int64_t{at} - origin) >> shift) + 1;
+        return static_cast<int>(std::min<std::int64_t>(origin + (next << shift), std::numeric_limits<int>::max()));
+    }
+    PixelRect rect_of(std::size_t block) const;
+    std::unique_ptr<Block> make_block(PixelRect rect) const;
+    void fill_with_background(Block& block) const;
+    void check_memory(std::size_t pixels) const;
+    Block& add_block(std::size_t number, bool all_is_put = false);
+    /// nullptr where it is missing.
+    Block* block_of(std::size_t number) const { return blocks_[number].load(std::memory_order_acquire); }
+    std::size_t number_of(int x, int y) const {
+        const auto column = static_cast<std::size_t>(x - crop_.x0) >> column_shift_;
+        return (static_cast<std::size_t>(y - crop_.y0) >> row_shift_) * columns_ + column;
+    }
+    /// The block with a pixel, and the pixel's place in it.
     struct Place {
         const Planes& planes;
         std::size_t index;
     };
-    Place place_of(int x, int y) const;
+    Place place_of(int x, int y);
+    /// Calls use(planes, first place, count, pixels before) for the parts of pixels [x0, x1) of a row.
+    template <typename Use>
+    void for_row(int x0, int x1, int y, const Use& use);
+
+    static constexpr int kWholeShift = 31;  // one block has all
 
     PixelRect display_, crop_;
     LayerSet layers_;
     LineClassSet classes_;
-    int band_shift_;
-    std::vector<std::unique_ptr<Band>> bands_;
-    std::unique_ptr<Opening> opening_;  // one thread at a time opens and closes
+    int column_shift_, row_shift_;
+    std::size_t columns_;  // of blocks
+    std::size_t bytes_per_pixel_ = 0;
+    std::vector<std::atomic<Block*>> blocks_;
+    std::unique_ptr<Pool> pool_;
 };
 
 }  // namespace burin

@@ -31,8 +31,8 @@ BandWriter::BandWriter(Film& film, const OutputOptions& options)
 
 void BandWriter::write(std::size_t band) {
     try {
-        const Image& rows = film_.band(band);
-        for (int y = rows.data().y0; y < rows.data().y1; y += ExrWriter::kChunkRows) exr_->write_chunk(rows, y);
+        const ImageStrip rows = film_.band(band);
+        for (int y = rows.data.y0; y < rows.data.y1; y += ExrWriter::kChunkRows) exr_->write_chunk(rows, y);
     } catch (...) {
         has_failed_ = true;
         throw;

@@ -1,6 +1,7 @@
 #include "scene/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,10 +26,17 @@ struct Bounds {
 
 Bounds bounds_of(const PointSource& points) {
     Bounds bounds;
-    for_each_point(points, [&](const glm::dvec3& p) {
-        bounds.low = glm::min(bounds.low, p);
-        bounds.high = glm::max(bounds.high, p);
-    });
+    const auto add = [&](const glm::dvec3& low, const glm::dvec3& high) {
+        bounds.low = glm::min(bounds.low, low);
+        bounds.high = glm::max(bounds.high, high);
+    };
+    points({[&](const Box& box) {  // tells all there is to know
+                add(box.low, box.high);
+                return false;
+            },
+            [&](std::span<const glm::dvec3> some) {
+                for (const glm::dvec3& p : some) add(p, p);
+            }});
     return bounds;
 }
 
@@ -60,17 +68,32 @@ glm::dmat3 orientation(const glm::dvec3& back, const glm::dvec3& up) {
 glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double kx, double ky,
                       double nearest) {
     const glm::dmat3 to_axes = glm::transpose(axes);
-    glm::dvec4 most(-std::numeric_limits<double>::infinity());
-    double foremost = -std::numeric_limits<double>::infinity();
-    for_each_point(points, [&](const glm::dvec3& p) {
-        const glm::dvec3 q = to_axes * p;
-        foremost = std::max(foremost, q.z);
-        most = glm::max(most, glm::dvec4(q.x + kx * q.z, -q.x + kx * q.z, q.y + ky * q.z,
-                                         -q.y + ky * q.z));
-    });
-    const double z = std::max(
-        {(most[0] + most[1]) / (2 * kx), (most[2] + most[3]) / (2 * ky), foremost + nearest});
-    return axes * glm::dvec3((most[0] - most[1]) / 2, (most[2] - most[3]) / 2, z);
+    std::array<double, 5> most;  // the last one tells how far in front they are
+    most.fill(-std::numeric_limits<double>::infinity());
+    const glm::dvec3 x = axes[0], y = axes[1], z = axes[2];
+    const std::array<glm::dvec3, 5> along = {x + kx * z, -x + kx * z, y + ky * z, -y + ky * z, z};
+    const auto needs = [&](const Box& box) {
+        const glm::dvec3 size = glm::max(glm::abs(box.low), glm::abs(box.high));
+        for (std::size_t i = 0; i < most.size(); ++i) {
+            const glm::dvec3& a = along[i];
+            const glm::dvec3 reach = glm::max(a * box.low, a * box.high);
+            const double slack = 1e-12 * glm::dot(glm::abs(x) + glm::abs(y) + (1 + kx + ky) * glm::abs(z), size);  // of rounding
+            if (!(reach.x + reach.y + reach.z + slack <= most[i])) return true;
+        }
+        return false;
+    };
+    points({needs, [&](std::span<const glm::dvec3> some) {
+                std::array<double, 5> m = most;  // in registers
+                for (const glm::dvec3& p : some) {
+                    const glm::dvec3 q = to_axes * p;
+                    m = {std::max(m[0], q.x + kx * q.z), std::max(m[1], -q.x + kx * q.z), std::max(m[2], q.y + ky * q.z),
+                         std::max(m[3], -q.y + ky * q.z), std::max(m[4], q.z)};
+                }
+                most = m;
+            }});
+    const double eye_z = std::max(
+        {(most[0] + most[1]) / (2 * kx), (most[2] + most[3]) / (2 * ky), most[4] + nearest});
+    return axes * glm::dvec3((most[0] - most[1]) / 2, (most[2] - most[3]) / 2, eye_z);
 }
 
 /// The distance from a target, along a direction, from which all points fit, none of them nearer

@@ -8,6 +8,7 @@
 
 #include "abuffer/projection.h"
 #include "base/error.h"
+#include "mesh/box.h"
 
 namespace burin {
 
@@ -41,14 +42,23 @@ struct Camera {
     Projection projection(int width, int height, double near_distance) const;
 };
 
-/// All points that the camera should see: calls its argument with some of them at a time. May be run several times.
-using PointSource = std::function<void(const std::function<void(std::span<const glm::dvec3>)>&)>;
+/// Is called with points, some at a time.
+struct PointVisitor {
+    /// May be asked before, with the smallest box around them: false where they need not come.
+    std::function<bool(const Box&)> needs;
+    std::function<void(std::span<const glm::dvec3>)> visit;
+
+    void operator()(std::span<const glm::dvec3> some) const { visit(some); }
+};
+
+/// All points that the camera should see: calls its argument with them. May be run several times.
+using PointSource = std::function<void(const PointVisitor&)>;
 
 template <typename Visit>
 void for_each_point(const PointSource& points, const Visit& visit) {
-    points([&](std::span<const glm::dvec3> some) {
-        for (const glm::dvec3& p : some) visit(p);
-    });
+    points({[](const Box&) { return true; }, [&](std::span<const glm::dvec3> some) {
+                for (const glm::dvec3& p : some) visit(p);
+            }});
 }
 
 /// Fills in what the settings leave open. `aspect` is width / height of the picture.

@@ -178,11 +178,18 @@ bool has_transparent_surfaces(const Scene& scene) {
 }
 
 PointSource scene_points(const Scene& scene) {
-    return [&scene](const std::function<void(std::span<const glm::dvec3>)>& visit) {
-        std::array<glm::dvec3, 512> some;
-        const auto visit_all = [&](const Mesh& mesh, const auto& place) {
-            for (std::size_t first = 0; first < mesh.positions.size(); first += some.size()) {
-                const std::size_t count = std::min(some.size(), mesh.positions.size() - first);
+    return [&scene](const PointVisitor& visit) {
+        constexpr std::size_t kBlock = 512;
+        std::array<glm::dvec3, kBlock> some;
+        const auto visit_all = [&](const Mesh& mesh, bool is_placed, const auto& place) {
+            for (std::size_t first = 0; first < mesh.positions.size(); first += kBlock) {
+                const std::size_t count = std::min(kBlock, mesh.positions.size() - first);
+                if (is_placed) {
+                    Box box = box_of(std::span(mesh.positions).subspan(first, count));
+                    box.low += mesh.origin;  // rounds as points do
+                    box.high += mesh.origin;
+                    if (!visit.needs(box)) continue;
+                }
                 for (std::size_t i = 0; i < count; ++i) some[i] = place(mesh.position(static_cast<std::uint32_t>(first + i)));
                 visit(std::span(some).first(count));
             }
@@ -191,9 +198,9 @@ PointSource scene_points(const Scene& scene) {
             const Mesh& mesh = scene.meshes[object.mesh];
             const glm::dmat4 to_world = object.to_world;
             if (to_world == glm::dmat4(1.0)) {
-                visit_all(mesh, [](const glm::dvec3& p) { return p; });
+                visit_all(mesh, true, [](const glm::dvec3& p) { return p; });
             } else {
-                visit_all(mesh, [&](const glm::dvec3& p) { return glm::dvec3(to_world * glm::dvec4(p, 1.0)); });
+                visit_all(mesh, false, [&](const glm::dvec3& p) { return glm::dvec3(to_world * glm::dvec4(p, 1.0)); });
             }
         }
     };

@@ -104,7 +104,6 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     RowFinisher finisher(frame, kernels, stats.threads, options, film);
     SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress, contours.get());
     const bool waits = !abuffer_finishes_in_bands(frame);
-    if (waits) film.open(frame.crop.y0, frame.crop.y1);
     const auto hand_on = [&](PixelRect part) {
         stats.lines_s += watch.lap();
         finisher.hand_on(part);

@@ -17,6 +17,18 @@ HalfColor half_color(const glm::vec4& color) {
     return {Film::to_half(color.r), Film::to_half(color.g), Film::to_half(color.b), Film::to_half(color.a)};
 }
 
+/// Whether any sample of those pixels has a surface.
+bool is_covered(const SampleTile& samples, PixelRect rect) {
+    const int s = samples.samples_per_pixel;
+    for (int y = rect.y0 * s; y < rect.y1 * s; ++y) {
+        const std::uint32_t* const row = &samples.ids[samples.index(rect.x0 * s, y)];
+        std::uint32_t all = SampleTile::kBackground;
+        for (int x = 0; x < rect.width() * s; ++x) all &= row[x];
+        if (all != SampleTile::kBackground) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels)
@@ -34,29 +46,33 @@ void PixelFiller::find_looks(const SampleTile& samples, PixelRect rect) {
     const int s = samples.samples_per_pixel;
     const auto width = static_cast<std::size_t>(rect.width());
     look_at_.resize(width * static_cast<std::size_t>(rect.height()));
-    numbers_.assign(1, 0);
-    std::uint32_t above[kWidth], here[kWidth];
-    std::fill_n(above, kWidth, SampleTile::kBackground);
+    numbers_.resize(look_at_.size() + 1);
+    std::size_t count = 1;
+    struct Pixel {
+        std::uint32_t id;
+        std::uint16_t look;
+    };
+    Pixel above[kWidth];
+    std::fill_n(above, width, Pixel{SampleTile::kBackground, 0});
     std::size_t at = 0;
     for (int y = rect.y0; y < rect.y1; ++y) {
-        const std::uint32_t* id = &samples.ids[samples.index(rect.x0 * s + s / 2, y * s + s / 2)];
-        std::uint32_t left = SampleTile::kBackground;
-        for (std::size_t x = 0; x < width; ++x, ++at, id += s) {
-            here[x] = *id;
-            if (*id == SampleTile::kBackground) {
-                look_at_[at] = 0;
-            } else if (*id == left) {
-                look_at_[at] = look_at_[at - 1];
-            } else if (*id == above[x]) {
-                look_at_[at] = look_at_[at - width];
-            } else {
-                look_at_[at] = static_cast<std::uint16_t>(numbers_.size());
-                numbers_.push_back(*id >> 1);
-            }
-            left = *id;
+        const std::uint32_t* sample = &samples.ids[samples.index(rect.x0 * s + s / 2, y * s + s / 2)];
+        Pixel left{SampleTile::kBackground, 0};
+        // Without branches, which would guess wrong where triangles are small.
+        for (std::size_t x = 0; x < width; ++x, ++at, sample += s) {
+            const std::uint32_t id = *sample;
+            const std::uint32_t is_surface = id != SampleTile::kBackground ? 1u : 0u, is_left = id == left.id ? 1u : 0u;
+            const std::uint32_t is_new = is_surface & (is_left ^ 1u) & (id != above[x].id ? 1u : 0u);
+            const auto choose = [](std::uint32_t condition, std::uint32_t a, std::uint32_t b) { return b ^ ((a ^ b) & (0u - condition)); };
+            const std::uint32_t known = choose(is_left, left.look, above[x].look) & (0u - is_surface);
+            left = {id, static_cast<std::uint16_t>(choose(is_new, static_cast<std::uint32_t>(count), known))};
+            above[x] = left;
+            look_at_[at] = left.look;
+            numbers_[count] = id >> 1;
+            count += is_new;
         }
-        std::copy_n(here, width, above);
     }
+    numbers_.resize(count);
 }
 
 void PixelFiller::make_looks() {
@@ -194,21 +210,29 @@ void PixelFiller::clear(PixelRect rect, Film& film) const {
     finish_stream_stores();
 }
 
-void PixelFiller::fill(const SurfaceTile& tile, Film& film) {
-    const PixelRect rect = in_crop(tile.rect());
-    if (rect.x0 >= rect.x1 || rect.y0 >= rect.y1) return;
-    const SampleTile& samples = tile.samples();
+void PixelFiller::fill_part(const SampleTile& samples, PixelRect part, Film& film) {
     const bool has_geometry = film.has_geometry();
     if (has_geometry) {
-        find_looks(samples, rect);
+        find_looks(samples, part);
         make_looks();
     }
     const bool is_paper = frame_.scene->surfaces.shading == SurfaceShading::paper;
-    if (is_paper) put_paper(samples, rect, film);
-    for (int y = rect.y0; y < rect.y1; ++y) {
-        if (has_geometry) put_geometry(rect, y, film);
-        if (!is_paper) put_shaded(samples, rect, y, film);
+    if (is_paper) put_paper(samples, part, film);
+    for (int y = part.y0; y < part.y1; ++y) {
+        if (has_geometry) put_geometry(part, y, film);
+        if (!is_paper) put_shaded(samples, part, y, film);
     }
+}
+
+void PixelFiller::fill(const SurfaceTile& tile, Film& film) {
+    film.for_parts(in_crop(tile.rect()), [&](PixelRect part) {
+        if (is_covered(tile.samples(), part)) {
+            film.expect_all_of(part);
+            fill_part(tile.samples(), part, film);
+        } else {
+            clear(part, film);
+        }
+    });
     finish_stream_stores();
 }
 

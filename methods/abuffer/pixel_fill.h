@@ -30,6 +30,8 @@ class PixelFiller {
     TriangleLook look_of(std::uint32_t number) const;
     void fill_ids(std::uint32_t number, TriangleLook& look) const;
 
+    /// The same, of a part that has anything but background.
+    void fill_part(const SampleTile& samples, PixelRect part, Film& film);
     void put_geometry(PixelRect rect, int y, Film& film);
     void put_paper(const SampleTile& samples, PixelRect rect, Film& film);
     void put_shaded(const SampleTile& samples, PixelRect rect, int y, Film& film);

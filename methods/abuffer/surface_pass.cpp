@@ -25,7 +25,7 @@ struct WorkerTimes {
 /// So many bands are finished by one thread before it goes on with tiles.
 constexpr int kMostBandsAtOnce = 8;
 /// Where bands are handed on, so many rows of tiles may be begun below one that is not complete, and two more for each
-/// thread: their bands are open.
+/// thread: their bands are there.
 constexpr std::size_t kRowsAhead = 4;
 
 /// Counts the rows of tiles that are complete, from the top.
@@ -118,7 +118,6 @@ void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher
             fine_lines[w]->find(index, parts[w], lines);
         };
         Stopwatch lap;
-        film.open(bins.tile(index).y0, bins.tile(index).y1);
         if (bins.is_empty(index)) {
             fillers[w]->clear(bins.empty_tiles_from(index), film);
             if (has_fine && !fine_edges->in(index).empty()) {  // it may have what is smaller than a sample

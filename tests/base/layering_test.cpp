@@ -28,7 +28,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 
 // A library is used in these source files and nowhere else.
 const std::map<std::string, std::set<std::string>> kLibraryFiles = {
-    {"OpenEXR/|Imath", {"image/exr_io.cpp"}},
+    {"OpenEXR/|Imath", {"image/exr_io.cpp", "image/exr_reader.cpp"}},
     {"OpenImageIO/", {"image/oiio_module.cpp"}},
     {"OpenMesh/", {"mesh/subdivide.cpp"}},
     {"nlohmann/", {"mesh/gltf_json.h"}},

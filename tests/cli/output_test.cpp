@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "image/exr_io.h"
+#include "image/exr_reader.h"
 #include "tests/cli/models.h"
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "image/exr_io.h"
+#include "image/exr_reader.h"
 #include "image/image_io.h"
 #include "tests/cli/models.h"
 #include "tests/cli/program.h"

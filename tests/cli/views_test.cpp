@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "image/exr_io.h"
+#include "image/exr_reader.h"
 #include "tests/cli/models.h"
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"

@@ -37,6 +37,27 @@ TEST(Deflate, RunsOfEveryLengthSurvive) {
     }
 }
 
+TEST(Deflate, KnownRunsChangeNothing) {
+    Deflater deflater;
+    for (std::uint64_t trial = 0; trial < 400; ++trial) {
+        Random random(trial);
+        Bytes bytes;
+        std::vector<Deflater::Run> runs;
+        for (int part = random.integer(1, 30); part > 0; --part) {
+            for (int i = random.integer(0, 40); i > 0; --i) bytes.push_back(static_cast<std::uint8_t>(random.integer(0, 3)));
+            if (bytes.size() < 2) continue;
+            const std::size_t begin = bytes.size();
+            for (int i = random.integer(0, 700); i > 0; --i) bytes.push_back(bytes[bytes.size() - 2]);
+            if (random.integer(0, 3) > 0) runs.push_back({begin, bytes.size()});
+        }
+        const auto plain = deflater.compress(bytes);
+        const Bytes without(plain.begin(), plain.end());
+        const auto stream = deflater.compress(bytes, runs);
+        EXPECT_TRUE(Bytes(stream.begin(), stream.end()) == without) << trial;
+        EXPECT_TRUE(inflated(stream, bytes.size()) == bytes) << trial;
+    }
+}
+
 TEST(Deflate, RandomMixturesSurvive) {
     Deflater deflater;
     for (std::uint64_t trial = 0; trial < 300; ++trial) {

@@ -1,4 +1,5 @@
 #include "image/exr_io.h"
+#include "image/exr_reader.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -158,7 +159,7 @@ TEST(Exr, RowsMayComeInAnyOrder) {
                 std::copy_n(c.bytes.begin() + static_cast<std::ptrdiff_t>(row_bytes * static_cast<std::size_t>(part_rows.y0 - data.y0)),
                             copy.bytes.size(), copy.bytes.begin());
             }
-            writer.write_chunk(part, rows[i]);
+            writer.write_chunk(strip_of(part), rows[i]);
         });
         EXPECT_EQ(folder.names().size(), 2u) << "nothing under the name before the end";
         EXPECT_FALSE(std::filesystem::exists(folder.file("rows.exr")));
@@ -168,13 +169,60 @@ TEST(Exr, RowsMayComeInAnyOrder) {
     }
 }
 
+TEST(Exr, MissingBlocksAreBackground) {
+    const TemporaryFolder folder;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const int width = random.integer(1, 90), height = random.integer(1, 40), block_width = random.integer(1, 40);
+        const PixelRect data{-7, 3, width - 7, height + 3};
+        Image image = noise_image({-7, 0, 100, 100}, data, seed);
+        // Blocks of their own for what is there, and the background in the image for the others.
+        ImageStrip strip{data, block_width, {}, {}};
+        for (const Channel& c : image.channels()) {
+            auto& bytes = strip.background.emplace_back();
+            const bool is_plain = random.integer(0, 1) == 0;
+            for (std::byte& b : bytes) b = is_plain ? std::byte{0} : static_cast<std::byte>(random.bits());
+            static_cast<void>(c);
+        }
+        std::vector<std::unique_ptr<Image>> blocks;
+        for (int x0 = 0; x0 < width; x0 += block_width) {
+            const int x1 = std::min(x0 + block_width, width);
+            const bool is_there = random.integer(0, 2) == 0;
+            auto block = std::make_unique<Image>(data, PixelRect{data.x0 + x0, data.y0, data.x0 + x1, data.y1});
+            for (std::size_t c = 0; c < image.channels().size(); ++c) {
+                const std::size_t size = size_of(image.channels()[c].type);
+                Channel& all = *image.find(image.channels()[c].name);
+                Channel& own = block->add(all.name, all.type);
+                for (int y = 0; y < height; ++y) {
+                    for (int x = x0; x < x1; ++x) {
+                        std::byte* const pixel = all.bytes.data() + static_cast<std::size_t>(y * width + x) * size;
+                        if (is_there) {
+                            std::copy_n(pixel, size, own.bytes.data() + static_cast<std::size_t>(y * (x1 - x0) + x - x0) * size);
+                        } else {
+                            std::copy_n(strip.background[c].data(), size, pixel);
+                        }
+                    }
+                }
+            }
+            strip.blocks.push_back(is_there ? block.get() : nullptr);
+            blocks.push_back(std::move(block));
+        }
+        write_exr(folder.file("whole.exr"), image, {});
+        ExrWriter writer(folder.file("blocks.exr"), image.display(), data, image.formats(), {});
+        for (int y = data.y0; y < data.y1; y += ExrWriter::kChunkRows) writer.write_chunk(strip, y);
+        writer.finish();
+        EXPECT_TRUE(read_file(folder.file("blocks.exr")) == read_file(folder.file("whole.exr")));
+    }
+}
+
 TEST(Exr, AFileWithRowsMissingIsNone) {
     const TemporaryFolder folder;
     const Image image = noise_image({0, 0, 20, 40}, {0, 0, 20, 40}, 5);
     {
         ExrWriter writer(folder.file("a.exr"), image.display(), image.data(), image.formats(), {});
-        writer.write_chunk(image, 0);
-        writer.write_chunk(image, 32);
+        writer.write_chunk(strip_of(image), 0);
+        writer.write_chunk(strip_of(image), 32);
         EXPECT_THROW(writer.finish(), InputError);
     }
     EXPECT_TRUE(folder.names().empty());

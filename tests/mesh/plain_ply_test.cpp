@@ -2,7 +2,9 @@
 // one way ends and the other goes on must not show, in what is read and in what errors say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <span>
 #include <string>
 #include <vector>
@@ -145,16 +147,43 @@ TEST(PlyPieces, AllAreUsed) {
         text += std::to_string(0.5 * i) + " " + std::to_string(-0.25 * i) + (i % 7 == 0 ? " 1e-3\n" : " 0.001\n");
     }
     AsciiValues values(text, 1);
-    const std::vector<TextPiece> pieces = split_at_lines(values.rest(), values.line(), 4);
-    ASSERT_GT(pieces.size(), 4u);
+    LineCutter cutter(values.rest(), values.line(), text.size() / 10);
+    std::atomic<int> pieces = 0;
     std::vector<glm::dvec3> positions(expected.size());
     LargestIndex largest;
     const auto read_piece = [&](AsciiValues& piece, std::uint64_t first, std::uint64_t count, LargestIndex&) {
+        ++pieces;
         return read_position_rows(piece, std::array{0, 1, 2}, std::span(positions).subspan(first, count));
     };
-    EXPECT_EQ(read_in_pieces(values, pieces, expected.size(), 4, largest, read_piece), expected.size());
+    EXPECT_EQ(read_in_pieces(values, cutter, expected.size(), 4, largest, read_piece), expected.size());
     EXPECT_TRUE(values.at_end());
     EXPECT_EQ(positions, expected);
+    EXPECT_GE(pieces, 10);
+}
+
+TEST(LineCutter, PiecesBeginWithLinesAndKnowThem) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        std::string text;
+        for (int i = random.integer(0, 400); i > 0; --i) text += random.integer(0, 1 + static_cast<int>(seed) % 9) == 0 ? '\n' : 'x';
+        const std::size_t size = static_cast<std::size_t>(random.integer(1, 50));
+        LineCutter cutter(text, 7, size);
+        const std::size_t most = cutter.most_left();
+        std::size_t count = 0;
+        const char* behind = text.data();  // the piece before begins in front of it
+        for (; cutter.next() != nullptr; cutter.take(), ++count) {
+            const TextPiece piece = *cutter.next();
+            const auto place = static_cast<std::size_t>(piece.begin - text.data());
+            EXPECT_GE(piece.begin, behind);
+            behind = piece.begin + 1;
+            EXPECT_TRUE(place == 0 || text[place - 1] == '\n');
+            EXPECT_EQ(piece.line, 7u + static_cast<std::size_t>(std::count(text.data(), text.data() + place, '\n')));
+            EXPECT_TRUE(count > 0 || place == 0);
+        }
+        EXPECT_LE(count, most);
+        EXPECT_GE(count, 1u);
+    }
 }
 
 }  // namespace

@@ -43,6 +43,27 @@ Scene styled_scene(Random& random) {
     return scene;
 }
 
+/// A band with the pixels of the blocks that are missing.
+Image filled(const ImageStrip& strip, const std::vector<ChannelFormat>& channels) {
+    Image image(strip.data, strip.data);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const std::size_t size = size_of(channels[c].type);
+        auto to = image.add(channels[c].name, channels[c].type).bytes.begin();
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                const Image* const block = strip.blocks[static_cast<std::size_t>(x / strip.block_width)];
+                const std::byte* pixel = strip.background[c].data();
+                if (block != nullptr) {
+                    const int at = y * block->width() + x % strip.block_width;
+                    pixel = block->channels()[c].bytes.data() + static_cast<std::size_t>(at) * size;
+                }
+                to = std::copy_n(pixel, size, to);
+            }
+        }
+    }
+    return image;
+}
+
 /// The bands that a render hands on, each of which it hands on once.
 std::map<int, Image> bands_of(const Frame& frame, const RunOptions& given) {
     Film film = Film::in_bands({0, 0, kWidth, kHeight}, frame.crop, kAllLayers, frame.criteria.classes);
@@ -50,9 +71,10 @@ std::map<int, Image> bands_of(const Frame& frame, const RunOptions& given) {
     std::mutex mutex;
     RunOptions options = given;
     options.finished_band = [&](std::size_t number) {
-        const Image& band = film.band(number);
+        Image band = filled(film.band(number), film.channels());
+        const int y0 = band.data().y0;
         const std::lock_guard lock(mutex);
-        EXPECT_TRUE(bands.emplace(band.data().y0, band).second) << "twice: band " << number;
+        EXPECT_TRUE(bands.emplace(y0, std::move(band)).second) << "twice: band " << number;
         film.close(number);
     };
     render_abuffer(frame, options, film);
@@ -89,6 +111,41 @@ TEST(FilmBands, AreRowsOfTheWholeFilm) {
         }
         EXPECT_EQ(y, crop.y1);
     }
+}
+
+/// Only what something is drawn into takes memory, also where it is drawn by a line alone.
+TEST(FilmBands, BackgroundIsNotThere) {
+    Scene scene = scene_of({make_torus(0.9, 0.4, 40, 25)});
+    prepare_for_abuffer(scene, 1);
+    constexpr int kSide = 640;
+    const PixelRect crop{3, 5, kSide, kSide};
+    const Frame frame = make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kSide, kSide, crop);
+    Film film = Film::in_bands({0, 0, kSide, kSide}, crop, kAllLayers, frame.criteria.classes);
+    Film whole({0, 0, kSide, kSide}, crop, kAllLayers, frame.criteria.classes);
+    RunOptions options;
+    options.threads = 2;
+    render_abuffer(frame, options, whole);
+    std::mutex mutex;
+    std::size_t needless = 0, there = 0;
+    options.finished_band = [&](std::size_t number) {
+        const ImageStrip strip = film.band(number);
+        const std::lock_guard lock(mutex);
+        for (std::size_t i = 0; i < strip.blocks.size(); ++i) {
+            if (strip.blocks[i] == nullptr) continue;
+            ++there;
+            const Channel& alpha = *strip.blocks[i]->find("A");
+            needless += std::ranges::all_of(alpha.bytes, [](std::byte b) { return b == std::byte{0}; }) ? 1u : 0u;
+        }
+        const Image band = filled(strip, film.channels());
+        for (const Channel& channel : band.channels()) {
+            const std::size_t before = static_cast<std::size_t>(strip.data.y0 - crop.y0) * static_cast<std::size_t>(crop.width()) * size_of(channel.type);
+            EXPECT_TRUE(std::equal(channel.bytes.begin(), channel.bytes.end(), whole.image().find(channel.name)->bytes.data() + before)) << channel.name;
+        }
+        film.close(number);
+    };
+    render_abuffer(frame, options, film);
+    EXPECT_GT(there, 0u);
+    EXPECT_EQ(needless, 0u);
 }
 
 TEST(FilmBands, WhatStopsTheirWriterStopsTheRender) {

@@ -204,5 +204,34 @@ TEST(CameraFit, TheDefaultViewIsFromTheFrontRightAndAbove) {
     expect_near(back(glm::dvec3(0, -1, 0)), {-expected.x, -expected.y, expected.z});
 }
 
+/// Points that may be left out, for others tell as much, change nothing.
+TEST(CameraFit, TheBoxesOfAMeshTellWhatItsPointsDo) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        Scene scene;
+        Mesh mesh;
+        if (seed % 3 == 0) mesh.origin = random.in_box(1000);
+        glm::dvec3 at(0.0);
+        for (int i = random.integer(3, 6000); i > 0; --i) {
+            at = seed % 2 == 0 ? random.in_box(2) : at + random.in_box(0.1);  // anywhere, or near the one before
+            mesh.positions.emplace_back(at);
+        }
+        scene.meshes.push_back(mesh);
+        scene.objects.emplace_back();
+        const PointSource all = [&](const PointVisitor& visit) {
+            for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+                const glm::dvec3 p = mesh.position(v);
+                visit({&p, 1});
+            }
+        };
+        CameraSettings settings = random_settings(random, seed % 5 == 0);
+        const double aspect = random.real(0.3, 3);
+        const Camera camera = resolve_camera(settings, scene_points(scene), aspect), same = resolve_camera(settings, all, aspect);
+        EXPECT_EQ(camera.to_world, same.to_world);
+        EXPECT_EQ(camera.height, same.height);
+    }
+}
+
 }  // namespace
 }  // namespace burin

@@ -17,13 +17,13 @@ namespace {
 using test::expect_near;
 using test::Random;
 
-const PointSource kCube = [](const std::function<void(std::span<const glm::dvec3>)>& visit) {
+const PointSource kCube = [](const PointVisitor& visit) {
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
         visit({&p, 1});
     }
 };
-const PointSource kNothing = [](const std::function<void(std::span<const glm::dvec3>)>&) {};
+const PointSource kNothing = [](const PointVisitor&) {};
 
 TEST(Camera, EyeTargetAndUp) {
     for (int trial = 0; trial < 200; ++trial) {
