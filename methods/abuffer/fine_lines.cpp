@@ -14,8 +14,6 @@ namespace {
 constexpr bool kHasBothOfSeam = true;
 /// Shorter parts of lines are not worth a stroke. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
-/// Folds that turn back by less are no contours (docs/conventions.md). 1/64 pixel.
-constexpr double kNegligibleFoldSubpixels = 4;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
@@ -224,17 +222,8 @@ class FineLines::BlockClipper {
     bool is_wide(const FineCandidate& candidate, double t) const {
         const glm::dvec2 at = glm::mix(candidate.line.from, candidate.line.to, t);
         const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
-        const HalfEdge h = candidate.part.edge.half_edge, partner = mesh.partners[h];
         const double nearness = candidate.line.nearness_at(t);
-        const double level = 32 * level_slack(screen_.surfaces(), nearness);
-        // Along rows and columns, as samples would see it.
-        for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
-            const auto goes_on = [&](HalfEdge side) {
-                return is_surface_wide(mesh, side, at, nearness, way, kNegligibleFoldSubpixels, level);
-            };
-            if (goes_on(h) && (partner == h || goes_on(partner))) return true;
-        }
-        return false;
+        return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
     }
 
     void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {

@@ -9,6 +9,8 @@
 #include "base/parallel.h"
 #include "methods/abuffer/edge_on_screen.h"
 #include "methods/abuffer/fast_walk.h"
+#include "methods/abuffer/fold_width.h"
+#include "methods/abuffer/layer_triangle.h"
 
 namespace burin {
 namespace {
@@ -111,6 +113,15 @@ class LayerEdgeFinder::Rules {
         return square(two) > square(one) ? two : one;
     }
 
+    /// Whether the triangles of two half-edges of one edge face the eye alike, whichever way they are wound.
+    bool face_alike(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        const Facing a = screen_.facing(screen_.number_of({instance, h / 3})), b = screen_.facing(screen_.number_of({instance, g / 3}));
+        const bool are_wound_alike = start_of(mesh, h) != start_of(mesh, g), has_side = b == clockwise || b == counterclockwise;
+        if (are_wound_alike || !has_side) return a == b;
+        return a == (b == clockwise ? counterclockwise : clockwise);
+    }
+
     /// The triangle that counts at an edge: behind thin triangles the next one. Nothing at a thin
     /// triangle's longest edge, if the two others stand for it: they do not where what lies behind faces alike.
     std::optional<HalfEdge> solid_behind(std::uint32_t instance, HalfEdge h) const {
@@ -121,8 +132,7 @@ class LayerEdgeFinder::Rules {
             const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base;
             const HalfEdge g = mesh.next_on_edge[exit];
             const bool is_pair = g != exit && mesh.next_on_edge[g] == exit;
-            const auto facing = [&](HalfEdge e) { return screen_.facing(screen_.number_of({instance, e / 3})); };
-            if (*base == h && step == 0 && !(is_pair && facing(g) == facing(h))) return std::nullopt;
+            if (*base == h && step == 0 && !(is_pair && face_alike(instance, exit, g))) return std::nullopt;
             if (!is_pair) return h;
             h = g;
         }
@@ -172,6 +182,17 @@ class LayerEdgeFinder::Rules {
         return walk.end == WalkEnd::fold && std::abs(walk.fraction - kMiddle) <= kNoAdvance;
     }
 
+    /// Of an edge so short that its middle stands for all of it.
+    bool is_negligible_fold(std::uint32_t instance, HalfEdge h) const {
+        const ScreenMesh mesh = screen_.mesh(instance);
+        const ScreenVertex &a = mesh.vertices[mesh.corners[h]], &b = mesh.vertices[mesh.corners[h - h % 3 + (h + 1) % 3]];
+        if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) return false;
+        const glm::dvec2 from(a.x, a.y), to(b.x, b.y);
+        if (glm::distance(from, to) > kSubpixelsPerPixel) return false;
+        const double nearness = 0.5 * (static_cast<double>(a.nearness) + static_cast<double>(b.nearness));
+        return !is_fold_wide(mesh, h, 0.5 * (from + to), nearness, 32 * level_slack(surfaces_, nearness));
+    }
+
     void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const auto solid_h = solid_behind(s.instance, h), solid_g = solid_behind(s.instance, g);
@@ -181,7 +202,8 @@ class LayerEdgeFinder::Rules {
         if (solid_h && solid_g) {
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             const int side_h = side_at(s.instance, *solid_h, a, b), side_g = side_at(s.instance, *solid_g, a, b);
-            if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
+            const bool is_past_sliver = *solid_h != h || *solid_g != g;
+            if (side_h != 0 && side_h == side_g && !(is_past_sliver && is_negligible_fold(s.instance, h))) classes |= LineClass::silhouette;
         }
         if (!classes.has(LineClass::silhouette) && (ends_at_wall(s.instance, h, g) || ends_at_wall(s.instance, g, h))) {
             classes |= LineClass::silhouette;
