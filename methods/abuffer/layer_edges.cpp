@@ -72,6 +72,12 @@ class LayerEdgeFinder::Rules {
         }
     }
 
+    std::optional<SurfaceId> solid_at_border(SurfaceId s, HalfEdge h) const {
+        const auto solid = past_sliver(s.instance, h);
+        if (!solid) return std::nullopt;
+        return triangle_of(s, *solid);
+    }
+
   private:
     SurfaceId triangle_of(SurfaceId s, HalfEdge h) const { return {s.instance, h / 3}; }
     std::uint32_t start_of(const Mesh& mesh, HalfEdge h) const { return mesh.triangles[h / 3][h % 3]; }
@@ -219,6 +225,34 @@ class LayerEdgeFinder::Rules {
         add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
     }
 
+    /// Of a border: the half-edge itself, or that of the triangle behind its sliver, whose normal says nothing. Nothing if there
+    /// is none: a needle that stands by itself or on an edge of others is no surface.
+    std::optional<HalfEdge> past_sliver(std::uint32_t instance, HalfEdge h) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        for (int step = 0; step < kMostSlivers; ++step) {
+            if (!is_sliver_at({instance, h / 3}, h)) return h;
+            const auto base = base_of_thin({instance, h / 3});
+            if (!base) return h;
+            const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base, g = mesh.next_on_edge[exit];
+            if (g == exit || mesh.next_on_edge[g] != exit) return std::nullopt;
+            h = g;
+        }
+        return h;
+    }
+
+    /// A sliver on an edge where two surfaces or more meet without it: nothing ends at its borders.
+    bool is_needle_on_edge(SurfaceId s, HalfEdge h) const {
+        if (!is_sliver_at(s, h)) return false;
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const auto base = base_of_thin(s);
+        if (!base) return false;
+        int solids = 0;
+        for (HalfEdge g = mesh.next_on_edge[*base]; g != *base; g = mesh.next_on_edge[g]) {
+            if (!is_sliver_at(triangle_of(s, g), g)) ++solids;
+        }
+        return solids > 1;
+    }
+
     /// Most triangles are none in any view.
     bool is_sliver_at(SurfaceId s, HalfEdge h) const {
         return !FastWalker::is_surely_solid(screen_.mesh(s.instance), h / 3) && is_sliver(surfaces_, triangle_of(s, h));
@@ -238,10 +272,12 @@ class LayerEdgeFinder::Rules {
         for (HalfEdge g = h;;) {
             if (g < h) return;  // the first one of the ring stands for it
             if (mesh.is_marked(g)) classes |= LineClass::mark;
-            const int side = side_at(s.instance, g, a, b);
-            const double towards_eye = cosine_to_eye(s.instance, g);
-            Front& front = side == 0 ? edge_on : fronts[side > 0 ? 1 : 0];
-            if (front.half_edge == kNoHalfEdge || towards_eye > front.towards_eye) front = {g, towards_eye};
+            if (!is_sliver_at(triangle_of(s, g), g)) {  // a needle is nothing that ends there
+                const int side = side_at(s.instance, g, a, b);
+                const double towards_eye = cosine_to_eye(s.instance, g);
+                Front& front = side == 0 ? edge_on : fronts[side > 0 ? 1 : 0];
+                if (front.half_edge == kNoHalfEdge || towards_eye > front.towards_eye) front = {g, towards_eye};
+            }
             g = mesh.next_on_edge[g];
             if (g == h) break;
         }
@@ -293,6 +329,7 @@ class LayerEdgeFinder::Rules {
 
     void visit_border(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
+        if (!mesh.is_marked(h) && is_needle_on_edge(s, h)) return;
         const auto edge = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
         if (!edge) return;
         for (const BorderPart& part : parts_of_border(s, h, *edge)) visit_border_part(s, h, *edge, part, lines);
@@ -308,8 +345,12 @@ class LayerEdgeFinder::Rules {
         if (part.partner) {
             const SurfaceId beyond = triangle_of(s, *part.partner);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
-            const int side_h = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, h));
-            const int side_g = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, *part.partner));
+            const auto solid_h = past_sliver(s.instance, h), solid_g = past_sliver(s.instance, *part.partner);
+            const auto side_of = [&](HalfEdge e, const std::optional<HalfEdge>& solid) {
+                if (!solid) return 0;
+                return *solid == e ? side_of_edge(screen_, s.instance, a, b, apex_of(mesh, e)) : side_at(s.instance, *solid, a, b);
+            };
+            const int side_h = side_of(h, solid_h), side_g = side_of(*part.partner, solid_g);
             if (side_h != 0 && side_h == side_g) {
                 classes |= LineClass::silhouette;  // one lies on the other, and may hide it
             } else {
@@ -318,8 +359,10 @@ class LayerEdgeFinder::Rules {
                 if (!has_both_of_seam_ && classes.empty() && is_drawn_as_partner) return;
                 owners[1] = screen_.number_of(beyond);
             }
-            const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
-            classes |= contact_classes(surfaces_, s, beyond, middle, criteria_, &crease_cosine);
+            if (solid_h && solid_g) {
+                const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
+                classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g), middle, criteria_, &crease_cosine);
+            }
         } else {
             classes |= LineClass::border;
         }
@@ -484,6 +527,8 @@ LayerEdgeFinder::LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& scree
 LayerEdgeFinder::~LayerEdgeFinder() = default;
 
 void LayerEdgeFinder::find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const { rules_->visit(s, h, lines); }
+
+std::optional<SurfaceId> LayerEdgeFinder::solid_at_border(SurfaceId s, HalfEdge h) const { return rules_->solid_at_border(s, h); }
 
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                         int threads) {
