@@ -14,8 +14,6 @@ namespace {
 constexpr bool kHasBothOfSeam = true;
 /// Shorter parts of lines are not worth a stroke. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
-/// Folds that turn back by less are no contours (docs/conventions.md). 1/64 pixel.
-constexpr double kNegligibleFoldSubpixels = 4;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
@@ -37,8 +35,8 @@ constexpr double kRounding = 1.0 / 64;
 /// Finds what is visible in one block after the other. Buffers are used again.
 class FineLines::BlockClipper {
   public:
-    BlockClipper(const ScreenSurfaces& screen, const TileKernels& kernels, const LineCriteria& criteria)
-        : screen_(screen), contacts_(screen), kernels_(kernels), criteria_(criteria) {}
+    BlockClipper(const ScreenSurfaces& screen, const LayerEdgeFinder& finder, const TileKernels& kernels, const LineCriteria& criteria)
+        : screen_(screen), finder_(finder), contacts_(screen), kernels_(kernels), criteria_(criteria) {}
 
     /// `corner`: of the block, in 1/256 pixel.
     void set_triangles(const HidingTriangles& triangles, glm::ivec2 corner) {
@@ -226,17 +224,8 @@ class FineLines::BlockClipper {
     bool is_wide(const FineCandidate& candidate, double t) const {
         const glm::dvec2 at = glm::mix(candidate.line.from, candidate.line.to, t);
         const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
-        const HalfEdge h = candidate.part.edge.half_edge, partner = mesh.partners[h];
         const double nearness = candidate.line.nearness_at(t);
-        const double level = 32 * level_slack(screen_.surfaces(), nearness);
-        // Along rows and columns, as samples would see it.
-        for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
-            const auto goes_on = [&](HalfEdge side) {
-                return is_surface_wide(mesh, side, at, nearness, way, kNegligibleFoldSubpixels, level);
-            };
-            if (goes_on(h) && (partner == h || goes_on(partner))) return true;
-        }
-        return false;
+        return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
     }
 
     void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
@@ -244,7 +233,7 @@ class FineLines::BlockClipper {
         LineClassSet classes = line.classes;
         bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
         if (classes.has(LineClass::border)) {
-            if (const auto contact = contact_behind(line, 0.5 * (begin + end), outward(candidate))) {
+            if (const auto contact = contact_behind(candidate, 0.5 * (begin + end))) {
                 classes = (classes & LineClass::mark) | (*contact & criteria_.classes);
                 occludes = false;
                 if (classes.empty()) return;
@@ -267,8 +256,9 @@ class FineLines::BlockClipper {
     }
 
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
-    std::optional<LineClassSet> contact_behind(const LayerLine& line, double t, glm::dvec2 outward) {
-        const glm::dvec2 at = glm::mix(line.from, line.to, t), beyond = at + outward;
+    std::optional<LineClassSet> contact_behind(const FineCandidate& candidate, double t) {
+        const LayerLine& line = candidate.line;
+        const glm::dvec2 at = glm::mix(line.from, line.to, t), beyond = at + outward(candidate);
         const double nearness = line.nearness_at(t);
         std::optional<LayerTriangle> behind;
         double nearest = -kFar;
@@ -287,7 +277,8 @@ class FineLines::BlockClipper {
         const double distance = distance_of(p, surfaces.farthest_nearness + nearness);
         const double gap = distance_of(p, surfaces.farthest_nearness + nearest) - distance;
         if (gap > depth_tolerance(surfaces, distance, surfaces.plane(other))) return std::nullopt;
-        return contact_classes(surfaces, own, other, at / 256.0, criteria_);
+        const auto solid = finder_.solid_at_border(own, candidate.part.edge.half_edge);
+        return solid ? contact_classes(surfaces, *solid, other, at / 256.0, criteria_) : LineClassSet{};
     }
 
     /// From the edge of the surface to beyond it. 1/256 pixel.
@@ -306,6 +297,7 @@ class FineLines::BlockClipper {
     }
 
     const ScreenSurfaces& screen_;
+    const LayerEdgeFinder& finder_;
     Contacts contacts_;
     const TileKernels& kernels_;
     const LineCriteria& criteria_;
@@ -327,7 +319,7 @@ FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const Tri
       // The last blocks reach half a sample beyond the region (SampleBlocks).
       finder_(frame, screen, {region.x0, region.y0, region.x1 + 1, region.y1 + 1}, kHasBothOfSeam),
       blocks_(screen, bins, kernels, samples_per_pixel_of(*frame.scene)),
-      clipper_(std::make_unique<BlockClipper>(screen, kernels, frame.criteria)) {}
+      clipper_(std::make_unique<BlockClipper>(screen, finder_, kernels, frame.criteria)) {}
 
 FineLines::~FineLines() = default;
 

@@ -7,11 +7,9 @@
 
 namespace burin {
 
-/// Whether the surface on one side of an edge goes on for at least a distance on the screen, along `way` or
-/// against it, or comes back to the edge at another nearness: else it is a negligible fold or spike.
-/// `half_edge`: of the triangle on that side; `at`: a place on the edge and `least` in 1/256 pixel,
-/// `nearness` there. Nearness that differs by at most `level` is one.
-bool is_surface_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness,
-                     glm::dvec2 way, double least, double level);
+/// Whether a contour at an edge turns back by more than a negligible fold, along rows or columns as samples would see it, or
+/// comes back to the edge at another nearness. `half_edge`: one on the edge; `at`: a place there in 1/256 pixel, and `nearness`
+/// at it. Nearness that differs by at most `level` is one.
+bool is_fold_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level);
 
 }  // namespace burin

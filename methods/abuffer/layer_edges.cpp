@@ -9,6 +9,8 @@
 #include "base/parallel.h"
 #include "methods/abuffer/edge_on_screen.h"
 #include "methods/abuffer/fast_walk.h"
+#include "methods/abuffer/fold_width.h"
+#include "methods/abuffer/layer_triangle.h"
 
 namespace burin {
 namespace {
@@ -70,6 +72,12 @@ class LayerEdgeFinder::Rules {
         }
     }
 
+    std::optional<SurfaceId> solid_at_border(SurfaceId s, HalfEdge h) const {
+        const auto solid = past_sliver(s.instance, h);
+        if (!solid) return std::nullopt;
+        return triangle_of(s, *solid);
+    }
+
   private:
     SurfaceId triangle_of(SurfaceId s, HalfEdge h) const { return {s.instance, h / 3}; }
     std::uint32_t start_of(const Mesh& mesh, HalfEdge h) const { return mesh.triangles[h / 3][h % 3]; }
@@ -111,6 +119,15 @@ class LayerEdgeFinder::Rules {
         return square(two) > square(one) ? two : one;
     }
 
+    /// Whether the triangles of two half-edges of one edge face the eye alike, whichever way they are wound.
+    bool face_alike(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        const Facing a = screen_.facing(screen_.number_of({instance, h / 3})), b = screen_.facing(screen_.number_of({instance, g / 3}));
+        const bool are_wound_alike = start_of(mesh, h) != start_of(mesh, g), has_side = b == clockwise || b == counterclockwise;
+        if (are_wound_alike || !has_side) return a == b;
+        return a == (b == clockwise ? counterclockwise : clockwise);
+    }
+
     /// The triangle that counts at an edge: behind thin triangles the next one. Nothing at a thin
     /// triangle's longest edge, if the two others stand for it: they do not where what lies behind faces alike.
     std::optional<HalfEdge> solid_behind(std::uint32_t instance, HalfEdge h) const {
@@ -121,8 +138,7 @@ class LayerEdgeFinder::Rules {
             const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base;
             const HalfEdge g = mesh.next_on_edge[exit];
             const bool is_pair = g != exit && mesh.next_on_edge[g] == exit;
-            const auto facing = [&](HalfEdge e) { return screen_.facing(screen_.number_of({instance, e / 3})); };
-            if (*base == h && step == 0 && !(is_pair && facing(g) == facing(h))) return std::nullopt;
+            if (*base == h && step == 0 && !(is_pair && face_alike(instance, exit, g))) return std::nullopt;
             if (!is_pair) return h;
             h = g;
         }
@@ -172,6 +188,17 @@ class LayerEdgeFinder::Rules {
         return walk.end == WalkEnd::fold && std::abs(walk.fraction - kMiddle) <= kNoAdvance;
     }
 
+    /// Of an edge so short that its middle stands for all of it.
+    bool is_negligible_fold(std::uint32_t instance, HalfEdge h) const {
+        const ScreenMesh mesh = screen_.mesh(instance);
+        const ScreenVertex &a = mesh.vertices[mesh.corners[h]], &b = mesh.vertices[mesh.corners[h - h % 3 + (h + 1) % 3]];
+        if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) return false;
+        const glm::dvec2 from(a.x, a.y), to(b.x, b.y);
+        if (glm::distance(from, to) > kSubpixelsPerPixel) return false;
+        const double nearness = 0.5 * (static_cast<double>(a.nearness) + static_cast<double>(b.nearness));
+        return !is_fold_wide(mesh, h, 0.5 * (from + to), nearness, 32 * level_slack(surfaces_, nearness));
+    }
+
     void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const auto solid_h = solid_behind(s.instance, h), solid_g = solid_behind(s.instance, g);
@@ -181,7 +208,8 @@ class LayerEdgeFinder::Rules {
         if (solid_h && solid_g) {
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             const int side_h = side_at(s.instance, *solid_h, a, b), side_g = side_at(s.instance, *solid_g, a, b);
-            if (side_h != 0 && side_h == side_g) classes |= LineClass::silhouette;
+            const bool is_past_sliver = *solid_h != h || *solid_g != g;
+            if (side_h != 0 && side_h == side_g && !(is_past_sliver && is_negligible_fold(s.instance, h))) classes |= LineClass::silhouette;
         }
         if (!classes.has(LineClass::silhouette) && (ends_at_wall(s.instance, h, g) || ends_at_wall(s.instance, g, h))) {
             classes |= LineClass::silhouette;
@@ -195,6 +223,34 @@ class LayerEdgeFinder::Rules {
                                        middle_px(s, h), criteria_, &crease_cosine);
         }
         add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
+    }
+
+    /// Of a border: the half-edge itself, or that of the triangle behind its sliver, whose normal says nothing. Nothing if there
+    /// is none: a needle that stands by itself or on an edge of others is no surface.
+    std::optional<HalfEdge> past_sliver(std::uint32_t instance, HalfEdge h) const {
+        const Mesh& mesh = *surfaces_.instances[instance].mesh;
+        for (int step = 0; step < kMostSlivers; ++step) {
+            if (!is_sliver_at({instance, h / 3}, h)) return h;
+            const auto base = base_of_thin({instance, h / 3});
+            if (!base) return h;
+            const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base, g = mesh.next_on_edge[exit];
+            if (g == exit || mesh.next_on_edge[g] != exit) return std::nullopt;
+            h = g;
+        }
+        return h;
+    }
+
+    /// A sliver on an edge where two surfaces or more meet without it: nothing ends at its borders.
+    bool is_needle_on_edge(SurfaceId s, HalfEdge h) const {
+        if (!is_sliver_at(s, h)) return false;
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const auto base = base_of_thin(s);
+        if (!base) return false;
+        int solids = 0;
+        for (HalfEdge g = mesh.next_on_edge[*base]; g != *base; g = mesh.next_on_edge[g]) {
+            if (!is_sliver_at(triangle_of(s, g), g)) ++solids;
+        }
+        return solids > 1;
     }
 
     /// Most triangles are none in any view.
@@ -216,10 +272,12 @@ class LayerEdgeFinder::Rules {
         for (HalfEdge g = h;;) {
             if (g < h) return;  // the first one of the ring stands for it
             if (mesh.is_marked(g)) classes |= LineClass::mark;
-            const int side = side_at(s.instance, g, a, b);
-            const double towards_eye = cosine_to_eye(s.instance, g);
-            Front& front = side == 0 ? edge_on : fronts[side > 0 ? 1 : 0];
-            if (front.half_edge == kNoHalfEdge || towards_eye > front.towards_eye) front = {g, towards_eye};
+            if (!is_sliver_at(triangle_of(s, g), g)) {  // a needle is nothing that ends there
+                const int side = side_at(s.instance, g, a, b);
+                const double towards_eye = cosine_to_eye(s.instance, g);
+                Front& front = side == 0 ? edge_on : fronts[side > 0 ? 1 : 0];
+                if (front.half_edge == kNoHalfEdge || towards_eye > front.towards_eye) front = {g, towards_eye};
+            }
             g = mesh.next_on_edge[g];
             if (g == h) break;
         }
@@ -271,6 +329,7 @@ class LayerEdgeFinder::Rules {
 
     void visit_border(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
+        if (!mesh.is_marked(h) && is_needle_on_edge(s, h)) return;
         const auto edge = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
         if (!edge) return;
         for (const BorderPart& part : parts_of_border(s, h, *edge)) visit_border_part(s, h, *edge, part, lines);
@@ -286,8 +345,12 @@ class LayerEdgeFinder::Rules {
         if (part.partner) {
             const SurfaceId beyond = triangle_of(s, *part.partner);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
-            const int side_h = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, h));
-            const int side_g = side_of_edge(screen_, s.instance, a, b, apex_of(mesh, *part.partner));
+            const auto solid_h = past_sliver(s.instance, h), solid_g = past_sliver(s.instance, *part.partner);
+            const auto side_of = [&](HalfEdge e, const std::optional<HalfEdge>& solid) {
+                if (!solid) return 0;
+                return *solid == e ? side_of_edge(screen_, s.instance, a, b, apex_of(mesh, e)) : side_at(s.instance, *solid, a, b);
+            };
+            const int side_h = side_of(h, solid_h), side_g = side_of(*part.partner, solid_g);
             if (side_h != 0 && side_h == side_g) {
                 classes |= LineClass::silhouette;  // one lies on the other, and may hide it
             } else {
@@ -296,8 +359,10 @@ class LayerEdgeFinder::Rules {
                 if (!has_both_of_seam_ && classes.empty() && is_drawn_as_partner) return;
                 owners[1] = screen_.number_of(beyond);
             }
-            const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
-            classes |= contact_classes(surfaces_, s, beyond, middle, criteria_, &crease_cosine);
+            if (solid_h && solid_g) {
+                const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
+                classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g), middle, criteria_, &crease_cosine);
+            }
         } else {
             classes |= LineClass::border;
         }
@@ -462,6 +527,8 @@ LayerEdgeFinder::LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& scree
 LayerEdgeFinder::~LayerEdgeFinder() = default;
 
 void LayerEdgeFinder::find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const { rules_->visit(s, h, lines); }
+
+std::optional<SurfaceId> LayerEdgeFinder::solid_at_border(SurfaceId s, HalfEdge h) const { return rules_->solid_at_border(s, h); }
 
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                         int threads) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "image/image.h"
@@ -51,6 +52,10 @@ class LayerEdgeFinder {
 
     /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
     void find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const;
+
+    /// What counts where a border of triangle `s` is in contact with another surface: the triangle, or behind a sliver the next
+    /// one. Nothing if it is a needle.
+    std::optional<SurfaceId> solid_at_border(SurfaceId s, HalfEdge h) const;
 
   private:
     class Rules;
