@@ -28,7 +28,7 @@
 #include "bench/statistics.h"
 #include "mesh/build_meshes.h"
 #include "methods/abuffer/abuffer.h"
-#include "methods/abuffer/intersecting_pairs.h"
+#include "methods/abuffer/layers/intersecting_pairs.h"
 #include "render/close_cracks.h"
 #include "render/output.h"
 #include "scene/scene_description.h"

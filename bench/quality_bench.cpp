@@ -16,7 +16,7 @@
 #include "compare/metrics_temporal.h"
 #include "compare/moving_frames.h"
 #include "compare/test_chart.h"
-#include "methods/abuffer/sampling.h"
+#include "methods/abuffer/screen/sampling.h"
 #include "methods/method_table.h"
 #include "scene/scene_description.h"
 

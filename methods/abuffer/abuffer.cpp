@@ -7,15 +7,15 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "methods/abuffer/layer_edges.h"
 #include "methods/abuffer/layer_pass.h"
+#include "methods/abuffer/layers/layer_edges.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/picture_pieces.h"
 #include "methods/abuffer/row_finisher.h"
-#include "methods/abuffer/sampling.h"
-#include "methods/abuffer/smooth_contours.h"
+#include "methods/abuffer/screen/sampling.h"
+#include "methods/abuffer/strokes/smooth_contours.h"
+#include "methods/abuffer/strokes/visible_dashes.h"
 #include "methods/abuffer/surface_pass.h"
-#include "methods/abuffer/visible_dashes.h"
 
 namespace burin {
 namespace {

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "base/parallel.h"
-#include "methods/abuffer/layer_edges.h"
-#include "methods/abuffer/line_chains.h"
+#include "methods/abuffer/layers/layer_edges.h"
+#include "methods/abuffer/layers/transparent_fill.h"
 #include "methods/abuffer/lines_of_crop.h"
-#include "methods/abuffer/transparent_fill.h"
-#include "methods/abuffer/visible_dashes.h"
+#include "methods/abuffer/strokes/line_chains.h"
+#include "methods/abuffer/strokes/visible_dashes.h"
 
 namespace burin {
 namespace {

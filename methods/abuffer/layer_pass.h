@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "methods/abuffer/intersecting_pairs.h"
-#include "methods/abuffer/intersection_lines.h"
-#include "methods/abuffer/layer_bins.h"
-#include "methods/abuffer/layer_strokes.h"
-#include "methods/abuffer/layer_tile.h"
-#include "methods/abuffer/smooth_contours.h"
+#include "methods/abuffer/layers/intersecting_pairs.h"
+#include "methods/abuffer/layers/intersection_lines.h"
+#include "methods/abuffer/layers/layer_bins.h"
+#include "methods/abuffer/layers/layer_tile.h"
+#include "methods/abuffer/strokes/layer_strokes.h"
+#include "methods/abuffer/strokes/smooth_contours.h"
 
 namespace burin {
 

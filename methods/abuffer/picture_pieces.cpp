@@ -8,11 +8,11 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "methods/abuffer/layer_line.h"
 #include "methods/abuffer/layer_pass.h"
+#include "methods/abuffer/layers/layer_line.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/piece_costs.h"
-#include "methods/abuffer/sampling.h"
+#include "methods/abuffer/screen/sampling.h"
 
 namespace burin {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "methods/abuffer/screen_surfaces.h"
-#include "methods/abuffer/tile_lists.h"
+#include "methods/abuffer/screen/screen_surfaces.h"
+#include "methods/abuffer/screen/tile_lists.h"
 #include "render/frame.h"
 
 namespace burin {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "methods/abuffer/triangle_bins.h"
+#include "methods/abuffer/screen/triangle_bins.h"
 
 namespace burin {
 namespace {

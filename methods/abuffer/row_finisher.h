@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "methods/abuffer/stroke_pass.h"
+#include "methods/abuffer/strokes/stroke_pass.h"
 #include "render/method.h"
 
 namespace burin {

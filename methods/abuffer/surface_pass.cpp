@@ -10,10 +10,10 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "methods/abuffer/fine_lines.h"
-#include "methods/abuffer/line_tile.h"
-#include "methods/abuffer/pixel_fill.h"
-#include "methods/abuffer/sampling.h"
+#include "methods/abuffer/fine/fine_lines.h"
+#include "methods/abuffer/samples/line_tile.h"
+#include "methods/abuffer/samples/pixel_fill.h"
+#include "methods/abuffer/screen/sampling.h"
 
 namespace burin {
 namespace {

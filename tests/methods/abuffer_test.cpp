@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "mesh/shapes.h"
-#include "methods/abuffer/fast_decision.h"
-#include "methods/abuffer/surface_tile.h"
+#include "methods/abuffer/samples/fast_decision.h"
+#include "methods/abuffer/samples/surface_tile.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 

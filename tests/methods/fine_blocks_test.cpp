@@ -1,11 +1,11 @@
-#include "methods/abuffer/fine_blocks.h"
+#include "methods/abuffer/fine/fine_blocks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "methods/abuffer/layer_triangle.h"
+#include "methods/abuffer/layers/layer_triangle.h"
 #include "tests/support/drawing.h"
 #include "tests/support/polygon_rect.h"
 #include "tests/support/random.h"

@@ -9,10 +9,10 @@
 
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
-#include "methods/abuffer/box_tree.h"
-#include "methods/abuffer/intersecting_pairs.h"
 #include "methods/abuffer/layer_pass.h"
-#include "methods/abuffer/triangle_bins.h"
+#include "methods/abuffer/layers/box_tree.h"
+#include "methods/abuffer/layers/intersecting_pairs.h"
+#include "methods/abuffer/screen/triangle_bins.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 

@@ -1,6 +1,6 @@
 // Lines behind surfaces: hidden ones by themselves beside all kinds together.
 
-#include "methods/abuffer/layer_strokes.h"
+#include "methods/abuffer/strokes/layer_strokes.h"
 
 #include <gtest/gtest.h>
 

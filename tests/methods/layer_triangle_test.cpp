@@ -1,6 +1,6 @@
 // Where triangles are in front of lines: the kernel beside clip_where_hidden().
 
-#include "methods/abuffer/layer_triangle.h"
+#include "methods/abuffer/layers/layer_triangle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "methods/abuffer/line_depths.h"
+#include "methods/abuffer/layers/line_depths.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
-#include "methods/abuffer/fine_edges.h"
+#include "methods/abuffer/fine/fine_edges.h"
 #include "methods/abuffer/picture_pieces.h"
 #include "methods/abuffer/piece_costs.h"
 #include "tests/support/drawing.h"

@@ -1,6 +1,6 @@
 // Dashes on visible lines: their lengths, where they begin, and what must not change them.
 
-#include "methods/abuffer/visible_dashes.h"
+#include "methods/abuffer/strokes/visible_dashes.h"
 
 #include <gtest/gtest.h>
 

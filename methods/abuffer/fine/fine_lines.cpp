@@ -1,0 +1,381 @@
+#include "methods/abuffer/fine/fine_lines.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "methods/abuffer/layers/contacts.h"
+#include "methods/abuffer/layers/fold_width.h"
+#include "methods/abuffer/layers/layer_triangle.h"
+#include "methods/abuffer/screen/sampling.h"
+
+namespace burin {
+namespace {
+
+constexpr bool kHasBothOfSeam = true;
+/// Shorter parts of lines are not worth a stroke. Pixels.
+constexpr double kShortestPiecePx = 1.0 / 32;
+/// How exactly the place is found where a fold begins. Pixels.
+constexpr double kWidthStepPx = 1.0 / 32;
+constexpr double kFar = 1e300;
+/// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many layers, lines are left to
+/// the samples, for time would grow with the square.
+constexpr std::size_t kMostLooks = std::size_t{1} << 22;
+/// A block is cut into so many cells along each side, at most, that about so many triangles are in one.
+constexpr int kMostCells = 32;
+constexpr std::size_t kTrianglesPerCell = 128;
+/// In so many cells a triangle may be, on average.
+constexpr std::size_t kMostPlaces = 4;
+/// A surface that covers a place so far beyond an edge is in contact there. 1/64 pixel.
+constexpr double kBeyondSubpixels = 4;
+/// What rounding does to nearness, as part of what counts as level.
+constexpr double kRounding = 1.0 / 64;
+
+}  // namespace
+
+/// Finds what is visible in one block after the other. Buffers are used again.
+class FineLines::BlockClipper {
+  public:
+    BlockClipper(const ScreenSurfaces& screen, const LayerEdgeFinder& finder, const TileKernels& kernels, const LineCriteria& criteria)
+        : screen_(screen), finder_(finder), contacts_(screen), kernels_(kernels), criteria_(criteria) {}
+
+    /// `corner`: of the block, in 1/256 pixel.
+    void set_triangles(const HidingTriangles& triangles, glm::ivec2 corner) {
+        given_ = &triangles;
+        corner_ = corner;
+        cells_ = 1;
+        cell_shift_ = SampleBlocks::kShift;
+        while (cells_ < kMostCells && triangles.size() > kTrianglesPerCell * count_of_cells()) {
+            cells_ *= 2;
+            --cell_shift_;
+        }
+        sort_to_cells();
+        beside_.resize(cells_ == 1 ? triangles.size() : cell_end_.back());
+        places_.assign(triangles.size(), {});
+        set_up_.clear();
+    }
+    /// How many triangles are in a cell, on average.
+    std::size_t triangles_per_cell() const { return cells_ == 1 ? given_->size() : in_cells_.size() / count_of_cells(); }
+
+    void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
+        const LayerLine& line = candidate.line;
+        const double begin = candidate.part.begin, end = candidate.part.end;
+        const double slack = line_slack(screen_.surfaces(), line, begin, end);
+        const double coincident = line_slack(screen_.surfaces(), line, begin, end, kCoincidentPx);
+        const double certain = line_slack(screen_.surfaces(), line, begin, end, kCertainPx);
+        const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
+        const bool is_border = line.owners[0] == line.owners[1];
+        const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
+        hidden_.clear();
+        double reached = begin;  // as far as no piece is left
+        bool is_hidden = false;
+        for_triangles(line, glm::mix(line.from, line.to, begin), glm::mix(line.from, line.to, end), line.lowest_in(begin, end) - slack,
+                      [&](const LayerTriangle& t) {
+                          // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
+                          // apart.
+                          const bool is_own_mesh = t.instance == candidate.part.edge.instance;
+                          const double touching = slack + t.slack;
+                          const double level = !is_own_mesh ? certain + t.slack : is_border ? rounding + t.slack : rounding;
+                          // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
+                          // its edges, too, for its neighbour there may turn away.
+                          double most_from = begin, most_to = end, from = begin, to = end;
+                          if (!clip_where_hidden(line, -coincident - t.slack, t, most_from, most_to, true)) return true;
+                          const bool is_any_hidden = clip_where_hidden(line, level, t, from, to);
+                          const bool is_settled = is_any_hidden && from == most_from && to == most_to;
+                          const auto is_none = [&] {
+                              return contacts_.is_seen_instead(line, begin, end, t, touching) ||
+                                     contacts_.is_flush(line, most_from, most_to, t, touching, criteria_, false);
+                          };
+                          if (!is_settled && is_none()) {
+                              from = most_from;
+                              to = most_to;
+                          } else if (!is_any_hidden) {
+                              return true;
+                          }
+                          hidden_.push_back({from, to});
+                          reached = hidden_up_to(reached, shortest);
+                          is_hidden = end - reached <= shortest;
+                          return !is_hidden;
+                      });
+        if (is_hidden) return;
+        std::sort(hidden_.begin(), hidden_.end(),
+                  [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+        reached = begin;
+        for (const Interval& h : hidden_) {
+            add_wide(candidate, reached, h.begin, shortest, segments);
+            reached = std::max(reached, h.end);
+        }
+        add_wide(candidate, reached, end, shortest, segments);
+    }
+
+  private:
+    struct Interval {
+        double begin, end;
+    };
+
+    /// How far what is hidden goes on from a place, but for gaps too short to be drawn.
+    double hidden_up_to(double reached, double shortest) const {
+        const auto goes_on = [&](const Interval& h) { return h.begin - reached <= shortest && h.end > reached; };
+        for (auto next = hidden_.end(); (next = std::find_if(hidden_.begin(), hidden_.end(), goes_on)) != hidden_.end();) {
+            reached = next->end;
+        }
+        return reached;
+    }
+
+    struct Place {
+        std::uint32_t first = 0, count = 0;
+    };
+
+    std::size_t count_of_cells() const { return static_cast<std::size_t>(cells_ * cells_); }
+
+    /// Lists the triangles in each cell they touch; with a single one there is nothing to do.
+    void sort_to_cells() {
+        // Counts are kept one place further, so that filling moves each list's end to its place.
+        for (; cells_ > 1; cells_ /= 2, ++cell_shift_) {
+            cell_end_.assign(count_of_cells() + 2, 0);
+            std::size_t count = 0;
+            for (const HidingTriangle& t : *given_) {
+                for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
+                    ++cell_end_[cell + 2];
+                    ++count;
+                });
+            }
+            if (count <= kMostPlaces * given_->size()) break;  // large ones would fill all cells
+        }
+        if (cells_ == 1) return;
+        for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
+        in_cells_.resize(cell_end_.back());
+        triangles_.resize(cell_end_.back());
+        for (std::uint32_t i = 0; i < given_->size(); ++i) {
+            const HidingTriangle& t = (*given_)[i];
+            for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
+                const std::size_t at = cell_end_[cell + 1]++;
+                in_cells_[at] = i;
+                triangles_.set(at, given_->flat(i));
+            });
+        }
+    }
+
+    /// Calls use(triangle) for those beside the way from a to b that are nearer than `least`, and that the line is no edge of,
+    /// until it says false.
+    template <typename Use>
+    void for_triangles(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, double least, const Use& use) {
+        const ScreenLine part{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
+                              static_cast<float>(std::max(least, -1e30))};
+        bool goes_on = true;
+        const bool has_cells = cells_ > 1;
+        const TriangleView triangles = has_cells ? triangles_.view() : given_->view();
+        for_cells(glm::ivec2(glm::floor(glm::min(a, b))), glm::ivec2(glm::ceil(glm::max(a, b))), [&](std::size_t cell) {
+            const std::size_t first = has_cells ? cell_end_[cell] : 0, end = has_cells ? cell_end_[cell + 1] : given_->size();
+            const std::size_t count = kernels_.find_hiding(triangles, first, end, part, beside_.data());
+            for (std::size_t at = 0; at < count && goes_on; ++at) {
+                const std::uint32_t i = has_cells ? in_cells_[beside_[at]] : beside_[at];
+                if (is_owner(line, (*given_)[i].number)) continue;
+                if (places_[i].count == 0) set_up(i);
+                for (std::uint32_t k = 0; k < places_[i].count && goes_on; ++k) {
+                    const LayerTriangle& t = set_up_[places_[i].first + k];
+                    goes_on = lies_on(line, t) || use(t);
+                }
+            }
+        });
+    }
+
+    /// Calls visit(cell) for those that a box touches, in 1/256 pixel.
+    template <typename Visit>
+    void for_cells(glm::ivec2 low, glm::ivec2 high, const Visit& visit) const {
+        const int last = cells_ - 1;
+        const auto cell_at = [&](int subpixel, int first) {
+            return std::clamp((subpixel - first) >> cell_shift_, 0, last);
+        };
+        const int x0 = cell_at(low.x, corner_.x), x1 = cell_at(high.x, corner_.x);
+        const int y0 = cell_at(low.y, corner_.y), y1 = cell_at(high.y, corner_.y);
+        for (int y = y0; y <= y1; ++y) {
+            for (int x = x0; x <= x1; ++x) visit(static_cast<std::size_t>(y * cells_ + x));
+        }
+    }
+
+    void set_up(std::size_t i) {
+        const HidingTriangle& given = (*given_)[i];
+        const SurfaceId s = screen_.surface_of(given.number);
+        places_[i].first = static_cast<std::uint32_t>(set_up_.size());
+        if (given.is_clipped) {
+            const auto parts = clipped_layer_triangles(screen_, s, given.number);
+            set_up_.insert(set_up_.end(), parts.begin(), parts.end());
+        } else {
+            set_up_.push_back(layer_triangle(screen_, s, given.number));
+        }
+        places_[i].count = static_cast<std::uint32_t>(set_up_.size()) - places_[i].first;
+    }
+
+    /// Adds what is no negligible fold.
+    void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
+                  std::vector<LineSegment>& segments) {
+        if (candidate.line.classes.has(LineClass::silhouette)) {
+            const double step = kWidthStepPx / candidate.line.length_px();
+            // At a vertex rounding says which triangle one gets to.
+            const double inset = std::min(0.5, 0.5 * step);
+            const auto is_wide_at = [&](double t) { return is_wide(candidate, std::clamp(t, inset, 1 - inset)); };
+            while (end - begin > shortest && !is_wide_at(begin)) begin = std::min(end, begin + step);
+            while (end - begin > shortest && !is_wide_at(end)) end = std::max(begin, end - step);
+        }
+        if (end - begin > shortest) add(candidate, begin, end, segments);
+    }
+
+    /// Whether both surfaces at a contour go on for more than a negligible fold.
+    bool is_wide(const FineCandidate& candidate, double t) const {
+        const glm::dvec2 at = glm::mix(candidate.line.from, candidate.line.to, t);
+        const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
+        const double nearness = candidate.line.nearness_at(t);
+        return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
+    }
+
+    void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
+        const LayerLine& line = candidate.line;
+        LineClassSet classes = line.classes;
+        bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
+        if (classes.has(LineClass::border)) {
+            if (const auto contact = contact_behind(candidate, 0.5 * (begin + end))) {
+                classes = (classes & LineClass::mark) | (*contact & criteria_.classes);
+                occludes = false;
+                if (classes.empty()) return;
+            }
+        }
+        LineSegment s;
+        s.from = glm::mix(line.from, line.to, begin) / 256.0;
+        s.to = glm::mix(line.from, line.to, end) / 256.0;
+        s.drawn_as = *classes.first();
+        s.opacity = line.opacity;
+        s.line_key = line.line_key;
+        s.block = static_cast<std::uint32_t>(candidate.part.block_y & 0xFFFF) << 16 |
+                  static_cast<std::uint32_t>(candidate.part.block_x & 0xFFFF);
+        const double zero = screen_.surfaces().farthest_nearness;
+        s.nearness_from = static_cast<float>(zero + line.nearness_at(begin));
+        s.nearness_to = static_cast<float>(zero + line.nearness_at(end));
+        s.occludes = occludes;
+        s.front_on_left = is_owner_on_left(candidate);
+        segments.push_back(s);
+    }
+
+    /// A surface that ends in contact with another one has no border there, but the classes of a contact.
+    std::optional<LineClassSet> contact_behind(const FineCandidate& candidate, double t) {
+        const LayerLine& line = candidate.line;
+        const glm::dvec2 at = glm::mix(line.from, line.to, t), beyond = at + outward(candidate);
+        const double nearness = line.nearness_at(t);
+        std::optional<LayerTriangle> behind;
+        double nearest = -kFar;
+        for_triangles(line, beyond, beyond, -kFar, [&](const LayerTriangle& triangle) {
+            const double other = triangle.nearness_at(at);
+            const bool is_nearest = other > nearest || (behind && other == nearest && triangle.number < behind->number);
+            if (!triangle.covers(beyond) || !is_nearest) return true;
+            behind = triangle;
+            nearest = other;
+            return true;
+        });
+        if (!behind) return std::nullopt;
+        const SurfaceSet& surfaces = screen_.surfaces();
+        const Projection& p = surfaces.projection;
+        const SurfaceId own = screen_.surface_of(line.owners[0]), other = screen_.surface_of(behind->number);
+        const double distance = distance_of(p, surfaces.farthest_nearness + nearness);
+        const double gap = distance_of(p, surfaces.farthest_nearness + nearest) - distance;
+        if (gap > depth_tolerance(surfaces, distance, surfaces.plane(other))) return std::nullopt;
+        const auto solid = finder_.solid_at_border(own, candidate.part.edge.half_edge);
+        return solid ? contact_classes(surfaces, *solid, other, at / 256.0, criteria_) : LineClassSet{};
+    }
+
+    /// From the edge of the surface to beyond it. 1/256 pixel.
+    glm::dvec2 outward(const FineCandidate& candidate) const {
+        const glm::dvec2 along = glm::normalize(candidate.line.to - candidate.line.from), right(-along.y, along.x);
+        return kBeyondSubpixels * (is_owner_on_left(candidate) ? right : -right);
+    }
+
+    /// Of the way from the line's beginning to its end.
+    bool is_owner_on_left(const FineCandidate& candidate) const {
+        const std::uint32_t instance = candidate.part.edge.instance;
+        const HalfEdge h = candidate.part.edge.half_edge;
+        const auto corner = [&](HalfEdge k) { return screen_.mesh(instance).corners[h - h % 3 + (h + k) % 3]; };
+        const auto [from, to] = std::minmax({corner(0), corner(1)});
+        return side_of_edge(screen_, instance, from, to, corner(2)) < 0;  // y runs down
+    }
+
+    const ScreenSurfaces& screen_;
+    const LayerEdgeFinder& finder_;
+    Contacts contacts_;
+    const TileKernels& kernels_;
+    const LineCriteria& criteria_;
+    const HidingTriangles* given_ = nullptr;
+    glm::ivec2 corner_{0};
+    int cells_ = 1, cell_shift_ = SampleBlocks::kShift;  // along each side, and log2 of a cell's width in 1/256 pixel
+    std::vector<std::uint32_t> cell_end_, in_cells_;  // lists of given triangles, one per cell of several
+    ScreenTriangles triangles_;                       // of them, which tell of most that they hide nothing
+    std::vector<std::uint32_t> beside_;
+    std::vector<Place> places_;  // of given triangles in set_up_
+    std::vector<LayerTriangle> set_up_;
+    std::vector<Interval> hidden_;
+};
+
+FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
+                     const TileKernels& kernels, PixelRect region)
+    : screen_(screen),
+      grid_(samples_per_pixel_of(*frame.scene)),
+      // The last blocks reach half a sample beyond the region (SampleBlocks).
+      finder_(frame, screen, {region.x0, region.y0, region.x1 + 1, region.y1 + 1}, kHasBothOfSeam),
+      blocks_(screen, bins, kernels, samples_per_pixel_of(*frame.scene)),
+      clipper_(std::make_unique<BlockClipper>(screen, finder_, kernels, frame.criteria)) {}
+
+FineLines::~FineLines() = default;
+
+void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vector<LineSegment>& segments) {
+    find_candidates(parts);
+    if (candidates_.empty()) return;
+    blocks_.fill(tile, candidates_);
+    for (std::size_t block = 0; block < blocks_.count(); ++block) {
+        const FinePart& any = candidates_[blocks_.candidates(block).front()].part;
+        clipper_->set_triangles(blocks_.triangles(block),
+                                glm::ivec2(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y))));
+        if (blocks_.candidates(block).size() * clipper_->triangles_per_cell() > kMostLooks) continue;
+        for (const std::uint32_t i : blocks_.candidates(block)) clipper_->add_visible(candidates_[i], segments);
+    }
+}
+
+void FineLines::find_candidates(std::span<const FinePart> parts) {
+    candidates_.clear();
+    const FinePart* before = nullptr;
+    std::span<const LayerLine> lines;
+    for (const FinePart& part : parts) {
+        const std::uint32_t instance = part.edge.instance;
+        const HalfEdge h = part.edge.half_edge;
+        const bool is_same = before != nullptr && before->edge.instance == instance && before->edge.half_edge == h;
+        if (!is_same) lines = lines_of(instance, h);
+        before = &part;
+        for (LayerLine line : lines) {
+            FinePart own = part;
+            own.begin = (std::max(part.begin, line.edge_begin) - line.edge_begin) / (line.edge_end - line.edge_begin);
+            own.end = (std::min(part.end, line.edge_end) - line.edge_begin) / (line.edge_end - line.edge_begin);
+            if (own.begin >= own.end) continue;
+            if (screen_.mesh(instance).partners[h] == h)
+                line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
+            candidates_.push_back({own, line});
+        }
+    }
+}
+
+/// Those that an edge is, until the next call.
+std::span<const LayerLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
+    constexpr std::size_t kKnownBorders = 1 << 14;
+    const SurfaceId s{instance, h / 3};
+    if (screen_.mesh(instance).partners[h] != h) {
+        lines_.clear();
+        finder_.find(s, h, lines_);
+        return lines_;
+    }
+    if (known_borders_.empty()) known_borders_.resize(kKnownBorders);
+    KnownBorder& known = known_borders_[(h + 7919 * instance) % kKnownBorders];
+    if (known.half_edge != h || known.instance != instance) {
+        known.instance = instance;
+        known.half_edge = h;
+        known.lines.clear();
+        finder_.find(s, h, known.lines);
+    }
+    return known.lines;
+}
+
+}  // namespace burin

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "abuffer/sample_tile.h"
+#include "lines/line_segment.h"
+#include "methods/abuffer/fine/fine_edges.h"
+#include "methods/abuffer/screen/edge_on_screen.h"
+
+namespace burin {
+
+/// A part of an edge within one block that may be a line though the samples do not tell.
+struct FinePart {
+    FineEdge edge;
+    std::int32_t block_x, block_y;
+    double begin, end;  ///< shares of edge_on_screen(), which begins at the vertex with the smaller number
+};
+
+/// Finds where along edges the samples of a tile do not tell whether there is a line: no line of the edge
+/// was found there, and the samples beside it see neither the edge's own triangles with what settles it, nor
+/// something that is clearly in front. Buffers are used again from tile to tile.
+class FineParts {
+  public:
+    /// `takes_rests`: also what is left of edges beside pieces of lines that were found, and lines beside
+    /// others with a gap between them narrower than a sample (completes_lines()).
+    FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
+        : screen_(screen), kernels_(kernels), takes_rests_(takes_rests) {}
+
+    /// `drawn`: the lines found in the tile, as a SegmentMerger leaves them.
+    void find(const SampleTile& samples, std::span<const TileEdge> edges, std::span<const LineSegment> drawn,
+              std::vector<FinePart>& parts);
+
+  private:
+    struct Owners {
+        std::uint32_t numbers[2];
+        bool needs_both;    // the line runs between two polygons that are seen
+        int inner_side;     // of an edge at which the surface ends or turns away: where it is. 0: it goes on
+    };
+    struct Interval {
+        double begin, end;
+    };
+    void find_farthest(const SampleTile& samples);
+    Owners owners_of(FineEdge edge) const;
+    /// Squares of samples, and the least nearness in each of them.
+    struct Squares {
+        int shift;  // log2 of a square's width in samples
+        std::size_t pitch;
+        std::vector<float> farthest;
+    };
+    bool is_surely_behind(const TileEdge& edge, const SampleTile& samples) const;
+    bool is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const;
+    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
+                   glm::ivec2 block, Interval part);
+    bool is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
+                 const Owners& owners) const;
+    bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
+    static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
+    static bool is_drawn_by_another(const EdgeOnScreen& edge, std::span<const LineSegment> drawn, std::uint32_t block);
+    void find_undrawn(const EdgeOnScreen& edge, double begin, double end,
+                      std::span<const LineSegment> pieces);
+    double level(double nearness) const;
+
+    const ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
+    bool takes_rests_;
+    static constexpr int kAreaShift = TileEdge::kAreaShift;
+    static constexpr std::size_t kAreaPitch = BlockTable::kPitch >> (kAreaShift - kBlockShift);
+    Squares blocks_{kBlockShift, BlockTable::kPitch, {}};
+    Squares areas_{kAreaShift, kAreaPitch, {}};  // most edges lie behind whole ones
+    std::vector<Interval> undrawn_, open_;
+};
+
+}  // namespace burin

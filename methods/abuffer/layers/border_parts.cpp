@@ -1,0 +1,98 @@
+#include "methods/abuffer/layers/border_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/abuffer/layers/edge_sides.h"
+
+namespace burin {
+namespace {
+
+/// Wider gaps between patches are no seams. 1 pixel.
+constexpr double kWidestCrackSubpixels = 256;
+
+/// As walks over a seam ask it.
+bool is_level(const ScreenSurfaces& screen, double nearness_a, double nearness_b, SurfaceId steep) {
+    const auto distance = [&](double nearness) {
+        return distance_of(screen.surfaces().projection, screen.surfaces().farthest_nearness + nearness);
+    };
+    const double a = distance(nearness_a);
+    return std::abs(a - distance(nearness_b)) <= depth_tolerance(screen.surfaces(), a, screen.surfaces().plane(steep));
+}
+
+/// The border of another patch that runs along, nearer than a pixel and level, at a share of edge_on_screen().
+std::optional<HalfEdge> seam_partner(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h, const EdgeOnScreen& edge,
+                                     const BorderIndex::SeamCandidates& candidates, double on_screen) {
+    const Mesh& mesh = screen.surfaces().mesh_of(s);
+    const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
+    const auto partner = candidates.nearest(glm::mix(a, b, share_in_space(screen, edge, on_screen)));
+    if (!partner) return std::nullopt;
+    const auto other = edge_on_screen(screen, s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
+    if (!other) return std::nullopt;
+    const glm::dvec2 place = edge.at(on_screen);
+    const glm::dvec2 p = other->from, along = other->to - p;
+    const double square = glm::dot(along, along);
+    const double t = square > 0 ? std::clamp(glm::dot(place - p, along) / square, 0.0, 1.0) : 0.0;
+    if (glm::distance(place, p + along * t) > kWidestCrackSubpixels) return std::nullopt;
+    const double own_nearness = edge.nearness_at(on_screen);
+    const SurfaceId beyond{s.instance, *partner / 3};
+    const SurfaceSet& surfaces = screen.surfaces();
+    const double in_its_plane = surfaces.plane(beyond).nearness(place / double{kSubpixelsPerPixel}) - surfaces.farthest_nearness;
+    if (!is_level(screen, own_nearness, other->nearness_at(t), beyond) && !is_level(screen, own_nearness, in_its_plane, beyond)) {
+        return std::nullopt;  // it lies before or behind, as a stair's next tread does
+    }
+    return partner;
+}
+
+/// Whether another border is nearer than a crack is wide, somewhere on the screen; true also for some that are not.
+bool is_crack_beside(const ScreenSurfaces& screen, std::uint32_t instance, const EdgeOnScreen& edge, HalfEdge h) {
+    const Mesh& mesh = *screen.surfaces().instances[instance].mesh;
+    const auto other = edge_on_screen(screen, instance, start_of(mesh, h), end_of(mesh, h));
+    if (!other) return false;
+    const double length = glm::distance(edge.from, edge.to), p = edge.side_of(other->from), q = edge.side_of(other->to);
+    const bool is_beyond = std::min(std::abs(p), std::abs(q)) > kWidestCrackSubpixels * length && (p < 0) == (q < 0);
+    return !is_beyond;
+}
+
+}  // namespace
+
+std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h, const EdgeOnScreen& edge) {
+    const Mesh& mesh = screen.surfaces().mesh_of(s);
+    BorderIndex::SeamCandidates candidates;
+    mesh.borders.find_candidates(h, candidates);
+    if (candidates.segments().empty()) return {{}};
+    const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), along = glm::dvec3(mesh.positions[end_of(mesh, h)]) - a;
+    const double square = glm::dot(along, along);
+    std::vector<double> ends;
+    bool has_crack = false;
+    for (const BorderIndex::Segment& other : candidates.segments()) {
+        if (!is_crack_beside(screen, s.instance, edge, other.half_edge)) continue;
+        has_crack = true;
+        for (const glm::vec3& end : {other.a, other.b}) {
+            const double in_space = glm::dot(glm::dvec3(end) - a, along) / square;
+            if (in_space > edge.begin && in_space < edge.end) ends.push_back(share_on_screen(screen, edge, in_space));
+        }
+    }
+    if (!has_crack) return {{}};
+    std::sort(ends.begin(), ends.end());
+    const double shortest = kWidestCrackSubpixels / glm::distance(edge.from, edge.to);  // a crack is no part of its own
+    std::vector<BorderPart> parts;
+    const auto add_part = [&](double begin, double end) {
+        const auto partner = seam_partner(screen, s, h, edge, candidates, 0.5 * (begin + end));
+        if (!parts.empty() && parts.back().partner == partner) {
+            parts.back().end = end;
+        } else {
+            parts.push_back({begin, end, partner});
+        }
+    };
+    double begin = 0;
+    for (const double end : ends) {
+        if (end - begin <= shortest || 1 - end <= shortest) continue;
+        add_part(begin, end);
+        begin = end;
+    }
+    add_part(begin, 1);
+    return parts;
+}
+
+}  // namespace burin

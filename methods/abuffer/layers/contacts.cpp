@@ -1,0 +1,242 @@
+#include "methods/abuffer/layers/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "methods/abuffer/screen/face_plane.h"
+
+namespace burin {
+namespace {
+
+/// So far from a line its triangles are compared with others at its depth. 2 pixels.
+constexpr double kBesideSubpixels = 512;
+
+/// False for most triangles that do not cover a place, by their corners alone.
+bool may_cover(const ScreenTriangle& t, glm::dvec2 place) {
+    const auto& [a, b, c] = t.corners;
+    return place.x >= std::min({a.x, b.x, c.x}) && place.x <= std::max({a.x, b.x, c.x}) && place.y >= std::min({a.y, b.y, c.y}) &&
+           place.y <= std::max({a.y, b.y, c.y});
+}
+
+}  // namespace
+
+bool Contacts::is_seen_instead(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const {
+    const auto at = touching_place(line, begin, end, t, level);
+    if (!at) return false;
+    const bool is_border = line.owners[0] == line.owners[1];
+    for (const std::uint32_t owner : line.owners) {
+        const SurfaceId s = screen_.surface_of(owner);
+        const bool are_neighbours = have_vertex_in_common(s, t);
+        if (are_neighbours && !is_border) return false;
+        const auto beside = place_beside(s, owner, *at);
+        if (!beside) continue;
+        const double gap = screen_.nearness_of(owner, *beside) - t.nearness_at(*beside);
+        if (gap > level || (gap >= -level && (are_neighbours || is_seen_first(owner, t.number, gap)))) return false;
+    }
+    return true;
+}
+
+bool Contacts::is_in_front(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const {
+    for (const std::uint32_t owner : line.owners) {
+        if (have_vertex_in_common(screen_.surface_of(owner), t)) return false;
+    }
+    const auto touching = touching_place(line, begin, end, t, level);
+    if (!touching) return false;
+    const glm::dvec2 middle = glm::mix(line.from, line.to, 0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
+    bool is_any_behind = false;
+    for (const std::uint32_t owner : line.owners) {
+        const SurfaceId s = screen_.surface_of(owner);
+        const auto beside = place_beside(s, owner, *touching);
+        if (!beside) continue;
+        const glm::dvec2 right(-along.y, along.x), side = glm::dot(*beside - *touching, right) < 0 ? -right : right;
+        const auto cover = what_covers(middle + kToOneSideSubpixels * side, t, Over::any_edge);
+        if (!cover) return false;
+        const double gap = screen_.nearness_of(owner, *beside) - cover->nearness_at(*beside);
+        if (gap > level) return false;
+        bool is_behind = true;
+        if (gap >= -level) {
+            const SurfaceOrder order = screen_.surfaces().order(s, screen_.surface_of(cover->number));
+            const bool is_coincident = order.are_coincident();
+            if (!order.have_common_place || (is_coincident ? owner < cover->number : gap > 0)) return false;
+            is_behind = !is_coincident || s.instance != t.instance;  // within a mesh, what lies flat on another part has no outline
+        }
+        is_any_behind = is_any_behind || is_behind;
+    }
+    return is_any_behind;
+}
+
+bool Contacts::is_flush(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level,
+                        const LineCriteria& criteria, bool on_one_side) const {
+    if (line.classes.has(LineClass::mark)) return false;
+    const auto touching = touching_place(line, begin, end, t, level);
+    if (!touching) return false;
+    const glm::dvec2 middle = glm::mix(line.from, line.to, 0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
+    const glm::dvec2 right = kToOneSideSubpixels * glm::dvec2(-along.y, along.x);
+    const SurfaceSet& surfaces = screen_.surfaces();
+    struct Side {
+        bool is_known = false;
+        std::optional<LayerTriangle> cover;
+    };
+    Side sides[2];
+    const auto cover_on = [&](bool is_left) -> const std::optional<LayerTriangle>& {
+        Side& side = sides[is_left ? 0 : 1];
+        if (!side.is_known) side = {true, what_covers(is_left ? middle - right : middle + right, t, Over::plain_edges)};
+        return side.cover;
+    };
+    // What is asked last takes longest.
+    struct Level {
+        SurfaceId own, other;
+        glm::dvec2 place;
+    };
+    Level levels[2];
+    int level_count = 0;
+    for (const std::uint32_t owner : line.owners) {
+        const SurfaceId s = screen_.surface_of(owner);
+        const auto beside = place_beside(s, owner, *touching);
+        if (!beside) continue;
+        const auto& cover = cover_on(glm::dot(*beside - *touching, right) < 0);
+        if (!cover) return false;
+        const double gap = screen_.nearness_of(owner, *beside) - cover->nearness_at(*beside);
+        if (gap > level) return false;
+        if (gap >= -level) levels[level_count++] = {s, screen_.surface_of(cover->number), *beside / double{kSubpixelsPerPixel}};
+    }
+    if (level_count == 0 || !cover_on(true) || !cover_on(false)) return false;
+    bool is_any_flush = false;
+    for (int i = 0; i < level_count; ++i) {
+        const auto& [own, other, place] = levels[i];
+        if (!surfaces.order_near(own, other, place).are_coincident()) {
+            if (rises_in_front(surfaces, own, FacePlane(surfaces, other))) return false;
+            continue;
+        }
+        if (on_one_side && side_of_body(own) != side_of_body(other)) return false;
+        if (!(contact_classes(surfaces, own, other, place, criteria) & criteria.classes).empty()) return false;
+        is_any_flush = true;
+    }
+    return is_any_flush;
+}
+
+std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, const LayerTriangle& t, const LineCriteria& criteria,
+                                                         double& begin, double& end) const {
+    const std::uint32_t owner = line.owners[0];
+    const SurfaceId own = screen_.surface_of(owner), other = screen_.surface_of(t.number);
+    const auto centre = centre_of(own, owner);
+    if (!centre) return std::nullopt;
+    const glm::dvec2 along = glm::normalize(line.to - line.from), right(-along.y, along.x);
+    const glm::dvec2 beyond = kToOneSideSubpixels * (glm::dot(*centre - line.from, right) < 0 ? right : -right);
+    LayerLine beside = line;
+    beside.from += beyond;
+    beside.to += beyond;
+    constexpr double kAnyDepth = -1e300;
+    if (!clip_where_hidden(beside, kAnyDepth, t, begin, end)) return std::nullopt;
+    const SurfaceSet& surfaces = screen_.surfaces();
+    const auto distance = [&](double nearness) { return distance_of(surfaces.projection, surfaces.farthest_nearness + nearness); };
+    const DepthPlane plane = surfaces.plane(other);
+    // What is left of the tolerances, which hardly change, at either end of the line.
+    const double here = distance(line.nearness_at(0.5 * (begin + end)));
+    const double behind = depth_tolerance(surfaces, here, plane, kContactPx), in_front = depth_tolerance(surfaces, here, plane, kLevelPx);
+    const auto farther_at = [&](double part) { return distance(t.nearness_at(glm::mix(line.from, line.to, part))) - distance(line.nearness_at(part)); };
+    const double from = begin, length = end - begin, at_begin = farther_at(begin), at_end = farther_at(end);
+    double first = 0, last = 1;
+    if (!clip_where_positive(behind - at_begin, behind - at_end, first, last) ||
+        !clip_where_positive(in_front + at_begin, in_front + at_end, first, last)) {
+        return std::nullopt;
+    }
+    begin = from + first * length;
+    end = from + last * length;
+    const glm::dvec2 at = glm::mix(line.from, line.to, 0.5 * (begin + end));
+    return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
+}
+
+/// On which side of a face its body is: 1 = towards the eye, -1 = away from it, 0 = it is a sheet.
+int Contacts::side_of_body(SurfaceId s) const {
+    const SurfaceInstance& instance = screen_.surfaces().instance_of(s);
+    const bool is_mirrored = glm::determinant(glm::dmat3(instance.to_view)) < 0;
+    const int side = instance.body_sides->of(s.triangle);
+    return FacePlane(screen_.surfaces(), s).is_counterclockwise != is_mirrored ? side : -side;
+}
+
+/// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place. Of what is cut,
+/// as a floor that reaches behind the eye, all parts.
+std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t, Over over) const {
+    if (t.covers(place)) return t;
+    const ScreenMesh& mesh = screen_.mesh(t.instance);
+    const SurfaceId own = screen_.surface_of(t.number);
+    const auto part_at_place = [&](SurfaceId s, std::uint32_t number) -> std::optional<LayerTriangle> {
+        for (const LayerTriangle& part : clipped_layer_triangles(screen_, s, number)) {
+            if (part.covers(place)) return part;
+        }
+        return std::nullopt;
+    };
+    if (screen_.facing(t.number) == off_screen) {
+        if (const auto part = part_at_place(own, t.number)) return part;
+    }
+    const HalfEdge first = 3 * own.triangle;
+    for (HalfEdge h = first; h < first + 3; ++h) {
+        const bool is_plain = mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0;
+        if (over == Over::plain_edges && !is_plain) continue;
+        const SurfaceId s{t.instance, mesh.partners[h] / 3};
+        const std::uint32_t number = screen_.number_of(s);
+        if (number == t.number || screen_.facing(number) == edge_on) continue;
+        if (screen_.facing(number) == off_screen) {
+            if (const auto part = part_at_place(s, number)) return part;
+            continue;
+        }
+        if (!may_cover(screen_.triangle(s), place)) continue;
+        const LayerTriangle neighbour = layer_triangle(screen_, s, number);
+        if (neighbour.covers(place)) return neighbour;
+    }
+    return std::nullopt;
+}
+
+/// Where a line comes nearest to the plane of `t`, if it is level with it there.
+std::optional<glm::dvec2> Contacts::touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
+                                                   double level) const {
+    const auto gap_at = [&](double part) {
+        return std::abs(t.nearness_at(glm::mix(line.from, line.to, part)) - line.nearness_at(part));
+    };
+    const double at_begin = gap_at(begin), at_end = gap_at(end);
+    if (std::min(at_begin, at_end) > level) return std::nullopt;
+    return glm::mix(line.from, line.to, at_begin < at_end ? begin : end);
+}
+
+/// On a triangle at a line, beside a place on it. Nothing if the triangle is seen edge-on.
+std::optional<glm::dvec2> Contacts::place_beside(SurfaceId s, std::uint32_t owner, glm::dvec2 at) const {
+    if (screen_.facing(owner) == edge_on) return std::nullopt;
+    const auto centre = centre_of(s, owner);
+    if (!centre) return std::nullopt;
+    const glm::dvec2 inward = *centre - at;
+    return at + inward * std::min(1.0, kBesideSubpixels / glm::length(inward));
+}
+
+bool Contacts::have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const {
+    if (s.instance != t.instance) return false;
+    const auto& v = screen_.surfaces().mesh_of(s).triangles[s.triangle];
+    return std::find_first_of(v.begin(), v.end(), t.vertices.begin(), t.vertices.end()) != v.end();
+}
+
+/// Of two surfaces at about one depth, of which the one is nearer by `gap`. The first one, if they are neighbours, which
+/// have no more than slivers in common.
+bool Contacts::is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
+    if ((gap > 0) == (one < other)) return one < other;  // either way
+    const SurfaceOrder order = screen_.surfaces().order(screen_.surface_of(one), screen_.surface_of(other));
+    return order.have_common_place && !order.are_coincident() ? gap > 0 : one < other;
+}
+
+/// A place within what is on the screen of a triangle.
+std::optional<glm::dvec2> Contacts::centre_of(SurfaceId s, std::uint32_t number) const {
+    if (screen_.facing(number) != off_screen) {
+        const auto [a, b, c] = screen_.triangle(s).corners;
+        return (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y) + glm::dvec2(c.x, c.y)) / 3.0;
+    }
+    const ScreenPolygon polygon = screen_.surfaces().screen_polygon(s);
+    if (polygon.count == 0) return std::nullopt;
+    glm::dvec2 sum(0.0);
+    for (int i = 0; i < polygon.count; ++i) {
+        const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+        sum += glm::dvec2(p.x, p.y);
+    }
+    return sum / static_cast<double>(polygon.count);
+}
+
+}  // namespace burin

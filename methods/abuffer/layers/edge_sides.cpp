@@ -1,0 +1,172 @@
+#include "methods/abuffer/layers/edge_sides.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/abuffer/layers/fold_width.h"
+#include "methods/abuffer/layers/layer_triangle.h"
+#include "methods/abuffer/samples/fast_walk.h"
+#include "methods/abuffer/screen/edge_on_screen.h"
+
+namespace burin {
+namespace {
+
+/// A triangle lower than this is a fold that is no contour (docs/conventions.md). 1/64 pixel.
+constexpr double kThinSubpixels = 4;
+/// So far beyond a wall nothing is left to be asked. Pixels.
+constexpr double kPastWallPx = 1.0 / 16;
+/// Where there are more on the way to a wall, it is one of very many in a pixel.
+constexpr int kMostTrianglesToWall = 96;
+
+}  // namespace
+
+std::optional<HalfEdge> EdgeSides::base_of_thin(SurfaceId s) const {
+    const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
+    const ScreenVertex* const v = screen_.vertices(s.instance);
+    double squares[3];
+    for (unsigned k = 0; k < 3; ++k) {
+        const ScreenVertex &a = v[t[k]], &b = v[t[(k + 1) % 3]];
+        if (a.x == ScreenVertex::kOffScreen) return std::nullopt;
+        const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y;
+        squares[k] = dx * dx + dy * dy;
+    }
+    const double longest = std::max(squares[0], std::max(squares[1], squares[2]));
+    const auto area = static_cast<double>(doubled_area(v[t[0]], v[t[1]], v[t[2]]));
+    if (area * area >= kThinSubpixels * kThinSubpixels * longest) return std::nullopt;
+    unsigned base = 0;
+    while (squares[base] != longest) ++base;
+    return 3 * s.triangle + base;
+}
+
+HalfEdge EdgeSides::longer_of_others(std::uint32_t instance, HalfEdge h) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const ScreenVertex* const v = screen_.vertices(instance);
+    const HalfEdge one = h - h % 3 + (h + 1) % 3, two = h - h % 3 + (h + 2) % 3;
+    const auto square = [&](HalfEdge e) {
+        const ScreenVertex &a = v[start_of(mesh, e)], &b = v[end_of(mesh, e)];
+        const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y;
+        return dx * dx + dy * dy;
+    };
+    return square(two) > square(one) ? two : one;
+}
+
+bool EdgeSides::face_alike(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const Facing a = screen_.facing(screen_.number_of({instance, h / 3})), b = screen_.facing(screen_.number_of({instance, g / 3}));
+    const bool are_wound_alike = start_of(mesh, h) != start_of(mesh, g), has_side = b == clockwise || b == counterclockwise;
+    if (are_wound_alike || !has_side) return a == b;
+    return a == (b == clockwise ? counterclockwise : clockwise);
+}
+
+std::optional<HalfEdge> EdgeSides::solid_behind(std::uint32_t instance, HalfEdge h) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    for (int step = 0; step < kMostSlivers; ++step) {
+        const auto base = base_of_thin({instance, h / 3});
+        if (!base) return h;
+        const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base;
+        const HalfEdge g = mesh.next_on_edge[exit];
+        const bool is_pair = g != exit && mesh.next_on_edge[g] == exit;
+        if (*base == h && step == 0 && !(is_pair && face_alike(instance, exit, g))) return std::nullopt;
+        if (!is_pair) return h;
+        h = g;
+    }
+    return h;
+}
+
+int EdgeSides::side_at(std::uint32_t instance, HalfEdge h, std::uint32_t a, std::uint32_t b) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    std::uint32_t p = start_of(mesh, h), q = end_of(mesh, h);
+    const auto runs_against = [&] {
+        const glm::dvec3 along = surfaces_.view_position(instance, b) - surfaces_.view_position(instance, a);
+        const glm::dvec3 own = surfaces_.view_position(instance, q) - surfaces_.view_position(instance, p);
+        return glm::dot(along, own) < 0;
+    };
+    if (p == b || q == a || (p != a && q != b && runs_against())) std::swap(p, q);
+    return side_of_edge(screen_, instance, p, q, apex_of(mesh, h));
+}
+
+bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond) const {
+    const SurfaceId own{instance, h / 3};
+    const auto has_side = [](Facing facing) { return facing == clockwise || facing == counterclockwise; };
+    if (screen_.facing(screen_.number_of({instance, beyond / 3})) != edge_on ||
+        !has_side(screen_.facing(screen_.number_of(own)))) {
+        return false;
+    }
+    const Mesh& mesh = surfaces_.mesh_of(own);
+    const ScreenVertex* const v = screen_.vertices(instance);
+    const auto place = [&](std::uint32_t vertex) { return glm::dvec2(v[vertex].x, v[vertex].y) / double{kSubpixelsPerPixel}; };
+    const glm::dvec2 a = place(start_of(mesh, h)), b = place(end_of(mesh, h)), middle = 0.5 * (a + b);
+    if (a == b) return false;
+    // The wall leads away from the eye, else this is its foot.
+    const std::uint32_t wall_apex = apex_of(mesh, beyond);
+    const double along = glm::dot(place(wall_apex) - a, b - a) / glm::dot(b - a, b - a);
+    const double edge_nearness = glm::mix(static_cast<double>(v[start_of(mesh, h)].nearness),
+                                          static_cast<double>(v[end_of(mesh, h)].nearness), along);
+    if (static_cast<double>(v[wall_apex].nearness) > edge_nearness) return false;
+    glm::dvec2 out = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
+    if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
+    // A short way beyond the wall is enough: a walk that gets there has come past it.
+    const glm::dvec2 past = kPastWallPx * out;
+    const SurfaceWalk walk = walk_surface(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall);
+    // Where it turns back behind the wall, it gets farthest anywhere on that.
+    constexpr double kMiddle = 0.5;
+    return walk.end == WalkEnd::fold && std::abs(walk.fraction - kMiddle) <= kNoAdvance;
+}
+
+bool EdgeSides::is_negligible_fold(std::uint32_t instance, HalfEdge h) const {
+    const ScreenMesh mesh = screen_.mesh(instance);
+    const ScreenVertex &a = mesh.vertices[mesh.corners[h]], &b = mesh.vertices[mesh.corners[h - h % 3 + (h + 1) % 3]];
+    if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) return false;
+    const glm::dvec2 from(a.x, a.y), to(b.x, b.y);
+    if (glm::distance(from, to) > kSubpixelsPerPixel) return false;
+    const double nearness = 0.5 * (static_cast<double>(a.nearness) + static_cast<double>(b.nearness));
+    return !is_fold_wide(mesh, h, 0.5 * (from + to), nearness, 32 * level_slack(surfaces_, nearness));
+}
+
+std::optional<HalfEdge> EdgeSides::past_sliver(std::uint32_t instance, HalfEdge h) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    for (int step = 0; step < kMostSlivers; ++step) {
+        if (!is_sliver_at({instance, h / 3}, h)) return h;
+        const auto base = base_of_thin({instance, h / 3});
+        if (!base) return h;
+        const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base, g = mesh.next_on_edge[exit];
+        if (g == exit || mesh.next_on_edge[g] != exit) return std::nullopt;
+        h = g;
+    }
+    return h;
+}
+
+bool EdgeSides::is_needle_on_edge(SurfaceId s, HalfEdge h) const {
+    if (!is_sliver_at(s, h)) return false;
+    const Mesh& mesh = surfaces_.mesh_of(s);
+    const auto base = base_of_thin(s);
+    if (!base) return false;
+    int solids = 0;
+    for (HalfEdge g = mesh.next_on_edge[*base]; g != *base; g = mesh.next_on_edge[g]) {
+        if (!is_sliver_at(SurfaceId{s.instance, g / 3}, g)) ++solids;
+    }
+    return solids > 1;
+}
+
+bool EdgeSides::is_sliver_at(SurfaceId s, HalfEdge h) const {
+    return !FastWalker::is_surely_solid(screen_.mesh(s.instance), h / 3) && is_sliver(surfaces_, SurfaceId{s.instance, h / 3});
+}
+
+glm::dvec3 EdgeSides::across_edge(std::uint32_t instance, HalfEdge h) const {
+    const Mesh& mesh = surfaces_.mesh_of({instance, h / 3});
+    const glm::dvec3 p = surfaces_.view_position(instance, start_of(mesh, h));
+    const glm::dvec3 along = surfaces_.view_position(instance, end_of(mesh, h)) - p, v = surfaces_.view_position(instance, apex_of(mesh, h)) - p;
+    const glm::dvec3 across = v - along * (glm::dot(v, along) / glm::dot(along, along));
+    return across / std::max(glm::length(across), 1e-300);
+}
+
+double EdgeSides::cosine_to_eye(std::uint32_t instance, HalfEdge h) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const glm::dvec3 p = surfaces_.view_position(instance, start_of(mesh, h));
+    const glm::dvec3 along = surfaces_.view_position(instance, end_of(mesh, h)) - p;
+    const glm::dvec3 v = surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -p;
+    const glm::dvec3 to_eye = v - along * (glm::dot(v, along) / glm::dot(along, along));
+    return glm::dot(across_edge(instance, h), to_eye) / std::max(glm::length(to_eye), 1e-300);
+}
+
+}  // namespace burin

@@ -1,0 +1,84 @@
+#include "methods/abuffer/layers/layer_bins.h"
+
+#include "base/parallel.h"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kChunkTriangles = 1 << 14;
+constexpr float kNearerThanAll = 3e38f;
+
+using Record = TileLists<std::uint32_t>::Record;
+
+/// Lists a triangle in the tiles that it touches.
+void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const LineDepths* lines, std::uint32_t instance, std::uint32_t t,
+         std::vector<Record>& records) {
+    const ScreenMesh& mesh = screen.mesh(instance);
+    std::uint32_t value = mesh.first_number + t;
+    glm::ivec2 low, high;
+    float nearest = kNearerThanAll;
+    if (mesh.facing[t] == off_screen) {
+        const ScreenPolygon polygon = screen.surfaces().screen_polygon({instance, t});
+        if (polygon.count == 0) return;
+        low = high = {polygon.corners[0].x, polygon.corners[0].y};
+        for (int i = 1; i < polygon.count; ++i) {
+            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+            low = glm::min(low, glm::ivec2(p.x, p.y));
+            high = glm::max(high, glm::ivec2(p.x, p.y));
+        }
+        value |= LayerBins::kClipped;
+    } else {
+        const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
+        const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
+        low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
+        high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+        nearest = std::max({a.nearness, b.nearness, c.nearness});
+    }
+    const auto add = [&](std::uint32_t tile) { records.push_back({tile, value}); };
+    if (lines != nullptr) {
+        lines->for_tiles(low, high, nearest, add);
+    } else {
+        grid.visit(low, high, add);
+    }
+}
+
+void bin_all(const ScreenSurfaces& screen, const PixelTiles& grid, const TriangleChunk& chunk, std::vector<Record>& records) {
+    const ScreenMesh& mesh = screen.mesh(chunk.instance);
+    for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
+        if (mesh.facing[t] != edge_on) bin(screen, grid, nullptr, chunk.instance, t, records);
+    }
+}
+
+void bin_in_front(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, const LineDepths& lines,
+                  const TriangleChunk& chunk, std::vector<Record>& records) {
+    const ScreenMesh& mesh = screen.mesh(chunk.instance);
+    std::vector<std::uint32_t> found(chunk.end - chunk.begin), tiles(chunk.end - chunk.begin);
+    const std::size_t count = kernels.find_in_front(mesh, chunk.begin, chunk.end, lines.grid(), found.data(), tiles.data());
+    records.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (mesh.facing[found[i]] == edge_on) continue;
+        if (tiles[i] == kSeveralTiles) {
+            bin(screen, grid, &lines, chunk.instance, found[i], records);
+        } else {
+            records.push_back({tiles[i], mesh.first_number + found[i]});
+        }
+    }
+}
+
+}  // namespace
+
+LayerBins::LayerBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
+                     const LineDepths* lines) {
+    const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
+    std::vector<std::vector<Record>> records(chunks.size());
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+        if (lines != nullptr) {
+            bin_in_front(screen, kernels, grid, *lines, chunks[c], records[c]);
+        } else {
+            bin_all(screen, grid, chunks[c], records[c]);
+        }
+    });
+    lists_ = TileLists<std::uint32_t>(records, grid.count());
+}
+
+}  // namespace burin

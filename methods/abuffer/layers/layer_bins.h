@@ -1,0 +1,27 @@
+#pragma once
+
+#include "methods/abuffer/layers/line_depths.h"
+#include "methods/abuffer/screen/screen_surfaces.h"
+#include "methods/abuffer/screen/tile_lists.h"
+
+namespace burin {
+
+/// The numbers of all triangles that touch each tile, be they seen or not, in ascending order; of the
+/// instances that are shown.
+/// Triangles that are seen exactly edge-on hide nothing and are left out, as are those in front of none of the lines,
+/// if these are given.
+class LayerBins {
+  public:
+    /// In front of the number of a triangle that is cut by the near plane or the guard band.
+    static constexpr std::uint32_t kClipped = 1u << 31;
+
+    LayerBins() = default;
+    LayerBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
+              const LineDepths* lines = nullptr);
+    std::span<const std::uint32_t> triangles(std::size_t tile) const { return lists_.of(tile); }
+
+  private:
+    TileLists<std::uint32_t> lists_;
+};
+
+}  // namespace burin

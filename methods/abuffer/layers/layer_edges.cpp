@@ -1,0 +1,283 @@
+#include "methods/abuffer/layers/layer_edges.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "base/parallel.h"
+#include "methods/abuffer/layers/border_parts.h"
+#include "methods/abuffer/layers/edge_sides.h"
+#include "methods/abuffer/screen/edge_on_screen.h"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kChunkTriangles = 1 << 14;
+
+}  // namespace
+
+std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
+    constexpr std::uint32_t kGroup = 8;
+    constexpr std::uint64_t kEdges = 0x0707070707070707u;
+    static_assert(std::endian::native == std::endian::little);
+    std::vector<HalfEdge> sides;
+    std::size_t count = 0;
+    for (std::uint32_t first = begin; first < end; first += kGroup) {
+        std::uint64_t edges = 0;  // a byte for each triangle
+        std::memcpy(&edges, mesh.line_edges + first, std::min(kGroup, end - first));
+        if (sides.size() < count + 3 * kGroup) sides.resize(2 * count + 3 * kGroup);
+        for (edges &= kEdges; edges != 0; edges &= edges - 1) {  // without other branches: they would be guesses
+            const auto bit = static_cast<unsigned>(std::countr_zero(edges));
+            const std::uint32_t t = first + bit / 8;
+            const bool is_found_from_behind = rank_of_side(mesh.facing[t]) == 2 && mesh.sharp != nullptr && mesh.sharp[t] == 0;
+            sides[count] = 3 * t + bit % 8;
+            count += is_found_from_behind ? 0 : 1;
+        }
+    }
+    sides.resize(count);
+    return sides;
+}
+
+class LayerEdgeFinder::Rules {
+  public:
+    Rules(const Frame& frame, const ScreenSurfaces& screen, PixelRect region, bool has_both_of_seam)
+        : surfaces_(frame.surfaces),
+          criteria_(frame.criteria),
+          sides_(screen, frame.criteria),
+          fade_(frame.scene->lines.crease_fade()),
+          screen_(screen),
+          has_both_of_seam_(has_both_of_seam),
+          low_(glm::dvec2(region.x0, region.y0) * 256.0),
+          high_(glm::dvec2(region.x1, region.y1) * 256.0) {}
+
+    void visit(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const HalfEdge g = mesh.next_on_edge[h];
+        if (g == h) {
+            visit_border(s, h, lines);
+        } else if (mesh.next_on_edge[g] == h) {
+            visit_pair(s, h, g, lines);
+        } else {
+            visit_ring(s, h, lines);
+        }
+    }
+
+    std::optional<SurfaceId> solid_at_border(SurfaceId s, HalfEdge h) const {
+        const auto solid = sides_.past_sliver(s.instance, h);
+        if (!solid) return std::nullopt;
+        return triangle_of(s, *solid);
+    }
+
+  private:
+    SurfaceId triangle_of(SurfaceId s, HalfEdge h) const { return {s.instance, h / 3}; }
+    bool is_on_screen(std::uint32_t instance, std::uint32_t vertex) const {
+        return screen_.vertices(instance)[vertex].x != ScreenVertex::kOffScreen;
+    }
+
+    void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const auto solid_h = sides_.solid_behind(s.instance, h), solid_g = sides_.solid_behind(s.instance, g);
+        LineClassSet classes;
+        double crease_cosine = 1;
+        if (mesh.is_marked(h)) classes |= LineClass::mark;
+        if (solid_h && solid_g) {
+            const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
+            const int side_h = sides_.side_at(s.instance, *solid_h, a, b), side_g = sides_.side_at(s.instance, *solid_g, a, b);
+            const bool is_past_sliver = *solid_h != h || *solid_g != g;
+            if (side_h != 0 && side_h == side_g && !(is_past_sliver && sides_.is_negligible_fold(s.instance, h))) classes |= LineClass::silhouette;
+        }
+        if (!classes.has(LineClass::silhouette) && (sides_.ends_at_wall(s.instance, h, g) || sides_.ends_at_wall(s.instance, g, h))) {
+            classes |= LineClass::silhouette;
+        }
+        if (!sides_.is_sliver_at(s, h) && !sides_.is_sliver_at(s, g)) {
+            const std::uint8_t* const sharp = screen_.sharp_edges(s.instance);
+            const bool may_have_any = sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0;
+            if (may_have_any) classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
+        } else if (solid_h && solid_g) {
+            classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g),
+                                       middle_px(s, h), criteria_, &crease_cosine);
+        }
+        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
+    }
+
+    /// Where more than two triangles meet, those that are in front on either side of the edge make the line, as walks over it
+    /// take them: bodies that stand flush have none on their common face.
+    void visit_ring(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
+        struct Front {
+            HalfEdge half_edge = kNoHalfEdge;
+            double towards_eye = 0;
+        };
+        Front fronts[2], edge_on;
+        LineClassSet classes;
+        for (HalfEdge g = h;;) {
+            if (g < h) return;  // the first one of the ring stands for it
+            if (mesh.is_marked(g)) classes |= LineClass::mark;
+            if (!sides_.is_sliver_at(triangle_of(s, g), g)) {  // a needle is nothing that ends there
+                const int side = sides_.side_at(s.instance, g, a, b);
+                const double towards_eye = sides_.cosine_to_eye(s.instance, g);
+                Front& front = side == 0 ? edge_on : fronts[side > 0 ? 1 : 0];
+                if (front.half_edge == kNoHalfEdge || towards_eye > front.towards_eye) front = {g, towards_eye};
+            }
+            g = mesh.next_on_edge[g];
+            if (g == h) break;
+        }
+        double crease_cosine = 1;
+        if (fronts[0].half_edge != kNoHalfEdge && fronts[1].half_edge != kNoHalfEdge) {
+            classes |= contact_classes(surfaces_, triangle_of(s, fronts[0].half_edge), triangle_of(s, fronts[1].half_edge),
+                                       middle_px(s, h), criteria_, &crease_cosine);
+        } else {
+            classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
+            if (fronts[0].half_edge != fronts[1].half_edge) classes |= LineClass::silhouette;
+        }
+        // A wall that is seen edge-on and rises towards the eye is in front on one side or the other.
+        for (const Front& front : fronts) {
+            if (front.half_edge == kNoHalfEdge || edge_on.half_edge == kNoHalfEdge || edge_on.towards_eye <= 0) continue;
+            const double cosine = -glm::dot(sides_.across_edge(s.instance, front.half_edge), sides_.across_edge(s.instance, edge_on.half_edge));
+            if (cosine >= criteria_.cos_crease_angle) continue;
+            classes |= LineClass::crease;
+            crease_cosine = std::min(crease_cosine, cosine);
+        }
+        const std::uint32_t number = screen_.number_of(s);
+        add(s, h, classes, crease_cosine, {number, number}, true, lines);
+    }
+
+    void visit_border(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        if (!mesh.is_marked(h) && sides_.is_needle_on_edge(s, h)) return;
+        const auto edge = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
+        if (!edge) return;
+        for (const BorderPart& part : parts_of_border(screen_, s, h, *edge)) visit_border_part(s, h, *edge, part, lines);
+    }
+
+    void visit_border_part(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, const BorderPart& part, std::vector<LayerLine>& lines) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        LineClassSet classes;
+        double crease_cosine = 1;
+        if (mesh.is_marked(h)) classes |= LineClass::mark;
+        const std::uint32_t number = screen_.number_of(s);
+        std::array<std::uint32_t, 2> owners{number, number};
+        if (part.partner) {
+            const SurfaceId beyond = triangle_of(s, *part.partner);
+            const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
+            const auto solid_h = sides_.past_sliver(s.instance, h), solid_g = sides_.past_sliver(s.instance, *part.partner);
+            const auto side_of = [&](HalfEdge e, const std::optional<HalfEdge>& solid) {
+                if (!solid) return 0;
+                return *solid == e ? side_of_edge(screen_, s.instance, a, b, apex_of(mesh, e)) : sides_.side_at(s.instance, *solid, a, b);
+            };
+            const int side_h = side_of(h, solid_h), side_g = side_of(*part.partner, solid_g);
+            if (side_h != 0 && side_h == side_g) {
+                classes |= LineClass::silhouette;  // one lies on the other, and may hide it
+            } else {
+                const double own = length_of(mesh, h), other = length_of(mesh, *part.partner);
+                const bool is_drawn_as_partner = own < other || (own == other && *part.partner < h);
+                if (!has_both_of_seam_ && classes.empty() && is_drawn_as_partner) return;
+                owners[1] = screen_.number_of(beyond);
+            }
+            if (solid_h && solid_g) {
+                const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
+                classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g), middle, criteria_, &crease_cosine);
+            }
+        } else {
+            classes |= LineClass::border;
+        }
+        const std::size_t count = lines.size();
+        add(s, h, classes, crease_cosine, owners, false, lines);
+        if (lines.size() == count || (part.begin == 0 && part.end == 1)) return;
+        const bool is_reversed = start_of(mesh, h) > end_of(mesh, h);
+        cut(lines.back(), is_reversed ? 1 - part.end : part.begin, is_reversed ? 1 - part.begin : part.end);
+    }
+
+    static void cut(LayerLine& line, double begin, double end) {
+        const LayerLine whole = line;
+        line.edge_begin = begin;
+        line.edge_end = end;
+        if (begin > 0) {
+            line.from = glm::mix(whole.from, whole.to, begin);
+            line.nearness_from = whole.nearness_at(begin);
+            line.nodes[0] = LayerLine::kNoNode;
+        }
+        if (end < 1) {
+            line.to = glm::mix(whole.from, whole.to, end);
+            line.nearness_to = whole.nearness_at(end);
+            line.nodes[1] = LayerLine::kNoNode;
+        }
+    }
+
+    double length_of(const Mesh& mesh, HalfEdge h) const {
+        return glm::distance(glm::dvec3(mesh.positions[start_of(mesh, h)]),
+                             glm::dvec3(mesh.positions[end_of(mesh, h)]));
+    }
+
+    glm::dvec2 middle_px(SurfaceId s, HalfEdge h) const {
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        const auto ends = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
+        return ends ? ends->at(0.5) / double{kSubpixelsPerPixel} : glm::dvec2(0.0);
+    }
+
+    void add(SurfaceId s, HalfEdge h, LineClassSet classes, double crease_cosine,
+             std::array<std::uint32_t, 2> owners, bool has_more, std::vector<LayerLine>& lines) const {
+        classes = classes & criteria_.classes;
+        if (classes.empty()) return;
+        const std::uint8_t opacity = fade_.opacity(classes, crease_cosine);
+        if (opacity == 0) return;
+        const Mesh& mesh = surfaces_.mesh_of(s);
+        // One direction, whichever triangle asks.
+        const std::uint32_t a = std::min(start_of(mesh, h), end_of(mesh, h));
+        const std::uint32_t b = std::max(start_of(mesh, h), end_of(mesh, h));
+        const auto ends = edge_on_screen(screen_, s.instance, a, b);
+        if (!ends) return;
+        LayerLine line;
+        line.from = ends->from;
+        line.to = ends->to;
+        const glm::dvec2 low = glm::min(line.from, line.to), high = glm::max(line.from, line.to);
+        if (line.from == line.to || high.x < low_.x || high.y < low_.y || low.x > high_.x || low.y > high_.y) return;
+        line.nearness_from = ends->nearness_from;
+        line.nearness_to = ends->nearness_to;
+        line.owners = owners;
+        line.has_more_owners = has_more;
+        line.classes = classes;
+        line.drawn_as = *classes.first();
+        line.opacity = opacity;
+        line.line_key = std::uint64_t{s.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
+        if (is_on_screen(s.instance, a)) line.nodes[0] = std::uint64_t{s.instance} << 32 | a;
+        if (is_on_screen(s.instance, b)) line.nodes[1] = std::uint64_t{s.instance} << 32 | b;
+        lines.push_back(line);
+    }
+
+    const SurfaceSet& surfaces_;
+    const LineCriteria& criteria_;
+    EdgeSides sides_;
+    CreaseFade fade_;
+    const ScreenSurfaces& screen_;
+    bool has_both_of_seam_;
+    glm::dvec2 low_, high_;
+};
+
+LayerEdgeFinder::LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                                 bool has_both_of_seam)
+    : rules_(std::make_unique<const Rules>(frame, screen, region, has_both_of_seam)) {}
+
+LayerEdgeFinder::~LayerEdgeFinder() = default;
+
+void LayerEdgeFinder::find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const { rules_->visit(s, h, lines); }
+
+std::optional<SurfaceId> LayerEdgeFinder::solid_at_border(SurfaceId s, HalfEdge h) const { return rules_->solid_at_border(s, h); }
+
+std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                                        int threads) {
+    const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
+    const LayerEdgeFinder finder(frame, screen, region);
+    std::vector<std::vector<LayerLine>> found(chunks.size());
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+        for_possible_lines(screen, chunks[c], [&](SurfaceId s, HalfEdge h) { finder.find(s, h, found[c]); });
+    });
+    std::vector<LayerLine> lines;
+    for (const auto& list : found) lines.insert(lines.end(), list.begin(), list.end());
+    return lines;
+}
+
+}  // namespace burin

@@ -1,0 +1,204 @@
+#include "methods/abuffer/samples/line_tile.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "lines/cell_tracer.h"
+#include "methods/abuffer/screen/sampling.h"
+
+namespace burin {
+
+namespace {
+
+bool is_occluding(const LineDecision& decision) {
+    return decision.reason == LineReason::turns_away || decision.reason == LineReason::ends_at_border ||
+           decision.reason == LineReason::unexplained;
+}
+
+}  // namespace
+
+LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, SurfaceTile& visible,
+                   const TileKernels& kernels)
+    : frame_(frame),
+      screen_(screen),
+      visible_(visible),
+      samples_(visible.samples()),
+      kernels_(kernels),
+      keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
+                                                          frame.criteria.classes.has(LineClass::border))),
+      fast_(screen, frame.criteria),
+      flush_(screen, bins, frame.criteria),
+      fade_(frame.scene->lines.crease_fade()) {}
+
+glm::dvec2 LineTile::position(int column, int row) const {
+    // A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken
+    // a trifle further there.
+    constexpr double kTrifleX = 0x1p-14, kTrifleY = 0x1p-20;
+    const double s = samples_.samples_per_pixel;
+    return {(samples_.first_column + column + 0.5) / s + kTrifleX, (samples_.first_row + row + 0.5) / s + kTrifleY};
+}
+
+/// Whether there is a line between two samples that are not known to lie on one smooth surface.
+bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing) {
+    LineDecision decision;
+    const glm::dvec2 a = position(pair.column, pair.row);
+    const glm::dvec2 b = position(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));
+    if (!fast_.decide(neighbours, decision, crossing.nearness)) {
+        const VisiblePoint points[2] = {{a, neighbours.surfaces[0]}, {b, neighbours.surfaces[1]}};
+        decision = decide_line(frame_.surfaces, points[0], points[1], frame_.criteria);
+        if (!decision.classes.empty()) {
+            const DepthPlane plane = frame_.surfaces.plane(neighbours.surfaces[decision.front]);
+            crossing.nearness = plane.nearness(glm::mix(a, b, decision.fraction));
+        }
+    }
+    crossing.classes = decision.classes & frame_.criteria.classes;
+    crossing.opacity = fade_.opacity(crossing.classes, decision.crease_cosine);
+    if (crossing.opacity == 0) crossing.classes = {};
+    crossing.occludes = is_occluding(decision);
+    if (crossing.classes.empty() && !(keeps_undrawn_ && crossing.occludes)) return false;
+    if (!crossing.classes.has(LineClass::mark)) {
+        const std::size_t first = pair.row * static_cast<std::size_t>(samples_.stride) + pair.column;
+        const std::size_t second = first + (pair.down ? static_cast<std::size_t>(samples_.stride) : 1);
+        const float nearness[2] = {samples_.nearness[first], samples_.nearness[second]};
+        if (flush_.covers(neighbours, {pair.column, pair.row}, nearness, decision.edge.half_edge)) return false;
+    }
+    crossing.pixel = glm::mix(a, b, std::clamp(decision.fraction, 0.0, 1.0));
+    crossing.towards_front = decision.front == 0 ? a - b : b - a;
+    const HalfEdge h = decision.edge.half_edge;
+    if (h != kNoHalfEdge) {
+        const std::uint32_t instance = decision.edge.surface.instance;
+        const ScreenMesh& mesh = screen_.mesh(instance);
+        crossing.line_key = std::uint64_t{instance} << 32 | std::min(h, mesh.partners[h]);
+        const std::uint32_t first = h - h % 3;
+        const ScreenVertex& from = mesh.vertices[mesh.corners[h]];
+        const ScreenVertex& to = mesh.vertices[mesh.corners[first + (h - first + 1) % 3]];
+        if (from.x != ScreenVertex::kOffScreen && to.x != ScreenVertex::kOffScreen) {
+            crossing.edge_ends[0] = glm::dvec2(from.x, from.y) / double{kSubpixelsPerPixel};
+            crossing.edge_ends[1] = glm::dvec2(to.x, to.y) / double{kSubpixelsPerPixel};
+            crossing.along = crossing.edge_ends[1] - crossing.edge_ends[0];
+        }
+    } else {
+        if (decision.reason == LineReason::passes_through) {
+            const DepthPlane p = frame_.surfaces.plane(neighbours.surfaces[0]);
+            const DepthPlane q = frame_.surfaces.plane(neighbours.surfaces[1]);
+            crossing.along = {q.per_y - p.per_y, p.per_x - q.per_x};
+        }
+        // The background is beside a surface where no edge of it is found: views too narrow for numbers.
+        const auto number = [this](SurfaceId id) { return id.is_background() ? ~0u : screen_.number_of(id); };
+        const auto [low, high] = std::minmax({number(neighbours.surfaces[0]), number(neighbours.surfaces[1])});
+        crossing.line_key = std::uint64_t{1} << 63 | std::uint64_t{low} << 32 | high;
+    }
+    return true;
+}
+
+/// Finds the pairs between which a line may lie, and which of them are known to be of one smooth surface.
+void LineTile::find_pairs() {
+    pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows));
+    const SampleView tile = visible_.view();
+    pair_count_ = kernels_.find_pairs(tile, pairs_.data());
+    is_smooth_.assign(pair_count_, 0);
+    const auto first_id = [&](std::size_t i) {
+        return samples_.ids[pairs_[i].row * static_cast<std::size_t>(samples_.stride) + pairs_[i].column];
+    };
+    // Those of one mesh after the other.
+    for (std::size_t begin = 0; begin < pair_count_;) {
+        if (first_id(begin) == SampleTile::kBackground) {
+            ++begin;
+            continue;
+        }
+        const ScreenMesh& mesh = screen_.mesh(screen_.surface_of(first_id(begin) >> 1).instance);
+        const auto is_of_another = [&](std::uint32_t id) {
+            return id != SampleTile::kBackground && (id >> 1) - mesh.first_number >= mesh.triangle_count;
+        };
+        std::size_t end = begin + 1;
+        while (end < pair_count_ && !is_of_another(first_id(end))) ++end;
+        if (mesh.sharp != nullptr) {
+            kernels_.find_smooth(tile, mesh, fast_.smooth_limits(), pairs_.data() + begin, end - begin, is_smooth_.data() + begin);
+        }
+        begin = end;
+    }
+}
+
+NeighbourSamples LineTile::neighbours_of(const SamplePair& pair) const {
+    const std::int32_t pitch = kSubpixelsPerPixel / samples_.samples_per_pixel;
+    const auto stride = static_cast<std::size_t>(samples_.stride);
+    const std::size_t at = pair.row * stride + pair.column;
+    return {(samples_.first_column + pair.column) * pitch + pitch / 2, (samples_.first_row + pair.row) * pitch + pitch / 2,
+            pitch, pair.down, {visible_.surface_at(at), visible_.surface_at(at + (pair.down ? stride : 1))}};
+}
+
+void LineTile::find_crossings() {
+    find_pairs();
+    crossings_.clear();
+    crossing_places_.clear();
+    for (std::size_t i = 0; i < pair_count_; ++i) {
+        if (is_smooth_[i] != 0) continue;
+        const SamplePair& pair = pairs_[i];
+        if (!decide(pair, neighbours_of(pair), crossings_.emplace_back())) {
+            crossings_.pop_back();
+            continue;
+        }
+        crossing_places_.push_back(pair);
+        const std::size_t at = pair.row * static_cast<std::size_t>(samples_.stride) + pair.column;
+        (pair.down ? down_ : right_)[at] = static_cast<std::uint32_t>(crossings_.size());
+    }
+}
+
+void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) {
+    flush_.set_tile(tile);
+    const std::size_t size = samples_.ids.size();
+    if (right_.size() < size) {
+        right_.assign(size, 0);
+        down_.assign(size, 0);
+    }
+    find_crossings();
+    pieces_.clear();
+    trace_cells(pieces_);
+    merger_.merge(pieces_);
+    segments.insert(segments.end(), pieces_.begin(), pieces_.end());
+    for (const SamplePair& place : crossing_places_) {
+        (place.down ? down_ : right_)[static_cast<std::size_t>(place.row) *
+                                          static_cast<std::size_t>(samples_.stride) +
+                                      place.column] = 0;
+    }
+}
+
+void LineTile::trace_cells(std::vector<LineSegment>& segments) {
+    const auto stride = static_cast<std::size_t>(samples_.stride);
+    const double s = samples_.samples_per_pixel;
+    const bool has_bridges = !completes_lines(*frame_.scene);
+    const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples_.samples_per_pixel));
+    const auto block_of = [block_shift](int sample) {
+        return static_cast<std::uint32_t>(sample >> block_shift) & 0xFFFFu;
+    };
+    // Each cell is traced when its first crossing is met, in the order left, upper, lower, right side.
+    const auto trace = [&](int column, int row, const SamplePair& from) {
+        if (column < 0 || row < 0 || column + 1 >= samples_.columns || row + 1 >= samples_.rows) return;
+        const std::size_t i = static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
+        const std::uint32_t sides[4] = {right_[i], down_[i], down_[i + 1], right_[i + stride]};
+        std::array<const LineCrossing*, 4> found{};
+        std::size_t count = 0;
+        for (const std::uint32_t side : sides) {
+            if (side != 0) found[count++] = &crossings_[side - 1];
+        }
+        const std::uint32_t own = (from.down ? down_ : right_)[from.row * stride + from.column];
+        if (found[0] != &crossings_[own - 1]) return;  // another crossing traces this cell
+        const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
+        std::size_t fresh = segments.size();
+        trace_cell({found.data(), count}, low, low + 1.0 / s, has_bridges, segments);
+        const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
+        for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
+    };
+    for (const SamplePair& place : crossing_places_) {
+        if (place.down) {
+            trace(place.column - 1, place.row, place);
+            trace(place.column, place.row, place);
+        } else {
+            trace(place.column, place.row - 1, place);
+            trace(place.column, place.row, place);
+        }
+    }
+}
+
+}  // namespace burin

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "abuffer/sample_tile.h"
+#include "abuffer/tile_kernels.h"
+#include "methods/abuffer/samples/contests.h"
+#include "methods/abuffer/screen/triangle_bins.h"
+#include "render/frame.h"
+
+namespace burin {
+
+/// What is visible at the samples of one tile after the other; buffers are used again.
+class SurfaceTile {
+  public:
+    SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, int samples_per_pixel,
+                const TileKernels& kernels);
+
+    /// Finds what is visible at the samples of a tile and one more column and row.
+    void draw(std::size_t tile);
+
+    const SampleTile& samples() const { return samples_; }
+    /// The same for kernels. It is good until the next draw().
+    SampleView view();
+    PixelRect rect() const { return rect_; }
+    SurfaceId surface_at(std::size_t sample) const {
+        const std::uint32_t id = samples_.ids[sample];
+        return id == SampleTile::kBackground ? kBackground : screen_.surface_of(id >> 1);
+    }
+    /// How many triangles were drawn.
+    std::uint64_t sample_tests() const { return drawn_; }
+
+  private:
+    void draw_all(std::size_t tile);
+    void order_runs(std::size_t tile);
+    void draw_large_ones(std::size_t tile);
+    int draw_large(const LargePolygon& large, bool plain, bool has_look);
+    float farthest_in_blocks() const;
+    float highest_in(const SpanPlane& plane, int from, int to, int first_row, int end_row) const;
+
+    const ScreenSurfaces& screen_;
+    const TriangleBins& bins_;
+    const TileKernels& kernels_;
+    int per_pixel_;
+    float level_, level_per_nearness_;  // see SampleView
+    PixelRect rect_;
+    SampleTile samples_;
+    Contests contests_;
+    struct PlacedRun {
+        const TriangleRun* run;
+        float nearness;  // of one of its triangles
+    };
+    std::vector<PlacedRun> runs_;  // in the order of drawing
+    struct PlacedPolygon {
+        std::uint32_t number;  // in bins_
+        float highest;         // its plane, in the tile
+    };
+    std::vector<PlacedPolygon> large_;  // in the order of drawing
+    std::vector<float> farthest_;       // per block of samples
+    std::uint64_t drawn_ = 0;
+};
+
+}  // namespace burin

@@ -1,0 +1,132 @@
+#include "methods/abuffer/strokes/line_chains.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kNoEnd = 0xFFFFFFFFu;
+
+/// Lines with their ends linked. End 2i is the start of line i, end 2i + 1 its end.
+class Chains {
+  public:
+    Chains(std::span<const LayerLine> lines, const SurfaceSet& surfaces)
+        : lines_(lines), surfaces_(surfaces), link_(2 * lines.size(), kNoEnd) {
+        std::vector<std::uint32_t> ends;
+        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+            if (node(end) != LayerLine::kNoNode) ends.push_back(end);
+        }
+        std::sort(ends.begin(), ends.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return node(a) != node(b) ? node(a) < node(b) : a < b; });
+        for (auto first = ends.begin(); first != ends.end();) {
+            const auto next = std::find_if(first, ends.end(), [&](std::uint32_t end) { return node(end) != node(*first); });
+            link_node({&*first, static_cast<std::size_t>(next - first)});
+            first = next;
+        }
+    }
+
+    /// Calls visit(ends by which each line is entered, whether it is a loop) for all chains.
+    template <typename Visit>
+    void for_chains(const Visit& visit) const {
+        std::vector<bool> done(lines_.size(), false);
+        std::vector<std::uint32_t> chain;
+        const auto follow = [&](std::uint32_t end, bool is_loop) {
+            chain.clear();
+            for (; end != kNoEnd && !done[end / 2]; end = link_[end ^ 1]) {
+                done[end / 2] = true;
+                chain.push_back(end);
+            }
+            put_in_order(chain, is_loop);
+            visit(std::span<const std::uint32_t>(chain), is_loop);
+        };
+        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+            if (link_[end] == kNoEnd && !done[end / 2]) follow(end, false);
+        }
+        for (std::uint32_t end = 0; end < link_.size(); end += 2) {
+            if (!done[end / 2]) follow(end, true);
+        }
+    }
+
+  private:
+    std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }
+    /// What the line is, seen from anywhere.
+    LineClassSet lasting_class(std::uint32_t end) const {
+        constexpr unsigned kSilhouette = LineClassSet(LineClass::silhouette).bits;
+        const auto first = LineClassSet::from_bits(lines_[end / 2].classes.bits & ~kSilhouette).first();
+        return first ? LineClassSet(*first) : LineClassSet();
+    }
+
+    void link_node(std::span<const std::uint32_t> ends) {
+        const auto link = [&](std::uint32_t a, std::uint32_t b) {
+            link_[a] = b;
+            link_[b] = a;
+        };
+        if (ends.size() == 2) return link(ends[0], ends[1]);
+        std::vector<std::uint32_t> alone;
+        for (const std::uint32_t end : ends) {
+            if (link_[end] != kNoEnd) continue;
+            std::vector<std::uint32_t> same;
+            for (const std::uint32_t other : ends) {
+                if (lasting_class(other) == lasting_class(end)) same.push_back(other);
+            }
+            if (same.size() == 2) {
+                link(same[0], same[1]);
+            } else {
+                alone.push_back(end);
+            }
+        }
+        if (alone.size() == 2) link(alone[0], alone[1]);
+    }
+
+    /// Ends compare by where they are in their mesh; those without a vertex by where they are on the screen, behind the others.
+    bool is_before(std::uint32_t a, std::uint32_t b) const {
+        const auto key = [&](std::uint32_t end) {
+            const std::uint64_t own = node(end);
+            const bool has_vertex = own != LayerLine::kNoNode && lines_[end / 2].is_edge();
+            const auto instance = static_cast<std::uint32_t>(own >> 32);
+            const glm::dvec3 p = has_vertex ? glm::dvec3(surfaces_.instances[instance].mesh->positions[own & 0xFFFFFFFFu])
+                                            : glm::dvec3(end % 2 == 0 ? lines_[end / 2].from : lines_[end / 2].to, 0);
+            return std::tuple(!has_vertex, has_vertex ? instance : 0, p.x, p.y, p.z);
+        };
+        return key(a) < key(b);
+    }
+
+    void put_in_order(std::vector<std::uint32_t>& chain, bool is_loop) const {
+        const auto before = [this](std::uint32_t a, std::uint32_t b) { return is_before(a, b); };
+        if (is_loop) std::rotate(chain.begin(), std::min_element(chain.begin(), chain.end(), before), chain.end());
+        std::vector<std::uint32_t> backwards(chain.rbegin(), chain.rend());
+        for (std::uint32_t& end : backwards) end ^= 1;
+        // By all vertices on the way: a chain may end where it began.
+        if (std::lexicographical_compare(backwards.begin(), backwards.end(), chain.begin(), chain.end(), before)) chain.swap(backwards);
+    }
+
+    std::span<const LayerLine> lines_;
+    const SurfaceSet& surfaces_;
+    std::vector<std::uint32_t> link_;
+};
+
+}  // namespace
+
+std::vector<std::array<double, 2>> positions_along_chains(std::span<const LayerLine> lines, const SurfaceSet& surfaces,
+                                                          double period_px) {
+    std::vector<std::array<double, 2>> positions(lines.size());
+    Chains(lines, surfaces).for_chains([&](std::span<const std::uint32_t> chain, bool is_loop) {
+        double scale = 1;
+        if (is_loop) {
+            double total = 0;
+            for (const std::uint32_t end : chain) total += lines[end / 2].length_px();
+            if (total > 0) scale = period_px * std::max(1.0, std::round(total / period_px)) / total;
+        }
+        double at = 0;
+        for (const std::uint32_t end : chain) {
+            positions[end / 2][end % 2] = at;
+            at += scale * lines[end / 2].length_px();
+            positions[end / 2][1 - end % 2] = at;
+        }
+    });
+    return positions;
+}
+
+}  // namespace burin

@@ -1,0 +1,253 @@
+#include "methods/abuffer/strokes/visible_dashes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "methods/abuffer/strokes/line_chains.h"
+
+namespace burin {
+namespace {
+
+/// Smaller loops come from samples beside a vertex, not from anything to be seen.
+constexpr double kSmallestLoopPx = 1.0 / 16;
+/// Length of what is drawn as a dot: it keeps its direction, or a dot would have no sides.
+constexpr double kDotPx = 1.0 / 256;
+constexpr std::uint32_t kNoEnd = 0xFFFFFFFFu;
+
+/// Higher on the screen, then further left.
+bool is_higher(glm::dvec2 a, glm::dvec2 b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); }
+
+/// The lines' pieces as chains. End 2i is the start of piece i, end 2i + 1 its end.
+class Chains {
+  public:
+    struct Chain {
+        std::vector<std::uint32_t> ends;  // by which each piece is entered
+        bool is_closed = false;
+    };
+
+    explicit Chains(std::vector<const LineSegment*> pieces) : pieces_(std::move(pieces)) { link(); }
+
+    const LineSegment& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
+    double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
+
+    std::vector<Chain> all() const {
+        std::vector<Chain> chains;
+        std::vector<bool> done(pieces_.size(), false);
+        const auto follow = [&](std::uint32_t end, bool is_closed) {
+            Chain chain;
+            chain.is_closed = is_closed;
+            for (; end != kNoEnd && !done[end / 2]; end = link_[end ^ 1]) {
+                done[end / 2] = true;
+                chain.ends.push_back(end);
+            }
+            put_in_order(chain);
+            chains.push_back(std::move(chain));
+        };
+        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+            if (link_[end] == kNoEnd && !done[end / 2]) follow(end, false);
+        }
+        for (std::uint32_t end = 0; end < link_.size(); end += 2) {  // the rest are loops
+            if (!done[end / 2]) follow(end, true);
+        }
+        return chains;
+    }
+
+  private:
+    glm::dvec2 place(std::uint32_t end) const {
+        return end % 2 == 0 ? pieces_[end / 2]->from : pieces_[end / 2]->to;
+    }
+
+    void link() {
+        std::vector<std::uint32_t> ends(2 * pieces_.size());
+        for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
+        std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
+            const glm::dvec2 p = place(a), q = place(b);
+            return p != q ? is_higher(p, q) : a < b;
+        });
+        link_.assign(ends.size(), kNoEnd);
+        for (std::size_t i = 0; i < ends.size();) {
+            std::size_t next = i + 1;
+            while (next < ends.size() && place(ends[next]) == place(ends[i])) ++next;
+            link_node({ends.begin() + static_cast<std::ptrdiff_t>(i), ends.begin() + static_cast<std::ptrdiff_t>(next)});
+            i = next;
+        }
+    }
+
+    void link_node(std::vector<std::uint32_t> ends) {
+        link_pairs(ends, [&](std::uint32_t end) { return piece(end).line_key; });
+        std::erase_if(ends, [&](std::uint32_t end) { return link_[end] != kNoEnd; });
+        if (ends.size() != 2) link_pairs(ends, [&](std::uint32_t end) { return piece(end).drawn_as; });
+        if (ends.size() == 2) link_pairs(ends, [](std::uint32_t) { return 0; });
+    }
+
+    /// Links two ends with equal keys, if there is no third one.
+    template <typename Key>
+    void link_pairs(const std::vector<std::uint32_t>& ends, const Key& key) {
+        for (const std::uint32_t a : ends) {
+            std::uint32_t partner = kNoEnd;
+            int count = 0;
+            for (const std::uint32_t b : ends) {
+                if (b == a || key(b) != key(a)) continue;
+                partner = b;
+                ++count;
+            }
+            if (count == 1) link_[a] = partner;
+        }
+    }
+
+    static void reverse(Chain& chain) {
+        std::reverse(chain.ends.begin(), chain.ends.end());
+        for (std::uint32_t& end : chain.ends) end ^= 1;
+    }
+
+    /// Makes a chain begin where dashes begin.
+    void put_in_order(Chain& chain) const {
+        const glm::dvec2 first = place(chain.ends.front()), last = place(chain.ends.back() ^ 1);
+        if (first != last) {
+            if (is_higher(last, first)) reverse(chain);
+            return;
+        }
+        double area = 0;
+        for (const std::uint32_t end : chain.ends) {
+            const glm::dvec2 a = place(end) - first, b = place(end ^ 1) - first;
+            area += a.x * b.y - a.y * b.x;
+        }
+        if (area < 0) reverse(chain);  // y runs down: clockwise is positive
+        if (!chain.is_closed) return;
+        const auto highest = std::min_element(chain.ends.begin(), chain.ends.end(), [&](auto a, auto b) {
+            const glm::dvec2 p = place(a), q = place(b);
+            return p != q ? is_higher(p, q) : is_higher(place(a ^ 1), place(b ^ 1));
+        });
+        std::rotate(chain.ends.begin(), highest, chain.ends.end());
+    }
+
+    std::vector<const LineSegment*> pieces_;
+    std::vector<std::uint32_t> link_;
+};
+
+/// Which edge of the mesh a piece lies on, of those that are features.
+class Features {
+  public:
+    Features(std::span<const LayerLine> lines, const SurfaceSet& surfaces) : lines_(lines) {
+        for (std::uint32_t i = 0; i < lines.size(); ++i) {
+            keys_.push_back({lines[i].line_key, i});
+            if (!lines[i].has_more_owners) continue;
+            // A piece has the key of the two triangles that it was found between.
+            const auto instance = static_cast<std::uint32_t>(lines[i].line_key >> 32);
+            const auto h = static_cast<HalfEdge>(lines[i].line_key & 0xFFFFFFFFu);
+            const Mesh& mesh = *surfaces.instances[instance].mesh;
+            for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
+                keys_.push_back({std::uint64_t{instance} << 32 | std::min(g, mesh.next_on_edge[g]), i});
+            }
+        }
+        std::sort(keys_.begin(), keys_.end());
+    }
+
+    std::optional<std::uint32_t> find(const LineSegment& piece) const {
+        std::optional<std::uint32_t> nearest;
+        double least = 0;
+        const glm::dvec2 middle = 0.5 * (piece.from + piece.to);
+        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), std::pair(piece.line_key, 0u)); i != keys_.end() && i->first == piece.line_key; ++i) {
+            const double beyond = std::abs(share_of(lines_[i->second], middle) - 0.5);  // an edge may be cut into parts
+            if (nearest && beyond >= least) continue;
+            nearest = i->second;
+            least = beyond;
+        }
+        return nearest;
+    }
+    /// Where along a line a place is, in pixels.
+    static double share_of(const LayerLine& line, glm::dvec2 place) {
+        const glm::dvec2 from = line.from / 256.0, along = (line.to - line.from) / 256.0;
+        return glm::dot(place - from, along) / glm::dot(along, along);
+    }
+
+  private:
+    std::span<const LayerLine> lines_;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys_;  // number of a line
+};
+
+/// The dashes of a piece of a line.
+class DashPen {
+  public:
+    DashPen(std::array<double, 2> dash_px, double width_px, std::vector<LineSegment>& drawn)
+        : on_px_(dash_px[0]), period_px_(dash_px[0] + dash_px[1]), inset_px_(std::min(0.5 * on_px_, 0.5 * width_px)), drawn_(drawn) {}
+
+    double period_px() const { return period_px_; }
+
+    /// `begin`, `end`: where `from` and `to` stand along the chain, in pixels; more of them where dashes are squeezed.
+    void draw(const LineSegment& piece, double begin, double end) {
+        if (begin == end) return;
+        const double length_px = glm::distance(piece.from, piece.to), per_px = std::abs(end - begin) / length_px;
+        const double inset = inset_px_ * per_px, on = on_px_ - inset, low = std::min(begin, end), high = std::max(begin, end);
+        const bool is_dotted = on_px_ - 2 * inset_px_ < kDotPx;
+        const auto point = [&](double at) { return glm::mix(piece.from, piece.to, std::clamp((at - begin) / (end - begin), 0.0, 1.0)); };
+        for (double dash = std::floor(low / period_px_); dash * period_px_ <= high; ++dash) {
+            const double first = std::max(low, dash * period_px_ + inset);
+            const double last = std::min(high, std::max(dash * period_px_ + inset, dash * period_px_ + on));
+            if (first > last) continue;
+            LineSegment part = piece;
+            part.from = point(begin < end ? first : last);
+            part.to = point(begin < end ? last : first);
+            if (is_dotted) {
+                const glm::dvec2 middle = 0.5 * (part.from + part.to);
+                const glm::dvec2 half = (piece.to - piece.from) * (0.5 * kDotPx / length_px);
+                part.from = middle - half;
+                part.to = middle + half;
+            }
+            drawn_.push_back(part);
+        }
+    }
+
+  private:
+    double on_px_, period_px_, inset_px_;
+    std::vector<LineSegment>& drawn_;
+};
+
+}  // namespace
+
+bool is_feature(const LayerLine& line) { return !(line.classes == LineClassSet(LineClass::silhouette)); }
+
+std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
+                                             std::array<double, 2> dash_px, double width_px,
+                                             std::span<const LayerLine> features, const SurfaceSet& surfaces) {
+    std::vector<std::vector<LineSegment>> result(1);
+    DashPen pen(dash_px, width_px, result[0]);
+    const auto positions = positions_along_chains(features, surfaces, pen.period_px());
+    const Features on_mesh(features, surfaces);
+    std::vector<const LineSegment*> others;
+    for (const auto& list : segments) {
+        for (const LineSegment& s : list) {
+            if (!s.is_drawn) {
+                result[0].push_back(s);
+            } else if (s.from == s.to) {
+                continue;
+            } else if (const auto feature = on_mesh.find(s)) {
+                const auto& [first, last] = positions[*feature];
+                const auto at = [&](glm::dvec2 place) { return glm::mix(first, last, Features::share_of(features[*feature], place)); };
+                pen.draw(s, at(s.from), at(s.to));
+            } else {
+                others.push_back(&s);
+            }
+        }
+    }
+    const Chains chains(std::move(others));
+    for (const Chains::Chain& chain : chains.all()) {
+        double total = 0;
+        for (const std::uint32_t end : chain.ends) total += chains.length(end);
+        if (total < (chain.is_closed ? kSmallestLoopPx : std::max(1.0, width_px))) continue;  // a hook of facets
+        const double scale = chain.is_closed ? pen.period_px() * std::max(1.0, std::round(total / pen.period_px())) / total : 1;
+        double at = 0;
+        for (const std::uint32_t end : chain.ends) {
+            const double begin = at;
+            at += scale * chains.length(end);
+            const bool is_backwards = end % 2 == 1;
+            pen.draw(chains.piece(end), is_backwards ? at : begin, is_backwards ? begin : at);
+        }
+    }
+    return result;
+}
+
+}  // namespace burin

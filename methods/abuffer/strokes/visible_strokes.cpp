@@ -1,0 +1,89 @@
+#include "methods/abuffer/strokes/visible_strokes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin {
+
+VisibleStrokes::VisibleStrokes(const Frame& frame, const TileKernels& kernels)
+    : projection_(frame.surfaces.projection),
+      side_(frame.scene->lines.style.side),
+      pen_(frame.scene->lines.style.width_px, side_),
+      faded_(kernels),
+      clipper_(kernels) {
+    for (StrokeCanvas& canvas : canvases_) canvas = StrokeCanvas(kernels);
+}
+
+void VisibleStrokes::draw(std::span<const LineSegment* const> segments, PixelRect rect) {
+    rect_ = rect;
+    LineClassSet present;
+    for (const LineSegment* s : segments) {
+        if (s->is_drawn && s->opacity == 255) present |= s->drawn_as;
+    }
+    classes_.clear();
+    for (int c = 0; c < kLineClassCount; ++c) {
+        const auto line_class = static_cast<LineClass>(c);
+        if (!present.has(line_class)) continue;
+        classes_.push_back(line_class);
+        canvas_of(line_class).reset(rect.x0, rect.y0, rect.width(), rect.height());
+    }
+    if (needs_clipping(segments)) return draw_clipped(segments);
+    for (const LineSegment* s : segments) {
+        if (s->is_drawn && s->opacity == 255) canvas_of(s->drawn_as).draw(s->from, s->to, pen_.radius_px);
+    }
+    faded_.draw(segments, rect, [&](std::size_t i, StrokeCanvas& canvas) {
+        canvas.draw(segments[i]->from, segments[i]->to, pen_.radius_px);
+    });
+}
+
+/// The stroke of a boundary that is drawn covers what other strokes cover of the surface in front, unless
+/// their class comes first.
+bool VisibleStrokes::needs_clipping(std::span<const LineSegment* const> segments) const {
+    if (side_ != StrokeSide::both) return true;
+    bool has_faded = false, has_undrawn = false;
+    for (const LineSegment* s : segments) {
+        has_faded = has_faded || (s->is_drawn && s->opacity < 255);
+        has_undrawn = has_undrawn || !s->is_drawn;
+        if (s->occludes && s->is_drawn && !classes_.empty() && s->drawn_as > classes_.front()) return true;
+    }
+    return has_undrawn && (has_faded || !classes_.empty());
+}
+
+void VisibleStrokes::draw_clipped(std::span<const LineSegment* const> segments) {
+    pieces_.clear();
+    for (const LineSegment* s : segments) {
+        pieces_.push_back({s->from, s->to, depth_px(s->nearness_from), depth_px(s->nearness_to), s->occludes,
+                           s->front_on_left});
+    }
+    clipper_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
+    for (const LineClass c : classes_) {
+        find_boundaries(segments, c);
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            if (!segments[i]->is_drawn || segments[i]->opacity < 255 || segments[i]->drawn_as != c) continue;
+            clipper_.draw(pieces_[i], pen_.radius_px, side_, boundaries_, canvas_of(c));
+        }
+    }
+    find_boundaries(segments, LineClass::crease);
+    faded_.draw(segments, rect_, [&](std::size_t i, StrokeCanvas& canvas) {
+        clipper_.draw(pieces_[i], pen_.radius_px, side_, boundaries_, canvas);
+    });
+}
+
+/// What hides strokes of a class.
+void VisibleStrokes::find_boundaries(std::span<const LineSegment* const> segments, LineClass line_class) {
+    boundaries_.clear();
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const LineSegment& s = *segments[i];
+        if (s.occludes && (side_ != StrokeSide::both || !s.is_drawn || s.drawn_as > line_class)) {
+            boundaries_.push_back(&pieces_[i]);
+        }
+    }
+}
+
+/// In pixels' widths at that distance: a difference of 1 is a pixel's width.
+double VisibleStrokes::depth_px(float nearness) const {
+    return projection_.focal_px * (projection_.orthographic ? -static_cast<double>(nearness)
+                                                            : -std::log(static_cast<double>(nearness)));
+}
+
+}  // namespace burin
