@@ -306,6 +306,26 @@ TEST(FineLines, ACreaseBetweenPatchesGoesOnBesideANeedle) {
     }
 }
 
+// A needle at one border of a strip narrower than a sample: the strip's other border is no patch that goes on there.
+TEST(FineLines, ANarrowStripKeepsItsBorderBesideANeedle) {
+    for (const double distance : {2.0, 3.0, 6.0, 12.0}) {
+        const auto ink = [&](bool has_needle) {
+            const double third = 1.0 / 3, low = 0.05, high = 0.0532;
+            PolygonSoup strip = soup_of({{-1, -low, 0}, {-1, -0.0468, 1e-4}, {-third, -third * low, 0}, {-third, 0.0032 - third * low, 1e-4},
+                                         {third, third * low, 0}, {third, 0.0032 + third * low, 1e-4}, {1, low, 0}, {1, high, 1e-4}, {0.05, 0.0025, 2e-7}},
+                                        {{0, 2, 3}, {0, 3, 1}, {2, 8, 3}, {8, 4, 5}, {8, 5, 3}, {4, 6, 7}, {4, 7, 5}});
+            if (has_needle) strip.add_polygon(std::vector<std::uint32_t>{2, 4, 8});
+            const Drawing drawn(scene_of({strip}), perspective_camera({0.3, 0.2, distance}, {0, 0, 0}), 160, 120, {0, 0, 160, 120}, 2, render_abuffer);
+            double sum = 0;
+            for (int y = 0; y < 120; ++y) {
+                for (int x = 0; x < 160; ++x) sum += drawn.line(x, y);
+            }
+            return sum;
+        };
+        EXPECT_GT(ink(true) / ink(false), 0.98) << distance;
+    }
+}
+
 TEST(FineLines, AcuteTipsAreNotCutShort) {
     for (const double angle : kAngles_deg) {
         PolygonSoup needle = soup_of({{-10, -2, 0}, {10, 0, 0}, {-10, 2, 0}, {-10, 0, -2}},

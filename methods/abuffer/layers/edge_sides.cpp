@@ -136,6 +136,13 @@ std::optional<HalfEdge> EdgeSides::past_sliver(std::uint32_t instance, HalfEdge 
     return h;
 }
 
+bool EdgeSides::are_neighbours(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const HalfEdge first = h - h % 3;
+    const auto leads_there = [&](HalfEdge own) { return mesh.next_on_edge[own] / 3 == g / 3; };
+    return h / 3 == g / 3 || leads_there(first) || leads_there(first + 1) || leads_there(first + 2);
+}
+
 bool EdgeSides::is_needle_on_edge(SurfaceId s, HalfEdge h) const {
     if (!is_sliver_at(s, h)) return false;
     const Mesh& mesh = surfaces_.mesh_of(s);

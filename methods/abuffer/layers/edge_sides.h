@@ -34,6 +34,8 @@ class EdgeSides {
     /// Of a border: the half-edge itself, or that of the triangle behind its sliver, whose normal says nothing. Nothing if there
     /// is none: a needle that stands by itself or on an edge of others is no surface.
     std::optional<HalfEdge> past_sliver(std::uint32_t instance, HalfEdge h) const;
+    /// Whether two half-edges' triangles are one, or meet at an edge.
+    bool are_neighbours(std::uint32_t instance, HalfEdge h, HalfEdge g) const;
     /// A sliver on an edge where two surfaces or more meet without it: nothing ends at its borders.
     bool is_needle_on_edge(SurfaceId s, HalfEdge h) const;
     /// Whether the triangle of a half-edge is a sliver. Most are none in any view, which is told at once.

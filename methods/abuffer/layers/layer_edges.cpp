@@ -163,7 +163,12 @@ class LayerEdgeFinder::Rules {
         if (part.partner) {
             const SurfaceId beyond = triangle_of(s, *part.partner);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
-            const auto solid_h = sides_.past_sliver(s.instance, h), solid_g = sides_.past_sliver(s.instance, *part.partner);
+            auto solid_h = sides_.past_sliver(s.instance, h), solid_g = sides_.past_sliver(s.instance, *part.partner);
+            if (solid_h && solid_g && sides_.are_neighbours(s.instance, *solid_h, *solid_g)) {
+                // Both sides of one narrow strip, which ends here all the same.
+                solid_h = h;
+                solid_g = part.partner;
+            }
             const auto side_of = [&](HalfEdge e, const std::optional<HalfEdge>& solid) {
                 if (!solid) return 0;
                 return *solid == e ? side_of_edge(screen_, s.instance, a, b, apex_of(mesh, e)) : sides_.side_at(s.instance, *solid, a, b);
