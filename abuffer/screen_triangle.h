@@ -48,11 +48,12 @@ struct ScreenMesh {
     std::uint32_t triangle_count = 0;
     const std::uint8_t* sharp = nullptr;      ///< per triangle, bit k: edge k is sharp; kMayBeSliver
     const std::uint32_t* partners = nullptr;  ///< half-edges on the other side, three per triangle
-    /// Facing, per triangle. Kernels may read kFacingPadding bytes behind the last one.
+    /// Facing, per triangle.
     const std::uint8_t* facing = nullptr;
-    static constexpr std::size_t kFacingPadding = 3;
     /// Per triangle, bit k: edge k may be a line. 0: the triangle is plain (see SampleTile).
     const std::uint8_t* line_edges = nullptr;
+    /// So many bytes behind the last facing and the last line edges kernels may read.
+    static constexpr std::size_t kPadding = 3;
 };
 
 /// Which way a triangle is wound on the screen.

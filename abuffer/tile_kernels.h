@@ -42,11 +42,21 @@ struct SampleRect {
     std::int32_t first_column, first_row, end_column, end_row;
 };
 
-/// Two neighbouring samples with different ids between which a line may lie.
+/// Two neighbouring samples with different ids between which a line may lie. Bits 0 to 14: the first one's column in the tile;
+/// 15 to 29: its row; 30: the second one lies below it, else to its right.
 struct SamplePair {
-    std::uint16_t column, row;  ///< of the first sample, in the tile
-    bool down;                  ///< the second one lies below the first, else to its right
+    static constexpr std::uint32_t kRowShift = 15, kDownShift = 30, kPlaceMask = (1u << kRowShift) - 1u;
+    std::uint32_t bits;
+
+    static constexpr SamplePair at(std::int32_t column, std::int32_t row, bool down) {
+        return {static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << kRowShift | std::uint32_t{down} << kDownShift};
+    }
+    constexpr std::int32_t column() const { return static_cast<std::int32_t>(bits & kPlaceMask); }
+    constexpr std::int32_t row() const { return static_cast<std::int32_t>(bits >> kRowShift & kPlaceMask); }
+    constexpr bool down() const { return bits >> kDownShift != 0; }
 };
+
+constexpr std::size_t kRoomBehindPairs = 15;  ///< where kernels may write
 
 /// What a smooth surface is: find_smooth().
 struct SmoothLimits {
@@ -283,12 +293,12 @@ struct TileKernels {
     std::int32_t (*draw_polygon)(const SampleView& tile, const ScanEdge* edges, std::size_t edge_count, const SampleRect& rect,
                                  const SpanPlane& plane);
     /// Finds the pairs of neighbours with different ids, except where both are plain and level.
-    /// Returns their number; `pairs` must have room for 2 * columns * rows.
+    /// Returns their number; `pairs` must have room for 2 * columns * rows and kRoomBehindPairs.
     std::size_t (*find_pairs)(const SampleView& tile, SamplePair* pairs);
     /// Whether pairs are samples of one smooth surface: from the first one's triangle, a walk along the row or column comes to
     /// the other one's in few steps, over edges that are not sharp, and between them triangles that face the same way, are no
     /// slivers, and not so deep and narrow that snapping may turn them. Sets `is_smooth` to 1 or 0. Triangles of other meshes
-    /// are not smooth; the mesh must have `sharp` and `line_edges`.
+    /// are not smooth; the mesh must have `sharp` and `line_edges`, and at most kMostToWalk triangles.
     void (*find_smooth)(const SampleView& tile, const ScreenMesh& mesh, const SmoothLimits& limits, const SamplePair* pairs,
                         std::size_t count, std::uint8_t* is_smooth);
     /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
@@ -349,6 +359,9 @@ struct TileKernels {
     void (*find_creases)(const std::uint32_t* begins, const std::uint32_t* next_on_edge, const float* normals, std::size_t first,
                          std::size_t count, float cos_crease, std::uint8_t* found);
 };
+
+/// Numbers of vertices, four to each, are signed 32-bit numbers in find_smooth().
+constexpr std::uint32_t kMostToWalk = (1u << 29) / 3;
 
 /// A tile's key for triangles of one kind.
 constexpr std::uint32_t tile_key(std::uint32_t tile, TriangleKind kind) { return kTriangleKinds * tile + kind; }

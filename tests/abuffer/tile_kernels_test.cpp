@@ -308,7 +308,7 @@ TEST(TileKernels, EdgesThatMayBeLinesAreFound) {
     const Facing facings[] = {edge_on, clockwise, counterclockwise, off_screen};
     for (const TileKernels* kernels : all_kernels()) {
         constexpr std::uint32_t kCount = 999;
-        std::vector<std::uint8_t> facing(kCount + ScreenMesh::kFacingPadding), sharp(kCount), found(kCount, 77);
+        std::vector<std::uint8_t> facing(kCount + ScreenMesh::kPadding), sharp(kCount), found(kCount, 77);
         std::vector<std::uint32_t> partners(3 * kCount);
         for (std::uint32_t t = 0; t < kCount; ++t) {
             // Mostly one way and smooth, or none would be plain.
@@ -574,10 +574,10 @@ TEST(TileKernels, FindPairsOfSurfacesThatAreNotPlainOrNotLevel) {
             }
         }
         for (const TileKernels* kernels : all_kernels()) {
-            std::vector<SamplePair> pairs(2 * tile.ids.size());
+            std::vector<SamplePair> pairs(2 * tile.ids.size() + kRoomBehindPairs);
             pairs.resize(kernels->find_pairs(view, pairs.data()));
             std::vector<std::array<int, 3>> found;
-            for (const SamplePair& p : pairs) found.push_back({p.row, p.column, p.down});
+            for (const SamplePair& p : pairs) found.push_back({p.row(), p.column(), p.down()});
             std::sort(found.begin(), found.end());
             EXPECT_EQ(found, expected) << kernels->name << ", seed " << seed;
         }

@@ -44,7 +44,7 @@ Counts compare(const Scene& scene, glm::dvec3 eye, int samples) {
         const auto add = [&](int column, int row, bool down) {
             const std::size_t a = s.index(column, row), b = down ? s.index(column, row + 1) : s.index(column + 1, row);
             if (s.ids[a] == SampleTile::kBackground || s.ids[a] >> 1 == s.ids[b] >> 1) return;
-            pairs.push_back({static_cast<std::uint16_t>(column - s.first_column), static_cast<std::uint16_t>(row - s.first_row), down});
+            pairs.push_back(SamplePair::at(column - s.first_column, row - s.first_row, down));
             neighbours.push_back({column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down, {tile.surface_at(a), tile.surface_at(b)}});
         };
         for (int row = s.first_row; row + 1 < s.first_row + s.rows; ++row) {

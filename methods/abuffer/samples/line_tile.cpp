@@ -42,8 +42,8 @@ glm::dvec2 LineTile::position(int column, int row) const {
 /// Whether there is a line between two samples that are not known to lie on one smooth surface.
 bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing) {
     LineDecision decision;
-    const glm::dvec2 a = position(pair.column, pair.row);
-    const glm::dvec2 b = position(pair.column + (pair.down ? 0 : 1), pair.row + (pair.down ? 1 : 0));
+    const glm::dvec2 a = position(pair.column(), pair.row());
+    const glm::dvec2 b = position(pair.column() + (pair.down() ? 0 : 1), pair.row() + (pair.down() ? 1 : 0));
     if (!fast_.decide(neighbours, decision, crossing.nearness)) {
         const VisiblePoint points[2] = {{a, neighbours.surfaces[0]}, {b, neighbours.surfaces[1]}};
         decision = decide_line(frame_.surfaces, points[0], points[1], frame_.criteria);
@@ -58,10 +58,8 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
     crossing.occludes = is_occluding(decision);
     if (crossing.classes.empty() && !(keeps_undrawn_ && crossing.occludes)) return false;
     if (!crossing.classes.has(LineClass::mark)) {
-        const std::size_t first = pair.row * static_cast<std::size_t>(samples_.stride) + pair.column;
-        const std::size_t second = first + (pair.down ? static_cast<std::size_t>(samples_.stride) : 1);
-        const float nearness[2] = {samples_.nearness[first], samples_.nearness[second]};
-        if (flush_.covers(neighbours, {pair.column, pair.row}, nearness, decision.edge.half_edge)) return false;
+        const float nearness[2] = {samples_.nearness[first_of(pair)], samples_.nearness[second_of(pair)]};
+        if (flush_.covers(neighbours, {pair.column(), pair.row()}, nearness, decision.edge.half_edge)) return false;
     }
     crossing.pixel = glm::mix(a, b, std::clamp(decision.fraction, 0.0, 1.0));
     crossing.towards_front = decision.front == 0 ? a - b : b - a;
@@ -94,13 +92,11 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
 
 /// Finds the pairs between which a line may lie, and which of them are known to be of one smooth surface.
 void LineTile::find_pairs() {
-    pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows));
+    pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows) + kRoomBehindPairs);
     const SampleView tile = visible_.view();
     pair_count_ = kernels_.find_pairs(tile, pairs_.data());
     is_smooth_.assign(pair_count_, 0);
-    const auto first_id = [&](std::size_t i) {
-        return samples_.ids[pairs_[i].row * static_cast<std::size_t>(samples_.stride) + pairs_[i].column];
-    };
+    const auto first_id = [&](std::size_t i) { return samples_.ids[first_of(pairs_[i])]; };
     // Those of one mesh after the other.
     for (std::size_t begin = 0; begin < pair_count_;) {
         if (first_id(begin) == SampleTile::kBackground) {
@@ -113,7 +109,7 @@ void LineTile::find_pairs() {
         };
         std::size_t end = begin + 1;
         while (end < pair_count_ && !is_of_another(first_id(end))) ++end;
-        if (mesh.sharp != nullptr) {
+        if (mesh.sharp != nullptr && mesh.triangle_count <= kMostToWalk) {
             kernels_.find_smooth(tile, mesh, fast_.smooth_limits(), pairs_.data() + begin, end - begin, is_smooth_.data() + begin);
         }
         begin = end;
@@ -122,10 +118,8 @@ void LineTile::find_pairs() {
 
 NeighbourSamples LineTile::neighbours_of(const SamplePair& pair) const {
     const std::int32_t pitch = kSubpixelsPerPixel / samples_.samples_per_pixel;
-    const auto stride = static_cast<std::size_t>(samples_.stride);
-    const std::size_t at = pair.row * stride + pair.column;
-    return {(samples_.first_column + pair.column) * pitch + pitch / 2, (samples_.first_row + pair.row) * pitch + pitch / 2,
-            pitch, pair.down, {visible_.surface_at(at), visible_.surface_at(at + (pair.down ? stride : 1))}};
+    return {(samples_.first_column + pair.column()) * pitch + pitch / 2, (samples_.first_row + pair.row()) * pitch + pitch / 2,
+            pitch, pair.down(), {visible_.surface_at(first_of(pair)), visible_.surface_at(second_of(pair))}};
 }
 
 void LineTile::find_crossings() {
@@ -140,8 +134,7 @@ void LineTile::find_crossings() {
             continue;
         }
         crossing_places_.push_back(pair);
-        const std::size_t at = pair.row * static_cast<std::size_t>(samples_.stride) + pair.column;
-        (pair.down ? down_ : right_)[at] = static_cast<std::uint32_t>(crossings_.size());
+        crossing_between(pair) = static_cast<std::uint32_t>(crossings_.size());
     }
 }
 
@@ -157,11 +150,7 @@ void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) 
     trace_cells(pieces_);
     merger_.merge(pieces_);
     segments.insert(segments.end(), pieces_.begin(), pieces_.end());
-    for (const SamplePair& place : crossing_places_) {
-        (place.down ? down_ : right_)[static_cast<std::size_t>(place.row) *
-                                          static_cast<std::size_t>(samples_.stride) +
-                                      place.column] = 0;
-    }
+    for (const SamplePair& place : crossing_places_) crossing_between(place) = 0;
 }
 
 void LineTile::trace_cells(std::vector<LineSegment>& segments) {
@@ -182,8 +171,7 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         for (const std::uint32_t side : sides) {
             if (side != 0) found[count++] = &crossings_[side - 1];
         }
-        const std::uint32_t own = (from.down ? down_ : right_)[from.row * stride + from.column];
-        if (found[0] != &crossings_[own - 1]) return;  // another crossing traces this cell
+        if (found[0] != &crossings_[crossing_between(from) - 1]) return;  // another crossing traces this cell
         const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
         std::size_t fresh = segments.size();
         trace_cell({found.data(), count}, low, low + 1.0 / s, has_bridges, segments);
@@ -191,12 +179,12 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };
     for (const SamplePair& place : crossing_places_) {
-        if (place.down) {
-            trace(place.column - 1, place.row, place);
-            trace(place.column, place.row, place);
+        if (place.down()) {
+            trace(place.column() - 1, place.row(), place);
+            trace(place.column(), place.row(), place);
         } else {
-            trace(place.column, place.row - 1, place);
-            trace(place.column, place.row, place);
+            trace(place.column(), place.row() - 1, place);
+            trace(place.column(), place.row(), place);
         }
     }
 }

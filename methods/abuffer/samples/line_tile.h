@@ -24,6 +24,14 @@ class LineTile {
 
   private:
     glm::dvec2 position(int column, int row) const;
+    // The samples of a pair, in the tile, and 1 + the number of the crossing between them; 0: none.
+    std::size_t first_of(const SamplePair& pair) const {
+        return static_cast<std::size_t>(pair.row()) * static_cast<std::size_t>(samples_.stride) + static_cast<std::size_t>(pair.column());
+    }
+    std::size_t second_of(const SamplePair& pair) const {
+        return first_of(pair) + (pair.down() ? static_cast<std::size_t>(samples_.stride) : 1);
+    }
+    std::uint32_t& crossing_between(const SamplePair& pair) { return (pair.down() ? down_ : right_)[first_of(pair)]; }
     void find_crossings();
     void find_pairs();
     NeighbourSamples neighbours_of(const SamplePair& pair) const;
@@ -44,7 +52,7 @@ class LineTile {
     std::vector<std::uint8_t> is_smooth_;  // per pair
     std::vector<LineCrossing> crossings_;
     std::vector<SamplePair> crossing_places_;
-    // Per sample, 1 + the number of the crossing to its right and below it; 0: none.
+    // Per sample, crossing_between() it and the one to its right or below it.
     std::vector<std::uint32_t> right_, down_;
     std::vector<LineSegment> pieces_;
     SegmentMerger merger_;

@@ -67,8 +67,8 @@ ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& c
         instance_at_.push_back(instance_with(first_triangle_, number));
     }
     instance_at_.push_back(triangle_count == 0 ? 0 : instance_with(first_triangle_, triangle_count - 1));
-    facing_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count + ScreenMesh::kFacingPadding);
-    line_edges_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count);
+    facing_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count + ScreenMesh::kPadding);
+    line_edges_ = std::make_unique_for_overwrite<std::uint8_t[]>(triangle_count + ScreenMesh::kPadding);
     for (const SurfaceInstance& instance : surfaces.instances) {
         transforms_.push_back(transform_of(surfaces, instance));
         sharp_.push_back(keeps_angles(instance.to_view) ? sharp_edges_of(instance) : nullptr);
