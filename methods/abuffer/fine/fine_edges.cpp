@@ -34,7 +34,9 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
         std::vector<HalfEdge> edges;
         for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
             const HalfEdge g = mesh.partners[h];
-            if (mesh.partners[g] == h) edges.push_back(h);
+            if (mesh.partners[g] != h) return;
+            edges.push_back(h);
+            __builtin_prefetch(mesh.corners + h);
         });
         const auto corner = [&](std::size_t i, HalfEdge k) {
             const HalfEdge h = edges[i];

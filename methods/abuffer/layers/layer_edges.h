@@ -29,6 +29,7 @@ void for_possible_lines(const ScreenSurfaces& screen, const TriangleChunk& chunk
     // What is on the other side of an edge may lie anywhere in memory.
     constexpr std::size_t kAhead = 16;
     for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (i + 2 * kAhead < sides.size()) __builtin_prefetch(mesh.partners + sides[i + 2 * kAhead]);
         if (i + kAhead < sides.size()) __builtin_prefetch(mesh.partners + mesh.partners[sides[i + kAhead]]);
         const HalfEdge h = sides[i], g = mesh.partners[h];
         if (g != h && mesh.partners[g] == h) {
