@@ -328,8 +328,8 @@ struct TileKernels {
     std::size_t (*find_touching)(const BoxView& boxes, std::size_t begin, std::size_t end, const ScreenBox& box,
                                  float least_x0, float least_y0, std::uint32_t* found);
     /// Lists those of the triangles [begin, end) that may hide a part of a line: with a corner nearer than its farther
-    /// end, and not beside it by more than 1/256 pixel, or 1/16 where either lies beyond 4096 pixels. Returns their number. Up
-    /// to 15 numbers more are read of each array.
+    /// end, and not beside it by more than 1/256 pixel, or 1/16 where either lies beyond 4096 pixels, or nothing where the line
+    /// is exact and the triangle no longer. Returns their number. Up to 15 numbers more are read of each array.
     std::size_t (*find_hiding)(const TriangleView& triangles, std::size_t begin, std::size_t end, const ScreenLine& line,
                                std::uint32_t* found);
     /// Makes an index of the triangles `listed`. Its bits must be zero.

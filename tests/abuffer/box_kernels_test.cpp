@@ -184,6 +184,70 @@ TEST(BoxKernels, TrianglesThatMayHideALineAreFound) {
     EXPECT_GT(found_count, crossing);
 }
 
+/// On whole numbers: what only touches a line does not hide it, what has a part of it within or along an edge may.
+TEST(BoxKernels, TrianglesThatOnlyTouchAnExactLineAreNotFound) {
+    Random random(10);
+    int hiding = 0, touching = 0;
+    for (int round = 0; round < 4000; ++round) {
+        constexpr std::size_t kCount = 40, kRead = kCount + 15;
+        const double origin = random.integer(0, 1) == 0 ? 0 : random.integer(0, 1 << 19);
+        const auto place = [&] { return glm::dvec2(origin + random.integer(0, 8), origin + random.integer(0, 8)); };
+        const auto cross = [](glm::dvec2 u, glm::dvec2 v) { return u.x * v.y - u.y * v.x; };
+        std::vector<float> numbers[6];
+        std::vector<glm::dvec2> corners[kRead];
+        for (auto& own : corners) {
+            own = {place(), place(), place()};
+            if (cross(own[1] - own[0], own[2] - own[0]) < 0) std::swap(own[1], own[2]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                numbers[k].push_back(static_cast<float>(own[k].x));
+                numbers[3 + k].push_back(static_cast<float>(own[k].y));
+            }
+        }
+        const std::vector<float> highest(kRead, 1.0f);
+        const TriangleView view{{numbers[0].data(), numbers[1].data(), numbers[2].data()},
+                                {numbers[3].data(), numbers[4].data(), numbers[5].data()},
+                                highest.data()};
+        const glm::dvec2 a = place(), b = place();
+        ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y), 0.5f};
+        line.is_exact = true;
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<std::uint32_t> found(kCount + 15);
+            found.resize(kernels->find_hiding(view, 0, kCount, line, found.data()));
+            for (std::uint32_t i = 0; i < kCount; ++i) {
+                const std::vector<glm::dvec2>& own = corners[i];
+                if (a == b || cross(own[1] - own[0], own[2] - own[0]) == 0) continue;
+                // Two of 129 places within, edges included: a length of it.
+                constexpr double kSteps = 128;
+                int inside = 0;
+                for (double step = 0; step <= kSteps; ++step) {
+                    const glm::dvec2 p = kSteps * a + step * (b - a);
+                    bool is_inside = true;
+                    for (std::size_t k = 0; k < 3; ++k) is_inside = is_inside && cross(own[(k + 1) % 3] - own[k], p - kSteps * own[k]) >= 0;
+                    inside += is_inside;
+                }
+                // Whether an edge has the line beyond it, but for an end.
+                bool only_touches = false;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const glm::dvec2 edge = own[(k + 1) % 3] - own[k];
+                    const double at_a = cross(edge, a - own[k]), at_b = cross(edge, b - own[k]);
+                    only_touches = only_touches || (std::max(at_a, at_b) <= 0 && std::min(at_a, at_b) < 0);
+                }
+                const bool is_found = std::binary_search(found.begin(), found.end(), i);
+                if (inside > 1) {
+                    ++hiding;
+                    EXPECT_TRUE(is_found) << kernels->name << " round " << round << ' ' << i;
+                }
+                if (only_touches) {
+                    ++touching;
+                    EXPECT_FALSE(is_found) << kernels->name << " round " << round << ' ' << i;
+                }
+            }
+        }
+    }
+    EXPECT_GT(hiding, 30000);
+    EXPECT_GT(touching, 30000);
+}
+
 /// Single precision rounds corners far beside the picture, but no line out of a triangle.
 TEST(BoxKernels, LinesJustInsideLargeTrianglesAreFound) {
     constexpr double kSize = 1 << 21, kGuardBand = 1 << 24;

@@ -1,6 +1,7 @@
 #include "methods/abuffer/fine/fine_lines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "methods/abuffer/layers/contacts.h"
@@ -68,7 +69,8 @@ class FineLines::BlockClipper {
         hidden_.clear();
         double reached = begin;  // as far as no piece is left
         bool is_hidden = false;
-        for_triangles(line, glm::mix(line.from, line.to, begin), glm::mix(line.from, line.to, end), line.lowest_in(begin, end) - slack,
+        const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+        for_triangles(line, a, b, part_or_line(line, a, b, line.lowest_in(begin, end) - slack),
                       [&](const LayerTriangle& t) {
                           // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
                           // apart.
@@ -98,7 +100,7 @@ class FineLines::BlockClipper {
                       });
         if (is_hidden) return;
         std::sort(hidden_.begin(), hidden_.end(),
-                  [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+                  [](const Interval& p, const Interval& q) { return p.begin < q.begin; });
         reached = begin;
         for (const Interval& h : hidden_) {
             add_wide(candidate, reached, h.begin, shortest, segments);
@@ -155,12 +157,26 @@ class FineLines::BlockClipper {
         }
     }
 
-    /// Calls use(triangle) for those beside the way from a to b that are nearer than `least`, and that the line is no edge of,
-    /// until it says false.
+    static ScreenLine screen_line(glm::dvec2 a, glm::dvec2 b, double least) {
+        return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
+                static_cast<float>(std::max(least, -1e30))};
+    }
+    /// A part of a line from a to b; or all of it, where that is short and its ends are whole numbers: what only touches it is
+    /// told exactly then.
+    static ScreenLine part_or_line(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, double least) {
+        const glm::dvec2 along = line.to - line.from;
+        const auto is_whole = [](glm::dvec2 p) { return glm::floor(p) == p; };
+        const bool is_exact = std::abs(along.x) + std::abs(along.y) <= double{kLongestExact} && is_whole(line.from) && is_whole(line.to);
+        if (!is_exact) return screen_line(a, b, least);
+        ScreenLine whole = screen_line(line.from, line.to, least);
+        whole.is_exact = true;
+        return whole;
+    }
+
+    /// Calls use(triangle) for those in the cells from a to b that may hide `part`, and that the line is no edge of, until it
+    /// says false.
     template <typename Use>
-    void for_triangles(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, double least, const Use& use) {
-        const ScreenLine part{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
-                              static_cast<float>(std::max(least, -1e30))};
+    void for_triangles(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, const ScreenLine& part, const Use& use) {
         bool goes_on = true;
         const bool has_cells = cells_ > 1;
         const TriangleView triangles = has_cells ? triangles_.view() : given_->view();
@@ -262,7 +278,7 @@ class FineLines::BlockClipper {
         const double nearness = line.nearness_at(t);
         std::optional<LayerTriangle> behind;
         double nearest = -kFar;
-        for_triangles(line, beyond, beyond, -kFar, [&](const LayerTriangle& triangle) {
+        for_triangles(line, beyond, beyond, screen_line(beyond, beyond, -kFar), [&](const LayerTriangle& triangle) {
             const double other = triangle.nearness_at(at);
             const bool is_nearest = other > nearest || (behind && other == nearest && triangle.number < behind->number);
             if (!triangle.covers(beyond) || !is_nearest) return true;
