@@ -2,24 +2,23 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "base/huge_pages.h"
 #include "base/interrupt.h"
+#include "base/unfilled_vector.h"
 
 namespace burin {
 namespace {
 
 /// How many of the vertices that triangles use fall together with others of these.
-std::uint64_t count_welded(const std::vector<std::uint8_t>& is_corner, const std::vector<std::uint32_t>& welded) {
-    bool all_apart = true;
-    for (std::uint32_t v = 0; v < welded.size(); ++v) all_apart &= welded[v] == v;
-    if (all_apart) return 0;
-    std::vector<std::uint8_t> is_welded_corner(welded.size(), 0);
+std::uint64_t count_welded(std::vector<std::uint8_t> is_corner, const std::vector<std::uint32_t>& welded) {
     std::uint64_t count = 0;
-    for (std::size_t v = 0; v < welded.size(); ++v) {
-        std::uint8_t& is_seen = is_welded_corner[welded[v]];
-        count += is_corner[v] & is_seen;
-        is_seen |= is_corner[v];
+    for (std::uint32_t v = 0; v < welded.size(); ++v) {
+        const std::uint32_t first = welded[v];
+        if (first == v) continue;
+        count += is_corner[v] & is_corner[first];
+        is_corner[first] |= is_corner[v];
     }
     return count;
 }
@@ -43,40 +42,38 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
                        const std::vector<std::uint32_t>& welded, Mesh& mesh) {
     constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
     const std::size_t count = soup.polygon_count();
-    // Numbers in the object: of vertices, and of the first ones of those that fall together.
-    std::vector<std::uint32_t> local = large_vector(positions.size(), kUnused), local_of_first = local;
+    // Numbers in the object, of the first ones of vertices that fall together; and the other way round.
+    std::vector<std::uint32_t> local = large_vector(positions.size(), kUnused);
+    UnfilledVector<std::uint32_t> used(positions.size() + 1);
     std::vector<std::uint8_t> is_corner(positions.size(), 0);
-    reserve_large(mesh.positions, positions.size());
     reserve_large(mesh.triangles, count);
-    // Each vertex is asked what it falls together with once, not whenever it is used.
-    const auto use = [&](std::uint32_t v) {
-        is_corner[v] = 1;
-        std::uint32_t& number = local_of_first[welded[v]];
-        if (number == kUnused) {
-            number = static_cast<std::uint32_t>(mesh.positions.size());
-            mesh.positions.push_back(positions[v]);
-        }
-        local[v] = number;
+    std::uint32_t used_count = 0;
+    // Half of the triangles meet a new vertex, and no guess at which is right: each is noted as if it were new.
+    const auto number_of = [&used_count, local = local.data(), used = used.data(), welded = welded.data()](std::uint32_t v) {
+        const std::uint32_t first = welded[v], known = local[first], is_new = known == kUnused ? 1 : 0;
+        const std::uint32_t number = known ^ ((known ^ used_count) & (0u - is_new));  // a condition would become a branch
+        local[first] = number;
+        used[used_count] = first;
+        used_count += is_new;
+        return number;
     };
+    const glm::vec3* const places = positions.data();
+    std::uint8_t* const is_met = is_corner.data();
     for (std::size_t i = 0; i < count; ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
-        const std::uint32_t* const corners = &soup.corners[3 * i];
+        const std::uint32_t a = soup.corners[3 * i], b = soup.corners[3 * i + 1], c = soup.corners[3 * i + 2];
+        is_met[a] = is_met[b] = is_met[c] = 1;
         // Vertices that are one make no area, and those that are not have different places.
-        if (!has_area(positions[corners[0]], positions[corners[1]], positions[corners[2]])) {
-            for (int k = 0; k < 3; ++k) is_corner[corners[k]] = 1;
-            continue;
-        }
-        std::array<std::uint32_t, 3> t;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (local[corners[k]] == kUnused) use(corners[k]);
-            t[k] = local[corners[k]];
-        }
-        mesh.triangles.push_back(t);
+        if (!has_area(places[a], places[b], places[c])) continue;
+        const std::uint32_t na = number_of(a), nb = number_of(b), nc = number_of(c);  // in this order
+        mesh.triangles.push_back({na, nb, nc});
     }
+    reserve_large(mesh.positions, used_count);
+    for (std::uint32_t i = 0; i < used_count; ++i) mesh.positions.push_back(places[used[i]]);
     mesh.polygon_count = static_cast<std::uint32_t>(mesh.triangles.size());
     mesh.repairs.input_polygons = mesh.repairs.input_triangles = count;
     mesh.repairs.degenerate_polygons = count - mesh.triangles.size();
-    mesh.repairs.welded_vertices = count_welded(is_corner, welded);
+    mesh.repairs.welded_vertices = count_welded(std::move(is_corner), welded);
 }
 
 }  // namespace burin
