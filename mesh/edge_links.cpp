@@ -21,6 +21,12 @@ namespace {
 /// Edges met so far, in buckets of a few that one cache line holds whole. An edge is known by its
 /// two vertices: the bucket is that of one, the other is the key.
 class EdgeTable {
+    static constexpr std::uint32_t kSlots = 4;
+    struct alignas(16) Bucket {
+        std::uint32_t keys[kSlots];              // the other vertex + 1; 0 = free, and so are all behind
+        std::uint32_t newest_half_edge[kSlots];  // + 1; 0 = none
+    };
+
   public:
     explicit EdgeTable(std::size_t vertex_count)
         : buckets_(static_cast<Bucket*>(
@@ -29,45 +35,44 @@ class EdgeTable {
         advise_huge_pages(buckets_.get(), vertex_count * sizeof(Bucket));
     }
 
-    static constexpr HalfEdge kFull = kNoHalfEdge;
-
-    /// The vertex in whose bucket the edge is if there is place. The choice is even, however
-    /// vertices are numbered: a vertex of a closed surface has six edges on average, so three are
-    /// in its bucket.
-    static std::uint32_t owner_of(std::uint32_t u, std::uint32_t v) {
-        const std::uint32_t u_owns = 0u - ((u < v ? 1u : 0u) ^ ((u ^ v) & 1));
-        return v ^ ((u ^ v) & u_owns);
+    /// Where the edge between two vertices is if there is place.
+    struct Home {
+        Bucket* bucket;
+        std::uint32_t key;
+    };
+    /// The choice is even, however vertices are numbered: a vertex of a closed surface has six edges on average, so
+    /// three are in its bucket. Asks for the bucket, too.
+    Home home_of(std::uint32_t u, std::uint32_t v) const {
+        const std::uint32_t v_owns = (u < v ? 1u : 0u) ^ ((u ^ v) & 1), differing = u ^ v;
+        const std::uint32_t owner = u ^ (differing & (0u - v_owns));
+        Bucket* const bucket = buckets_.get() + owner;
+        __builtin_prefetch(bucket, 1);
+        return {bucket, (owner ^ differing) + 1};
     }
-    void prefetch(std::uint32_t owner) const { __builtin_prefetch(&buckets_.get()[owner], 1); }
 
-    /// Notes half-edge h as the newest one on the edge between `owner` (which owner_of() tells) and another vertex.
-    /// Returns the newest before, h itself if there was none, kFull if there is no place: then there is none for any
+    /// The newest half-edge so far + 1, or 0, of an edge. nullptr if there is no place: then there is none for any
     /// half-edge of this edge.
-    HalfEdge exchange(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
-        const HalfEdge before = exchange_in(owner, other, h);
-        // A bucket that is full stays full, so that the next half-edge will come here too.
-        return before == kFull ? exchange_in(other, owner, h) : before;
+    std::uint32_t* newest(const Home& home) const {
+        std::uint32_t* const place = newest_in(*home.bucket, home.key);
+        // A bucket that is full stays full, so that the next half-edge will come to the other one, too.
+        return __builtin_expect(place == nullptr, 0) ? newest_in_other(home) : place;
+    }
+    /// The two vertices of an edge, the smaller one first.
+    std::pair<std::uint32_t, std::uint32_t> vertices_of(const Home& home) const {
+        return std::minmax({static_cast<std::uint32_t>(home.bucket - buckets_.get()), home.key - 1});
     }
 
   private:
-    static constexpr std::uint32_t kSlots = 4;
-    struct alignas(16) Bucket {
-        std::uint32_t keys[kSlots];              // the other vertex + 1; 0 = free, and so are all behind
-        std::uint32_t newest_half_edge[kSlots];  // + 1; 0 = none
-    };
-
+    [[gnu::noinline]] std::uint32_t* newest_in_other(const Home& home) const {
+        return newest_in(buckets_.get()[home.key - 1], static_cast<std::uint32_t>(home.bucket - buckets_.get()) + 1);
+    }
     /// Without branches, which would guess wrong half of the time.
-    HalfEdge exchange_in(std::uint32_t owner, std::uint32_t other, HalfEdge h) {
-        const std::uint32_t key = other + 1;
-        Bucket& bucket = buckets_.get()[owner];
+    static std::uint32_t* newest_in(Bucket& bucket, std::uint32_t key) {
         const std::uint32_t slots = slots_for(bucket.keys, key);
-        if (slots == 0) return kFull;
-        const auto slot = static_cast<std::uint32_t>(std::countr_zero(slots));
-        const std::uint32_t newest = bucket.newest_half_edge[slot];
+        if (slots == 0) return nullptr;
+        const auto slot = static_cast<std::size_t>(std::countr_zero(slots));
         put_key(bucket.keys, slot, key);
-        bucket.newest_half_edge[slot] = h + 1;
-        const std::uint32_t is_known = 0u - (newest != 0 ? 1u : 0u);  // a condition would become a branch
-        return h ^ ((h ^ (newest - 1)) & is_known);
+        return &bucket.newest_half_edge[slot];
     }
     /// Bit i: keys[i] is `key` or free. The first of them is the place of the key.
     static std::uint32_t slots_for(const std::uint32_t (&keys)[kSlots], std::uint32_t key) {
@@ -84,10 +89,11 @@ class EdgeTable {
     }
     /// keys[slot] = key where there is 0 or the same. All are written, for what is soon read at once would
     /// wait for one that was written alone.
-    static void put_key(std::uint32_t (&keys)[kSlots], std::uint32_t slot, std::uint32_t key) {
+    static void put_key(std::uint32_t (&keys)[kSlots], std::size_t slot, std::uint32_t key) {
 #ifdef __SSE2__
         auto* const all = reinterpret_cast<__m128i*>(keys);
-        const __m128i at = _mm_cmpeq_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(static_cast<int>(slot)));
+        alignas(16) static constexpr std::uint32_t kAt[kSlots][4] = {{~0u}, {0, ~0u}, {0, 0, ~0u}, {0, 0, 0, ~0u}};
+        const __m128i at = _mm_load_si128(reinterpret_cast<const __m128i*>(kAt[slot]));
         const __m128i put = _mm_and_si128(at, _mm_set1_epi32(static_cast<int>(key)));
         _mm_store_si128(all, _mm_or_si128(_mm_load_si128(all), put));
 #else
@@ -144,47 +150,54 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
     EdgeTable table(vertex_count);
     std::vector<LeftOver> left_over;
     bool twins = false;
-    // Notes half-edge h; whether its edge was known.
-    const auto link = [&](HalfEdge* next, std::uint32_t owner, std::uint32_t other, HalfEdge h) {
-        const HalfEdge before = table.exchange(owner, other, h);
-        if (before == EdgeTable::kFull) {
-            left_over.push_back({std::min(owner, other), std::max(owner, other), h});
-            return true;
-        }
-        // The newest one of a ring leads back to the oldest.
-        next[h] = next[before];
-        next[before] = h;
-        return before != h;
-    };
-    // The table is far larger than the nearest caches: the buckets of a triangle are asked for some triangles before.
-    constexpr std::size_t kAhead = 16;
-    std::array<std::array<std::uint32_t, 3>, 2 * kAhead> owners;
-    const auto look_ahead = [&](std::size_t t) {
-        const auto& [a, b, c] = triangles[t];
-        auto& own = owners[t % owners.size()];
-        own = {EdgeTable::owner_of(a, b), EdgeTable::owner_of(b, c), EdgeTable::owner_of(c, a)};
-        for (const std::uint32_t owner : own) table.prefetch(owner);
-    };
-    for (std::size_t t = 0; t < std::min(kAhead, triangles.size()); ++t) look_ahead(t);
-    constexpr std::size_t kBlock = 1024;
+    // Table and links are far larger than the nearest caches: three steps over some triangles at a time, each of which
+    // asks for what the next one needs.
+    constexpr std::size_t kBlock = 64;
+    std::array<EdgeTable::Home, 3 * kBlock> homes;
+    std::array<HalfEdge, 3 * kBlock> before;
     for (std::size_t first = 0; first < triangles.size(); first += kBlock) {
-        if (first % (64 * kBlock) == 0) throw_if_interrupted();
-        const std::size_t end = std::min(triangles.size(), first + kBlock);
+        if (first % (1024 * kBlock) == 0) throw_if_interrupted();
+        const std::size_t end = std::min(triangles.size(), first + kBlock), count = 3 * (end - first);
+        const auto first_half_edge = static_cast<HalfEdge>(3 * first);
         next_on_edge.resize(3 * end);
         HalfEdge* const next = next_on_edge.data();
-        std::iota(next + 3 * first, next + 3 * end, static_cast<HalfEdge>(3 * first));
-        for (std::size_t t = first; t < end; ++t) {
-            if (t + kAhead < triangles.size()) look_ahead(t + kAhead);
+        std::iota(next + 3 * first, next + 3 * end, first_half_edge);
+        for (std::size_t t = first, i = 0; t < end; ++t, i += 3) {
             const auto& [a, b, c] = triangles[t];
-            const auto& [o_ab, o_bc, o_ca] = owners[t % owners.size()];
-            const auto h = static_cast<HalfEdge>(3 * t);
-            const bool ab = link(next, o_ab, a ^ b ^ o_ab, h), bc = link(next, o_bc, b ^ c ^ o_bc, h + 1),
-                       ca = link(next, o_ca, c ^ a ^ o_ca, h + 2);
-            // Twins share all three edges. What most triangles can be told by is asked of all, for no guess at
-            // which of them have three known edges is right.
-            const HalfEdge g = next[h];
-            const bool may_be_twin = (next[g] != h) | (vertices_xor(triangles[g / 3]) == (a ^ b ^ c));
-            if (ab & bc & ca & (g != h) & may_be_twin) twins = twins || has_twin(triangles, next_on_edge, h);
+            homes[i] = table.home_of(a, b);
+            homes[i + 1] = table.home_of(b, c);
+            homes[i + 2] = table.home_of(c, a);
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const HalfEdge h = first_half_edge + static_cast<HalfEdge>(i);
+            std::uint32_t* const newest = table.newest(homes[i]);
+            if (newest == nullptr) {
+                const auto [smaller, larger] = table.vertices_of(homes[i]);
+                left_over.push_back({smaller, larger, h});
+                before[i] = h;
+                continue;
+            }
+            before[i] = std::min(*newest - 1, h);  // none becomes the greatest number, and others are smaller than h
+            *newest = h + 1;
+            __builtin_prefetch(next + before[i], 1);
+        }
+        for (std::size_t i = 0; i < count; i += 3) {
+            const auto h = first_half_edge + static_cast<HalfEdge>(i);
+            HalfEdge is_long = 0;
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                // The newest one of a ring leads back to the oldest.
+                const HalfEdge oldest = next[before[i + k]];
+                next[h + k] = oldest;
+                next[before[i + k]] = h + k;
+                is_long |= before[i + k] ^ oldest;
+            }
+            // Twins share all three edges: where no more than two triangles meet, the next one on two edges is the same.
+            const bool is_twin = (next[h] != h) & (next[h] / 3 == next[h + 1] / 3);
+            if (is_twin) twins = true;
+            if (is_long != 0) {
+                const bool knows_all = next[h] != h && next[h + 1] != h + 1 && next[h + 2] != h + 2;
+                if (knows_all) twins = twins || has_twin(triangles, next_on_edge, h);
+            }
         }
     }
     link_by_sorting(left_over, next_on_edge);

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "tests/mesh/mesh_checks.h"
 #include "tests/support/random.h"
 
@@ -22,6 +25,32 @@ TEST(LinkEdges, AgreesWithAMapOnRandomTriangles) {
         }
         ASSERT_EQ(link_edges(triangles, static_cast<std::size_t>(vertices)), test::link_edges_by_map(triangles)) << "seed " << seed;
     }
+}
+
+/// Of any number of triangles, for they are linked some at a time.
+TEST(LinkEdges, TellsTwins) {
+    int without = 0, with = 0;
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+        Random random(seed);
+        const int vertices = random.integer(4, 100);
+        Triangles triangles;
+        std::set<std::set<std::uint32_t>> seen;
+        bool has_twins = false;
+        for (int i = random.integer(0, 200); i > 0; --i) {
+            std::array<std::uint32_t, 3> t{};
+            for (auto& v : t) v = static_cast<std::uint32_t>(random.integer(0, vertices - 1));
+            const std::set<std::uint32_t> corners(t.begin(), t.end());
+            if (corners.size() < 3 || (seed % 2 == 0 && seen.contains(corners))) continue;
+            has_twins |= !seen.insert(corners).second;
+            triangles.push_back(t);
+        }
+        bool found = !has_twins;
+        const std::vector<HalfEdge> next = link_edges(triangles, static_cast<std::size_t>(vertices), &found);
+        ASSERT_EQ(next, test::link_edges_by_map(triangles)) << "seed " << seed;
+        ASSERT_EQ(found, has_twins) << "seed " << seed;
+        ++(has_twins ? with : without);
+    }
+    EXPECT_GT(std::min(with, without), 500);
 }
 
 TEST(LinkEdges, RingsGoThroughTheirHalfEdgesInOrder) {
