@@ -352,12 +352,18 @@ struct TileKernels {
     /// twice the area is at most `thin_square` of the longest edge's fourth power.
     void (*triangle_normals)(const float* positions, const std::uint32_t* corners, std::size_t count, double thin_square,
                              float* normals, std::uint8_t* is_thin);
+    /// The same in units of 1 / kRoughUnit, off by less than 3 of them in all. `slivers`: kMayBeSliver where a triangle is thin.
+    /// Numbers of vertices must be below 2^29.
+    void (*rough_normals)(const float* positions, const std::uint32_t* corners, std::size_t count, double thin_square,
+                          std::int16_t* normals, std::uint8_t* slivers);
     /// Which edges of triangles from `first` on are not plainly smooth: joined to one other triangle, wound like it, at an
-    /// angle whose cosine is greater than `cos_crease`. `found`: for each of them, bit k = edge k, added to what is there.
-    /// Half-edge 3 t + k begins at vertex `begins`; `next_on_edge` has rings of those on one edge. Numbers of half-edges must be
-    /// below 2^31.
-    void (*find_creases)(const std::uint32_t* begins, const std::uint32_t* next_on_edge, const float* normals, std::size_t first,
-                         std::size_t count, float cos_crease, std::uint8_t* found);
+    /// angle whose cosine, by rough normals and in units of 1 / kRoughUnit^2, is greater than `high`. `found`: for each of them,
+    /// bit k = edge k, added to what is there. `in_doubt`: half-edges of those whose only fault is a cosine from `low` to `high`;
+    /// returned is how many. Half-edge 3 t + k begins at vertex `begins`; `next_on_edge` has rings of those on one edge. Numbers of
+    /// half-edges must be below 2^31.
+    std::size_t (*find_creases)(const std::uint32_t* begins, const std::uint32_t* next_on_edge, const std::int16_t* normals,
+                                std::size_t first, std::size_t count, std::int32_t low, std::int32_t high, std::uint8_t* found,
+                                std::uint32_t* in_doubt);
 };
 
 /// Numbers of vertices, four to each, are signed 32-bit numbers in find_smooth().
@@ -368,6 +374,8 @@ constexpr std::uint32_t tile_key(std::uint32_t tile, TriangleKind kind) { return
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
 /// In 1/256 pixel. Products of such lengths fit 32 bits.
 constexpr std::int32_t kLargestSmallTriangle = 1 << 14;
+/// Of normals in 16 bits.
+constexpr float kRoughUnit = 32767;
 
 const TileKernels& baseline_kernels();
 /// nullptr where this build or this machine has none.

@@ -12,18 +12,30 @@
 namespace burin {
 namespace {
 
-using Normal = std::array<float, 4>;  // the last number is 0
+using Normal = std::array<float, 4>;             // the last number is 0
+using RoughNormal = std::array<std::int16_t, 4>;
+
+constexpr double kThinSquare = 1.001 * kSliverHeightPart * 1.001 * kSliverHeightPart;
+constexpr std::size_t kChunk = 1 << 14;  // triangles at a time
+
+bool is_crease(const Normal& a, const Normal& b, float cos_crease) {
+    return !(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > cos_crease);
+}
+
+template <typename Work>
+void for_chunks(std::size_t triangles, int threads, const Work& work) {
+    parallel_for((triangles + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+        work(chunk * kChunk, std::min(kChunk, triangles - chunk * kChunk));
+    });
+}
 
 /// The polygons' normals, in single precision; with kThinTriangle where a triangle is a sliver in its own
 /// proportions, or nearly.
 UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>& thin, int threads) {
-    constexpr double kPart = 1.001 * kSliverHeightPart;
-    constexpr std::size_t kChunk = 1 << 14;
     const TileKernels& kernels = best_kernels();
     UnfilledVector<Normal> normals(thin.size());
-    parallel_for((thin.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        const std::size_t first = chunk * kChunk, count = std::min(kChunk, thin.size() - first);
-        kernels.triangle_normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count, kPart * kPart,
+    for_chunks(thin.size(), threads, [&](std::size_t first, std::size_t count) {
+        kernels.triangle_normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count, kThinSquare,
                                  normals[first].data(), &thin[first]);
         for (std::size_t t = first; t < first + count; ++t) thin[t] *= kThinTriangle;
     });
@@ -37,27 +49,57 @@ UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
     return normals;
 }
 
+/// Where nothing but creases is looked for, between triangles. Rough normals tell nearly always: half of the memory.
+void find_creases(const Mesh& mesh, float cos_crease, std::vector<std::uint8_t>& sharp, int threads) {
+    constexpr double kDoubt = 2e-4;  // of cosines, for both normals may be off by 3 units of 1 / kRoughUnit
+    constexpr double kSquare = double{kRoughUnit} * double{kRoughUnit};
+    const double cosine{cos_crease};
+    const auto low = static_cast<std::int32_t>((cosine - kDoubt) * kSquare), high = static_cast<std::int32_t>((cosine + kDoubt) * kSquare);
+    const TileKernels& kernels = best_kernels();
+    const float* const positions = glm::value_ptr(mesh.positions.front());
+    UnfilledVector<RoughNormal> normals(sharp.size());
+    for_chunks(sharp.size(), threads, [&](std::size_t first, std::size_t count) {
+        kernels.rough_normals(positions, mesh.triangles[first].data(), count, kThinSquare, normals[first].data(), &sharp[first]);
+    });
+    const auto exact_normal = [&](std::uint32_t triangle) {
+        Normal normal;
+        std::uint8_t thin = 0;
+        kernels.triangle_normals(positions, mesh.triangles[triangle].data(), 1, 0, normal.data(), &thin);
+        return normal;
+    };
+    for_chunks(sharp.size(), threads, [&](std::size_t first, std::size_t count) {
+        UnfilledVector<HalfEdge> in_doubt(3 * count);
+        in_doubt.resize(kernels.find_creases(mesh.triangles.front().data(), mesh.next_on_edge.data(), normals.front().data(), first, count, low,
+                                             high, &sharp[first], in_doubt.data()));
+        for (const HalfEdge h : in_doubt) {
+            if (is_crease(exact_normal(h / 3), exact_normal(mesh.next_on_edge[h] / 3), cos_crease)) continue;
+            sharp[h / 3] = static_cast<std::uint8_t>(sharp[h / 3] & ~(1u << h % 3));
+        }
+    });
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria, int threads) {
     std::vector<std::uint8_t> sharp(mesh.triangles.size());
-    const UnfilledVector<Normal> normals = unit_normals(mesh, sharp, threads);
+    if (sharp.empty()) return sharp;
     const bool by_polygon = criteria.classes.has(LineClass::polygon);
     const bool by_material = criteria.classes.has(LineClass::material) && !mesh.polygon_material.empty();
     const bool by_crease = criteria.classes.has(LineClass::crease);
     // Single precision normals: what is close to the angle counts as sharp and is looked at again.
     const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + 1e-5f;
-    const auto is_crease = [&](std::uint32_t p, std::uint32_t q) {
-        const Normal& a = normals[p];
-        const Normal& b = normals[q];
-        return by_crease && !(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > cos_crease);
-    };
+    const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !by_polygon && !by_material;
+    if (has_only_creases && by_crease && mesh.next_on_edge.size() < std::size_t{1} << 29) {
+        find_creases(mesh, cos_crease, sharp, threads);
+        return sharp;
+    }
+    const UnfilledVector<Normal> normals = unit_normals(mesh, sharp, threads);
     const auto is_sharp = [&](HalfEdge h, HalfEdge g) {
         if (mesh.is_marked(h)) return true;
         const std::uint32_t p = mesh.polygon_of(h / 3), q = mesh.polygon_of(g / 3);
         if (p == q) return false;
         if (by_polygon || (by_material && mesh.polygon_material[p] != mesh.polygon_material[q])) return true;
-        return is_crease(p, q);
+        return by_crease && is_crease(normals[p], normals[q], cos_crease);
     };
     // Both half-edges of a pair find the same: guessing which of them comes first would take longer.
     const auto find = [&](const auto& is_sharp_pair) {
@@ -74,19 +116,7 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
             sharp[t] |= static_cast<std::uint8_t>(edges);
         });
     };
-    if (sharp.empty()) return sharp;
-    const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !by_polygon && !by_material;
-    if (has_only_creases && by_crease && mesh.next_on_edge.size() < std::size_t{1} << 31) {
-        constexpr std::size_t kChunk = 1 << 14;
-        const TileKernels& kernels = best_kernels();
-        parallel_for((sharp.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-            const std::size_t first = chunk * kChunk, count = std::min(kChunk, sharp.size() - first);
-            kernels.find_creases(mesh.triangles.front().data(), mesh.next_on_edge.data(), normals.front().data(), first, count, cos_crease,
-                                 &sharp[first]);
-        });
-    } else {
-        find(is_sharp);
-    }
+    find(is_sharp);
     return sharp;
 }
 

@@ -140,9 +140,52 @@ TEST(FillKernels, NormalsOfTrianglesAreUnitVectors) {
     EXPECT_GT(thin, 1000u);
 }
 
+/// Of triangles of all sizes and proportions, alike for all kernels.
+TEST(FillKernels, RoughNormalsAreNearlyNormals) {
+    std::size_t slivers = 0;
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        Random random(seed);
+        const auto count = static_cast<std::size_t>(random.integer(0, 40));
+        const double size = std::exp2(random.integer(-60, 60)), flat = std::exp2(-random.integer(0, 14)), away = random.integer(0, 2);
+        std::vector<glm::vec3> positions(12);
+        for (glm::vec3& p : positions) p = glm::vec3(size * (glm::dvec3(away, 2 * away, -away) + random.in_box(1) * glm::dvec3(1, flat, 1)));
+        std::vector<std::array<std::uint32_t, 3>> triangles(count);
+        for (auto& corners : triangles) {
+            for (std::uint32_t& corner : corners) corner = static_cast<std::uint32_t>(random.integer(0, 11));
+        }
+        const double thin_square = seed % 2 == 0 ? 1e-6 : 1e-3;
+        const std::uint32_t* const corners = count > 0 ? triangles[0].data() : nullptr;
+        std::vector<float> normals(4 * count);
+        std::vector<std::uint8_t> is_thin(count);
+        baseline_kernels().triangle_normals(&positions[0].x, corners, count, thin_square, normals.data(), is_thin.data());
+        std::vector<std::int16_t> first;
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<std::int16_t> rough(4 * count + 4, 7);
+            std::vector<std::uint8_t> found(count + 1, 7);
+            kernels->rough_normals(&positions[0].x, corners, count, thin_square, rough.data(), found.data());
+            for (std::size_t t = 0; t < count; ++t) {
+                double square = 0;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double error = rough[4 * t + c] - double{kRoughUnit} * double{normals[4 * t + c]};
+                    square += error * error;
+                }
+                ASSERT_LT(square, 9) << kernels->name << ", seed " << seed << ", triangle " << t;
+                ASSERT_EQ(rough[4 * t + 3], 0);
+                ASSERT_EQ(found[t], is_thin[t] != 0 ? kMayBeSliver : 0) << kernels->name << ", seed " << seed << ", triangle " << t;
+                slivers += is_thin[t];
+            }
+            ASSERT_EQ(rough[4 * count], 7);
+            ASSERT_EQ(found[count], 7);
+            if (first.empty()) first = rough;
+            ASSERT_EQ(rough, first) << kernels->name << ", seed " << seed;
+        }
+    }
+    EXPECT_GT(slivers, 1000u);
+}
+
 /// On rings of all lengths, wound alike and not, with angles on either side of the limit and at it.
 TEST(FillKernels, CreasesAreWhatIsNotPlainlySmooth) {
-    std::size_t creases = 0, smooth = 0;
+    std::size_t creases = 0, smooth = 0, doubts = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         Random random(seed);
         const auto triangles = static_cast<std::size_t>(random.integer(1, 60));
@@ -156,32 +199,39 @@ TEST(FillKernels, CreasesAreWhatIsNotPlainlySmooth) {
             for (std::size_t k = 0; k < length; ++k) next[order[i + k]] = order[i + (k + 1) % length];
             i += length;
         }
-        std::vector<float> normals(4 * triangles);
+        std::vector<std::int16_t> normals(4 * triangles);
         for (std::size_t t = 0; t < triangles; ++t) {
-            const std::array<float, 4> normal = random.integer(0, 2) > 0 ? std::array{0.6f, 0.8f, 0.0f, 0.0f} : std::array{0.0f, 1.0f, 0.0f, 0.0f};
+            const std::array<std::int16_t, 4> normal =
+                random.integer(0, 2) > 0 ? std::array<std::int16_t, 4>{-19660, 26213, 0, 0} : std::array<std::int16_t, 4>{0, 32767, 0, 0};
             std::copy(normal.begin(), normal.end(), normals.begin() + static_cast<std::ptrdiff_t>(4 * t));
         }
-        const float cos_crease = std::array{0.7f, 0.8f, 0.9f}[static_cast<std::size_t>(random.integer(0, 2))];
+        const std::int32_t between = 26213 * 32767;
+        const std::int32_t low = between + random.integer(-1, 1), high = low + random.integer(0, 2);
         const auto first = static_cast<std::size_t>(random.integer(0, static_cast<int>(triangles) - 1));
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<std::uint8_t> found(triangles - first + 1, 8);
-            kernels->find_creases(begins.data(), next.data(), normals.data(), first, triangles - first, cos_crease, found.data());
+            std::vector<std::uint32_t> in_doubt(half_edges), expected_doubts;
+            in_doubt.resize(kernels->find_creases(begins.data(), next.data(), normals.data(), first, triangles - first, low, high, found.data(), in_doubt.data()));
             for (std::size_t t = first; t < triangles; ++t) {
                 unsigned expected = 8;
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::size_t h = 3 * t + k, g = next[h];
-                    float cosine = 0;
+                    std::int32_t cosine = 0;
                     for (std::size_t c = 0; c < 3; ++c) cosine += normals[4 * t + c] * normals[4 * (g / 3) + c];
-                    const bool is_pair = g != h && next[g] == h;
-                    const bool is_smooth = is_pair && begins[g] != begins[h] && cosine > cos_crease;
+                    const bool is_pair = g != h && next[g] == h && begins[g] != begins[h];
+                    const bool is_smooth = is_pair && cosine > high;
                     expected |= is_smooth ? 0u : 1u << k;
+                    if (is_pair && !is_smooth && cosine >= low) expected_doubts.push_back(static_cast<std::uint32_t>(h));
                     ++(is_smooth ? smooth : creases);
                 }
                 ASSERT_EQ(found[t - first], expected) << kernels->name << ", seed " << seed << ", triangle " << t;
             }
+            ASSERT_EQ(in_doubt, expected_doubts) << kernels->name << ", seed " << seed;
             EXPECT_EQ(found.back(), 8);
+            doubts += in_doubt.size();
         }
     }
+    EXPECT_GT(doubts, 1000u);
     EXPECT_GT(creases, 1000u);
     EXPECT_GT(smooth, 1000u);
 }
