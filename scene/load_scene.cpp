@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -20,6 +21,20 @@ bool is_finite(const glm::dmat4& m) {
         }
     }
     return true;
+}
+
+constexpr std::size_t kPointBlock = 512;
+
+/// Around the blocks of a mesh's positions.
+std::vector<Box> block_boxes(const Mesh& mesh) {
+    std::vector<Box> boxes;
+    for (std::size_t first = 0; first < mesh.positions.size(); first += kPointBlock) {
+        Box box = box_of(std::span(mesh.positions).subspan(first, std::min(kPointBlock, mesh.positions.size() - first)));
+        box.low += mesh.origin;  // rounds as points do
+        box.high += mesh.origin;
+        boxes.push_back(box);
+    }
+    return boxes;
 }
 
 /// A model as it arrived in the scene: where its meshes and materials start.
@@ -178,18 +193,14 @@ bool has_transparent_surfaces(const Scene& scene) {
 }
 
 PointSource scene_points(const Scene& scene) {
-    return [&scene](const PointVisitor& visit) {
-        constexpr std::size_t kBlock = 512;
-        std::array<glm::dvec3, kBlock> some;
-        const auto visit_all = [&](const Mesh& mesh, bool is_placed, const auto& place) {
-            for (std::size_t first = 0; first < mesh.positions.size(); first += kBlock) {
-                const std::size_t count = std::min(kBlock, mesh.positions.size() - first);
-                if (is_placed) {
-                    Box box = box_of(std::span(mesh.positions).subspan(first, count));
-                    box.low += mesh.origin;  // rounds as points do
-                    box.high += mesh.origin;
-                    if (!visit.needs(box)) continue;
-                }
+    // Of each mesh, once they are needed: a camera's fit runs twice over all points.
+    const auto boxes = std::make_shared<std::vector<std::vector<Box>>>(scene.meshes.size());
+    return [&scene, boxes](const PointVisitor& visit) {
+        std::array<glm::dvec3, kPointBlock> some;
+        const auto visit_all = [&](const Mesh& mesh, const Box* box, const auto& place) {
+            for (std::size_t first = 0; first < mesh.positions.size(); first += kPointBlock) {
+                if (box != nullptr && !visit.needs(*box++)) continue;
+                const std::size_t count = std::min(kPointBlock, mesh.positions.size() - first);
                 for (std::size_t i = 0; i < count; ++i) some[i] = place(mesh.position(static_cast<std::uint32_t>(first + i)));
                 visit(std::span(some).first(count));
             }
@@ -198,9 +209,11 @@ PointSource scene_points(const Scene& scene) {
             const Mesh& mesh = scene.meshes[object.mesh];
             const glm::dmat4 to_world = object.to_world;
             if (to_world == glm::dmat4(1.0)) {
-                visit_all(mesh, true, [](const glm::dvec3& p) { return p; });
+                std::vector<Box>& of_mesh = (*boxes)[object.mesh];
+                if (of_mesh.empty()) of_mesh = block_boxes(mesh);
+                visit_all(mesh, of_mesh.data(), [](const glm::dvec3& p) { return p; });
             } else {
-                visit_all(mesh, false, [&](const glm::dvec3& p) { return glm::dvec3(to_world * glm::dvec4(p, 1.0)); });
+                visit_all(mesh, nullptr, [&](const glm::dvec3& p) { return glm::dvec3(to_world * glm::dvec4(p, 1.0)); });
             }
         }
     };
