@@ -14,6 +14,8 @@ namespace {
 constexpr std::ptrdiff_t kMaxDistance = 32768;
 constexpr std::ptrdiff_t kLongRun = 512;       // is not summed byte by byte
 constexpr std::size_t kBlockSequences = 8192;  // that are coded together
+/// After so many misses it is noise: it is not entered into the table any more, and then only searched for runs.
+constexpr std::uint32_t kMissesOfNoise = 16, kMissesOfPureNoise = 32;
 
 std::uint64_t load_eight(const std::uint8_t* p) {
     std::uint64_t bytes;
@@ -63,6 +65,26 @@ std::size_t run_length(const std::uint8_t* p, const std::uint8_t* end) {
     return static_cast<std::size_t>(p - start);
 }
 
+/// The next place from `p` on where 12 bytes are those two before, of windows of 16 bytes; shorter runs in noise are not
+/// worth what is between stored blocks.
+const std::uint8_t* find_run(const std::uint8_t* p, const std::uint8_t* end) {
+    for (; end - p >= 16; p += 16) {
+        std::uint32_t same = 0;  // a bit for each byte
+#ifdef __SSE2__
+        const __m128i here = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+        same = static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpeq_epi8(here, _mm_loadu_si128(reinterpret_cast<const __m128i*>(p - 2)))));
+#else
+        for (int i = 0; i < 16; ++i) same |= (p[i] == p[i - 2] ? 1u : 0u) << i;
+#endif
+        same &= same >> 1;
+        same &= same >> 2;
+        same &= same >> 4;  // eight at once
+        same &= same >> 4;
+        if (same != 0) return p + std::countr_zero(same);
+    }
+    return end;
+}
+
 }  // namespace
 
 void Deflater::add(std::size_t literals, std::size_t length, std::size_t distance) {
@@ -93,11 +115,11 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
         const bool is_run = p - begin >= 2 && here == load_eight(p - 2);
         if (is_run) {
             from = p - 2;
-        } else {
+        } else if (misses < kMissesOfPureNoise) {
             // Of six bytes: shorter copies are found in noise, and coding them takes longer than it saves.
             const auto hash = static_cast<std::uint32_t>((here << 16) * 0x9E3779B97F4A7C15u >> (64 - kHashBits));
             const std::uint32_t place = newest_[hash];
-            newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;
+            if (misses < kMissesOfNoise) newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;
             const std::uint8_t* const candidate = begin + place - 1;
             if (place != 0 && p - candidate <= kMaxDistance &&
                 (load_eight(candidate) ^ here) << 16 == 0) {
@@ -105,7 +127,11 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
             }
         }
         if (from == nullptr) {
-            p += std::min<std::ptrdiff_t>(end - p, 1 + misses++);  // in noise, ever larger steps
+            if (misses < kMissesOfPureNoise) {
+                p += std::min<std::ptrdiff_t>(end - p, 1 + misses++);  // ever larger steps
+            } else {
+                p = find_run(p + 1, end);
+            }
             continue;
         }
         misses /= 2;

@@ -151,6 +151,22 @@ TEST(Deflate, NoiseIsStored) {
     }
 }
 
+/// Long after the search has become coarse: runs of bytes and of pairs, from each place on, up to the end.
+TEST(Deflate, RunsInNoiseAreFound) {
+    Deflater deflater;
+    for (std::size_t place = 4000; place < 4040; ++place) {
+        for (const std::size_t rest : {0, 1, 7, 8, 15, 16, 17, 1000}) {
+            Random random(place);
+            Bytes bytes = noise(random, place);
+            for (std::size_t i = 0; i < 600; ++i) bytes.push_back(bytes[bytes.size() - 1 - place % 2]);
+            const Bytes more = noise(random, rest);
+            bytes.insert(bytes.end(), more.begin(), more.end());
+            expect_survives(deflater, bytes);
+            EXPECT_LT(deflater.compress(bytes).size(), place + rest + 80) << place << ", " << rest;
+        }
+    }
+}
+
 TEST(Deflate, WhatIsNoNoiseIsCodedThoughItHasNoCopies) {
     Deflater deflater;
     Random random(4);
