@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace burin {
@@ -103,6 +104,17 @@ std::uint64_t bits_of(const Counts& counts, const Code& code) {
     return bits;
 }
 
+/// What they take at least with any code. Whole bits, so that rounding cannot make it more than a code takes.
+template <typename Counts>
+std::uint64_t least_bits_of(const Counts& counts) {
+    double all = 0, bits = 0;
+    for (const std::uint32_t count : counts) all += count;
+    for (const std::uint32_t count : counts) {
+        if (count > 0) bits += count * std::log2(all / count);
+    }
+    return static_cast<std::uint64_t>(bits);
+}
+
 void put_stored(BitWriter& out, std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
         const std::span piece = bytes.first(std::min(bytes.size(), kMaxStored));
@@ -190,13 +202,22 @@ void DeflateBlock::put(BitWriter& out) const {
     if (stored_bits_ > 0) {  // they were counted in part: each has a code
         for (std::size_t i = 0; i < kEndOfBlock; ++i) all[i] += storable_[i] + 1;
     }
-    const Codes own{LiteralCode(all), DistanceCode(distances_)};
     const Codes& fixed = fixed_codes();
-    const std::uint64_t own_bits = bits_of(all, own.literals) + bits_of(distances_, own.distances) + kOwnCodesBits;
     const std::uint64_t fixed_bits = bits_of(coded_, fixed.literals) + bits_of(distances_, fixed.distances) + stored_bits_;
-    if (fixed_bits < own_bits + own_bits / 32) {  // storing is faster, for writers and readers
+    // Storing is faster, for writers and readers.
+    const auto is_little = [&](std::uint64_t own_bits) { return fixed_bits < own_bits + own_bits / 32; };
+    const auto put_fixed = [&] {
         out.put(kFixedCodes, 3);
         put_sequences(out, fixed, kManyLiterals);
+    };
+    if (is_little(least_bits_of(all) + least_bits_of(distances_) + kOwnCodesBits)) {
+        put_fixed();
+        return;  // own codes, which take longer to make than to use, could not be better
+    }
+    const Codes own{LiteralCode(all), DistanceCode(distances_)};
+    const std::uint64_t own_bits = bits_of(all, own.literals) + bits_of(distances_, own.distances) + kOwnCodesBits;
+    if (is_little(own_bits)) {
+        put_fixed();
     } else {
         out.put(kOwnCodes, 3);
         put_code_lengths(out, own.literals, own.distances);
