@@ -148,8 +148,10 @@ void RowPacker::packed(UnfilledVector<std::uint8_t>& bytes, std::vector<Deflater
         const Part& part = parts_[i];
         if (part.block == nullptr) continue;
         for (std::size_t k = 0; k < planes_.size(); ++k) {
-            const PartRows rows = rows_of(part, planes_[k]);
+            const PartRows rows = rows_of(part, planes_[k]), next = rows_of(part, planes_[std::min(k + 1, planes_.size() - 1)]);
             for (std::size_t y = 0; y < rows_; ++y) {
+                // The processor cannot tell where the next plane is.
+                for (std::size_t at = 0; at < next.size; at += 64) __builtin_prefetch(next.row(y).data() + at);
                 const std::size_t place = place_of(part, planes_[k], y);
                 put({even + place, odd + place}, rows.row(y), last_pair(row_before(i, k, y)));
             }
