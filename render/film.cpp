@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "base/error.h"
 #include "base/stream_store.h"
@@ -225,10 +226,14 @@ void Film::put_background(int x0, int x1, int y) {
     }
 }
 
-void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
-    for_row(x0, x1, y, [&](const Planes& planes, std::size_t begin, std::size_t count, std::size_t) {
-        const auto fill = [&](std::uint16_t* plane, std::uint16_t value) {
-            if (plane != nullptr) std::fill_n(plane + begin, count, value);
+void Film::put_color(PixelRect rect, const HalfColor& color) {
+    for_parts(rect, [&](PixelRect part) {
+        const auto [planes, begin] = place_of(part.x0, part.y0);
+        const auto stride = static_cast<std::size_t>(block_of(number_of(part.x0, part.y0))->image.width());
+        auto width = static_cast<std::size_t>(part.width()), height = static_cast<std::size_t>(part.height());
+        if (width == stride) width *= std::exchange(height, 1);  // whole rows follow each other
+        const auto fill = [&, first = begin](std::uint16_t* plane, std::uint16_t value) {
+            for (std::size_t y = 0; y < height && plane != nullptr; ++y) std::fill_n(plane + first + y * stride, width, value);
         };
         for (std::size_t c = 0; c < 4; ++c) {
             fill(planes.beauty[c], color[c]);
@@ -252,6 +257,17 @@ void Film::put_colors(int x0, int x1, int y, const std::array<const std::uint16_
         }
         for (std::uint16_t* plane : planes.coverage) clear(plane);
     });
+}
+
+GeometryRow Film::geometry_place(int x, int y, const GeometryRow& spare) {
+    const auto [planes, begin] = place_of(x, y);
+    const auto choose = [at = begin](auto* plane, auto* other) { return plane != nullptr ? plane + at : other; };
+    GeometryRow row{choose(planes.depth, spare.distance), {}, {}};
+    for (std::size_t c = 0; c < 3; ++c) {
+        row.normal[c] = choose(planes.normal[c], spare.normal[c]);
+        row.ids[c] = choose(planes.ids[c], spare.ids[c]);
+    }
+    return row;
 }
 
 void Film::put_geometry(int x0, int x1, int y, const GeometryRow& row) {

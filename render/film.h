@@ -72,6 +72,8 @@ class Film {
     Film(Film&&) noexcept;
     Film& operator=(Film&&) noexcept;
 
+    /// Whether it lies in memory as a whole.
+    bool is_whole() const { return blocks_.size() == 1 && row_shift_ == kWholeShift; }
     PixelRect display() const { return display_; }
     PixelRect crop() const { return crop_; }
     std::vector<ChannelFormat> channels() const;
@@ -97,11 +99,15 @@ class Film {
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
     bool has_geometry() const;
-    /// Puts the colours of pixels [x0, x1) of a row without lines, one for all or one for each, channel by channel.
-    void put_color(int x0, int x1, int y, const HalfColor& color);
+    /// Puts one colour into pixels without lines.
+    void put_color(PixelRect rect, const HalfColor& color);
+    /// Puts the colours of pixels [x0, x1) of a row without lines, channel by channel.
     void put_colors(int x0, int x1, int y, const std::array<const std::uint16_t*, 4>& colors);
     /// Puts their depth, normals and ids, if has_geometry(). Before other threads read these, finish_stream_stores() is due.
     void put_geometry(int x0, int x1, int y, const GeometryRow& row);
+    /// Of a film in blocks: where put_geometry() would copy a row to that begins with a pixel and lies in one block, so that it
+    /// may be made there; `spare` for layers that are not kept.
+    GeometryRow geometry_place(int x, int y, const GeometryRow& spare);
     /// Puts the background into pixels [x0, x1) of a row that nothing else is put into; then finish_stream_stores() is due,
     /// too.
     void put_background(int x0, int x1, int y);
@@ -141,7 +147,6 @@ class Film {
 
     /// Blocks have 2^`column_shift` columns and 2^`row_shift` rows.
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int column_shift, int row_shift);
-    bool is_whole() const { return blocks_.size() == 1 && row_shift_ == kWholeShift; }
     /// The first pixel of the next block, along one axis.
     static int first_of_next(int at, int origin, int shift) {
         const std::int64_t next = ((std::int64_t{at} - origin) >> shift) + 1;

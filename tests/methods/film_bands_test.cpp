@@ -65,8 +65,8 @@ Image filled(const ImageStrip& strip, const std::vector<ChannelFormat>& channels
 }
 
 /// The bands that a render hands on, each of which it hands on once.
-std::map<int, Image> bands_of(const Frame& frame, const RunOptions& given) {
-    Film film = Film::in_bands({0, 0, kWidth, kHeight}, frame.crop, kAllLayers, frame.criteria.classes);
+std::map<int, Image> bands_of(const Frame& frame, const RunOptions& given, const LayerSet& layers) {
+    Film film = Film::in_bands({0, 0, kWidth, kHeight}, frame.crop, layers, frame.criteria.classes);
     std::map<int, Image> bands;
     std::mutex mutex;
     RunOptions options = given;
@@ -94,11 +94,14 @@ TEST(FilmBands, AreRowsOfTheWholeFilm) {
         options.threads = random.integer(1, 4);
         options.tile_samples = 32 << random.integer(0, 2);
         if (seed % 4 == 0) options.memory_bytes = std::uint64_t{80} << 20;
-        Film film({0, 0, kWidth, kHeight}, crop, kAllLayers, frame.criteria.classes);
+        LayerSet layers = kAllLayers;
+        if (seed % 5 == 1) layers.depth = layers.ids = false;
+        if (seed % 5 == 2) layers.normal = layers.surface = false;
+        Film film({0, 0, kWidth, kHeight}, crop, layers, frame.criteria.classes);
         render_abuffer(frame, options, film);
         const Image& whole = film.image();
         int y = crop.y0;
-        for (const auto& [y0, band] : bands_of(frame, options)) {
+        for (const auto& [y0, band] : bands_of(frame, options, layers)) {
             ASSERT_EQ(y0, y);
             ASSERT_EQ(band.data(), (PixelRect{crop.x0, y, crop.x1, std::min(y + Film::kBandRows, crop.y1)}));
             for (const Channel& channel : band.channels()) {

@@ -143,23 +143,39 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
     const auto width = static_cast<std::size_t>(rect.width());
     const Projection& p = frame_.surfaces.projection;
     const glm::dvec2 first = glm::dvec2(rect.x0 + 0.5, y + 0.5) - p.center_px;
-    const GeometryRow row{row_.distance, {row_.normal[0], row_.normal[1], row_.normal[2]}, {row_.ids[0], row_.ids[1], row_.ids[2]}};
-    kernels_.put_geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(),
-                          &look_at_[static_cast<std::size_t>(y - rect.y0) * width], width, row);
-    film.put_geometry(rect.x0, rect.x1, y, row);
+    const GeometryRow own{row_.distance, {row_.normal[0], row_.normal[1], row_.normal[2]}, {row_.ids[0], row_.ids[1], row_.ids[2]}};
+    const bool is_made_in_place = !film.is_whole() && width % 4 == 0;  // see GeometryRow
+    kernels_.put_geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(), &look_at_[static_cast<std::size_t>(y - rect.y0) * width],
+                          width, is_made_in_place ? film.geometry_place(rect.x0, y, own) : own);
+    if (!is_made_in_place) film.put_geometry(rect.x0, rect.x1, y, own);
 }
 
 void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& film) {
     const int s = samples.samples_per_pixel;
     std::uint8_t covered[kWidth + 8];
+    PixelRect same{rect.x0, rect.y0, rect.x1, rect.y0};  // rows of one colour, which are put at once
+    std::uint8_t same_count = 0;
+    const auto put_same = [&] {
+        if (same.y0 < same.y1) film.put_color(same, paper_[same_count]);
+    };
     for (int y = rect.y0; y < rect.y1; ++y) {
         const std::size_t first = samples.index(rect.x0 * s, y * s);
         kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
         for (int begin = 0, end; begin < rect.width(); begin = end) {  // a few runs of equal counts
             for (end = begin + 1; end < rect.width() && covered[end] == covered[begin];) ++end;
-            film.put_color(rect.x0 + begin, rect.x0 + end, y, paper_[covered[begin]]);
+            if (end - begin < rect.width()) {
+                film.put_color({rect.x0 + begin, y, rect.x0 + end, y + 1}, paper_[covered[begin]]);
+            } else if (same.y1 == y && same_count == covered[0]) {
+                ++same.y1;
+            } else {
+                put_same();
+                same.y0 = y;
+                same.y1 = y + 1;
+                same_count = covered[0];
+            }
         }
     }
+    put_same();
 }
 
 glm::vec4 PixelFiller::color(std::uint32_t number, int x, int y) {
