@@ -86,8 +86,8 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
     const bool by_polygon = criteria.classes.has(LineClass::polygon);
     const bool by_material = criteria.classes.has(LineClass::material) && !mesh.polygon_material.empty();
     const bool by_crease = criteria.classes.has(LineClass::crease);
-    // Single precision normals: what is close to the angle counts as sharp and is looked at again.
-    const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + 1e-5f;
+    // What is close to the angle counts as sharp and is looked at again.
+    const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + kCreaseSlack;
     const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !by_polygon && !by_material;
     if (has_only_creases && by_crease && mesh.next_on_edge.size() < std::size_t{1} << 29) {
         find_creases(mesh, cos_crease, sharp, threads);

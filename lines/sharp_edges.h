@@ -10,6 +10,9 @@ namespace burin {
 
 constexpr std::uint8_t kThinTriangle = kMayBeSliver;
 
+/// An edge is smooth where the cosine is greater than the crease angle's by more than this: normals are single precision.
+constexpr float kCreaseSlack = 1e-5f;
+
 /// Per triangle of a mesh, bit k: its half-edge k may be a line in some view without being a contour.
 /// That is, it has not exactly one partner wound the other way, or a class asked for. An edge without
 /// its bit is none, under any transform that keeps angles.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "lines/corner_normals.h"
 #include "mesh/shapes.h"
@@ -45,6 +46,68 @@ TEST(CornerNormals, EndAtCreases) {
     const Scene scene = scene_of({make_box({1, 2, 3})});
     const SmoothMesh smooth = make_smooth(scene.meshes[0], std::cos(40 * std::numbers::pi / 180));
     for (const glm::vec3& n : smooth.normals) EXPECT_NEAR(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}), 1, 1e-6);
+}
+
+/// Some of the polygons, `seed` says which, are wound the other way. They keep their first corner.
+PolygonSoup some_turned(const PolygonSoup& soup, unsigned seed) {
+    PolygonSoup result;
+    result.positions = soup.positions;
+    result.object_names = soup.object_names;
+    std::mt19937 random(seed);
+    for (std::size_t p = 0; p < soup.polygon_count(); ++p) {
+        std::vector<std::uint32_t> polygon(soup.polygon(p).begin(), soup.polygon(p).end());
+        if (p > 0 && random() % 2 == 0) std::reverse(polygon.begin() + 1, polygon.end());
+        result.add_polygon(polygon);
+    }
+    return result;
+}
+
+TEST(CornerNormals, AreOnOneSideHoweverTrianglesAreWound) {
+    const double cosine = std::cos(40 * std::numbers::pi / 180);
+    const SmoothMesh alike = make_smooth(scene_of({make_sphere(0.5, 24, 12)}).meshes[0], cosine);
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const Scene scene = scene_of({some_turned(make_sphere(0.5, 24, 12), seed)});
+        const Mesh& mesh = scene.meshes[0];
+        const SmoothMesh turned = make_smooth(mesh, cosine);
+        EXPECT_EQ(turned.sharp, alike.sharp);
+        for (HalfEdge c = 0; c < turned.normals.size(); ++c) {
+            const glm::dvec3 p(mesh.position(mesh.triangles[c / 3][c % 3]));
+            EXPECT_GT(glm::dot(glm::dvec3(turned.normals[c]), p / glm::length(p)), 0.9995);
+        }
+    }
+}
+
+/// A strip around an axis that turns by so many half turns on its way.
+PolygonSoup twisted_strip(std::uint32_t steps, int half_turns) {
+    PolygonSoup soup;
+    soup.object_names = {"strip"};
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        const double along = 2 * std::numbers::pi * i / steps, turn = 0.5 * half_turns * along;
+        for (const double side : {-0.2, 0.2}) {
+            const double r = 1 + side * std::cos(turn);
+            soup.positions.push_back({r * std::cos(along), side * std::sin(turn), r * std::sin(along)});
+        }
+    }
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        const std::uint32_t next = 2 * ((i + 1) % steps), crosses = i + 1 == steps && half_turns % 2 != 0 ? 1 : 0;
+        soup.add_polygon(std::vector<std::uint32_t>{2 * i, next + crosses, next + 1 - crosses});
+        soup.add_polygon(std::vector<std::uint32_t>{2 * i, next + 1 - crosses, 2 * i + 1});
+    }
+    return soup;
+}
+
+TEST(CornerNormals, OfASurfaceWithOneSideTurnOverAtOneEdge) {
+    constexpr std::uint32_t kSteps = 60;
+    const auto sharp_edges = [](const PolygonSoup& soup) {
+        std::uint32_t count = 0;
+        const SmoothMesh smooth = make_smooth(scene_of({soup}).meshes[0], 0.76);
+        for (HalfEdge h = 0; h < smooth.normals.size(); ++h) count += smooth.is_sharp(h) ? 1 : 0;
+        return count;
+    };
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        EXPECT_EQ(sharp_edges(some_turned(twisted_strip(kSteps, 2), seed)), 2 * kSteps);
+        EXPECT_EQ(sharp_edges(some_turned(twisted_strip(kSteps, 1), seed)), 2 * kSteps + 2);
+    }
 }
 
 /// How much line there is across a circle around the picture's middle, and where: mean distance from the
@@ -99,6 +162,16 @@ TEST(SmoothContours, LeaveTheTipOfAConeAlone) {
     const Drawing smooth = drawing_of(smooth_scene(make_cylinder(0.5, 0, 1, 40)), eye);
     const Drawing mesh = drawing_of(smooth_scene(make_cylinder(0.5, 0, 1, 40), Contours::mesh), eye);
     EXPECT_TRUE(same_bits(smooth.image(), mesh.image()));
+}
+
+TEST(SmoothContours, DoNotHangOnWinding) {
+    for (const PolygonSoup& soup : {make_sphere(0.5, 16, 8), make_torus(0.5, 0.2, 24, 12)}) {
+        const Drawing alike = drawing_of(smooth_scene(soup), {1.1, 0.9, 1.4});
+        for (unsigned seed = 0; seed < 4; ++seed) {
+            const Drawing turned = drawing_of(smooth_scene(some_turned(soup, seed)), {1.1, 0.9, 1.4});
+            EXPECT_EQ(turned.coverage(), alike.coverage());
+        }
+    }
 }
 
 /// Share of the line in a picture that is further than this from all line of another.
