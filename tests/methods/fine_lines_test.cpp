@@ -410,6 +410,59 @@ TEST(FineLines, ACrackBesideAPartOfABorderIsNoLine) {
     }
 }
 
+/// Closer than 1/64 pixel with no sample between them: wherever blocks of pixels, their cells and tiles end.
+TEST(FineLines, PlatesInContactHaveNoBorders) {
+    constexpr int kWide = 96;
+    for (const double end : {16.25, 20.25, 33.1, 48.25, 56.25, 64.25}) {
+        for (const double gap : {1 / 256.0, 2 / 256.0, 3 / 256.0}) {
+            for (const bool is_level : {false, true}) {
+                const auto plate = [&](double from, double to) {
+                    PolygonSoup soup = soup_of({{from, 5, 0}, {to, 5, 0}, {to, 91, 0}, {from, 91, 0}}, {{0, 1, 2, 3}});
+                    return is_level ? transformed(soup, [](glm::dvec3 p) { return glm::dvec3(p.y, kWide - p.x, p.z); }) : soup;
+                };
+                Scene scene = scene_of({plate(5.3, end - gap), plate(end, 90.3)});
+                scene.lines.classes = LineClass::border;
+                const Drawing drawn = draw(scene, pixel_camera(kWide, kWide), kWide);
+                double ink = 0;
+                for (int along = 8; along < 88; ++along) {
+                    for (int across = 8; across < 88; ++across) ink += is_level ? drawn.line(along, across) : drawn.line(across, along);
+                }
+                EXPECT_EQ(ink, 0) << end << ", gap " << gap << (is_level ? ", level" : "");
+            }
+        }
+    }
+}
+
+/// Bars between two rows of samples, one after the other, whose ends are in contact: wherever tiles end, as they do elsewhere in a crop.
+TEST(FineLines, ContactsDoNotHangOnTiles) {
+    constexpr int kWide = 96;
+    const PixelRect crop{40, 0, 80, kWide};
+    for (const int gap : {1, 2, 3}) {
+        PolygonSoup bars[2];
+        for (const double end : {48.25, 56.25, 64.25, 72.25}) {
+            for (int before = 1; before < 3; ++before) {
+                for (PolygonSoup& soup : bars) {
+                    const bool is_left = &soup == bars;
+                    const double edge = end + (is_left ? -before : gap - before) / 256.0, other = edge + (is_left ? -3 : 3);
+                    const double y = 3 * before + std::floor(end / 2) + 0.3;
+                    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+                    for (const auto& [px, py] : {std::pair(edge, y), {other, y}, {other, y + 0.4}, {edge, y + 0.4}}) soup.positions.emplace_back(px, py, 0);
+                    soup.add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
+                }
+            }
+        }
+        for (PolygonSoup& soup : bars) soup.object_names = {"bars"};
+        Scene scene = scene_of({bars[0], bars[1]});
+        scene.lines.classes = LineClass::border;
+        scene.lines.style.width_px = 0.25;
+        const Camera camera = pixel_camera(kWide, kWide);
+        const Drawing whole = draw(scene, camera, kWide), part(scene, camera, kWide, kWide, crop, 2, render_abuffer);
+        for (int y = crop.y0; y < crop.y1; ++y) {
+            for (int x = crop.x0; x < crop.x1; ++x) ASSERT_EQ(part.line(x - crop.x0, y - crop.y0), whole.line(x, y)) << x << ", " << y << ", gap " << gap;
+        }
+    }
+}
+
 /// Where two edges cross at a small angle the gap between them gets narrower than any sample.
 TEST(FineLines, BothLinesOfASlenderCornerAreDrawn) {
     for (const double depth : {-1.5, -6.0}) {

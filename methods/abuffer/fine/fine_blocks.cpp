@@ -12,8 +12,8 @@ namespace {
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 /// A border asks what is behind it, too. As a multiple of level_slack(): 4 pixels' widths.
 constexpr double kBehindBorder = 64;
-/// What rounding may do to places. 1/256 pixel.
-constexpr double kReach = 1;
+/// So far beside a line triangles are asked for, with what rounding may do to places. 1/256 pixel.
+constexpr int kReach = kBeyondSubpixels + 1;
 /// 1/256 pixel. Four times as far as any place on the screen.
 constexpr float kFar = 1 << 24;
 constexpr FlatTriangle kAllOfTheScreen = {{-kFar, 3 * kFar, -kFar}, {-kFar, -kFar, 3 * kFar}, kNothing};
@@ -38,9 +38,33 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     for (const TriangleRun& run : bins_.thin_runs_in(tile)) add_small(run);
     for (const std::uint32_t i : bins_.large_in(tile)) add_large(bins_.large(i));
     for (const std::uint32_t i : bins_.thin_large_in(tile)) add_large(bins_.large(i));
+    add_beyond(tile);
+}
+
+/// From the tiles around it, where a border lies so close to the end of this one that what it is in contact with may not touch it.
+void FineBlocks::add_beyond(std::size_t tile) {
+    const glm::ivec2 low = kSubpixelsPerPixel * glm::ivec2(rect_.x0, rect_.y0) + grid_.half_pitch;
+    const glm::ivec2 high = kSubpixelsPerPixel * glm::ivec2(rect_.x1, rect_.y1) + grid_.half_pitch;
+    for (int y = beyond_low_.y < low.y ? -1 : 0; y <= (beyond_high_.y > high.y ? 1 : 0); ++y) {
+        for (int x = beyond_low_.x < low.x ? -1 : 0; x <= (beyond_high_.x > high.x ? 1 : 0); ++x) {
+            const auto other = x == 0 && y == 0 ? std::nullopt : bins_.tile_beside(tile, x, y);
+            if (!other) continue;
+            for (const auto& runs : {bins_.runs_in(*other), bins_.thin_runs_in(*other)}) {
+                for (const TriangleRun& run : runs) {
+                    const ScreenMesh& mesh = screen_.mesh(run.instance);
+                    for (std::uint32_t i = 0; i < run.count; ++i) sort_triangle(mesh, run.triangles[i].triangle);
+                }
+            }
+            for (const auto& list : {bins_.large_in(*other), bins_.thin_large_in(*other)}) {
+                for (const std::uint32_t i : list) add_large(bins_.large(i));
+            }
+        }
+    }
 }
 
 void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
+    beyond_low_ = glm::ivec2(std::numeric_limits<int>::max());
+    beyond_high_ = glm::ivec2(std::numeric_limits<int>::min());
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
         const LayerLine& line = candidates[i].line;
         const FinePart& part = candidates[i].part;
@@ -59,10 +83,13 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
         }
         candidates_[index].push_back(i);
         double lowest = line.lowest_in(part.begin, part.end) - line_slack(screen_.surfaces(), line, part.begin, part.end);
-        if (line.classes.has(LineClass::border))
-            lowest -= kBehindBorder * level_slack(screen_.surfaces(), lowest);
         const glm::dvec2 a = glm::mix(line.from, line.to, part.begin), b = glm::mix(line.from, line.to, part.end);
-        const glm::ivec2 low(glm::floor(glm::min(a, b) - kReach)), high(glm::ceil(glm::max(a, b) + kReach));
+        const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(a, b))) - kReach, high = glm::ivec2(glm::ceil(glm::max(a, b))) + kReach;
+        if (line.classes.has(LineClass::border)) {
+            lowest -= kBehindBorder * level_slack(screen_.surfaces(), lowest);
+            beyond_low_ = glm::min(beyond_low_, low);
+            beyond_high_ = glm::max(beyond_high_, high);
+        }
         const auto first = [&](int subpixel, int origin, int block) {
             return std::max(cell_of(subpixel) - kCells * origin, kCells * block);
         };
@@ -103,14 +130,7 @@ void FineBlocks::add_small(const TriangleRun& run) {
     const std::size_t count =
         kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data());
     const ScreenMesh& mesh = screen_.mesh(run.instance);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t t = nearer_[i];
-        const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
-        const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
-        sort_triangle({mesh.first_number + t, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
-                       std::max({a.y, b.y, c.y})},
-                      flat_triangle(a, b, c, static_cast<Facing>(mesh.facing[t])));
-    }
+    for (std::size_t i = 0; i < count; ++i) sort_triangle(mesh, nearer_[i]);
 }
 
 void FineBlocks::add_large(const LargePolygon& large) {
@@ -133,8 +153,8 @@ void FineBlocks::add_large(const LargePolygon& large) {
         t.y1 = std::max(t.y1, p.y);
     }
     // It may fill the tile, and few blocks have candidates.
-    const int left = grid_.at(t.x0) - first_x_, right = grid_.at(t.x1) - first_x_;
-    const int top = grid_.at(t.y0) - first_y_, bottom = grid_.at(t.y1) - first_y_;
+    const int left = grid_.at(t.x0 - kReach) - first_x_, right = grid_.at(t.x1 + kReach) - first_x_;
+    const int top = grid_.at(t.y0 - kReach) - first_y_, bottom = grid_.at(t.y1 + kReach) - first_y_;
     for (std::size_t i = 0; i < count_; ++i) {
         const glm::ivec2 at = places_[i];
         const bool touches = at.x >= left && at.x <= right && at.y >= top && at.y <= bottom;
@@ -144,8 +164,10 @@ void FineBlocks::add_large(const LargePolygon& large) {
 
 bool FineBlocks::hides_something(const HidingTriangle& t, float highest, int block_x, int block_y) const {
     const int origin_x = kCells * (first_x_ + block_x), origin_y = kCells * (first_y_ + block_y);
-    const int x0 = std::max(cell_of(t.x0) - origin_x, 0), x1 = std::min(cell_of(t.x1) - origin_x, kCells - 1);
-    const int y0 = std::max(cell_of(t.y0) - origin_y, 0), y1 = std::min(cell_of(t.y1) - origin_y, kCells - 1);
+    // Those beyond the block lie beside the cells at its end.
+    const int last = kCells - 1;
+    const int x0 = std::clamp(cell_of(t.x0) - origin_x, 0, last), x1 = std::clamp(cell_of(t.x1) - origin_x, 0, last);
+    const int y0 = std::clamp(cell_of(t.y0) - origin_y, 0, last), y1 = std::clamp(cell_of(t.y1) - origin_y, 0, last);
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
             if (highest > farthest_[cell_at(kCells * block_x + x, kCells * block_y + y)]) return true;
@@ -154,13 +176,18 @@ bool FineBlocks::hides_something(const HidingTriangle& t, float highest, int blo
     return false;
 }
 
-void FineBlocks::sort_triangle(const HidingTriangle& t, const FlatTriangle& flat) {
-    const int left = std::max(grid_.at(t.x0) - first_x_, 0), right = std::min(grid_.at(t.x1) - first_x_, columns_ - 1);
-    const int top = std::max(grid_.at(t.y0) - first_y_, 0), bottom = std::min(grid_.at(t.y1) - first_y_, rows_ - 1);
+void FineBlocks::sort_triangle(const ScreenMesh& mesh, std::uint32_t t) {
+    const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
+    const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
+    const HidingTriangle hiding{mesh.first_number + t, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
+                                std::max({a.y, b.y, c.y})};
+    const FlatTriangle flat = flat_triangle(a, b, c, static_cast<Facing>(mesh.facing[t]));
+    const int left = std::max(grid_.at(hiding.x0 - kReach) - first_x_, 0), right = std::min(grid_.at(hiding.x1 + kReach) - first_x_, columns_ - 1);
+    const int top = std::max(grid_.at(hiding.y0 - kReach) - first_y_, 0), bottom = std::min(grid_.at(hiding.y1 + kReach) - first_y_, rows_ - 1);
     for (int y = top; y <= bottom; ++y) {
         for (int x = left; x <= right; ++x) {
             const std::uint32_t index = index_[block_at(x, y)];
-            if (index != kNone && hides_something(t, flat.highest, x, y)) triangles_[index].add(t, flat);
+            if (index != kNone && hides_something(hiding, flat.highest, x, y)) triangles_[index].add(hiding, flat);
         }
     }
 }

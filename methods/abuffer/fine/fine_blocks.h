@@ -10,6 +10,9 @@
 
 namespace burin {
 
+/// A surface that covers a place so far beyond a border is in contact there. 1/64 pixel.
+constexpr int kBeyondSubpixels = 4;
+
 /// A part of an edge that is a line if it is visible. The part's begin and end are shares of `line`, which may be a part
 /// of the edge itself.
 struct FineCandidate {
@@ -45,8 +48,9 @@ class HidingTriangles {
     ScreenTriangles flat_;
 };
 
-/// The blocks of a tile that have candidates, and the triangles that may hide them there: all that touch
-/// a block and are nearer, be they seen at a sample or not. Buffers are used again from tile to tile.
+/// The blocks of a tile that have candidates, and the triangles that may hide them there, or that borders may be in contact
+/// with: all that come within kBeyondSubpixels of a block and are nearer, be they seen at a sample or not. Buffers are used
+/// again from tile to tile.
 class FineBlocks {
   public:
     /// `bins` must have kept thin triangles.
@@ -58,7 +62,7 @@ class FineBlocks {
     std::size_t count() const { return count_; }
     /// Numbers of candidates.
     std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_[block]; }
-    /// In no particular order.
+    /// In no particular order. Some from beyond the tile may be listed twice.
     const HidingTriangles& triangles(std::size_t block) const { return triangles_[block]; }
 
   private:
@@ -77,8 +81,9 @@ class FineBlocks {
     void sort_candidates(std::span<const FineCandidate> candidates);
     void note_least(glm::ivec2 low, glm::ivec2 high, float lowest);
     void add_small(const TriangleRun& run);
+    void add_beyond(std::size_t tile);
     void add_large(const LargePolygon& large);
-    void sort_triangle(const HidingTriangle& t, const FlatTriangle& flat);
+    void sort_triangle(const ScreenMesh& mesh, std::uint32_t t);
     bool hides_something(const HidingTriangle& t, float highest, int block_x, int block_y) const;
 
     const ScreenSurfaces& screen_;
@@ -92,6 +97,7 @@ class FineBlocks {
     std::vector<float> farthest_;       // per cell: the least nearness of candidates there
     std::vector<float> least_;          // the same as a BlockTable
     int sample_blocks_ = 0;             // along each side
+    glm::ivec2 beyond_low_{0}, beyond_high_{0};  // where borders may be in contact
     std::vector<std::uint32_t> nearer_;
     std::vector<std::vector<std::uint32_t>> candidates_;  // per block
     std::vector<HidingTriangles> triangles_;

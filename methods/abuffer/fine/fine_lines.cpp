@@ -26,8 +26,6 @@ constexpr int kMostCells = 32;
 constexpr std::size_t kTrianglesPerCell = 128;
 /// In so many cells a triangle may be, on average.
 constexpr std::size_t kMostPlaces = 4;
-/// A surface that covers a place so far beyond an edge is in contact there. 1/64 pixel.
-constexpr double kBeyondSubpixels = 4;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 
@@ -300,7 +298,7 @@ class FineLines::BlockClipper {
     /// From the edge of the surface to beyond it. 1/256 pixel.
     glm::dvec2 outward(const FineCandidate& candidate) const {
         const glm::dvec2 along = glm::normalize(candidate.line.to - candidate.line.from), right(-along.y, along.x);
-        return kBeyondSubpixels * (is_owner_on_left(candidate) ? right : -right);
+        return double{kBeyondSubpixels} * (is_owner_on_left(candidate) ? right : -right);
     }
 
     /// Of the way from the line's beginning to its end.

@@ -302,6 +302,12 @@ PixelRect TriangleBins::tile(std::size_t index) const {
     return {x0, y0, std::min(x0 + tile_px_, region_.x1), std::min(y0 + tile_px_, region_.y1)};
 }
 
+std::optional<std::size_t> TriangleBins::tile_beside(std::size_t index, int columns, int rows) const {
+    const int column = static_cast<int>(index) % columns_ + columns, row = static_cast<int>(index) / columns_ + rows;
+    if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return std::nullopt;
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+}
+
 PixelRect TriangleBins::empty_tiles_from(std::size_t index) const {
     const auto columns = static_cast<std::size_t>(columns_);
     if (index % columns != 0 && is_empty(index - 1)) return {};
