@@ -383,6 +383,48 @@ TEST(HiddenLines, OutlineOfABodySeenAlongItsWalls) {
     }
 }
 
+/// A step down along y whose wall leans back by some 1/256 pixel, in rows and columns of triangles, turned around the middle.
+PolygonSoup leaning_step(double height, double lean_px, std::uint32_t rows, std::uint32_t columns, double angle) {
+    PolygonSoup soup;
+    soup.object_names = {"step"};
+    for (std::uint32_t j = 0; j <= columns; ++j) {
+        const double y = -80 + 160.0 * j / columns;
+        soup.positions.emplace_back(-80, y, height);
+        for (std::uint32_t i = 0; i <= rows; ++i) soup.positions.emplace_back(-lean_px * i / rows, y, height - height * i / rows);
+        soup.positions.emplace_back(80, y, 0);
+    }
+    const std::uint32_t width = rows + 3;
+    for (std::uint32_t j = 0; j < columns; ++j) {
+        for (std::uint32_t i = 0; i + 1 < width; ++i) {
+            const std::uint32_t a = width * j + i;
+            soup.add_polygon(std::vector<std::uint32_t>{a, a + 1, a + width + 1});
+            soup.add_polygon(std::vector<std::uint32_t>{a, a + width + 1, a + width});
+        }
+    }
+    return transformed(std::move(soup), [=](glm::dvec3 p) {
+        return glm::dvec3(120.13 + std::cos(angle) * p.x - std::sin(angle) * p.y, 120.86 + std::sin(angle) * p.x + std::cos(angle) * p.y, p.z);
+    });
+}
+
+// Snapping turns some triangles of such a wall over. The outline is one line, seen or hidden.
+TEST(HiddenLines, OutlineOverAWallThatLeansBack) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        const auto rows = static_cast<std::uint32_t>(random.integer(1, 4)), columns = static_cast<std::uint32_t>(random.integer(1, 4));
+        const PolygonSoup step = leaning_step(random.real(8, 50), random.real(0, 3) / 256, rows, columns, random.real(0, 6));
+        const auto drawn = [](const std::vector<PolygonSoup>& objects) {
+            Scene scene = scene_of(objects);
+            scene.lines.classes = LineClass::silhouette;
+            scene.lines.style.hidden.style = HiddenStyle::solid;
+            return draw(scene, pixel_camera(kSize, kSize));
+        };
+        const Image seen = drawn({step});
+        EXPECT_LT(sum(seen, "lines_hidden.A"), 0.5) << "seed " << seed;
+        const PolygonSoup sheet = soup_of({{-500, -500, 100}, {500, -500, 100}, {500, 500, 100}, {-500, 500, 100}}, {{0, 1, 2, 3}});
+        EXPECT_NEAR(sum(drawn({step, sheet}), "lines_hidden.A"), sum(seen, "lines.A"), 1.5) << "seed " << seed;
+    }
+}
+
 TEST(HiddenLines, GoToTheirOwnChannels) {
     Scene scene = crossing_behind_wall();
     scene.lines.style.hidden.color = {0.5f, 0.25f, 0.0f};

@@ -58,19 +58,35 @@ bool EdgeSides::face_alike(std::uint32_t instance, HalfEdge h, HalfEdge g) const
     return a == (b == clockwise ? counterclockwise : clockwise);
 }
 
+bool EdgeSides::is_beside(std::uint32_t instance, HalfEdge edge, std::uint32_t vertex) const {
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const ScreenVertex* const v = screen_.vertices(instance);
+    const ScreenVertex &a = v[start_of(mesh, edge)], &b = v[end_of(mesh, edge)], &p = v[vertex];
+    const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y, square = dx * dx + dy * dy;
+    if (square <= kSubpixelsPerPixel * kSubpixelsPerPixel) return false;
+    if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen || p.x == ScreenVertex::kOffScreen) return false;
+    const auto area = static_cast<double>(doubled_area(a, b, p));
+    return area * area < kThinSubpixels * kThinSubpixels * square;
+}
+
 std::optional<HalfEdge> EdgeSides::solid_behind(std::uint32_t instance, HalfEdge h) const {
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
-    for (int step = 0; step < kMostSlivers; ++step) {
+    const HalfEdge edge = h;
+    HalfEdge last = h;
+    for (int step = 0; step < kMostTrianglesToWall; ++step) {
         const auto base = base_of_thin({instance, h / 3});
         if (!base) return h;
+        // A wall of many rows may be no wider than one of a single row, if something lies behind it.
+        if (step >= kMostSlivers && !is_beside(instance, edge, apex_of(mesh, h))) return last;
         const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base;
         const HalfEdge g = mesh.next_on_edge[exit];
         const bool is_pair = g != exit && mesh.next_on_edge[g] == exit;
         if (*base == h && step == 0 && !(is_pair && face_alike(instance, exit, g))) return std::nullopt;
-        if (!is_pair) return h;
+        if (!is_pair) return last;
         h = g;
+        if (step < kMostSlivers) last = h;
     }
-    return h;
+    return last;
 }
 
 int EdgeSides::side_at(std::uint32_t instance, HalfEdge h, std::uint32_t a, std::uint32_t b) const {
@@ -85,14 +101,26 @@ int EdgeSides::side_at(std::uint32_t instance, HalfEdge h, std::uint32_t a, std:
     return side_of_edge(screen_, instance, p, q, apex_of(mesh, h));
 }
 
+bool EdgeSides::is_turned_over(std::uint32_t instance, HalfEdge h) const {
+    if (!base_of_thin({instance, h / 3})) return false;
+    const auto solid = solid_behind(instance, h);
+    if (!solid) return true;
+    if (base_of_thin({instance, *solid / 3})) return false;
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
+    return side_at(instance, *solid, a, b) * side_at(instance, h, a, b) < 0;
+}
+
 bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond) const {
     const SurfaceId own{instance, h / 3};
     const auto has_side = [](Facing facing) { return facing == clockwise || facing == counterclockwise; };
-    if (screen_.facing(screen_.number_of({instance, beyond / 3})) != edge_on ||
-        !has_side(screen_.facing(screen_.number_of(own)))) {
-        return false;
-    }
+    if (!has_side(screen_.facing(screen_.number_of(own)))) return false;
     const Mesh& mesh = surfaces_.mesh_of(own);
+    // A wall may also lean by less than makes a contour. Where snapping turned triangles of it over, they do not end there.
+    const bool is_wall = screen_.facing(screen_.number_of({instance, beyond / 3})) == edge_on
+                             ? !is_turned_over(instance, h)
+                             : is_beside(instance, h, apex_of(mesh, beyond)) && !base_of_thin(own);
+    if (!is_wall) return false;
     const ScreenVertex* const v = screen_.vertices(instance);
     const auto place = [&](std::uint32_t vertex) { return glm::dvec2(v[vertex].x, v[vertex].y) / double{kSubpixelsPerPixel}; };
     const glm::dvec2 a = place(start_of(mesh, h)), b = place(end_of(mesh, h)), middle = 0.5 * (a + b);

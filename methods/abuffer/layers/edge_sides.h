@@ -49,6 +49,10 @@ class EdgeSides {
   private:
     /// The longest edge of a triangle that is lower than a negligible fold.
     std::optional<HalfEdge> base_of_thin(SurfaceId s) const;
+    /// Whether a vertex is nearer to a long edge than a negligible fold is wide.
+    bool is_beside(std::uint32_t instance, HalfEdge edge, std::uint32_t vertex) const;
+    /// Whether a thin triangle is on the other side of its edge than the surface behind it, as of a wall that leans back.
+    bool is_turned_over(std::uint32_t instance, HalfEdge h) const;
     HalfEdge longer_of_others(std::uint32_t instance, HalfEdge h) const;
     /// Whether the triangles of two half-edges of one edge face the eye alike, whichever way they are wound.
     bool face_alike(std::uint32_t instance, HalfEdge h, HalfEdge g) const;
