@@ -401,7 +401,9 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const Facet candidate{f.object, *seam / 3};
     const double tolerance = kFarApartPx * p.pixel_size(distance) +
                              (geometry_.slope_per_px(candidate, at) + geometry_.slope_per_px(f, at)) / 256;
-    if (std::abs(distance - other) > tolerance) return false;
+    // Seen at a small angle, the place nearest on the screen may lie far off in depth, though in the same plane.
+    const double in_its_plane = geometry_.plane_distance(candidate, at);
+    if (std::abs(distance - other) > tolerance && !(std::abs(distance - in_its_plane) <= tolerance)) return false;
     partner = candidate;
     const double third_side = glm::dot(glm::cross(glm::dvec3(a, 1), glm::dvec3(b, 1)), homogeneous(p, c[2]));
     return (third_side > 0) == (d.x * way.along.y - d.y * way.along.x > 0);

@@ -333,6 +333,15 @@ TEST(Reference, SixteenSamplesAreAsGoodAsSixtyFour) {
     }
 }
 
+TEST(Reference, ACrackSeenAtASmallAngleIsNoLine) {
+    const auto ink = [](double crack) {
+        const PolygonSoup sheet = soup_of({{0, -2.5, 0.5}, {1, -2.5, 0.5}, {1, -0.5, 0.5}, {0, -0.5, 0.5}, {1 + crack, -2.5, 0.5}, {2, -2.5, 0.5}, {2, -0.5, 0.5}, {1 + crack, -0.5, 0.5}},
+                                          {{0, 1, 2, 3}, {4, 5, 6, 7}});
+        return Truth(scene_of({sheet}), perspective_camera({3.56, -5.65, 0.22}, {0.17, 0.16, -0.12}), 160, 160).sum("lines.A");
+    };
+    EXPECT_NEAR(ink(0.0034), ink(0), 2);
+}
+
 TEST(Reference, CoincidentSheetsAreOne) {
     // The first object wins, everywhere.
     Scene scene = scene_of({square({32, 32}, 40, 10), square({32, 32}, 20, 33)});
