@@ -14,8 +14,9 @@ namespace {
 constexpr std::ptrdiff_t kMaxDistance = 32768;
 constexpr std::ptrdiff_t kLongRun = 512;       // is not summed byte by byte
 constexpr std::size_t kBlockSequences = 8192;  // that are coded together
-/// After so many misses it is noise: it is not entered into the table any more, and then only searched for runs.
-constexpr std::uint32_t kMissesOfNoise = 16, kMissesOfPureNoise = 32;
+/// After so many misses it is noise, and only searched for runs. Not sooner: planes of noise may be copies of each other, as
+/// those of grey lines are, which are met only if enough places in a plane are entered into the table and searched.
+constexpr std::uint32_t kMissesOfNoise = 64;
 
 std::uint64_t load_eight(const std::uint8_t* p) {
     std::uint64_t bytes;
@@ -115,11 +116,11 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
         const bool is_run = p - begin >= 2 && here == load_eight(p - 2);
         if (is_run) {
             from = p - 2;
-        } else if (misses < kMissesOfPureNoise) {
+        } else if (misses < kMissesOfNoise) {
             // Of six bytes: shorter copies are found in noise, and coding them takes longer than it saves.
             const auto hash = static_cast<std::uint32_t>((here << 16) * 0x9E3779B97F4A7C15u >> (64 - kHashBits));
             const std::uint32_t place = newest_[hash];
-            if (misses < kMissesOfNoise) newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;
+            newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;
             const std::uint8_t* const candidate = begin + place - 1;
             if (place != 0 && p - candidate <= kMaxDistance &&
                 (load_eight(candidate) ^ here) << 16 == 0) {
@@ -127,7 +128,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
             }
         }
         if (from == nullptr) {
-            if (misses < kMissesOfPureNoise) {
+            if (misses < kMissesOfNoise) {
                 p += std::min<std::ptrdiff_t>(end - p, 1 + misses++);  // ever larger steps
             } else {
                 p = find_run(p + 1, end);

@@ -151,6 +151,22 @@ TEST(Deflate, NoiseIsStored) {
     }
 }
 
+/// As planes of a picture with grey lines are. The search is coarse by then and misses some; most must be met.
+TEST(Deflate, CopiesOfNoiseAreFound) {
+    Deflater deflater;
+    std::size_t packed = 0, all = 0;
+    for (std::size_t length = 200; length < 700; ++length) {
+        Random random(length);
+        const Bytes row = noise(random, length);
+        Bytes bytes;
+        for (int copy = 0; copy < 6; ++copy) bytes.insert(bytes.end(), row.begin(), row.end());
+        expect_survives(deflater, bytes);
+        packed += deflater.compress(bytes).size();
+        all += bytes.size();
+    }
+    EXPECT_LT(packed, all * 6 / 10);
+}
+
 /// Long after the search has become coarse: runs of bytes and of pairs, from each place on, up to the end.
 TEST(Deflate, RunsInNoiseAreFound) {
     Deflater deflater;
