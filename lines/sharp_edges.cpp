@@ -49,9 +49,11 @@ UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
     return normals;
 }
 
+/// Of cosines by rough normals, for both may be off by 3 units of 1 / kRoughUnit.
+constexpr double kDoubt = 2e-4;
+
 /// Where nothing but creases is looked for, between triangles. Rough normals tell nearly always: half of the memory.
 void find_creases(const Mesh& mesh, float cos_crease, std::vector<std::uint8_t>& sharp, int threads) {
-    constexpr double kDoubt = 2e-4;  // of cosines, for both normals may be off by 3 units of 1 / kRoughUnit
     constexpr double kSquare = double{kRoughUnit} * double{kRoughUnit};
     const double cosine{cos_crease};
     const auto low = static_cast<std::int32_t>((cosine - kDoubt) * kSquare), high = static_cast<std::int32_t>((cosine + kDoubt) * kSquare);
@@ -89,7 +91,9 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
     // What is close to the angle counts as sharp and is looked at again.
     const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + kCreaseSlack;
     const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !by_polygon && !by_material;
-    if (has_only_creases && by_crease && mesh.next_on_edge.size() < std::size_t{1} << 29) {
+    // Near an angle of 0 all that is flat would be in doubt.
+    const bool is_flat_told = double{cos_crease} + 2 * kDoubt < 1;
+    if (has_only_creases && by_crease && is_flat_told && mesh.next_on_edge.size() < std::size_t{1} << 29) {
         find_creases(mesh, cos_crease, sharp, threads);
         return sharp;
     }
