@@ -10,7 +10,6 @@
 #include <mutex>
 #include <string>
 #include <type_traits>
-#include <utility>
 
 #include "base/error.h"
 #include "base/stream_store.h"
@@ -226,14 +225,10 @@ void Film::put_background(int x0, int x1, int y) {
     }
 }
 
-void Film::put_color(PixelRect rect, const HalfColor& color) {
-    for_parts(rect, [&](PixelRect part) {
-        const auto [planes, begin] = place_of(part.x0, part.y0);
-        const auto stride = static_cast<std::size_t>(block_of(number_of(part.x0, part.y0))->image.width());
-        auto width = static_cast<std::size_t>(part.width()), height = static_cast<std::size_t>(part.height());
-        if (width == stride) width *= std::exchange(height, 1);  // whole rows follow each other
-        const auto fill = [&, first = begin](std::uint16_t* plane, std::uint16_t value) {
-            for (std::size_t y = 0; y < height && plane != nullptr; ++y) std::fill_n(plane + first + y * stride, width, value);
+void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
+    for_row(x0, x1, y, [&](const Planes& planes, std::size_t begin, std::size_t count, std::size_t) {
+        const auto fill = [&](std::uint16_t* plane, std::uint16_t value) {
+            if (plane != nullptr) std::fill_n(plane + begin, count, value);
         };
         for (std::size_t c = 0; c < 4; ++c) {
             fill(planes.beauty[c], color[c]);

@@ -99,9 +99,8 @@ class Film {
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
     bool has_geometry() const;
-    /// Puts one colour into pixels without lines.
-    void put_color(PixelRect rect, const HalfColor& color);
-    /// Puts the colours of pixels [x0, x1) of a row without lines, channel by channel.
+    /// Puts the colours of pixels [x0, x1) of a row without lines, one for all or one for each, channel by channel.
+    void put_color(int x0, int x1, int y, const HalfColor& color);
     void put_colors(int x0, int x1, int y, const std::array<const std::uint16_t*, 4>& colors);
     /// Puts their depth, normals and ids, if has_geometry(). Before other threads read these, finish_stream_stores() is due.
     void put_geometry(int x0, int x1, int y, const GeometryRow& row);

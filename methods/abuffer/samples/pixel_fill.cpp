@@ -153,29 +153,14 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
 void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& film) {
     const int s = samples.samples_per_pixel;
     std::uint8_t covered[kWidth + 8];
-    PixelRect same{rect.x0, rect.y0, rect.x1, rect.y0};  // rows of one colour, which are put at once
-    std::uint8_t same_count = 0;
-    const auto put_same = [&] {
-        if (same.y0 < same.y1) film.put_color(same, paper_[same_count]);
-    };
     for (int y = rect.y0; y < rect.y1; ++y) {
         const std::size_t first = samples.index(rect.x0 * s, y * s);
         kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
         for (int begin = 0, end; begin < rect.width(); begin = end) {  // a few runs of equal counts
             for (end = begin + 1; end < rect.width() && covered[end] == covered[begin];) ++end;
-            if (end - begin < rect.width()) {
-                film.put_color({rect.x0 + begin, y, rect.x0 + end, y + 1}, paper_[covered[begin]]);
-            } else if (same.y1 == y && same_count == covered[0]) {
-                ++same.y1;
-            } else {
-                put_same();
-                same.y0 = y;
-                same.y1 = y + 1;
-                same_count = covered[0];
-            }
+            film.put_color(rect.x0 + begin, rect.x0 + end, y, paper_[covered[begin]]);
         }
     }
-    put_same();
 }
 
 glm::vec4 PixelFiller::color(std::uint32_t number, int x, int y) {
