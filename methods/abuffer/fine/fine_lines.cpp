@@ -1,7 +1,6 @@
 #include "methods/abuffer/fine/fine_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "methods/abuffer/layers/contacts.h"
@@ -162,10 +161,7 @@ class FineLines::BlockClipper {
     /// A part of a line from a to b; or all of it, where that is short and its ends are whole numbers: what only touches it is
     /// told exactly then.
     static ScreenLine part_or_line(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, double least) {
-        const glm::dvec2 along = line.to - line.from;
-        const auto is_whole = [](glm::dvec2 p) { return glm::floor(p) == p; };
-        const bool is_exact = std::abs(along.x) + std::abs(along.y) <= double{kLongestExact} && is_whole(line.from) && is_whole(line.to);
-        if (!is_exact) return screen_line(a, b, least);
+        if (!line.is_exact()) return screen_line(a, b, least);
         ScreenLine whole = screen_line(line.from, line.to, least);
         whole.is_exact = true;
         return whole;

@@ -121,8 +121,7 @@ std::size_t LayerCells::find_crossed(std::size_t cell, const LayerLine& line, do
         }
     }
     // A short line is taken as a whole, since its ends are whole numbers.
-    const auto is_whole = [](glm::dvec2 p) { return glm::floor(p) == p; };
-    const bool is_exact = reach == 0 && std::abs(along.x) + std::abs(along.y) <= double{kLongestExact} && is_whole(line.from) && is_whole(line.to);
+    const bool is_exact = reach == 0 && line.is_exact();
     const glm::vec2 p(line.from + along * (is_exact ? 0 : from) - corner), q(line.from + along * (is_exact ? 1 : to) - corner);
     return kernels_.find_crossed(triangles_.data(), listed_.data(), count, {p.x, p.y, q.x, q.y, low, is_exact, reach}, found_.data());
 }

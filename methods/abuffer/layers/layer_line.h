@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "abuffer/tile_kernels.h"
 #include "lines/line_class.h"
 
 namespace burin {
@@ -41,6 +42,11 @@ struct LayerLine {
     /// The least nearness in a part of it.
     double lowest_in(double begin, double end) const { return std::min(nearness_at(begin), nearness_at(end)); }
     double length_px() const { return glm::distance(from, to) / 256; }
+    /// Whether kernels may take all of it as ScreenLine::is_exact.
+    bool is_exact() const {
+        const glm::dvec2 along = glm::abs(to - from);
+        return along.x + along.y <= double{kLongestExact} && glm::floor(from) == from && glm::floor(to) == to;
+    }
 };
 
 /// A part of a line with the same surfaces in front of it all along.
