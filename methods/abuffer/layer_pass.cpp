@@ -231,8 +231,8 @@ void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>&
         const double begin = std::max(low, dash + inset), end = std::min(high, dash + on - inset);
         if (begin > end) continue;
         LayerSegment segment;
-        segment.from = glm::mix(line.from, line.to, (begin - position[0]) / length) / 256.0;
-        segment.to = glm::mix(line.from, line.to, (end - position[0]) / length) / 256.0;
+        segment.from = line.at((begin - position[0]) / length) / 256.0;
+        segment.to = line.at((end - position[0]) / length) / 256.0;
         segment.drawn_as = line.drawn_as;
         segment.is_hidden = is_hidden;
         segment.transmission = line.opacity_behind(piece.transmission);
@@ -258,8 +258,8 @@ std::vector<LayerSegment> LayerPass::make_segments() const {
         }
         const LayerLine& line = lines_[piece.line];
         LayerSegment segment;
-        segment.from = glm::mix(line.from, line.to, piece.begin) / 256.0;
-        segment.to = glm::mix(line.from, line.to, piece.end) / 256.0;
+        segment.from = line.at(piece.begin) / 256.0;
+        segment.to = line.at(piece.end) / 256.0;
         segment.drawn_as = line.drawn_as;
         segment.is_hidden = is_hidden;
         segment.transmission = line.opacity_behind(piece.transmission);

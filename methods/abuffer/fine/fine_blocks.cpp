@@ -83,7 +83,7 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
         }
         candidates_[index].push_back(i);
         double lowest = line.lowest_in(part.begin, part.end) - line_slack(screen_.surfaces(), line, part.begin, part.end);
-        const glm::dvec2 a = glm::mix(line.from, line.to, part.begin), b = glm::mix(line.from, line.to, part.end);
+        const glm::dvec2 a = line.at(part.begin), b = line.at(part.end);
         const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(a, b))) - kReach, high = glm::ivec2(glm::ceil(glm::max(a, b))) + kReach;
         if (line.classes.has(LineClass::border)) {
             lowest -= kBehindBorder * level_slack(screen_.surfaces(), lowest);

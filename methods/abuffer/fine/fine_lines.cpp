@@ -66,7 +66,7 @@ class FineLines::BlockClipper {
         hidden_.clear();
         double reached = begin;  // as far as no piece is left
         bool is_hidden = false;
-        const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+        const glm::dvec2 a = line.at(begin), b = line.at(end);
         for_triangles(line, a, b, part_or_line(line, a, b, line.lowest_in(begin, end) - slack),
                       [&](const LayerTriangle& t) {
                           // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
@@ -232,7 +232,7 @@ class FineLines::BlockClipper {
 
     /// Whether both surfaces at a contour go on for more than a negligible fold.
     bool is_wide(const FineCandidate& candidate, double t) const {
-        const glm::dvec2 at = glm::mix(candidate.line.from, candidate.line.to, t);
+        const glm::dvec2 at = candidate.line.at(t);
         const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
         const double nearness = candidate.line.nearness_at(t);
         return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
@@ -250,8 +250,8 @@ class FineLines::BlockClipper {
             }
         }
         LineSegment s;
-        s.from = glm::mix(line.from, line.to, begin) / 256.0;
-        s.to = glm::mix(line.from, line.to, end) / 256.0;
+        s.from = line.at(begin) / 256.0;
+        s.to = line.at(end) / 256.0;
         s.drawn_as = *classes.first();
         s.opacity = line.opacity;
         s.line_key = line.line_key;
@@ -268,7 +268,7 @@ class FineLines::BlockClipper {
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
     std::optional<LineClassSet> contact_behind(const FineCandidate& candidate, double t) {
         const LayerLine& line = candidate.line;
-        const glm::dvec2 at = glm::mix(line.from, line.to, t), beyond = at + outward(candidate);
+        const glm::dvec2 at = line.at(t), beyond = at + outward(candidate);
         const double nearness = line.nearness_at(t);
         std::optional<LayerTriangle> behind;
         double nearest = -kFar;

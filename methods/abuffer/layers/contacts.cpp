@@ -43,7 +43,7 @@ bool Contacts::is_in_front(const LayerLine& line, double begin, double end, cons
     }
     const auto touching = touching_place(line, begin, end, t, level);
     if (!touching) return false;
-    const glm::dvec2 middle = glm::mix(line.from, line.to, 0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
+    const glm::dvec2 middle = line.at(0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
     bool is_any_behind = false;
     for (const std::uint32_t owner : line.owners) {
         const SurfaceId s = screen_.surface_of(owner);
@@ -71,7 +71,7 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
     if (line.classes.has(LineClass::mark)) return false;
     const auto touching = touching_place(line, begin, end, t, level);
     if (!touching) return false;
-    const glm::dvec2 middle = glm::mix(line.from, line.to, 0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
+    const glm::dvec2 middle = line.at(0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
     const glm::dvec2 right = kToOneSideSubpixels * glm::dvec2(-along.y, along.x);
     const SurfaceSet& surfaces = screen_.surfaces();
     struct Side {
@@ -135,7 +135,7 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
     // What is left of the tolerances, which hardly change, at either end of the line.
     const double here = distance(line.nearness_at(0.5 * (begin + end)));
     const double behind = depth_tolerance(surfaces, here, plane, kContactPx), in_front = depth_tolerance(surfaces, here, plane, kLevelPx);
-    const auto farther_at = [&](double part) { return distance(t.nearness_at(glm::mix(line.from, line.to, part))) - distance(line.nearness_at(part)); };
+    const auto farther_at = [&](double part) { return distance(t.nearness_at(line.at(part))) - distance(line.nearness_at(part)); };
     const double from = begin, length = end - begin, at_begin = farther_at(begin), at_end = farther_at(end);
     double first = 0, last = 1;
     if (!clip_where_positive(behind - at_begin, behind - at_end, first, last) ||
@@ -144,7 +144,7 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
     }
     begin = from + first * length;
     end = from + last * length;
-    const glm::dvec2 at = glm::mix(line.from, line.to, 0.5 * (begin + end));
+    const glm::dvec2 at = line.at(0.5 * (begin + end));
     return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
 }
 
@@ -193,11 +193,11 @@ std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const Layer
 std::optional<glm::dvec2> Contacts::touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
                                                    double level) const {
     const auto gap_at = [&](double part) {
-        return std::abs(t.nearness_at(glm::mix(line.from, line.to, part)) - line.nearness_at(part));
+        return std::abs(t.nearness_at(line.at(part)) - line.nearness_at(part));
     };
     const double at_begin = gap_at(begin), at_end = gap_at(end);
     if (std::min(at_begin, at_end) > level) return std::nullopt;
-    return glm::mix(line.from, line.to, at_begin < at_end ? begin : end);
+    return line.at(at_begin < at_end ? begin : end);
 }
 
 /// On a triangle at a line, beside a place on it. Nothing if the triangle is seen edge-on.
@@ -215,12 +215,13 @@ bool Contacts::have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const 
     return std::find_first_of(v.begin(), v.end(), t.vertices.begin(), t.vertices.end()) != v.end();
 }
 
-/// Of two surfaces at about one depth, of which the one is nearer by `gap`. The first one, if they are neighbours, which
-/// have no more than slivers in common.
+/// Whether `one` is seen where `other` lies at about its depth, nearer by `gap` than that. Of neighbours that have no more than
+/// slivers in common each is, whichever comes first.
 bool Contacts::is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
-    if ((gap > 0) == (one < other)) return one < other;  // either way
+    if (gap > 0 && one < other) return true;  // however they lie
     const SurfaceOrder order = screen_.surfaces().order(screen_.surface_of(one), screen_.surface_of(other));
-    return order.have_common_place && !order.are_coincident() ? gap > 0 : one < other;
+    if (!order.have_common_place) return true;
+    return order.are_coincident() ? one < other : gap > 0;
 }
 
 /// A place within what is on the screen of a triangle.

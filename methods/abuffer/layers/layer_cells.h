@@ -53,7 +53,7 @@ class LayerCells {
             return;
         }
         ++lines_looked_at_;
-        const glm::dvec2 corner(corner_), a = glm::mix(line.from, line.to, begin) - corner, b = glm::mix(line.from, line.to, end) - corner;
+        const glm::dvec2 corner(corner_), a = line.at(begin) - corner, b = line.at(end) - corner;
         const Range range = range_of(glm::vec2(glm::min(a, b)) - reach, glm::vec2(glm::max(a, b)) + reach);
         const double size = cell_px_ * 256.0;
         for (int row = range.first_row; row <= range.last_row; ++row) {

@@ -38,6 +38,8 @@ struct LayerLine {
     std::uint8_t opacity_behind(std::uint8_t transmission) const {
         return static_cast<std::uint8_t>((opacity * transmission + 127) / 255);
     }
+    /// Of a level line all places are exactly on it; and those of one that runs the other way are the same.
+    glm::dvec2 at(double t) const { return t < 0.5 ? from + (to - from) * t : to - (to - from) * (1 - t); }
     double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
     /// The least nearness in a part of it.
     double lowest_in(double begin, double end) const { return std::min(nearness_at(begin), nearness_at(end)); }

@@ -9,6 +9,8 @@ namespace {
 
 /// Cells are made so small that about so many triangles begin in one.
 constexpr double kTrianglesPerCell = 2048;
+/// Between contacts, what is left of a line is at least so long.
+constexpr double kShortestRestPx = 1.0 / 32;
 
 }  // namespace
 
@@ -147,7 +149,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     contacts_of_line_.clear();
     line_slack_ = line_slack(frame_.surfaces, line, begin, end);
     certain_slack_ = line_slack(frame_.surfaces, line, begin, end, kCertainPx);
-    const glm::dvec2 a = glm::mix(line.from, line.to, begin), b = glm::mix(line.from, line.to, end);
+    const glm::dvec2 a = line.at(begin), b = line.at(end);
     const PartInTile part{begin, end, a, b, line.nearness_at(begin), line.nearness_at(end)};
     near_.clear();
     cells_.for_crossed(line, part.begin, part.end, line_slack_, 0, [&](std::uint32_t entry) {
@@ -159,7 +161,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     if (line.classes.has(LineClass::border)) find_contacts(line, part);
     const std::size_t first_piece = pieces.size();
     sweep_.find_pieces(line, line_number, begin, end, has_clipped_, pieces);
-    drop_contacts(first_piece, pieces);
+    drop_contacts(line, first_piece, pieces);
 }
 
 /// Where a border ends in contact with a surface that goes on beyond it without any line.
@@ -178,7 +180,7 @@ void LayerTile::find_contacts(const LayerLine& line, const PartInTile& part) {
     // Of several the nearest counts.
     const auto is_behind_another = [&](const Contact& c) {
         const double middle = 0.5 * (c.begin + c.end);
-        const glm::dvec2 at = glm::mix(line.from, line.to, middle);
+        const glm::dvec2 at = line.at(middle);
         const double nearness = triangle(c.entry).nearness_at(at);
         return std::any_of(contacts_of_line_.begin(), contacts_of_line_.end(), [&](const Contact& other) {
             return other.makes_line && other.begin < middle && middle < other.end && triangle(other.entry).nearness_at(at) > nearness;
@@ -190,23 +192,25 @@ void LayerTile::find_contacts(const LayerLine& line, const PartInTile& part) {
     std::erase_if(contacts_of_line_, [](const Contact& c) { return c.makes_line || c.begin >= c.end; });
 }
 
-/// Cuts them out of the pieces from `first` on.
-void LayerTile::drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces) {
+/// Cuts them out of the pieces of a line, from `first` on. What is left is no dot: contacts with neighbours meet but for rounding.
+void LayerTile::drop_contacts(const LayerLine& line, std::size_t first, std::vector<LayerPiece>& pieces) {
     if (contacts_of_line_.empty()) return;
+    const double shortest = kShortestRestPx / line.length_px();
     std::sort(contacts_of_line_.begin(), contacts_of_line_.end(), [](const Contact& a, const Contact& b) { return a.begin < b.begin; });
     const std::vector<LayerPiece> whole(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end());
     pieces.resize(first);
     for (LayerPiece piece : whole) {
-        const double end = piece.end;
+        const double begin = piece.begin, end = piece.end;
+        const auto keep_up_to = [&](double last) {
+            piece.end = last;
+            const bool is_whole = piece.begin == begin && last == end;
+            if (is_whole || last - piece.begin >= shortest) pieces.push_back(piece);
+        };
         for (const Contact& contact : contacts_of_line_) {
-            if (contact.begin > piece.begin && piece.begin < end) {
-                piece.end = std::min(end, contact.begin);
-                pieces.push_back(piece);
-            }
+            if (contact.begin > piece.begin && piece.begin < end) keep_up_to(std::min(end, contact.begin));
             piece.begin = std::max(piece.begin, contact.end);
         }
-        piece.end = end;
-        if (piece.begin < end) pieces.push_back(piece);
+        if (piece.begin < end) keep_up_to(end);
     }
 }
 

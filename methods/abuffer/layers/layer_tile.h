@@ -61,7 +61,7 @@ class LayerTile {
     void hide(const LayerLine& line, std::span<const std::uint32_t> near, const PartInTile& part);
     void hide(const LayerLine& line, std::uint32_t i, const HiddenPart& hidden);
     void find_contacts(const LayerLine& line, const PartInTile& part);
-    void drop_contacts(std::size_t first, std::vector<LayerPiece>& pieces);
+    void drop_contacts(const LayerLine& line, std::size_t first, std::vector<LayerPiece>& pieces);
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;

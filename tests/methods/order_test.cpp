@@ -1,0 +1,130 @@
+// The order of polygons and vertices in a file says nothing about the picture: places found in models that people use, where rounding
+// or a sliver decided.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "methods/abuffer/abuffer.h"
+#include "methods/reference.h"
+#include "tests/support/drawing.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+struct Place {
+    PolygonSoup model;
+    Camera camera;
+    PixelRect crop;  // of a picture of kWidth x kHeight
+    HiddenStyle hidden = HiddenStyle::none;
+};
+constexpr int kWidth = 960, kHeight = 540;
+
+/// With vertices, polygons and the corners at which these begin in another order.
+PolygonSoup shuffled(const PolygonSoup& soup, Random& random) {
+    const auto order_of = [&](std::size_t count) {
+        std::vector<std::uint32_t> order(count);
+        std::iota(order.begin(), order.end(), 0u);
+        for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+        return order;
+    };
+    const auto vertices = order_of(soup.positions.size());
+    PolygonSoup other;
+    std::vector<std::uint32_t> place(vertices.size());
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+        place[vertices[i]] = i;
+        other.positions.push_back(soup.positions[vertices[i]]);
+    }
+    for (const std::uint32_t p : order_of(soup.polygon_count())) {
+        std::vector<std::uint32_t> corners;
+        for (const std::uint32_t c : soup.polygon(p)) corners.push_back(place[c]);
+        std::rotate(corners.begin(), corners.begin() + random.integer(0, static_cast<int>(corners.size()) - 1), corners.end());
+        other.add_polygon(corners);
+    }
+    return other;
+}
+
+Drawing draw(const Place& place, const PolygonSoup& soup, RenderFunction render) {
+    Scene scene = scene_of({soup});
+    scene.lines.style.hidden.style = place.hidden;
+    return {scene, place.camera, kWidth, kHeight, place.crop, 1, render};
+}
+
+void expect_no_order(const Place& place) {
+    constexpr std::uint64_t kSeed = 1;
+    Random random(kSeed);
+    const Drawing first = draw(place, place.model, render_abuffer);
+    for (int i = 0; i < 12; ++i) {
+        const Drawing other = draw(place, shuffled(place.model, random), render_abuffer);
+        ASSERT_TRUE(first.coverage() == other.coverage()) << "seed " << kSeed << ", order " << i;
+        if (place.hidden != HiddenStyle::none) {
+            ASSERT_NEAR(first.sum("lines_hidden.A"), other.sum("lines_hidden.A"), 1e-9) << "seed " << kSeed << ", order " << i;
+        }
+    }
+}
+
+// A fold along a row, in a scan of a bunny: whether it is a contour is asked on its edge, not a rounding error beside it.
+TEST(Order, OfAFoldAlongARow) {
+    const PolygonSoup scan = soup_of({{-0.039692, 0.046080, -0.021311},
+                                      {-0.038368, 0.045701, -0.022973},
+                                      {-0.040577, 0.044749, -0.022307},
+                                      {-0.038676, 0.046287, -0.021458},
+                                      {-0.036602, 0.047282, -0.020391},
+                                      {-0.037421, 0.046616, -0.021804},
+                                      {-0.039968, 0.046140, -0.020328}},
+                                     {{0, 1, 2}, {3, 4, 5}, {4, 3, 6}, {6, 3, 0}, {0, 3, 1}, {3, 5, 1}});
+    const Camera camera =
+        perspective_camera({-0.20992861778937022, -0.030415977444826187, -0.18356645441120056}, {-0.0168405, 0.110154, -0.001537});
+    expect_no_order({scan, camera, {470, 408, 492, 430}});
+}
+
+// A sheet ends beside a fold, in the plane of one of its faces and but for rounding: they have no more than a sliver of the screen in
+// common, and the sheet hides nothing of the fold, whichever comes first.
+TEST(Order, OfASheetThatEndsBesideAFold) {
+    const Place place{soup_of({{-7.125843338384551, 13.199302844705768, -138.0},
+                               {-7.125843338384551, 13.199302844705768, -117.00005340576172},
+                               {-6.652282505164196, 13.444197782817085, -138.0},
+                               {-7.159938284826399, 13.180889141758291, -116.52113342285156},
+                               {-6.652282505164196, 13.444197782817085, -78.00010681152344},
+                               {-4.113013380730036, 9.595997775627605, -138.0},
+                               {-4.113013380730036, 9.595997775627605, -117.00005340576172},
+                               {-7.162019450364598, 13.182628495379584, -116.52113342285156},
+                               {-7.125877615537057, 13.199318936689245, -139.0},
+                               {-7.125877615537057, 13.199318936689245, -114.0},
+                               {-9.914961607792968, 16.53502676907031, -139.0}},
+                              {{0, 1, 2}, {3, 4, 1}, {0, 5, 1}, {1, 6, 7}, {8, 9, 10}}),
+                      perspective_camera({-342.126361009658, -666.4425823969442, -714.9608523234266},
+                                         {-4.686157572564298e-05, -44.46499796407167, -5.999998380978454}),
+                      {410, 140, 460, 180}};
+    expect_no_order(place);
+    const double ink = draw(place, place.model, render_abuffer).sum("lines.A");
+    EXPECT_NEAR(ink, draw(place, place.model, render_reference).sum("lines.A"), 1);  // the fold has 6 of 43
+}
+
+// Borders of a teapot's spout within its body, in contact with two neighbours one after the other: no dot between the contacts.
+TEST(Order, OfContactsThatMeet) {
+    const PolygonSoup spout = soup_of({{0.000000, 1.037175, -1.992750},
+                                       {0.000000, 1.178400, -1.972000},
+                                       {0.323566, 1.178400, -1.946601},
+                                       {-1.867631, 0.553725, 0.310439},
+                                       {-1.922910, 0.656400, 0.319628},
+                                       {-1.948000, 0.656400, 0.000000},
+                                       {-1.892000, 0.553725, 0.000000},
+                                       {-2.113050, 0.703463, 0.000000},
+                                       {-1.900000, 0.600000, 0.000000},
+                                       {-1.902800, 0.608400, 0.081000},
+                                       {-1.910400, 0.631200, 0.144000},
+                                       {-2.115967, 0.731578, 0.144000},
+                                       {-2.113835, 0.711032, 0.081000}},
+                                      {{0, 1, 2}, {3, 4, 5}, {5, 6, 3}, {7, 8, 9}, {10, 11, 12}, {12, 9, 10}});
+    const Camera camera = perspective_camera({5.826264236871671, 2.793804647109596, -7.9993638867810315}, {0.217, 1.575, 0.0});
+    expect_no_order({spout, camera, {596, 319, 618, 340}, HiddenStyle::solid});
+}
+
+}  // namespace
+}  // namespace burin
