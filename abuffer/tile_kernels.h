@@ -10,6 +10,9 @@
 
 namespace burin {
 
+struct MeshWalks;
+struct WalkLimits;
+
 /// A triangle that lost a sample to another one at about the same depth.
 struct Contest {
     std::uint32_t sample;  ///< index in the tile
@@ -301,6 +304,9 @@ struct TileKernels {
     /// are not smooth; the mesh must have `sharp` and `line_edges`, and at most kMostToWalk triangles.
     void (*find_smooth)(const SampleView& tile, const ScreenMesh& mesh, const SmoothLimits& limits, const SamplePair* pairs,
                         std::size_t count, std::uint8_t* is_smooth);
+    /// FastWalker::walk() for at most MeshWalks::kMost walks at once, where nothing out of the ordinary is met: seams, triangles
+    /// off the screen, slivers, and depths that have to be looked at; then it is unsure. The mesh must have `sharp`.
+    void (*walk_over_mesh)(const ScreenMesh& mesh, const WalkLimits& limits, MeshWalks& walks, std::size_t count);
     /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
     /// seven counts more than asked for may be written.
     void (*count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,

@@ -1,3 +1,4 @@
+#include "abuffer/mesh_walks.h"
 #include "abuffer/tile_kernels.h"
 
 // Compiled with AVX2 where the compiler can (see CMakeLists.txt), and used where the machine can.

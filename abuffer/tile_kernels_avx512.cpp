@@ -1,3 +1,4 @@
+#include "abuffer/mesh_walks.h"
 #include "abuffer/tile_kernels.h"
 
 // As tile_kernels_avx2.cpp. Vectors stay eight wide; what helps are comparisons into mask registers.

@@ -1,3 +1,4 @@
+#include "abuffer/mesh_walks.h"
 #include "abuffer/tile_kernels.h"
 
 #include "abuffer/tile_kernels.inc"

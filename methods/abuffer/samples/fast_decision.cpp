@@ -62,10 +62,10 @@ double FastDecision::nearness_at(SurfaceId s, glm::dvec2 subpixel) const {
 }
 
 FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i) const {
-    const FastWalk& w = walks_[i];
+    const FastWalk& w = *walks_[i];
     const auto place = [&](int from, double fraction) { return pair.place(from == 0 ? fraction : 1 - fraction); };
     const glm::dvec2 at = place(i, w.fraction);
-    const FastWalk::Stop stop = walks_[1 - i].stop_at(1 - w.fraction);
+    const FastWalk::Stop stop = walks_[1 - i]->stop_at(1 - w.fraction);
     const SurfaceId own{pair.surfaces[i].instance, w.triangle};
     const Projection& p = surfaces_.projection;
     End end;
@@ -126,13 +126,14 @@ void FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const Fas
 /// Whether what is seen lies in one plane, or the surface that goes on does so under the one that ends.
 bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
     const glm::dvec2 at = pair.place(0.5) / double{kSubpixelsPerPixel};
-    const FastWalk& other = walks_[1 - ends];
+    const FastWalk& other = *walks_[1 - ends];
     const SurfaceId beneath{pair.surfaces[1 - ends].instance, other.triangle};
     if (other.end == FastWalk::arrived && are_flush(surfaces_, beneath, pair.surfaces[ends], at, criteria_)) return true;
     return are_flush(surfaces_, pair.surfaces[0], pair.surfaces[1], at, criteria_);
 }
 
-bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness) {
+bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness,
+                          const std::array<const FastWalk*, 2>& known) {
     decision = LineDecision{};
     const auto nearness_of = [&](int i, const FastWalk& w) {
         return nearness_at({pair.surfaces[i].instance, w.triangle}, pair.place(decision.fraction));
@@ -140,8 +141,13 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
     for (const int i : {0, 1}) {
         if (pair.surfaces[i].is_background()) continue;
         const SurfaceId other = pair.surfaces[1 - i];
-        FastWalk& w = walks_[i];
-        walker_.walk(pair, i == 1, w);
+        const auto from = static_cast<std::size_t>(i);
+        walks_[i] = known[from];
+        if (walks_[i] == nullptr) {
+            walker_.walk(pair, i == 1, made_[i]);
+            walks_[i] = &made_[i];
+        }
+        const FastWalk& w = *walks_[i];
         if (w.end == FastWalk::unsure) return false;
         if (w.end == FastWalk::arrived) {
             if (other.is_background()) return false;
@@ -165,7 +171,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
     End ends[2];
     bool in_front[2] = {false, false};
     for (const int i : {0, 1}) {
-        if (!walks_[i].is_end_of_surface()) continue;
+        if (!walks_[i]->is_end_of_surface()) continue;
         ends[i] = look_behind(pair, i);
         in_front[i] = ends[i].gap >= -ends[i].tolerance;
     }
@@ -181,7 +187,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
     if (is_behind(i)) return false;  // they may pass through each other before it
     const bool touches = ends[i].gap <= ends[i].tolerance;
     if (touches && may_be_flush(pair, i)) return false;
-    end_of_surface(pair, i, walks_[i], touches ? &ends[i] : nullptr, decision);
+    end_of_surface(pair, i, *walks_[i], touches ? &ends[i] : nullptr, decision);
     nearness = ends[i].nearness;
     return true;
 }

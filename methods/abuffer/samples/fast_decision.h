@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "lines/line_decision.h"
 #include "methods/abuffer/samples/fast_walk.h"
 
@@ -27,7 +29,11 @@ class FastDecision {
     /// For pairs that are not known to be smooth. False where the case is not ordinary; then `decision` means
     /// nothing. Otherwise `decision` is what decide_line() says, as far as classes asked for go, and `nearness`
     /// that of the line.
-    bool decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness);
+    /// `known`: walks from either sample that were made already, or nullptr.
+    bool decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness,
+                const std::array<const FastWalk*, 2>& known = {});
+
+    FastWalker& walker() { return walker_; }
 
   private:
     /// How the surface that ends lies to the other one.
@@ -47,7 +53,8 @@ class FastDecision {
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
     FastWalker walker_;
-    FastWalk walks_[2];  // from either sample
+    FastWalk made_[2];
+    const FastWalk* walks_[2];  // from either sample
     float level_, level_per_nearness_;  // nearness changes by so much where distance does by two pixels' widths
 };
 

@@ -67,7 +67,7 @@ class FastWalker::Way {
     }
     /// Through the triangle in which the walk begins.
     FastWalk::Step first_step(std::uint32_t t) const {
-        constexpr double kBefore = -1e300;
+        constexpr double kBefore = FastWalk::kBefore;
         FastWalk::Step step{t, kNoHalfEdge, kBefore, kBefore};
         const std::uint8_t facing = mesh_.facing[t];
         if (facing == clockwise || facing == counterclockwise) {
@@ -116,8 +116,10 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     result.crossed = {};
     result.crease_cosine = 1;
     result.step_count = 0;
+    FastWalk::Step* const steps = steps_[backwards ? 1 : 0];
+    result.steps = steps;
     if (!way.look_at(start.triangle)) return;
-    const FastWalk::Step* current = &(result.steps[0] = way.first_step(start.triangle));
+    const FastWalk::Step* current = &(steps[0] = way.first_step(start.triangle));
     if (current->exit == kNoHalfEdge) return;
     const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
     const FastWalk::Step* before_wall = current;  // where it last got farther at all
@@ -136,7 +138,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             if (slivers > 0) note_contact(instance, last_solid, current->triangle, way.at(1), 1, result);
             return end_at(FastWalk::arrived, *current);
         }
-        FastWalk::Step& next = result.steps[result.step_count];
+        FastWalk::Step& next = steps[result.step_count];
         const HalfEdge entry = mesh.partners[current->exit];
         const bool over_seam = entry == current->exit;
         const bool is_sharp = mesh.sharp == nullptr || (mesh.sharp[current->triangle] >> (current->exit - 3 * current->triangle) & 1) != 0;
@@ -189,6 +191,25 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         current = &next;
         if (is_farthest) farthest = current;
         if (goes_on) before_wall = current;
+    }
+}
+
+WalkLimits FastWalker::limits(std::int32_t pitch) const {
+    const Projection& p = surfaces_.projection;
+    constexpr double kRounding = 1e-6;  // as in are_apart()
+    const double deep = (2 - kRounding) / p.focal_px;
+    return {1.0 / pitch,
+            kNoAdvance,
+            kSnappingPx * kSubpixelsPerPixel / pitch,
+            kNegligibleFoldPx * kSubpixelsPerPixel / pitch,
+            deep * (p.orthographic ? 1.0 : surfaces_.farthest_nearness),
+            p.orthographic ? 0.0 : deep};
+}
+
+void FastWalker::note_edges(std::uint32_t instance, FastWalk& result) {
+    const std::uint8_t* const sharp = screen_.mesh(instance).sharp;
+    for (const FastWalk::Step* step = result.steps; step != result.steps + result.step_count - 1; ++step) {
+        if ((sharp[step->triangle] >> (step->exit - 3 * step->triangle) & 1) != 0) note_edge(instance, *step, result);
     }
 }
 

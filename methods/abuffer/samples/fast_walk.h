@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "abuffer/mesh_walks.h"
 #include "lines/line_decision.h"
 #include "methods/abuffer/samples/seam_memory.h"
 #include "methods/abuffer/screen/screen_surfaces.h"
@@ -37,6 +38,7 @@ inline std::uint32_t exit_edge(const bool (&side)[3], bool from_side) {
 struct FastWalk {
     enum End : std::uint8_t { arrived, fold, border, crack, unsure };
     static constexpr int kMaxSteps = 24;
+    static constexpr double kBefore = -1e300;  ///< where its first triangle is entered
     /// A triangle on the way. Fractions: 0 = the sample where the walk began, 1 = the other one.
     struct Step {
         std::uint32_t triangle;
@@ -54,7 +56,7 @@ struct FastWalk {
     double crossed_fraction;
     double crease_cosine;
     int step_count;
-    Step steps[kMaxSteps];
+    const Step* steps;  ///< the first one
 
     bool is_end_of_surface() const { return end == fold || end == border || end == crack; }
     /// Where the walk was when it came to `goal`; if it did not come so far, where it ended.
@@ -74,8 +76,13 @@ class FastWalker {
         : screen_(screen), surfaces_(screen.surfaces()), criteria_(criteria) {}
 
     /// From the first sample to the second, or `backwards`. Unsure where triangles reach off the screen, more than
-    /// two meet at an edge, or there are very many.
+    /// two meet at an edge, or there are very many. The steps are good until the next walk in the same direction.
     void walk(const NeighbourSamples& pair, bool backwards, FastWalk& result);
+
+    /// For many walks at once, TileKernels::walk_over_mesh().
+    WalkLimits limits(std::int32_t pitch) const;
+    /// Notes the edges that a walk crossed.
+    void note_edges(std::uint32_t instance, FastWalk& result);
 
     /// Whether a triangle is no sliver in any view.
     static bool is_surely_solid(const ScreenMesh& mesh, std::uint32_t triangle) {
@@ -102,6 +109,7 @@ class FastWalker {
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
     SeamMemory seams_;
+    FastWalk::Step steps_[2][FastWalk::kMaxSteps];
     struct KnownEdge {
         SurfaceEdge edge;
         LineClassSet classes;

@@ -28,6 +28,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
                                                           frame.criteria.classes.has(LineClass::border))),
       fast_(screen, frame.criteria),
+      walks_(screen, kernels, fast_.walker()),
       flush_(screen, bins, frame.criteria),
       fade_(frame.scene->lines.crease_fade()) {}
 
@@ -40,11 +41,12 @@ glm::dvec2 LineTile::position(int column, int row) const {
 }
 
 /// Whether there is a line between two samples that are not known to lie on one smooth surface.
-bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing) {
+bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, const std::array<const FastWalk*, 2>& walks,
+                      LineCrossing& crossing) {
     LineDecision decision;
     const glm::dvec2 a = position(pair.column(), pair.row());
     const glm::dvec2 b = position(pair.column() + (pair.down() ? 0 : 1), pair.row() + (pair.down() ? 1 : 0));
-    if (!fast_.decide(neighbours, decision, crossing.nearness)) {
+    if (!fast_.decide(neighbours, decision, crossing.nearness, walks)) {
         const VisiblePoint points[2] = {{a, neighbours.surfaces[0]}, {b, neighbours.surfaces[1]}};
         decision = decide_line(frame_.surfaces, points[0], points[1], frame_.criteria);
         if (!decision.classes.empty()) {
@@ -126,15 +128,27 @@ void LineTile::find_crossings() {
     find_pairs();
     crossings_.clear();
     crossing_places_.clear();
+    std::size_t asked = 0;
     for (std::size_t i = 0; i < pair_count_; ++i) {
-        if (is_smooth_[i] != 0) continue;
-        const SamplePair& pair = pairs_[i];
-        if (!decide(pair, neighbours_of(pair), crossings_.emplace_back())) {
+        pairs_[asked] = pairs_[i];
+        asked += is_smooth_[i] != 0 ? 0 : 1;
+    }
+    for (std::size_t begin = 0; begin < asked; begin += WalksAhead::kMostPairs) {
+        decide_all({pairs_.data() + begin, std::min(asked - begin, WalksAhead::kMostPairs)});
+    }
+}
+
+void LineTile::decide_all(std::span<const SamplePair> pairs) {
+    neighbours_.clear();
+    for (const SamplePair& pair : pairs) neighbours_.push_back(neighbours_of(pair));
+    walks_.walk(neighbours_);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (!decide(pairs[i], neighbours_[i], {walks_.find(i, 0), walks_.find(i, 1)}, crossings_.emplace_back())) {
             crossings_.pop_back();
             continue;
         }
-        crossing_places_.push_back(pair);
-        crossing_between(pair) = static_cast<std::uint32_t>(crossings_.size());
+        crossing_places_.push_back(pairs[i]);
+        crossing_between(pairs[i]) = static_cast<std::uint32_t>(crossings_.size());
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "abuffer/tile_kernels.h"
@@ -9,6 +10,7 @@
 #include "methods/abuffer/samples/fast_decision.h"
 #include "methods/abuffer/samples/flush_cover.h"
 #include "methods/abuffer/samples/surface_tile.h"
+#include "methods/abuffer/samples/walks_ahead.h"
 #include "render/frame.h"
 
 namespace burin {
@@ -35,7 +37,9 @@ class LineTile {
     void find_crossings();
     void find_pairs();
     NeighbourSamples neighbours_of(const SamplePair& pair) const;
-    bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, LineCrossing& crossing);
+    bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, const std::array<const FastWalk*, 2>& walks,
+                LineCrossing& crossing);
+    void decide_all(std::span<const SamplePair> pairs);
     void trace_cells(std::vector<LineSegment>& segments);
 
     const Frame& frame_;
@@ -45,11 +49,13 @@ class LineTile {
     const TileKernels& kernels_;
     bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;
+    WalksAhead walks_;
     FlushCover flush_;
     CreaseFade fade_;
     std::vector<SamplePair> pairs_;  // with room for all that there can be
     std::size_t pair_count_ = 0;
     std::vector<std::uint8_t> is_smooth_;  // per pair
+    std::vector<NeighbourSamples> neighbours_;
     std::vector<LineCrossing> crossings_;
     std::vector<SamplePair> crossing_places_;
     // Per sample, crossing_between() it and the one to its right or below it.

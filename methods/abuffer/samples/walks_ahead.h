@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "methods/abuffer/samples/fast_walk.h"
+
+namespace burin {
+
+/// The walks that decisions between many pairs of samples take, made at once by TileKernels::walk_over_mesh(), where they are
+/// ordinary.
+class WalksAhead {
+  public:
+    static constexpr std::size_t kMostPairs = MeshWalks::kMost;
+
+    WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels, FastWalker& walker);
+
+    /// Walks between pairs, at most kMostPairs, of which at least one sample shows a surface.
+    void walk(std::span<const NeighbourSamples> pairs);
+
+    /// What FastWalker::walk() says about a walk of the last pairs, from sample 0 or 1. nullptr: not known, or without a meaning.
+    const FastWalk* find(std::size_t pair, std::size_t from) const {
+        const FastWalk& walk = walks_[2 * pair + from];
+        return walk.end == FastWalk::unsure ? nullptr : &walk;
+    }
+
+  private:
+    struct Asked {
+        std::uint32_t instance, pair;
+        std::uint32_t from;  // sample 0 or 1
+    };
+    void ask(std::size_t pair, std::size_t from);
+    void walk_asked();
+    void note_end(std::size_t ended, const Asked& asked);
+
+    const ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
+    FastWalker& walker_;
+    std::span<const NeighbourSamples> pairs_;
+    std::vector<Asked> asked_;
+    std::unique_ptr<MeshWalks> mesh_walks_;
+    std::vector<FastWalk> walks_;  // two for each pair
+    std::vector<FastWalk::Step> steps_;
+    std::size_t step_count_ = 0;
+};
+
+}  // namespace burin
