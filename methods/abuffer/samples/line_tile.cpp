@@ -36,13 +36,14 @@ glm::dvec2 LineTile::position(int column, int row) const {
     // A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken
     // a trifle further there.
     constexpr double kTrifleX = 0x1p-14, kTrifleY = 0x1p-20;
-    const double s = samples_.samples_per_pixel;
-    return {(samples_.first_column + column + 0.5) / s + kTrifleX, (samples_.first_row + row + 0.5) / s + kTrifleY};
+    const double pitch_px = 1.0 / samples_.samples_per_pixel;  // exact
+    return {(samples_.first_column + column + 0.5) * pitch_px + kTrifleX, (samples_.first_row + row + 0.5) * pitch_px + kTrifleY};
 }
 
 /// Whether there is a line between two samples that are not known to lie on one smooth surface.
 bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, const std::array<const FastWalk*, 2>& walks,
                       LineCrossing& crossing) {
+    crossing = LineCrossing{};
     LineDecision decision;
     const glm::dvec2 a = position(pair.column(), pair.row());
     const glm::dvec2 b = position(pair.column() + (pair.down() ? 0 : 1), pair.row() + (pair.down() ? 1 : 0));
@@ -118,15 +119,24 @@ void LineTile::find_pairs() {
     }
 }
 
-NeighbourSamples LineTile::neighbours_of(const SamplePair& pair) const {
+void LineTile::find_neighbours(std::span<const SamplePair> pairs) {
     const std::int32_t pitch = kSubpixelsPerPixel / samples_.samples_per_pixel;
-    return {(samples_.first_column + pair.column()) * pitch + pitch / 2, (samples_.first_row + pair.row()) * pitch + pitch / 2,
-            pitch, pair.down(), {visible_.surface_at(first_of(pair)), visible_.surface_at(second_of(pair))}};
+    if (neighbours_.size() < pairs.size()) neighbours_.resize(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const SamplePair& pair = pairs[i];
+        NeighbourSamples& n = neighbours_[i];
+        n.x = (samples_.first_column + pair.column()) * pitch + pitch / 2;
+        n.y = (samples_.first_row + pair.row()) * pitch + pitch / 2;
+        n.pitch = pitch;
+        n.down = pair.down();
+        n.surfaces[0] = visible_.surface_at(first_of(pair));
+        n.surfaces[1] = visible_.surface_at(second_of(pair));
+    }
 }
 
 void LineTile::find_crossings() {
     find_pairs();
-    crossings_.clear();
+    crossing_count_ = 0;
     crossing_places_.clear();
     std::size_t asked = 0;
     for (std::size_t i = 0; i < pair_count_; ++i) {
@@ -139,16 +149,13 @@ void LineTile::find_crossings() {
 }
 
 void LineTile::decide_all(std::span<const SamplePair> pairs) {
-    neighbours_.clear();
-    for (const SamplePair& pair : pairs) neighbours_.push_back(neighbours_of(pair));
-    walks_.walk(neighbours_);
+    find_neighbours(pairs);
+    walks_.walk({neighbours_.data(), pairs.size()});
+    if (crossings_.size() < crossing_count_ + pairs.size()) crossings_.resize(2 * crossings_.size() + pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (!decide(pairs[i], neighbours_[i], {walks_.find(i, 0), walks_.find(i, 1)}, crossings_.emplace_back())) {
-            crossings_.pop_back();
-            continue;
-        }
+        if (!decide(pairs[i], neighbours_[i], {walks_.find(i, 0), walks_.find(i, 1)}, crossings_[crossing_count_])) continue;
         crossing_places_.push_back(pairs[i]);
-        crossing_between(pairs[i]) = static_cast<std::uint32_t>(crossings_.size());
+        crossing_between(pairs[i]) = static_cast<std::uint32_t>(++crossing_count_);
     }
 }
 

@@ -36,7 +36,7 @@ class LineTile {
     std::uint32_t& crossing_between(const SamplePair& pair) { return (pair.down() ? down_ : right_)[first_of(pair)]; }
     void find_crossings();
     void find_pairs();
-    NeighbourSamples neighbours_of(const SamplePair& pair) const;
+    void find_neighbours(std::span<const SamplePair> pairs);
     bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, const std::array<const FastWalk*, 2>& walks,
                 LineCrossing& crossing);
     void decide_all(std::span<const SamplePair> pairs);
@@ -56,7 +56,8 @@ class LineTile {
     std::size_t pair_count_ = 0;
     std::vector<std::uint8_t> is_smooth_;  // per pair
     std::vector<NeighbourSamples> neighbours_;
-    std::vector<LineCrossing> crossings_;
+    std::vector<LineCrossing> crossings_;  // not made anew: making one zeroes it first
+    std::size_t crossing_count_ = 0;
     std::vector<SamplePair> crossing_places_;
     // Per sample, crossing_between() it and the one to its right or below it.
     std::vector<std::uint32_t> right_, down_;
