@@ -129,8 +129,9 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
     std::array<const LineCrossing*, 4> sorted{};
     std::copy(crossings.begin(), crossings.end(), sorted.begin());
     const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(crossings.size());
-    std::stable_sort(sorted.begin(), end,
-                     [](const auto* a, const auto* b) { return a->nearness > b->nearness; });
+    for (auto next = sorted.begin() + 1; next != end; ++next) {
+        for (auto at = next; at != sorted.begin() && at[0]->nearness > at[-1]->nearness; --at) std::swap(at[-1], at[0]);
+    }
     std::size_t partner = 0;
     for (std::size_t i = 0; i < crossings.size() && partner == 0; ++i) {
         for (std::size_t j = i + 1; j < crossings.size() && partner == 0; ++j) {

@@ -49,8 +49,9 @@ bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
 }
 
 double FastDecision::nearness_at(SurfaceId s, glm::dvec2 subpixel) const {
-    const ScreenTriangle t = screen_.triangle(s);
-    const ScreenVertex &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
+    const ScreenMesh& mesh = screen_.mesh(s.instance);
+    const std::uint32_t* const corners = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
+    const ScreenVertex &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]], &c = mesh.vertices[corners[2]];
     const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
     const double area = ux * vy - uy * vx;
     const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa;

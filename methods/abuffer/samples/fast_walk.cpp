@@ -281,8 +281,9 @@ std::optional<HalfEdge> FastWalker::seam_beyond(std::uint32_t instance, HalfEdge
 }
 
 DepthPlane FastWalker::plane(SurfaceId s) const {
-    const ScreenTriangle t = screen_.triangle(s);
-    const ScreenVertex &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
+    const ScreenMesh& mesh = screen_.mesh(s.instance);
+    const std::uint32_t* const corners = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
+    const ScreenVertex &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]], &c = mesh.vertices[corners[2]];
     const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
     const double area = ux * vy - uy * vx;
     const double qa = static_cast<double>(a.nearness);

@@ -176,7 +176,7 @@ void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) 
 
 void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
-    const double s = samples_.samples_per_pixel;
+    const double pitch_px = 1.0 / samples_.samples_per_pixel;  // exact
     const bool has_bridges = !completes_lines(*frame_.scene);
     const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples_.samples_per_pixel));
     const auto block_of = [block_shift](int sample) {
@@ -193,9 +193,9 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
             if (side != 0) found[count++] = &crossings_[side - 1];
         }
         if (found[0] != &crossings_[crossing_between(from) - 1]) return;  // another crossing traces this cell
-        const glm::dvec2 low((samples_.first_column + column + 0.5) / s, (samples_.first_row + row + 0.5) / s);
+        const glm::dvec2 low((samples_.first_column + column + 0.5) * pitch_px, (samples_.first_row + row + 0.5) * pitch_px);
         std::size_t fresh = segments.size();
-        trace_cell({found.data(), count}, low, low + 1.0 / s, has_bridges, segments);
+        trace_cell({found.data(), count}, low, low + pitch_px, has_bridges, segments);
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
         for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };

@@ -46,18 +46,19 @@ void WalksAhead::walk_asked() {
     }
     MeshWalks& walks = *mesh_walks_;
     for (std::size_t begin = 0, end = 0; begin < asked_.size(); begin = end) {
+        const ScreenMesh& mesh = screen_.mesh(asked_[begin].instance);
         while (end < asked_.size() && asked_[end].instance == asked_[begin].instance) {
             const Asked& a = asked_[end];
             const NeighbourSamples& pair = pairs_[a.pair];
             const std::size_t i = end - begin;
             walks.triangle[i] = pair.surfaces[a.from].triangle;
+            __builtin_prefetch(mesh.sharp + walks.triangle[i]);
             walks.across[i] = pair.down ? pair.x : pair.y;
             walks.origin[i] = (pair.down ? pair.y : pair.x) + (a.from == 1 ? pair.pitch : 0);
             walks.down[i] = pair.down ? ~0u : 0u;
             walks.backwards[i] = a.from == 1 ? ~0u : 0u;
             ++end;
         }
-        const ScreenMesh& mesh = screen_.mesh(asked_[begin].instance);
         kernels_.walk_over_mesh(mesh, walker_.limits(pairs_[0].pitch), walks, end - begin);
         for (std::size_t i = 0; i < walks.ended_count; ++i) note_end(i, asked_[begin + walks.ended[i]]);
     }
