@@ -91,7 +91,7 @@ Counts compare(const Scene& scene, const Camera& camera, int samples) {
                 ahead.walk({pairs.data() + begin, count});
                 for (std::size_t i = 0; i < 2 * count; ++i) {
                     const NeighbourSamples& pair = pairs[begin + i / 2];
-                    const FastWalk* const known = ahead.find(i / 2, i % 2);
+                    const FastWalk* const known = ahead.known(i / 2)[i % 2];
                     if (known == nullptr) continue;
                     SCOPED_TRACE(begin + i / 2);
                     FastWalk alone;

@@ -133,8 +133,7 @@ bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
     return are_flush(surfaces_, pair.surfaces[0], pair.surfaces[1], at, criteria_);
 }
 
-bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness,
-                          const std::array<const FastWalk*, 2>& known) {
+bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known) {
     decision = LineDecision{};
     const auto nearness_of = [&](int i, const FastWalk& w) {
         return nearness_at({pair.surfaces[i].instance, w.triangle}, pair.place(decision.fraction));

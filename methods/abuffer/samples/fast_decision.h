@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "lines/line_decision.h"
 #include "methods/abuffer/samples/fast_walk.h"
 
@@ -29,9 +27,7 @@ class FastDecision {
     /// For pairs that are not known to be smooth. False where the case is not ordinary; then `decision` means
     /// nothing. Otherwise `decision` is what decide_line() says, as far as classes asked for go, and `nearness`
     /// that of the line.
-    /// `known`: walks from either sample that were made already, or nullptr.
-    bool decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness,
-                const std::array<const FastWalk*, 2>& known = {});
+    bool decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known = {});
 
     FastWalker& walker() { return walker_; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "abuffer/mesh_walks.h"
@@ -67,6 +68,9 @@ struct FastWalk {
     };
     Stop stop_at(double goal) const;
 };
+
+/// Walks from either sample of a pair that were made already, or nullptr.
+using KnownWalks = std::array<const FastWalk*, 2>;
 
 /// walk_surface() along a row or column of samples, from one of two neighbours towards the other. Vertices are
 /// projected and snapped already, so that sides are integer comparisons.

@@ -36,13 +36,11 @@ glm::dvec2 LineTile::position(int column, int row) const {
     // A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken
     // a trifle further there.
     constexpr double kTrifleX = 0x1p-14, kTrifleY = 0x1p-20;
-    const double pitch_px = 1.0 / samples_.samples_per_pixel;  // exact
-    return {(samples_.first_column + column + 0.5) * pitch_px + kTrifleX, (samples_.first_row + row + 0.5) * pitch_px + kTrifleY};
+    return {(samples_.first_column + column + 0.5) * pitch_px_ + kTrifleX, (samples_.first_row + row + 0.5) * pitch_px_ + kTrifleY};
 }
 
 /// Whether there is a line between two samples that are not known to lie on one smooth surface.
-bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, const std::array<const FastWalk*, 2>& walks,
-                      LineCrossing& crossing) {
+bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing) {
     crossing = LineCrossing{};
     LineDecision decision;
     const glm::dvec2 a = position(pair.column(), pair.row());
@@ -153,7 +151,7 @@ void LineTile::decide_all(std::span<const SamplePair> pairs) {
     walks_.walk({neighbours_.data(), pairs.size()});
     if (crossings_.size() < crossing_count_ + pairs.size()) crossings_.resize(2 * crossings_.size() + pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (!decide(pairs[i], neighbours_[i], {walks_.find(i, 0), walks_.find(i, 1)}, crossings_[crossing_count_])) continue;
+        if (!decide(pairs[i], neighbours_[i], walks_.known(i), crossings_[crossing_count_])) continue;
         crossing_places_.push_back(pairs[i]);
         crossing_between(pairs[i]) = static_cast<std::uint32_t>(++crossing_count_);
     }
@@ -161,6 +159,7 @@ void LineTile::decide_all(std::span<const SamplePair> pairs) {
 
 void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) {
     flush_.set_tile(tile);
+    pitch_px_ = 1.0 / samples_.samples_per_pixel;  // exact
     const std::size_t size = samples_.ids.size();
     if (right_.size() < size) {
         right_.assign(size, 0);
@@ -176,7 +175,6 @@ void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) 
 
 void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
-    const double pitch_px = 1.0 / samples_.samples_per_pixel;  // exact
     const bool has_bridges = !completes_lines(*frame_.scene);
     const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples_.samples_per_pixel));
     const auto block_of = [block_shift](int sample) {
@@ -193,9 +191,9 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
             if (side != 0) found[count++] = &crossings_[side - 1];
         }
         if (found[0] != &crossings_[crossing_between(from) - 1]) return;  // another crossing traces this cell
-        const glm::dvec2 low((samples_.first_column + column + 0.5) * pitch_px, (samples_.first_row + row + 0.5) * pitch_px);
+        const glm::dvec2 low((samples_.first_column + column + 0.5) * pitch_px_, (samples_.first_row + row + 0.5) * pitch_px_);
         std::size_t fresh = segments.size();
-        trace_cell({found.data(), count}, low, low + pitch_px, has_bridges, segments);
+        trace_cell({found.data(), count}, low, low + pitch_px_, has_bridges, segments);
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
         for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };

@@ -37,8 +37,7 @@ class LineTile {
     void find_crossings();
     void find_pairs();
     void find_neighbours(std::span<const SamplePair> pairs);
-    bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, const std::array<const FastWalk*, 2>& walks,
-                LineCrossing& crossing);
+    bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing);
     void decide_all(std::span<const SamplePair> pairs);
     void trace_cells(std::vector<LineSegment>& segments);
 
@@ -46,6 +45,7 @@ class LineTile {
     const ScreenSurfaces& screen_;
     SurfaceTile& visible_;
     const SampleTile& samples_;
+    double pitch_px_ = 1;  // from one sample to the next
     const TileKernels& kernels_;
     bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;

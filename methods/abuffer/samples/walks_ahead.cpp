@@ -9,25 +9,27 @@ WalksAhead::WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels,
       kernels_(kernels),
       walker_(walker),
       mesh_walks_(new MeshWalks),
+      known_(kMostPairs),
       walks_(2 * kMostPairs),
       steps_(2 * kMostPairs * (MeshWalks::kMostSteps + 1)) {}
 
 void WalksAhead::walk(std::span<const NeighbourSamples> pairs) {
     pairs_ = pairs;
-    step_count_ = 0;
+    walk_count_ = step_count_ = 0;
     asked_.clear();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        walks_[2 * i].end = walks_[2 * i + 1].end = FastWalk::unsure;
+        known_[i] = {};
         ask(i, pairs[i].surfaces[0].is_background() ? 1 : 0);
     }
     walk_asked();
     asked_.clear();
     // The other ones are asked for where these do not settle it.
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const SurfaceId *const surfaces = pairs[i].surfaces;
+        const SurfaceId* const surfaces = pairs[i].surfaces;
         if (surfaces[0].is_background() || surfaces[1].is_background()) continue;
-        const FastWalk& first = walks_[2 * i];
-        if (first.end != FastWalk::arrived || SurfaceId{surfaces[0].instance, first.triangle} != surfaces[1]) ask(i, 1);
+        const FastWalk* const first = known_[i][0];
+        const bool settles = first != nullptr && first->end == FastWalk::arrived && SurfaceId{surfaces[0].instance, first->triangle} == surfaces[1];
+        if (!settles) ask(i, 1);
     }
     walk_asked();
 }
@@ -66,7 +68,8 @@ void WalksAhead::walk_asked() {
 
 void WalksAhead::note_end(std::size_t ended, const Asked& asked) {
     const MeshWalks& walks = *mesh_walks_;
-    FastWalk& walk = walks_[2 * asked.pair + asked.from];
+    FastWalk& walk = walks_[walk_count_++];
+    known_[asked.pair][asked.from] = &walk;
     const std::uint32_t end = walks.end_step[ended];
     walk.end = (walks.how[ended] & MeshWalks::kFolds) != 0 ? FastWalk::fold : FastWalk::arrived;
     walk.half_edge = walks.exit[end];

@@ -19,11 +19,9 @@ class WalksAhead {
     /// Walks between pairs, at most kMostPairs, of which at least one sample shows a surface.
     void walk(std::span<const NeighbourSamples> pairs);
 
-    /// What FastWalker::walk() says about a walk of the last pairs, from sample 0 or 1. nullptr: not known, or without a meaning.
-    const FastWalk* find(std::size_t pair, std::size_t from) const {
-        const FastWalk& walk = walks_[2 * pair + from];
-        return walk.end == FastWalk::unsure ? nullptr : &walk;
-    }
+    /// What FastWalker::walk() says about the walks of one of these pairs, from either sample. nullptr: not known, or without a
+    /// meaning.
+    const KnownWalks& known(std::size_t pair) const { return known_[pair]; }
 
   private:
     struct Asked {
@@ -40,7 +38,9 @@ class WalksAhead {
     std::span<const NeighbourSamples> pairs_;
     std::vector<Asked> asked_;
     std::unique_ptr<MeshWalks> mesh_walks_;
-    std::vector<FastWalk> walks_;  // two for each pair
+    std::vector<KnownWalks> known_;
+    std::vector<FastWalk> walks_;
+    std::size_t walk_count_ = 0;
     std::vector<FastWalk::Step> steps_;
     std::size_t step_count_ = 0;
 };
