@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "mesh/shapes.h"
@@ -137,18 +138,45 @@ TEST(WalksAhead, ManyAtOnceAreAsEachAlone) {
     EXPECT_GT(sum.stopped, 50000);
 }
 
-/// Seen along its axis, walls are edge-on to within snapping.
+/// Terraces seen from the front: walls that are edge-on to within snapping, or exactly, where walks turn back and go on in another
+/// depth.
 TEST(WalksAhead, WallsSeenEdgeOn) {
+    constexpr std::size_t kSteps = 40;
     Counts sum;
-    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        std::vector<PolygonSoup> objects{make_cylinder(0.6, 0.6, 6, random.integer(40, 2000)), rough_sphere(random, 200, 20)};
-        const glm::dvec3 eye(random.real(-0.01, 0.01), random.real(-0.01, 0.01), 9);
-        sum += compare(scene_of(std::move(objects)), perspective_camera(eye, {0, 0, 0}), 4);
+        PolygonSoup terraces = make_plane(2.5, 2.5, kSteps, kSteps);
+        const double deep = random.real(0, 1) * random.real(0, 1), apart = random.integer(0, 2) * random.real(0, 2e-3);
+        for (std::size_t i = 0; i < terraces.positions.size(); ++i) {
+            glm::dvec3& p = terraces.positions[i];
+            p = {p.x, -p.z, deep * random.integer(0, 2)};
+            if (i % (kSteps + 1) % 2 == 1) p.x = terraces.positions[i - 1].x + random.real(-apart, apart);
+        }
+        Camera camera = perspective_camera({random.real(-1, 1) * apart, random.real(-1, 1) * apart, 9}, {0, 0, 0}, 18);
+        camera.orthographic = random.integer(0, 2) != 0;
+        camera.height = 2.5;
+        sum += compare(scene_of({std::move(terraces)}), camera, 1 << random.integer(1, 3));
     }
-    EXPECT_GT(sum.folded, 1000);
-    EXPECT_GT(sum.arrived, 1000);
+    EXPECT_GT(sum.folded, 10000);
+    EXPECT_GT(sum.arrived, 10000);
+}
+
+/// Edges whose two polygons are wound alike, or that have one.
+TEST(WalksAhead, PolygonsTurnedOver) {
+    Counts sum;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        PolygonSoup sphere = rough_sphere(random, random.integer(20, 120), 4);
+        for (std::size_t i = 0; i < sphere.polygon_count(); ++i) {
+            if (random.integer(0, 4) != 0) continue;
+            const auto first = sphere.corners.begin() + (sphere.polygon(i).data() - sphere.corners.data());
+            std::reverse(first, first + static_cast<std::ptrdiff_t>(sphere.polygon(i).size()));
+        }
+        sum += compare(scene_of({std::move(sphere)}), perspective_camera(random.direction() * 3.0, {0, 0, 0}), 4);
+    }
+    EXPECT_GT(sum.folded + sum.arrived, 10000);
 }
 
 }  // namespace
