@@ -250,6 +250,9 @@ struct CulledTriangles {
     std::size_t other_count;
 };
 
+/// So many triangles are on their way from memory while others are drawn.
+constexpr std::size_t kTrianglesAhead = 64;
+
 /// What a tile lists separately. `thin` ones have no column or no row of samples in their box.
 enum TriangleKind : std::uint32_t { wound_counterclockwise, wound_clockwise, thin, kTriangleKinds };
 
@@ -275,11 +278,9 @@ struct TileKernels {
     std::size_t (*find_in_front)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const DepthGrid& grid,
                                  std::uint32_t* found, std::uint32_t* tiles);
     /// Draws triangles of a mesh into a tile: nearest wins, then the smaller id. They must be smaller than
-    /// kLargestSmallTriangle in both directions.
-    /// `farthest` (from find_farthest()) lets it leave out what is hidden; nullptr: nothing is known.
-    /// Returns how many were drawn.
-    std::size_t (*draw_small)(const SampleView& tile, const float* farthest, const ScreenMesh& mesh,
-                              const TileTriangle* triangles, std::size_t count);
+    /// kLargestSmallTriangle in both directions. What is read of the first kTrianglesAhead of them, `corners` and
+    /// `line_edges`, is best on its way already.
+    void (*draw_small)(const SampleView& tile, const ScreenMesh& mesh, const std::uint32_t* triangles, std::size_t count);
     /// The least nearness in every block of samples, as a BlockTable.
     void (*find_farthest)(const SampleView& tile, float* farthest);
     /// Makes a BlockTable of the least numbers from its first page.

@@ -134,9 +134,15 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
                 std::vector<float> farthest(BlockTable::kSize);
                 std::size_t drawn = 0;
                 for (std::size_t first = 0; first < drawable.size(); first += 50) {
-                    kernels->find_farthest(view_of(tile), farthest.data());
-                    drawn += kernels->draw_small(view_of(tile), with_look ? farthest.data() : nullptr, triangles.mesh,
-                                                 &drawable[first], std::min<std::size_t>(50, drawable.size() - first));
+                    const std::size_t count = std::min<std::size_t>(50, drawable.size() - first);
+                    std::vector<std::uint32_t> numbers(count);
+                    for (std::size_t i = 0; i < count; ++i) numbers[i] = drawable[first + i].triangle;
+                    if (with_look) {
+                        kernels->find_farthest(view_of(tile), farthest.data());
+                        numbers.resize(kernels->find_nearer(farthest.data(), 0, 0, &drawable[first], count, numbers.data()));
+                    }
+                    kernels->draw_small(view_of(tile), triangles.mesh, numbers.data(), numbers.size());
+                    drawn += numbers.size();
                 }
                 if (!with_look) {
                     EXPECT_EQ(drawn, drawable.size());

@@ -22,6 +22,11 @@ void prefetch(const TriangleRun& run) {
     for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(first + at);
 }
 
+__attribute__((always_inline)) inline void prefetch(const ScreenMesh& mesh, std::uint32_t triangle) {
+    __builtin_prefetch(mesh.corners + 3 * std::size_t{triangle});
+    __builtin_prefetch(mesh.line_edges + triangle);
+}
+
 }  // namespace
 
 SurfaceTile::SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, int samples_per_pixel,
@@ -55,24 +60,55 @@ void SurfaceTile::draw_all(std::size_t tile) {
     farthest_.resize(BlockTable::kSize);
     draw_large_ones(tile);
     order_runs(tile);
-    // What is hidden by what was drawn so far need not be drawn. The picture does not depend on the
-    // order, only the time does.
+    draw_runs(!bins_.large_in(tile).empty());
+}
+
+/// What is hidden by what was drawn so far need not be drawn. The picture does not depend on the order, only the time does.
+/// Runs are short, so those between two looks are drawn together: what comes next is on its way meanwhile.
+void SurfaceTile::draw_runs(bool is_worth_a_look) {
     constexpr std::size_t kWorthALook = 256;  // triangles
-    std::size_t since_look = bins_.large_in(tile).empty() ? 0 : kWorthALook;
+    std::size_t since_look = is_worth_a_look ? kWorthALook : 0;
     bool has_look = false;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
         if (i + 1 < runs_.size()) prefetch(*runs_[i + 1].run);
         const TriangleRun& run = *runs_[i].run;
         if (since_look >= kWorthALook) {
+            const ScreenMesh& mesh = screen_.mesh(run.instance);
+            for (std::size_t k = 0; k < run.count && k < kTrianglesAhead; ++k) prefetch(mesh, run.triangles[k].triangle);
+            draw_seen();
             kernels_.find_farthest(view(), farthest_.data());
             since_look = 0;
             has_look = true;
         }
-        const std::size_t drawn = kernels_.draw_small(view(), has_look ? farthest_.data() : nullptr,
-                                                      screen_.mesh(run.instance), run.triangles, run.count);
-        since_look += drawn;
-        drawn_ += drawn;
+        if (run.instance != seen_of_) draw_seen();
+        seen_of_ = run.instance;
+        const std::size_t before = seen_count_;
+        find_seen(run, has_look);
+        since_look += seen_count_ - before;
     }
+    draw_seen();
+}
+
+/// Adds what of a run is not hidden.
+void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
+    if (seen_.size() < seen_count_ + run.count) seen_.resize(2 * (seen_count_ + run.count));
+    std::uint32_t* const found = seen_.data() + seen_count_;
+    std::size_t count = run.count;
+    if (has_look) {
+        count = kernels_.find_nearer(farthest_.data(), level_, level_per_nearness_, run.triangles, run.count, found);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) found[i] = run.triangles[i].triangle;
+    }
+    // The rest draw_small() asks for itself.
+    for (std::size_t i = 0; seen_count_ + i < kTrianglesAhead && i < count; ++i) prefetch(screen_.mesh(run.instance), found[i]);
+    seen_count_ += count;
+}
+
+void SurfaceTile::draw_seen() {
+    if (seen_count_ == 0) return;
+    kernels_.draw_small(view(), screen_.mesh(seen_of_), seen_.data(), seen_count_);
+    drawn_ += seen_count_;
+    seen_count_ = 0;
 }
 
 /// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it
@@ -81,9 +117,8 @@ void SurfaceTile::order_runs(std::size_t tile) {
     runs_.clear();
     double sum[2] = {0, 0}, count[2] = {0, 0};
     for (const TriangleRun& run : bins_.runs_in(tile)) {
-        const ScreenTriangle t = screen_.triangle({run.instance, run.triangles[run.count / 2].triangle});
-        runs_.push_back({&run, t.corners[0].nearness});
-        sum[run.kind] += static_cast<double>(t.corners[0].nearness) * run.count;
+        runs_.push_back({&run, run.nearness});
+        sum[run.kind] += static_cast<double>(run.nearness) * run.count;
         count[run.kind] += run.count;
     }
     const TriangleKind near_kind = sum[1] * count[0] > sum[0] * count[1] ? wound_clockwise : wound_counterclockwise;

@@ -32,6 +32,9 @@ class SurfaceTile {
 
   private:
     void draw_all(std::size_t tile);
+    void draw_runs(bool is_worth_a_look);
+    void find_seen(const TriangleRun& run, bool has_look);
+    void draw_seen();
     void order_runs(std::size_t tile);
     void draw_large_ones(std::size_t tile);
     int draw_large(const LargePolygon& large, bool plain, bool has_look);
@@ -51,6 +54,10 @@ class SurfaceTile {
         float nearness;  // of one of its triangles
     };
     std::vector<PlacedRun> runs_;  // in the order of drawing
+    // Small triangles of one instance that are about to be drawn.
+    std::vector<std::uint32_t> seen_;
+    std::size_t seen_count_ = 0;
+    std::uint32_t seen_of_ = 0;
     struct PlacedPolygon {
         std::uint32_t number;  // in bins_
         float highest;         // its plane, in the tile

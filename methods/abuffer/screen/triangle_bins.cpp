@@ -113,7 +113,7 @@ class Binner {
         for (const std::uint32_t key : scratch.used) {
             const auto kind = static_cast<TriangleKind>(key % kTriangleKinds);
             (kind == thin ? records.thin_runs : records.runs)
-                .push_back({key / kTriangleKinds, {instance, count[key], kind, small + begin}});
+                .push_back({key / kTriangleKinds, {instance, count[key], kind, 0, small + begin}});
             begin += std::exchange(count[key], begin);
         }
         for (std::size_t i = 0; i < found.count; ++i) {
@@ -123,6 +123,9 @@ class Binner {
             small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
         }
         for (const std::uint32_t key : scratch.used) count[key] = 0;
+        for (auto* list : {&records.runs, &records.thin_runs}) {
+            for (auto& [tile, run] : *list) run.nearness = run.triangles[run.count / 2].highest;
+        }
     }
 
     /// What is large, not all on the screen, or in many tiles.

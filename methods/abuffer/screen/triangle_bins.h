@@ -23,6 +23,7 @@ struct LargePolygon {
 struct TriangleRun {
     std::uint32_t instance, count;
     TriangleKind kind;
+    float nearness;  // of one of them
     const TileTriangle* triangles;
 };
 
