@@ -253,6 +253,9 @@ struct CulledTriangles {
 /// So many triangles are on their way from memory while others are drawn.
 constexpr std::size_t kTrianglesAhead = 64;
 
+/// So much room behind them kernels may read and write.
+constexpr std::size_t kRoomBehindCulled = 16, kRoomBehindRun = 7;
+
 /// What a tile lists separately. `thin` ones have no column or no row of samples in their box.
 enum TriangleKind : std::uint32_t { wound_counterclockwise, wound_clockwise, thin, kTriangleKinds };
 
@@ -266,7 +269,8 @@ struct TileKernels {
                     ScreenVertex* vertices);
     /// Sets the facing of triangles [begin, end) of a mesh (`facing`: that of the mesh's first one) and lists those that may
     /// touch samples of the grid, once for each tile. Those that may be too large for draw_small(), are not all on the screen
-    /// or lie in more tiles are listed as `others`. Needs room for 4 * (end - begin) + 8 and for end - begin + 8 others.
+    /// or lie in more tiles are listed as `others`. Needs room for 4 * (end - begin) + kRoomBehindCulled and for
+    /// end - begin + kRoomBehindCulled others.
     void (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid, std::uint8_t* facing,
                  CulledTriangles& found);
     /// Once the facing of all triangles is known: sets ScreenMesh::line_edges for triangles [begin, end) of a

@@ -210,7 +210,7 @@ TEST(TileKernels, PolygonsAreDrawnRowByRow) {
 /// What cull() finds of all triangles: once for each tile, and the others.
 struct Culled {
     Culled(const TileKernels& kernels, Triangles& triangles, const TileGrid& grid)
-        : keys(4 * triangles.count() + 8), others(triangles.count() + 8) {
+        : keys(4 * triangles.count() + kRoomBehindCulled), others(triangles.count() + kRoomBehindCulled) {
         std::vector<std::uint32_t> numbers(keys.size()), blocks(keys.size());
         std::vector<float> highest(keys.size());
         CulledTriangles found{keys.data(), numbers.data(), highest.data(), blocks.data(), 0, others.data(), 0};

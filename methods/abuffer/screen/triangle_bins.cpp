@@ -45,7 +45,8 @@ struct Records {
 
 /// Buffers of one thread.
 struct Scratch {
-    static constexpr std::size_t kOthers = kChunkTriangles + 8, kRoom = 4 * std::size_t{kChunkTriangles} + 8;
+    static constexpr std::size_t kOthers = kChunkTriangles + kRoomBehindCulled;
+    static constexpr std::size_t kRoom = 4 * std::size_t{kChunkTriangles} + kRoomBehindCulled;
     std::vector<std::uint32_t> keys, triangles, blocks, others;
     std::vector<float> highest;
     std::vector<TileTriangle> more_triangles;  // of the others, once for each tile
