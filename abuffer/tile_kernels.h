@@ -273,6 +273,13 @@ struct TileKernels {
     /// end - begin + kRoomBehindCulled others.
     void (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid, std::uint8_t* facing,
                  CulledTriangles& found);
+    /// Lists where keys differ from those before them, beginning with the first one, and behind them the end. Returns their
+    /// number without the end. Needs room for kRoomBehindCulled more than there are keys, and reads so many keys more.
+    std::size_t (*find_runs)(const std::uint32_t* keys, std::size_t count, std::uint32_t* starts);
+    /// Puts culled triangles to `to`, each where `next` says for its key, which is the next one's place then. `starts`: from
+    /// find_runs(). Behind each list up to kRoomBehindRun places are written to, too.
+    void (*put_runs)(const CulledTriangles& from, const std::uint32_t* starts, std::size_t run_count, std::uint32_t* next,
+                     TileTriangle* to);
     /// Once the facing of all triangles is known: sets ScreenMesh::line_edges for triangles [begin, end) of a
     /// mesh (`line_edges`: that of the mesh's first one). Other bits of `sharp` are kept there.
     void (*find_line_edges)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint8_t* line_edges);

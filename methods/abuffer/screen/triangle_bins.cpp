@@ -48,13 +48,14 @@ struct Scratch {
     static constexpr std::size_t kOthers = kChunkTriangles + kRoomBehindCulled;
     static constexpr std::size_t kRoom = 4 * std::size_t{kChunkTriangles} + kRoomBehindCulled;
     std::vector<std::uint32_t> keys, triangles, blocks, others;
+    std::vector<std::uint32_t> starts;  // of those side by side with equal keys
     std::vector<float> highest;
     std::vector<TileTriangle> more_triangles;  // of the others, once for each tile
     std::vector<std::uint32_t> more_keys;
     std::vector<std::uint32_t> count, used;  // per key; keys with a count
 
     CulledTriangles found() {
-        for (auto* list : {&keys, &triangles, &blocks}) list->resize(kRoom);
+        for (auto* list : {&keys, &triangles, &blocks, &starts}) list->resize(kRoom);
         highest.resize(kRoom);
         others.resize(kOthers);
         return {keys.data(), triangles.data(), highest.data(), blocks.data(), 0, others.data(), 0};
@@ -99,27 +100,29 @@ class Binner {
         return static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(rows);
     }
 
-    /// By counting keys.
+    /// By counting keys. Neighbours often lie in one tile.
     void sort(std::uint32_t instance, const CulledTriangles& found, Scratch& scratch, Records& records) const {
         auto& count = scratch.count;
         scratch.used.clear();
-        const auto add = [&](std::uint32_t key) {
-            if (count[key]++ == 0) scratch.used.push_back(key);
+        const auto add = [&](std::uint32_t key, std::uint32_t more) {
+            if (count[key] == 0) scratch.used.push_back(key);
+            count[key] += more;
         };
-        for (std::size_t i = 0; i < found.count; ++i) add(found.keys[i]);
-        for (const std::uint32_t key : scratch.more_keys) add(key);
-        records.small = std::make_unique_for_overwrite<TileTriangle[]>(found.count + scratch.more_keys.size());
+        const std::uint32_t* const starts = scratch.starts.data();
+        const std::size_t run_count = kernels_.find_runs(found.keys, found.count, scratch.starts.data());
+        for (std::size_t i = 0; i < run_count; ++i) add(found.keys[starts[i]], starts[i + 1] - starts[i]);
+        for (const std::uint32_t key : scratch.more_keys) add(key, 1);
+        records.small = std::make_unique_for_overwrite<TileTriangle[]>(found.count + scratch.more_keys.size() +
+                                                                      kRoomBehindRun * scratch.used.size());
         TileTriangle* const small = records.small.get();
         std::uint32_t begin = 0;
         for (const std::uint32_t key : scratch.used) {
             const auto kind = static_cast<TriangleKind>(key % kTriangleKinds);
             (kind == thin ? records.thin_runs : records.runs)
                 .push_back({key / kTriangleKinds, {instance, count[key], kind, 0, small + begin}});
-            begin += std::exchange(count[key], begin);
+            begin += std::exchange(count[key], begin) + static_cast<std::uint32_t>(kRoomBehindRun);
         }
-        for (std::size_t i = 0; i < found.count; ++i) {
-            small[count[found.keys[i]]++] = {found.triangles[i], found.highest[i], found.blocks[i]};
-        }
+        kernels_.put_runs(found, starts, run_count, count.data(), small);
         for (std::size_t i = 0; i < scratch.more_keys.size(); ++i) {
             small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
         }
