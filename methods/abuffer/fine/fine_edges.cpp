@@ -16,6 +16,11 @@ namespace {
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+struct EdgeEnds {
+    HalfEdge half_edge;
+    std::uint32_t from, to;  // vertices
+};
+
 }  // namespace
 
 FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int samples_per_pixel,
@@ -24,58 +29,59 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
     std::vector<std::vector<TileLists<TileEdge>::Record>> records(chunks.size());
     const SampleBlocks blocks(samples_per_pixel);
     const PixelRect region = tiles.rect();  // of whole blocks, as are its tiles
-    const int first_x = region.x0 / kMergeBlockPx, first_y = region.y0 / kMergeBlockPx;
-    const int columns = region.width() / kMergeBlockPx, rows = region.height() / kMergeBlockPx;
+    const int origin_x = region.x0 * kSubpixelsPerPixel + blocks.half_pitch;
+    const int origin_y = region.y0 * kSubpixelsPerPixel + blocks.half_pitch;
+    const int width = region.width() * kSubpixelsPerPixel, height = region.height() * kSubpixelsPerPixel;
     const int pitch_shift = std::countr_zero(static_cast<unsigned>(2 * blocks.half_pitch));
-    const int per_tile = tiles.tile_px() / kMergeBlockPx;
+    const int tile_shift = std::countr_zero(static_cast<unsigned>(tiles.tile_px() * kSubpixelsPerPixel));
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
         const ScreenMesh mesh = screen.mesh(chunks[c].instance);
         // First all edges, then their vertices, which take longer to come from memory.
-        std::vector<HalfEdge> edges;
+        std::vector<EdgeEnds> edges;
         for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
             const HalfEdge g = mesh.partners[h];
             if (mesh.partners[g] != h) return;
-            edges.push_back(h);
+            edges.push_back({h, 0, 0});
             __builtin_prefetch(mesh.corners + h);
         });
-        const auto corner = [&](std::size_t i, HalfEdge k) {
-            const HalfEdge h = edges[i];
-            return mesh.corners[h - h % 3 + (h + k) % 3];
+        const auto find_ends = [&](EdgeEnds& e) {
+            const HalfEdge k = e.half_edge % 3;
+            e.from = mesh.corners[e.half_edge];
+            e.to = mesh.corners[k == 2 ? e.half_edge - 2 : e.half_edge + 1];
+            __builtin_prefetch(mesh.vertices + e.from);
+            __builtin_prefetch(mesh.vertices + e.to);
         };
-        const auto vertex = [&](std::size_t i, HalfEdge k) -> const ScreenVertex& { return mesh.vertices[corner(i, k)]; };
         constexpr std::size_t kAhead = 16;
+        for (std::size_t i = 0; i < std::min(kAhead, edges.size()); ++i) find_ends(edges[i]);
         for (std::size_t i = 0; i < edges.size(); ++i) {
-            if (i + kAhead < edges.size()) {
-                __builtin_prefetch(&vertex(i + kAhead, 0));
-                __builtin_prefetch(&vertex(i + kAhead, 1));
-            }
-            glm::ivec2 a(vertex(i, 0).x, vertex(i, 0).y), b(vertex(i, 1).x, vertex(i, 1).y);
-            float nearest = std::max(vertex(i, 0).nearness, vertex(i, 1).nearness);
+            if (i + kAhead < edges.size()) find_ends(edges[i + kAhead]);
+            const EdgeEnds& e = edges[i];
+            const ScreenVertex &from = mesh.vertices[e.from], &to = mesh.vertices[e.to];
+            glm::ivec2 a(from.x, from.y), b(to.x, to.y);
+            float nearest = std::max(from.nearness, to.nearness);
             if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) {
-                const auto cut = clipped_edge(screen, chunks[c].instance, corner(i, 0), corner(i, 1));
+                const auto cut = clipped_edge(screen, chunks[c].instance, e.from, e.to);
                 if (!cut) continue;
                 a = glm::floor(cut->from);
                 b = glm::floor(cut->to);
                 nearest = std::nextafter(static_cast<float>(std::max(cut->nearness_from, cut->nearness_to)), kInfinity);
             }
             if (a == b) continue;
-            const auto [x0, x1] = std::minmax(a.x, b.x);
-            const auto [y0, y1] = std::minmax(a.y, b.y);
-            const int left = std::max(blocks.at(x0) - first_x, 0),
-                      right = std::min(blocks.at(x1) - first_x, columns - 1);
-            const int top = std::max(blocks.at(y0) - first_y, 0),
-                      bottom = std::min(blocks.at(y1) - first_y, rows - 1);
-            if (left > right || top > bottom) continue;
-            for (int y = top / per_tile; y <= bottom / per_tile; ++y) {
-                for (int x = left / per_tile; x <= right / per_tile; ++x) {
-                    const auto area = [&](int subpixel, int first_px, int tile, int more) {
-                        const int from_first = subpixel - (first_px + tile * tiles.tile_px()) * kSubpixelsPerPixel - blocks.half_pitch;
-                        const int sample = (from_first >> pitch_shift) + more;
+            // From the region's first square of samples.
+            const int x0 = std::min(a.x, b.x) - origin_x, x1 = std::max(a.x, b.x) - origin_x;
+            const int y0 = std::min(a.y, b.y) - origin_y, y1 = std::max(a.y, b.y) - origin_y;
+            if (x1 < 0 || y1 < 0 || x0 >= width || y0 >= height) continue;
+            const int first_column = std::max(x0, 0) >> tile_shift, last_column = std::min(x1, width - 1) >> tile_shift;
+            const int first_row = std::max(y0, 0) >> tile_shift, last_row = std::min(y1, height - 1) >> tile_shift;
+            for (int row = first_row; row <= last_row; ++row) {
+                for (int column = first_column; column <= last_column; ++column) {
+                    const auto area = [&](int subpixel, int tile, int more) {
+                        const int sample = ((subpixel - (tile << tile_shift)) >> pitch_shift) + more;
                         return static_cast<std::uint8_t>(std::clamp(sample >> TileEdge::kAreaShift, 0, 255));
                     };
-                    records[c].push_back({static_cast<std::uint32_t>(y * tiles.columns() + x),
-                                          {{chunks[c].instance, edges[i]}, nearest, area(x0, region.x0, x, 0), area(y0, region.y0, y, 0),
-                                           area(x1 + 1, region.x0, x, 1), area(y1 + 1, region.y0, y, 1)}});
+                    records[c].push_back({static_cast<std::uint32_t>(row * tiles.columns() + column),
+                                          {{chunks[c].instance, e.half_edge}, nearest, area(x0, column, 0), area(y0, row, 0),
+                                           area(x1 + 1, column, 1), area(y1 + 1, row, 1)}});
                 }
             }
         }

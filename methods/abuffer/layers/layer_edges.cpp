@@ -24,18 +24,26 @@ std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint3
     static_assert(std::endian::native == std::endian::little);
     std::vector<HalfEdge> sides;
     std::size_t count = 0;
-    for (std::uint32_t first = begin; first < end; first += kGroup) {
-        std::uint64_t edges = 0;  // a byte for each triangle
-        std::memcpy(&edges, mesh.line_edges + first, std::min(kGroup, end - first));
+    const auto add = [&](std::uint32_t first, std::uint64_t edges) {  // a byte for each triangle
         if (sides.size() < count + 3 * kGroup) sides.resize(2 * count + 3 * kGroup);
-        for (edges &= kEdges; edges != 0; edges &= edges - 1) {  // without other branches: they would be guesses
+        for (; edges != 0; edges &= edges - 1) {  // without other branches: they would be guesses
             const auto bit = static_cast<unsigned>(std::countr_zero(edges));
             const std::uint32_t t = first + bit / 8;
             const bool is_found_from_behind = rank_of_side(mesh.facing[t]) == 2 && mesh.sharp != nullptr && mesh.sharp[t] == 0;
             sides[count] = 3 * t + bit % 8;
             count += is_found_from_behind ? 0 : 1;
         }
+    };
+    std::uint64_t edges = 0;
+    std::uint32_t first = begin;
+    for (; first + kGroup <= end; first += kGroup) {
+        std::memcpy(&edges, mesh.line_edges + first, sizeof edges);
+        edges &= kEdges;
+        if (edges != 0) add(first, edges);
     }
+    edges = 0;
+    std::memcpy(&edges, mesh.line_edges + first, end - first);
+    add(first, edges & kEdges);
     sides.resize(count);
     return sides;
 }
