@@ -60,8 +60,9 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
     for (const TileEdge& in_tile : edges) {
         if (is_surely_behind(in_tile, samples)) continue;
         const FineEdge& e = in_tile.edge;
-        const auto& corners = screen_.surfaces().instances[e.instance].mesh->triangles[e.half_edge / 3];
-        const auto [first, second] = std::minmax(corners[e.half_edge % 3], corners[(e.half_edge + 1) % 3]);
+        const ScreenMesh& mesh = screen_.mesh(e.instance);
+        const std::uint32_t a = mesh.corners[e.half_edge], b = mesh.corners[e.half_edge % 3 == 2 ? e.half_edge - 2 : e.half_edge + 1];
+        const auto [first, second] = std::minmax(a, b);
         const auto on_screen = edge_on_screen(screen_, e.instance, first, second);
         if (!on_screen) continue;
         const EdgeOnScreen& edge = *on_screen;
@@ -71,16 +72,13 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
         const bool is_in_one = x0 == x1 && y0 == y1;
         if (is_behind(is_in_one ? blocks_ : areas_, samples, edge, 0, 1)) continue;
         const Owners owners = owners_of(e);
-        const HalfEdge partner = screen_.surfaces().instances[e.instance].mesh->next_on_edge[e.half_edge];
+        const HalfEdge partner = mesh.partners[e.half_edge];
         const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
-        LayerLine line;
-        line.from = edge.from;
-        line.to = edge.to;
         const auto look_at = [&](int x, int y) {
             double begin = 0, end = 1;
             if (!is_in_one) {
                 const glm::dvec2 from(blocks.begin(x), blocks.begin(y)), to(blocks.begin(x + 1), blocks.begin(y + 1));
-                if (!clip_to_rect(line, from, to, begin, end)) return;
+                if (!clip_to_rect(edge.from, edge.to, from, to, begin, end)) return;
                 if (is_behind(blocks_, samples, edge, begin, end)) return;
             }
             const std::uint32_t block =
@@ -132,15 +130,16 @@ void FineParts::find_farthest(const SampleTile& samples) {
     }
 }
 
+FineParts::FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
+    : screen_(screen), kernels_(kernels), takes_rests_(takes_rests), level_part_(kClearlyInFrontPx / screen.surfaces().projection.focal_px) {}
+
 double FineParts::level(double nearness) const {
-    const Projection& p = screen_.surfaces().projection;
-    const double part = kClearlyInFrontPx / p.focal_px;
-    return p.orthographic ? part : part * (nearness + screen_.surfaces().farthest_nearness);
+    return screen_.surfaces().projection.orthographic ? level_part_ : level_part_ * (nearness + screen_.surfaces().farthest_nearness);
 }
 
 /// The triangles at an edge, and whether each of them shows where the edge is a line.
 FineParts::Owners FineParts::owners_of(FineEdge edge) const {
-    const ScreenMesh mesh = screen_.mesh(edge.instance);
+    const ScreenMesh& mesh = screen_.mesh(edge.instance);
     const HalfEdge h = edge.half_edge, partner = mesh.partners[h];
     const auto corner = [&](HalfEdge g, std::uint32_t k) { return mesh.corners[g - g % 3 + (g + k) % 3]; };
     const auto [first, second] = std::minmax({corner(h, 0), corner(h, 1)});
@@ -205,7 +204,8 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
     const glm::dvec2 start = origin + along * part.begin;
     double next[2], step[2];
     for (int k = 0; k < 2; ++k) {
-        const double border = along[k] > 0 ? std::floor(start[k]) + 1 : std::ceil(start[k]) - 1;
+        const int floored = floor_to_int(start[k]);
+        const double border = along[k] > 0 ? floored + 1 : static_cast<double>(floored) == start[k] ? floored - 1 : floored;
         next[k] = along[k] == 0 ? kNever : (border - origin[k]) / along[k];
         step[k] = along[k] == 0 ? kNever : 1 / std::abs(along[k]);
     }
@@ -242,8 +242,8 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
                                     i + static_cast<std::size_t>(samples.stride) + 1};
     std::uint32_t numbers[4];
     for (std::size_t k = 0; k < 4; ++k) numbers[k] = samples.ids[corners[k]] >> 1;
-    const auto sees = [&](std::uint32_t n) {
-        return numbers[0] == n || numbers[1] == n || numbers[2] == n || numbers[3] == n;
+    const auto sees = [&](std::uint32_t n) {  // without branches: they would be guesses
+        return ((numbers[0] == n) | (numbers[1] == n) | (numbers[2] == n) | (numbers[3] == n)) != 0;
     };
     const auto [a, b] = owners.numbers;
     const double nearness = edge.nearness_at(t), clearly = level(nearness);

@@ -24,8 +24,7 @@ class FineParts {
   public:
     /// `takes_rests`: also what is left of edges beside pieces of lines that were found, and lines beside
     /// others with a gap between them narrower than a sample (completes_lines()).
-    FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
-        : screen_(screen), kernels_(kernels), takes_rests_(takes_rests) {}
+    FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests);
 
     /// `drawn`: the lines found in the tile, as a SegmentMerger leaves them.
     void find(const SampleTile& samples, std::span<const TileEdge> edges, std::span<const LineSegment> drawn,
@@ -64,6 +63,7 @@ class FineParts {
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
     bool takes_rests_;
+    double level_part_;  // see level()
     static constexpr int kAreaShift = TileEdge::kAreaShift;
     static constexpr std::size_t kAreaPitch = BlockTable::kPitch >> (kAreaShift - kBlockShift);
     Squares blocks_{kBlockShift, BlockTable::kPitch, {}};

@@ -142,7 +142,7 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
 }
 
 bool EdgeSides::is_negligible_fold(std::uint32_t instance, HalfEdge h) const {
-    const ScreenMesh mesh = screen_.mesh(instance);
+    const ScreenMesh& mesh = screen_.mesh(instance);
     const ScreenVertex &a = mesh.vertices[mesh.corners[h]], &b = mesh.vertices[mesh.corners[h - h % 3 + (h + 1) % 3]];
     if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) return false;
     const glm::dvec2 from(a.x, a.y), to(b.x, b.y);

@@ -74,11 +74,11 @@ bool clip_where_positive(double at_0, double at_1, double& begin, double& end) {
     return begin < end;
 }
 
-bool clip_to_rect(const LayerLine& line, glm::dvec2 low, glm::dvec2 high, double& begin, double& end) {
-    return clip_where_positive(line.from.x - low.x, line.to.x - low.x, begin, end) &&
-           clip_where_positive(high.x - line.from.x, high.x - line.to.x, begin, end) &&
-           clip_where_positive(line.from.y - low.y, line.to.y - low.y, begin, end) &&
-           clip_where_positive(high.y - line.from.y, high.y - line.to.y, begin, end);
+bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm::dvec2 high, double& begin, double& end) {
+    return clip_where_positive(line_from.x - low.x, line_to.x - low.x, begin, end) &&
+           clip_where_positive(high.x - line_from.x, high.x - line_to.x, begin, end) &&
+           clip_where_positive(line_from.y - low.y, line_to.y - low.y, begin, end) &&
+           clip_where_positive(high.y - line_from.y, high.y - line_to.y, begin, end);
 }
 
 LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
@@ -162,9 +162,12 @@ double level_slack(const SurfaceSet& surfaces, double nearness, double level_px)
     return absolute * (level_px / p.focal_px + surfaces.coordinate_error * absolute);
 }
 
+double snapping_slack(const LayerLine& line) {
+    return std::abs(line.nearness_to - line.nearness_from) / glm::distance(line.from, line.to);
+}
+
 double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end, double level_px) {
-    return level_slack(surfaces, std::max(line.nearness_at(begin), line.nearness_at(end)), level_px) +
-           std::abs(line.nearness_to - line.nearness_from) / glm::distance(line.from, line.to);
+    return level_slack(surfaces, std::max(line.nearness_at(begin), line.nearness_at(end)), level_px) + snapping_slack(line);
 }
 
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& t, double& begin,
@@ -182,6 +185,27 @@ bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle&
         if (!clip_where_positive(at_0, at_1, begin, end)) return false;
     }
     return true;
+}
+
+HiddenParts clip_twice_where_hidden(const LayerLine& line, double least, double slack, const LayerTriangle& t, double begin,
+                                    double end) {
+    HiddenParts parts{};
+    const double gap_0 = t.nearness_at(line.from) - line.nearness_from, gap_1 = t.nearness_at(line.to) - line.nearness_to;
+    if (gap_0 - least < 0 && gap_1 - least < 0) return parts;
+    bool is_lost = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = k == 2 ? 0 : k + 1;
+        const double dx = t.x[next] - t.x[k], dy = t.y[next] - t.y[k];
+        const double at_0 = dx * (line.from.y - t.y[k]) - dy * (line.from.x - t.x[k]);
+        const double at_1 = dx * (line.to.y - t.y[k]) - dy * (line.to.x - t.x[k]);
+        is_lost |= at_0 == 0 && at_1 == 0 && !t.owns_edge[k];
+        if (!clip_where_positive(at_0, at_1, begin, end)) return parts;
+    }
+    parts.most_begin = parts.begin = begin;
+    parts.most_end = parts.end = end;
+    parts.is_any_most = clip_where_positive(gap_0 - least, gap_1 - least, parts.most_begin, parts.most_end);
+    parts.is_any = !is_lost && clip_where_positive(gap_0 - slack, gap_1 - slack, parts.begin, parts.end);
+    return parts;
 }
 
 }  // namespace burin

@@ -33,7 +33,10 @@ struct LayerTriangle : TrianglePlane {
 bool clip_where_positive(double at_0, double at_1, double& begin, double& end);
 
 /// Keeps the part of [begin, end] of a line that is within a rectangle, in 1/256 pixel.
-bool clip_to_rect(const LayerLine& line, glm::dvec2 low, glm::dvec2 high, double& begin, double& end);
+bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm::dvec2 high, double& begin, double& end);
+inline bool clip_to_rect(const LayerLine& line, glm::dvec2 low, glm::dvec2 high, double& begin, double& end) {
+    return clip_to_rect(line.from, line.to, low, high, begin, end);
+}
 
 /// A triangle whose corners are all on the screen.
 LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
@@ -72,12 +75,24 @@ constexpr double kContactPx = 2;
 
 /// So many pixels' widths as a step in nearness, at a nearness less farthest_nearness, and what coordinates are off by.
 double level_slack(const SurfaceSet& surfaces, double nearness, double level_px = kLevelPx);
-/// The same for the part [begin, end] of a line, with what snapping does to it.
+/// What snapping does to the nearness of a line.
+double snapping_slack(const LayerLine& line);
+/// Both together for the part [begin, end] of a line.
 double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end, double level_px = kLevelPx);
 
 /// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`. `with_edges`: lines along
 /// any of its edges count as within it; else only those along edges that it owns, so that of two neighbours one has them.
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin,
                        double& end, bool with_edges = false);
+
+/// The parts of a line that a triangle is in front of, by more than one slack or another.
+struct HiddenParts {
+    bool is_any_most, is_any;
+    double most_begin, most_end;  ///< by more than `least`, with edges
+    double begin, end;            ///< by more than `slack`
+};
+/// clip_where_hidden() twice, of a part that is not empty.
+HiddenParts clip_twice_where_hidden(const LayerLine& line, double least, double slack, const LayerTriangle& triangle, double begin,
+                                    double end);
 
 }  // namespace burin
