@@ -115,11 +115,29 @@ struct ScreenLine {
 /// Along both axes together.
 constexpr float kLongestExact = 2048;
 
-/// A triangle that may hide lines: corners, clockwise as seen, in 1/256 pixel from a place near the lines, and the nearness of
-/// the nearest one.
+/// A triangle that may hide lines: corners, clockwise as seen, in 1/256 pixel from some place, and the nearness of the nearest
+/// one.
 struct CrossedTriangle {
     float x[3], y[3], highest;
     std::uint32_t number;
+};
+
+/// The blocks of a tile for what may hide lines there. Each is cut into two by two cells.
+struct HidingGrid {
+    static constexpr std::int32_t kShift = 11, kCellShift = kShift - 1;  ///< log2 of widths in 1/256 pixel
+    std::int32_t first_x, first_y;  ///< of the upper left block, in 1/256 pixel
+    std::int32_t columns, rows;
+    std::int32_t reach;  ///< so far from a block triangles touch it, too; they lie beside the cells at its end then
+    /// Blocks row by row, for each the least nearness in any rectangle of its cells.
+    const float* farthest;
+    static constexpr std::size_t kPlaces = 16;
+    static constexpr std::size_t place(int x0, int x1, int y0, int y1) { return static_cast<std::size_t>(x0 | x1 << 1 | y0 << 2 | y1 << 3); }
+};
+
+/// A triangle in one of the blocks it touches. Corners from the picture's.
+struct HidingInBlock {
+    CrossedTriangle triangle;
+    std::uint32_t block;
 };
 
 /// A triangle on the screen and the plane of its nearness.
@@ -350,6 +368,13 @@ struct TileKernels {
     /// is exact and the triangle no longer. Returns their number. Up to 15 numbers more are read of each array.
     std::size_t (*find_hiding)(const TriangleView& triangles, std::size_t begin, std::size_t end, const ScreenLine& line,
                                std::uint32_t* found);
+    /// Of triangles of a mesh, which must be small, finds those that are nearer than the farthest thing in the cells they touch:
+    /// in up to two by two blocks, once for each, in no particular order. Returns how many; `found` needs room for four of each.
+    /// Those that touch more are added to `others`.
+    std::size_t (*sort_hiding)(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count, const HidingGrid& grid,
+                               HidingInBlock* found, std::uint32_t* others, std::size_t* other_count);
+    /// From an array of triangles to one per number: corners' x and y, nearness. Up to seven more may be written of each.
+    void (*transpose_triangles)(const CrossedTriangle* triangles, std::size_t count, float* const numbers[7]);
     /// Makes an index of the triangles `listed`. Its bits must be zero.
     void (*index_triangles)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count, const BitmapIndex& index);
     /// Lists those of the triangles `listed` that may hide a part of a line: with a corner nearer than its farther end, and not

@@ -114,8 +114,8 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
                     box.reach(line.to);
                     if (!box.touches(cover.box) || !touches(cover.polygon, box.low, box.high) || cover.nearest <= std::min(line.nearness_from, line.nearness_to)) continue;
                     ASSERT_LT(block_of[i], blocks.count());
-                    const HidingTriangles& listed = blocks.triangles(block_of[i]);
-                    const auto count = std::count_if(listed.begin(), listed.end(), [n](const HidingTriangle& t) { return t.number == n; });
+                    const std::vector<CrossedTriangle>& listed = blocks.triangles(block_of[i]);
+                    const auto count = std::count_if(listed.begin(), listed.end(), [n](const CrossedTriangle& t) { return t.number == n; });
                     ASSERT_EQ(count, 1) << "seed " << seed << " tile " << tile << " triangle " << n;
                     ++hiding;
                     const double pitch = 256.0 / per_pixel;

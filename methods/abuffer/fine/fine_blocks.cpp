@@ -1,9 +1,10 @@
 #include "methods/abuffer/fine/fine_blocks.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 
+#include "abuffer/screen_triangles.h"
 #include "methods/abuffer/layers/layer_triangle.h"
 
 namespace burin {
@@ -16,7 +17,7 @@ constexpr double kBehindBorder = 64;
 constexpr int kReach = kBeyondSubpixels + 1;
 /// 1/256 pixel. Four times as far as any place on the screen.
 constexpr float kFar = 1 << 24;
-constexpr FlatTriangle kAllOfTheScreen = {{-kFar, 3 * kFar, -kFar}, {-kFar, -kFar, 3 * kFar}, kNothing};
+constexpr CrossedTriangle kAllOfTheScreen = {{-kFar, 3 * kFar, -kFar}, {-kFar, -kFar, 3 * kFar}, kNothing, 0};
 
 }  // namespace
 
@@ -28,11 +29,14 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     rows_ = rect_.height() / kMergeBlockPx;
     count_ = 0;
     index_.assign(block_at(0, rows_), kNone);
-    farthest_.assign(cell_at(0, kCells * rows_), kNothing);
+    farthest_.assign(HidingGrid::kPlaces * block_at(0, rows_), kNothing);
+    const auto begin = [&](int block) { return (block << SampleBlocks::kShift) + grid_.half_pitch; };
+    hiding_grid_ = {begin(first_x_), begin(first_y_), columns_, rows_, kReach, farthest_.data()};
     const int samples = kSubpixelsPerPixel / (2 * grid_.half_pitch) * bins_.tile_px();
     sample_blocks_ = (samples >> kBlockShift) + 1;  // a tile has one more column and row of samples
     least_.assign(BlockTable::kSize, kNothing);
     sort_candidates(candidates);
+    combine_cells();
     kernels_.combine_blocks(sample_blocks_, sample_blocks_, least_.data());
     for (const TriangleRun& run : bins_.runs_in(tile)) add_small(run);
     for (const TriangleRun& run : bins_.thin_runs_in(tile)) add_small(run);
@@ -52,7 +56,9 @@ void FineBlocks::add_beyond(std::size_t tile) {
             for (const auto& runs : {bins_.runs_in(*other), bins_.thin_runs_in(*other)}) {
                 for (const TriangleRun& run : runs) {
                     const ScreenMesh& mesh = screen_.mesh(run.instance);
-                    for (std::uint32_t i = 0; i < run.count; ++i) sort_triangle(mesh, run.triangles[i].triangle);
+                    nearer_.resize(std::max(nearer_.size(), std::size_t{run.count}));
+                    for (std::uint32_t i = 0; i < run.count; ++i) nearer_[i] = run.triangles[i].triangle;
+                    sort_triangles(mesh, nearer_.data(), run.count);
                 }
             }
             for (const auto& list : {bins_.large_in(*other), bins_.thin_large_in(*other)}) {
@@ -90,28 +96,40 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
             beyond_low_ = glm::min(beyond_low_, low);
             beyond_high_ = glm::max(beyond_high_, high);
         }
-        const auto first = [&](int subpixel, int origin, int block) {
-            return std::max(cell_of(subpixel) - kCells * origin, kCells * block);
-        };
-        const auto last = [&](int subpixel, int origin, int block) {
-            return std::min(cell_of(subpixel) - kCells * origin, kCells * block + kCells - 1);
-        };
-        for (int y = first(low.y, first_y_, block_y); y <= last(high.y, first_y_, block_y); ++y) {
-            for (int x = first(low.x, first_x_, block_x); x <= last(high.x, first_x_, block_x); ++x) {
-                float& farthest = farthest_[cell_at(x, y)];
-                farthest = std::min(farthest, static_cast<float>(lowest));
+        const auto cell = [](int subpixel, int from) { return std::clamp((subpixel - from) >> HidingGrid::kCellShift, -1, kCells); };
+        const int from_x = hiding_grid_.first_x + (block_x << SampleBlocks::kShift);
+        const int from_y = hiding_grid_.first_y + (block_y << SampleBlocks::kShift);
+        float* const farthest = &farthest_[HidingGrid::kPlaces * block_at(block_x, block_y)];
+        for (int y = std::max(cell(low.y, from_y), 0); y <= std::min(cell(high.y, from_y), kCells - 1); ++y) {
+            for (int x = std::max(cell(low.x, from_x), 0); x <= std::min(cell(high.x, from_x), kCells - 1); ++x) {
+                float& of_cell = farthest[HidingGrid::place(x, x, y, y)];
+                of_cell = std::min(of_cell, static_cast<float>(lowest));
             }
         }
         note_least(low, high, static_cast<float>(lowest));
     }
 }
 
+/// From single cells to rectangles of them.
+void FineBlocks::combine_cells() {
+    for (std::size_t i = 0; i < count_; ++i) {
+        float* const farthest = &farthest_[HidingGrid::kPlaces * block_at(places_[i].x, places_[i].y)];
+        const auto at = [&](int x0, int x1, int y0, int y1) -> float& { return farthest[HidingGrid::place(x0, x1, y0, y1)]; };
+        for (int k = 0; k < kCells; ++k) {
+            at(0, 1, k, k) = std::min(at(0, 0, k, k), at(1, 1, k, k));
+            at(k, k, 0, 1) = std::min(at(k, k, 0, 0), at(k, k, 1, 1));
+        }
+        at(0, 1, 0, 1) = std::min(at(0, 1, 0, 0), at(0, 1, 1, 1));
+    }
+}
+
 /// In all blocks of samples that a triangle may be listed in that touches the box, see TileTriangle.
 void FineBlocks::note_least(glm::ivec2 low, glm::ivec2 high, float lowest) {
     const int pitch = 2 * grid_.half_pitch, per_pixel = kSubpixelsPerPixel / pitch;
+    const int pitch_shift = std::countr_zero(static_cast<unsigned>(pitch));
     const auto block = [&](int sample) { return std::clamp(sample >> kBlockShift, 0, sample_blocks_ - 1); };
     const auto before = [&](int subpixel, int first_px) {
-        return static_cast<int>(std::floor(static_cast<double>(subpixel - grid_.half_pitch) / pitch)) - first_px * per_pixel;
+        return ((subpixel - grid_.half_pitch) >> pitch_shift) - first_px * per_pixel;
     };
     const auto behind = [&](int subpixel, int first_px) { return before(subpixel + pitch - 1, first_px); };
     const int x0 = block(before(low.x, rect_.x0)), x1 = block(behind(high.x, rect_.x0));
@@ -129,65 +147,57 @@ void FineBlocks::add_small(const TriangleRun& run) {
     constexpr float kNoLevel = 0;
     const std::size_t count =
         kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data());
-    const ScreenMesh& mesh = screen_.mesh(run.instance);
-    for (std::size_t i = 0; i < count; ++i) sort_triangle(mesh, nearer_[i]);
+    sort_triangles(screen_.mesh(run.instance), nearer_.data(), count);
 }
 
 void FineBlocks::add_large(const LargePolygon& large) {
     const ScreenPolygon& polygon = large.polygon;
-    HidingTriangle t{screen_.number_of(large.surface), false, 0, 0, -1, -1};
-    FlatTriangle flat = kAllOfTheScreen;
-    const Facing facing = screen_.facing(t.number);
-    t.is_clipped = facing == off_screen;
-    if (!t.is_clipped) {
+    CrossedTriangle triangle = kAllOfTheScreen;
+    triangle.number = screen_.number_of(large.surface);
+    const Facing facing = screen_.facing(triangle.number);
+    if (facing != off_screen) {
         const auto [a, b, c] = screen_.triangle(large.surface).corners;
-        flat = flat_triangle(a, b, c, facing);
+        triangle = crossed_triangle(a, b, c, facing, triangle.number);
     }
-    t.x0 = t.x1 = polygon.corners[0].x;
-    t.y0 = t.y1 = polygon.corners[0].y;
+    Box box{polygon.corners[0].x, polygon.corners[0].y, polygon.corners[0].x, polygon.corners[0].y};
     for (int i = 1; i < polygon.count; ++i) {
         const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
-        t.x0 = std::min(t.x0, p.x);
-        t.y0 = std::min(t.y0, p.y);
-        t.x1 = std::max(t.x1, p.x);
-        t.y1 = std::max(t.y1, p.y);
+        box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
     }
-    // It may fill the tile, and few blocks have candidates.
-    const int left = grid_.at(t.x0 - kReach) - first_x_, right = grid_.at(t.x1 + kReach) - first_x_;
-    const int top = grid_.at(t.y0 - kReach) - first_y_, bottom = grid_.at(t.y1 + kReach) - first_y_;
+    add(triangle, box);
+}
+
+/// It may fill the tile, and few blocks have candidates.
+void FineBlocks::add(const CrossedTriangle& triangle, const Box& box) {
+    const int left = grid_.at(box.x0 - kReach) - first_x_, right = grid_.at(box.x1 + kReach) - first_x_;
+    const int top = grid_.at(box.y0 - kReach) - first_y_, bottom = grid_.at(box.y1 + kReach) - first_y_;
     for (std::size_t i = 0; i < count_; ++i) {
         const glm::ivec2 at = places_[i];
         const bool touches = at.x >= left && at.x <= right && at.y >= top && at.y <= bottom;
-        if (touches && hides_something(t, flat.highest, at.x, at.y)) triangles_[i].add(t, flat);
+        if (touches && hides_something(box, triangle.highest, at.x, at.y)) triangles_[i].push_back(triangle);
     }
 }
 
-bool FineBlocks::hides_something(const HidingTriangle& t, float highest, int block_x, int block_y) const {
+bool FineBlocks::hides_something(const Box& box, float highest, int block_x, int block_y) const {
     const int origin_x = kCells * (first_x_ + block_x), origin_y = kCells * (first_y_ + block_y);
     // Those beyond the block lie beside the cells at its end.
-    const int last = kCells - 1;
-    const int x0 = std::clamp(cell_of(t.x0) - origin_x, 0, last), x1 = std::clamp(cell_of(t.x1) - origin_x, 0, last);
-    const int y0 = std::clamp(cell_of(t.y0) - origin_y, 0, last), y1 = std::clamp(cell_of(t.y1) - origin_y, 0, last);
-    for (int y = y0; y <= y1; ++y) {
-        for (int x = x0; x <= x1; ++x) {
-            if (highest > farthest_[cell_at(kCells * block_x + x, kCells * block_y + y)]) return true;
-        }
-    }
-    return false;
+    const auto cell = [&](std::int32_t subpixel, int origin) { return std::clamp(cell_of(subpixel) - origin, 0, kCells - 1); };
+    const int x0 = cell(box.x0, origin_x), x1 = cell(box.x1, origin_x), y0 = cell(box.y0, origin_y), y1 = cell(box.y1, origin_y);
+    const std::size_t place = HidingGrid::place(x0, x1, y0, y1);
+    return highest > farthest_[HidingGrid::kPlaces * block_at(block_x, block_y) + place];
 }
 
-void FineBlocks::sort_triangle(const ScreenMesh& mesh, std::uint32_t t) {
-    const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
-    const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
-    const HidingTriangle hiding{mesh.first_number + t, false, std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
-                                std::max({a.y, b.y, c.y})};
-    const FlatTriangle flat = flat_triangle(a, b, c, static_cast<Facing>(mesh.facing[t]));
-    const int left = std::max(grid_.at(hiding.x0 - kReach) - first_x_, 0), right = std::min(grid_.at(hiding.x1 + kReach) - first_x_, columns_ - 1);
-    const int top = std::max(grid_.at(hiding.y0 - kReach) - first_y_, 0), bottom = std::min(grid_.at(hiding.y1 + kReach) - first_y_, rows_ - 1);
-    for (int y = top; y <= bottom; ++y) {
-        for (int x = left; x <= right; ++x) {
-            const std::uint32_t index = index_[block_at(x, y)];
-            if (index != kNone && hides_something(hiding, flat.highest, x, y)) triangles_[index].add(hiding, flat);
+void FineBlocks::sort_triangles(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count) {
+    for (std::size_t first = 0; first < count; first += kAtOnce) {
+        std::size_t other_count = 0;
+        const std::size_t found = kernels_.sort_hiding(mesh, listed + first, std::min(kAtOnce, count - first), hiding_grid_, found_.data(),
+                                                       others_.data(), &other_count);
+        for (std::size_t i = 0; i < found; ++i) triangles_[index_[found_[i].block]].push_back(found_[i].triangle);
+        for (std::size_t i = 0; i < other_count; ++i) {
+            const std::uint32_t t = others_[i], *const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
+            const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
+            add(crossed_triangle(a, b, c, static_cast<Facing>(mesh.facing[t]), mesh.first_number + t),
+                {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})});
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "methods/abuffer/fine/fine_cells.h"
 #include "methods/abuffer/layers/contacts.h"
 #include "methods/abuffer/layers/fold_width.h"
 #include "methods/abuffer/layers/layer_triangle.h"
@@ -20,11 +21,6 @@ constexpr double kFar = 1e300;
 /// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many layers, lines are left to
 /// the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 22;
-/// A block is cut into so many cells along each side, at most, that about so many triangles are in one.
-constexpr int kMostCells = 32;
-constexpr std::size_t kTrianglesPerCell = 128;
-/// In so many cells a triangle may be, on average.
-constexpr std::size_t kMostPlaces = 4;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 
@@ -34,32 +30,23 @@ constexpr double kRounding = 1.0 / 64;
 class FineLines::BlockClipper {
   public:
     BlockClipper(const ScreenSurfaces& screen, const LayerEdgeFinder& finder, const TileKernels& kernels, const LineCriteria& criteria)
-        : screen_(screen), finder_(finder), contacts_(screen), kernels_(kernels), criteria_(criteria) {}
+        : screen_(screen), finder_(finder), contacts_(screen), criteria_(criteria), cells_(screen, kernels) {}
 
-    /// `corner`: of the block, in 1/256 pixel.
-    void set_triangles(const HidingTriangles& triangles, glm::ivec2 corner) {
+    /// `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
+    void set_triangles(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count) {
         given_ = &triangles;
-        corner_ = corner;
-        cells_ = 1;
-        cell_shift_ = SampleBlocks::kShift;
-        while (cells_ < kMostCells && triangles.size() > kTrianglesPerCell * count_of_cells()) {
-            cells_ *= 2;
-            --cell_shift_;
-        }
-        sort_to_cells();
-        beside_.resize(cells_ == 1 ? triangles.size() : cell_end_.back());
+        cells_.set(triangles, corner, line_count);
         places_.assign(triangles.size(), {});
         set_up_.clear();
     }
-    /// How many triangles are in a cell, on average.
-    std::size_t triangles_per_cell() const { return cells_ == 1 ? given_->size() : in_cells_.size() / count_of_cells(); }
+    std::size_t triangles_per_cell() const { return cells_.triangles_per_cell(); }
 
     void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
         const LayerLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
-        const double slack = line_slack(screen_.surfaces(), line, begin, end);
-        const double coincident = line_slack(screen_.surfaces(), line, begin, end, kCoincidentPx);
-        const double certain = line_slack(screen_.surfaces(), line, begin, end, kCertainPx);
+        const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)), by_snapping = snapping_slack(line);
+        const auto slack_of = [&](double level_px) { return level_slack(screen_.surfaces(), nearest, level_px) + by_snapping; };
+        const double slack = slack_of(kLevelPx), coincident = slack_of(kCoincidentPx), certain = slack_of(kCertainPx);
         const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
         const bool is_border = line.owners[0] == line.owners[1];
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
@@ -76,10 +63,11 @@ class FineLines::BlockClipper {
                           const double level = !is_own_mesh ? certain + t.slack : is_border ? rounding + t.slack : rounding;
                           // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
                           // its edges, too, for its neighbour there may turn away.
-                          double most_from = begin, most_to = end, from = begin, to = end;
-                          if (!clip_where_hidden(line, -coincident - t.slack, t, most_from, most_to, true)) return true;
-                          const bool is_any_hidden = clip_where_hidden(line, level, t, from, to);
-                          const bool is_settled = is_any_hidden && from == most_from && to == most_to;
+                          const HiddenParts parts = clip_twice_where_hidden(line, -coincident - t.slack, level, t, begin, end);
+                          if (!parts.is_any_most) return true;
+                          const double most_from = parts.most_begin, most_to = parts.most_end;
+                          double from = parts.begin, to = parts.end;
+                          const bool is_settled = parts.is_any && from == most_from && to == most_to;
                           const auto is_none = [&] {
                               return contacts_.is_seen_instead(line, begin, end, t, touching) ||
                                      contacts_.is_flush(line, most_from, most_to, t, touching, criteria_, false);
@@ -87,7 +75,7 @@ class FineLines::BlockClipper {
                           if (!is_settled && is_none()) {
                               from = most_from;
                               to = most_to;
-                          } else if (!is_any_hidden) {
+                          } else if (!parts.is_any) {
                               return true;
                           }
                           hidden_.push_back({from, to});
@@ -124,36 +112,6 @@ class FineLines::BlockClipper {
         std::uint32_t first = 0, count = 0;
     };
 
-    std::size_t count_of_cells() const { return static_cast<std::size_t>(cells_ * cells_); }
-
-    /// Lists the triangles in each cell they touch; with a single one there is nothing to do.
-    void sort_to_cells() {
-        // Counts are kept one place further, so that filling moves each list's end to its place.
-        for (; cells_ > 1; cells_ /= 2, ++cell_shift_) {
-            cell_end_.assign(count_of_cells() + 2, 0);
-            std::size_t count = 0;
-            for (const HidingTriangle& t : *given_) {
-                for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
-                    ++cell_end_[cell + 2];
-                    ++count;
-                });
-            }
-            if (count <= kMostPlaces * given_->size()) break;  // large ones would fill all cells
-        }
-        if (cells_ == 1) return;
-        for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
-        in_cells_.resize(cell_end_.back());
-        triangles_.resize(cell_end_.back());
-        for (std::uint32_t i = 0; i < given_->size(); ++i) {
-            const HidingTriangle& t = (*given_)[i];
-            for_cells({t.x0, t.y0}, {t.x1, t.y1}, [&](std::size_t cell) {
-                const std::size_t at = cell_end_[cell + 1]++;
-                in_cells_[at] = i;
-                triangles_.set(at, given_->flat(i));
-            });
-        }
-    }
-
     static ScreenLine screen_line(glm::dvec2 a, glm::dvec2 b, double least) {
         return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
                 static_cast<float>(std::max(least, -1e30))};
@@ -167,47 +125,26 @@ class FineLines::BlockClipper {
         return whole;
     }
 
-    /// Calls use(triangle) for those in the cells from a to b that may hide `part`, and that the line is no edge of, until it
-    /// says false.
+    /// Calls use(triangle) for those that may hide `part` of a line, from a to b, and that the line is no edge of, until it says
+    /// false.
     template <typename Use>
     void for_triangles(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, const ScreenLine& part, const Use& use) {
-        bool goes_on = true;
-        const bool has_cells = cells_ > 1;
-        const TriangleView triangles = has_cells ? triangles_.view() : given_->view();
-        for_cells(glm::ivec2(glm::floor(glm::min(a, b))), glm::ivec2(glm::ceil(glm::max(a, b))), [&](std::size_t cell) {
-            const std::size_t first = has_cells ? cell_end_[cell] : 0, end = has_cells ? cell_end_[cell + 1] : given_->size();
-            const std::size_t count = kernels_.find_hiding(triangles, first, end, part, beside_.data());
-            for (std::size_t at = 0; at < count && goes_on; ++at) {
-                const std::uint32_t i = has_cells ? in_cells_[beside_[at]] : beside_[at];
-                if (is_owner(line, (*given_)[i].number)) continue;
-                if (places_[i].count == 0) set_up(i);
-                for (std::uint32_t k = 0; k < places_[i].count && goes_on; ++k) {
-                    const LayerTriangle& t = set_up_[places_[i].first + k];
-                    goes_on = lies_on(line, t) || use(t);
-                }
+        cells_.for_hiding(part, a, b, [&](std::uint32_t i) {
+            if (is_owner(line, (*given_)[i].number)) return true;
+            if (places_[i].count == 0) set_up(i);
+            for (std::uint32_t k = 0; k < places_[i].count; ++k) {
+                const LayerTriangle& t = set_up_[places_[i].first + k];
+                if (!lies_on(line, t) && !use(t)) return false;
             }
+            return true;
         });
     }
 
-    /// Calls visit(cell) for those that a box touches, in 1/256 pixel.
-    template <typename Visit>
-    void for_cells(glm::ivec2 low, glm::ivec2 high, const Visit& visit) const {
-        const int last = cells_ - 1;
-        const auto cell_at = [&](int subpixel, int first) {
-            return std::clamp((subpixel - first) >> cell_shift_, 0, last);
-        };
-        const int x0 = cell_at(low.x, corner_.x), x1 = cell_at(high.x, corner_.x);
-        const int y0 = cell_at(low.y, corner_.y), y1 = cell_at(high.y, corner_.y);
-        for (int y = y0; y <= y1; ++y) {
-            for (int x = x0; x <= x1; ++x) visit(static_cast<std::size_t>(y * cells_ + x));
-        }
-    }
-
     void set_up(std::size_t i) {
-        const HidingTriangle& given = (*given_)[i];
+        const CrossedTriangle& given = (*given_)[i];
         const SurfaceId s = screen_.surface_of(given.number);
         places_[i].first = static_cast<std::uint32_t>(set_up_.size());
-        if (given.is_clipped) {
+        if (screen_.facing(given.number) == off_screen) {
             const auto parts = clipped_layer_triangles(screen_, s, given.number);
             set_up_.insert(set_up_.end(), parts.begin(), parts.end());
         } else {
@@ -233,7 +170,7 @@ class FineLines::BlockClipper {
     /// Whether both surfaces at a contour go on for more than a negligible fold.
     bool is_wide(const FineCandidate& candidate, double t) const {
         const glm::dvec2 at = candidate.line.at(t);
-        const ScreenMesh mesh = screen_.mesh(candidate.part.edge.instance);
+        const ScreenMesh& mesh = screen_.mesh(candidate.part.edge.instance);
         const double nearness = candidate.line.nearness_at(t);
         return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
     }
@@ -309,14 +246,9 @@ class FineLines::BlockClipper {
     const ScreenSurfaces& screen_;
     const LayerEdgeFinder& finder_;
     Contacts contacts_;
-    const TileKernels& kernels_;
     const LineCriteria& criteria_;
-    const HidingTriangles* given_ = nullptr;
-    glm::ivec2 corner_{0};
-    int cells_ = 1, cell_shift_ = SampleBlocks::kShift;  // along each side, and log2 of a cell's width in 1/256 pixel
-    std::vector<std::uint32_t> cell_end_, in_cells_;  // lists of given triangles, one per cell of several
-    ScreenTriangles triangles_;                       // of them, which tell of most that they hide nothing
-    std::vector<std::uint32_t> beside_;
+    const std::vector<CrossedTriangle>* given_ = nullptr;
+    FineCells cells_;
     std::vector<Place> places_;  // of given triangles in set_up_
     std::vector<LayerTriangle> set_up_;
     std::vector<Interval> hidden_;
@@ -340,7 +272,8 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
     for (std::size_t block = 0; block < blocks_.count(); ++block) {
         const FinePart& any = candidates_[blocks_.candidates(block).front()].part;
         clipper_->set_triangles(blocks_.triangles(block),
-                                glm::ivec2(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y))));
+                                glm::ivec2(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y))),
+                                blocks_.candidates(block).size());
         if (blocks_.candidates(block).size() * clipper_->triangles_per_cell() > kMostLooks) continue;
         for (const std::uint32_t i : blocks_.candidates(block)) clipper_->add_visible(candidates_[i], segments);
     }

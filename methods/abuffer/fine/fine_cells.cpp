@@ -1,0 +1,77 @@
+#include "methods/abuffer/fine/fine_cells.h"
+
+#include <limits>
+
+namespace burin {
+namespace {
+
+/// A block is cut into so many cells along each side, at most, that about so many triangles are in one.
+constexpr int kMostCells = 32;
+constexpr std::size_t kTrianglesPerCell = 128;
+/// For so few lines it is not worth it.
+constexpr std::size_t kFewLines = 12, kMostForFewLines = 1024;
+/// In so many cells a triangle may be, on average.
+constexpr std::size_t kMostPlaces = 4;
+
+}  // namespace
+
+void FineCells::set(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count) {
+    given_ = &triangles;
+    corner_ = corner;
+    cells_ = 1;
+    cell_shift_ = SampleBlocks::kShift;
+    const bool has_few = line_count <= kFewLines && triangles.size() <= kMostForFewLines;
+    while (!has_few && cells_ < kMostCells && triangles.size() > kTrianglesPerCell * count_of_cells()) {
+        cells_ *= 2;
+        --cell_shift_;
+    }
+    if (cells_ > 1) sort_to_cells();
+    const std::size_t count = cells_ == 1 ? triangles.size() : in_cells_.size();
+    triangles_.resize(count);
+    found_.resize(std::max(found_.size(), count));
+    if (cells_ == 1) {
+        triangles_.set_all(kernels_, triangles);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) triangles_.set(i, triangles[in_cells_[i]]);
+    }
+}
+
+/// Lists the triangles in each cell they touch.
+void FineCells::sort_to_cells() {
+    boxes_.resize(given_->size());
+    for (std::size_t i = 0; i < given_->size(); ++i) boxes_[i] = box_of((*given_)[i]);
+    // Counts are kept one place further, so that filling moves each list's end to its place.
+    for (; cells_ > 1; cells_ /= 2, ++cell_shift_) {
+        cell_end_.assign(count_of_cells() + 2, 0);
+        std::size_t count = 0;
+        for (const Box& box : boxes_) {
+            for_cells(box, [&](std::size_t cell) {
+                ++cell_end_[cell + 2];
+                ++count;
+            });
+        }
+        if (count <= kMostPlaces * given_->size()) break;  // large ones would fill all cells
+    }
+    if (cells_ == 1) return;
+    for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
+    in_cells_.resize(cell_end_.back());
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+        for_cells(boxes_[i], [&](std::size_t cell) { in_cells_[cell_end_[cell + 1]++] = i; });
+    }
+}
+
+FineCells::Box FineCells::box_of(const CrossedTriangle& t) const {
+    if (screen_.facing(t.number) != off_screen) {
+        return {{std::min({t.x[0], t.x[1], t.x[2]}), std::min({t.y[0], t.y[1], t.y[2]})},
+                {std::max({t.x[0], t.x[1], t.x[2]}), std::max({t.y[0], t.y[1], t.y[2]})}};
+    }
+    const ScreenPolygon polygon = screen_.surfaces().screen_polygon(screen_.surface_of(t.number));
+    Box box{glm::ivec2(std::numeric_limits<int>::max()), glm::ivec2(std::numeric_limits<int>::min())};
+    for (int i = 0; i < polygon.count; ++i) {
+        const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+        box = {glm::min(box.low, glm::ivec2(p.x, p.y)), glm::max(box.high, glm::ivec2(p.x, p.y))};
+    }
+    return box;
+}
+
+}  // namespace burin
