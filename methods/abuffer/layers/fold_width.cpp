@@ -18,42 +18,52 @@ struct PlaceOnEdge {
 
 enum class Reach { narrow, comes_back, goes_on };
 
+glm::dvec2 place_of(const ScreenVertex* v) { return {v->x, v->y}; }
+double nearness_of(const ScreenVertex* v) { return static_cast<double>(v->nearness); }
+
+/// A triangle from the beginning of one of its edges on.
+struct EnteredTriangle {
+    HalfEdge second, third;  ///< its other edges
+    const ScreenVertex *a, *b, *c;
+    bool is_cut;  ///< it has no corners to go by
+
+    /// On which side of its edge it lies: < 0, > 0, or 0.
+    double side() const { return cross(place_of(b) - place_of(a), place_of(c) - place_of(a)); }
+};
+
+EnteredTriangle enter(const ScreenMesh& mesh, HalfEdge h) {
+    const HalfEdge k = h % 3, second = k == 2 ? h - 2 : h + 1, third = k == 0 ? h + 2 : h - 1;
+    const auto vertex = [&](HalfEdge e) { return mesh.vertices + mesh.corners[e]; };
+    return {second, third, vertex(h), vertex(second), vertex(third), mesh.facing[h / 3] == off_screen};
+}
+
+/// Goes along rows of pixels (`along_x`) or columns, forwards or backwards: `sign` is 1 or -1.
+template <bool along_x>
 class FoldWalk {
   public:
-    explicit FoldWalk(const ScreenMesh& mesh) : mesh_(mesh) {}
+    FoldWalk(const ScreenMesh& mesh, const PlaceOnEdge& from) : mesh_(mesh), from_(from) {}
 
-    HalfEdge partner(HalfEdge h) const { return mesh_.partners[h]; }
-    bool is_cut(HalfEdge h) const { return mesh_.facing[h / 3] == off_screen; }
+    /// The sign that leads to a side of a triangle's edge.
+    double towards(const EnteredTriangle& t, double side) const { return (-across(place_of(t.b) - place_of(t.a)) < 0) != (side < 0) ? -1 : 1; }
 
-    /// On which side of its edge a triangle lies, with the edge taken as it runs in the triangle of `as_in`: < 0, > 0, or 0.
-    double side_of(HalfEdge h, HalfEdge as_in) const {
-        const glm::dvec2 a = corner(as_in, 0);
-        return cross(corner(as_in, 1) - a, corner(h, 2) - a);
-    }
-    /// The way or its opposite, whichever leads to a side of an edge.
-    glm::dvec2 towards(HalfEdge h, double side, glm::dvec2 way) const {
-        return (cross(corner(h, 1) - corner(h, 0), way) < 0) != (side < 0) ? -way : way;
-    }
-
-    /// How far the surface goes on into the triangle of an edge: comes_back is to the edge, at another nearness. `is_level`: and
-    /// stays at its nearness.
-    Reach go(HalfEdge entry, const PlaceOnEdge& from, glm::dvec2 way, double least, bool is_level = false) const {
+    /// How far the surface goes on into a triangle: comes_back is to the edge, at another nearness. `is_level`: and stays at its
+    /// nearness.
+    Reach go(EnteredTriangle t, double sign, double least, bool is_level = false) const {
         constexpr int kMaxTriangles = 64;
-        const auto differs = [&](double nearness) { return std::abs(nearness - from.nearness) > from.level; };
-        double entered = 0, nearness_there = from.nearness;
+        const auto differs = [&](double nearness) { return std::abs(nearness - from_.nearness) > from_.level; };
+        double entered = 0, nearness_there = from_.nearness;
         for (int step = 0; step < kMaxTriangles; ++step) {
-            if (is_cut(entry)) return Reach::goes_on;  // it has no corners to go by
+            if (t.is_cut) return Reach::goes_on;
             // Out by one of the two other edges: the one whose ends lie on either side of the way.
-            const bool is_first = (cross(way, corner(entry, 2) - from.at) < 0) == (cross(way, corner(entry, 0) - from.at) < 0);
-            const std::uint32_t k = is_first ? 1 : 2;
-            const glm::dvec2 a = corner(entry, k), edge = corner(entry, (k + 1) % 3) - a;
-            const double area = cross(way, edge);
+            const bool is_first = (sign * across(place_of(t.c) - from_.at) < 0) == (sign * across(place_of(t.a) - from_.at) < 0);
+            const ScreenVertex *const begin = is_first ? t.b : t.c, *const end = is_first ? t.c : t.a;
+            const glm::dvec2 to_begin = place_of(begin) - from_.at, edge = place_of(end) - place_of(begin);
+            const double area = sign * across(edge);
             if (area == 0) return Reach::narrow;
-            const double reached = cross(a - from.at, edge) / area;
+            const double reached = cross(to_begin, edge) / area;
             if (reached >= least && !is_level) return Reach::goes_on;
-            const double on_edge = cross(from.at - a, way) / cross(edge, way);
-            const double nearness_reached = glm::mix(static_cast<double>(vertex(entry, k).nearness),
-                                                     static_cast<double>(vertex(entry, (k + 1) % 3).nearness), on_edge);
+            const double on_edge = sign * across(to_begin) / -area;
+            const double nearness_reached = glm::mix(nearness_of(begin), nearness_of(end), on_edge);
             const auto nearness_after = [&](double distance) {
                 return glm::mix(nearness_there, nearness_reached, (distance - entered) / (reached - entered));
             };
@@ -62,48 +72,51 @@ class FoldWalk {
                 return differs(nearness_after(0)) ? Reach::comes_back : Reach::narrow;
             }
             if (is_level && differs(nearness_reached)) return Reach::narrow;
-            const HalfEdge exit = entry - entry % 3 + (entry + k) % 3;
-            if (partner(exit) == exit || partner(partner(exit)) != exit) return Reach::narrow;
-            entry = partner(exit);
+            const HalfEdge exit = is_first ? t.second : t.third, beyond = mesh_.partners[exit];
+            if (beyond == exit || mesh_.partners[beyond] != exit) return Reach::narrow;
+            t = enter(mesh_, beyond);
             entered = reached;
             nearness_there = nearness_reached;
         }
         return Reach::narrow;
     }
 
+    /// Whether there is no fold at an edge of two triangles: the surface goes on at its depth for a distance on both sides.
+    bool goes_over_edge(const EnteredTriangle& one, const EnteredTriangle& two, double distance) const {
+        if (one.is_cut || two.is_cut) return false;
+        const double own = one.side(), other = cross(place_of(one.b) - place_of(one.a), place_of(two.c) - place_of(one.a));
+        if (own * other > 0 || (own == 0 && other == 0)) return false;
+        const double out = towards(one, own != 0 ? own : -other);
+        return go(one, out, distance, true) == Reach::goes_on && go(two, -out, distance, true) == Reach::goes_on;
+    }
+
+    bool is_wide(const EnteredTriangle& t) const { return go(t, towards(t, t.side()), kNegligibleFoldSubpixels) != Reach::narrow; }
+
+    /// Whether both triangles of an edge, or the only one, go on.
+    bool is_fold_wide(const EnteredTriangle& one, const EnteredTriangle* two) const {
+        if (!is_wide(one)) return false;
+        if (two == nullptr) return true;
+        // At a sliver that rounding turned over there is no fold, if the surface goes on past it: rows or columns cross it within
+        // its height times the root of two.
+        return is_wide(*two) && !goes_over_edge(one, *two, 2 * kNegligibleFoldSubpixels);
+    }
+
   private:
-    const ScreenVertex& vertex(HalfEdge h, std::uint32_t k) const { return mesh_.vertices[mesh_.corners[h - h % 3 + (h + k) % 3]]; }
-    glm::dvec2 corner(HalfEdge h, std::uint32_t k) const { return {vertex(h, k).x, vertex(h, k).y}; }
+    /// The cross product of the way forwards and another.
+    static double across(glm::dvec2 v) { return along_x ? v.y : -v.x; }
 
     const ScreenMesh& mesh_;
+    const PlaceOnEdge& from_;
 };
-
-/// Whether there is no fold at an edge: the surface goes on at its depth for a distance on both sides, along `way` and against it.
-bool goes_over_edge(const FoldWalk& walk, HalfEdge h, const PlaceOnEdge& from, glm::dvec2 way, double distance) {
-    const HalfEdge partner = walk.partner(h);
-    if (partner == h || walk.is_cut(h) || walk.is_cut(partner)) return false;
-    const double own = walk.side_of(h, h), other = walk.side_of(partner, h);
-    if (own * other > 0 || (own == 0 && other == 0)) return false;
-    const glm::dvec2 out = walk.towards(h, own != 0 ? own : -other, way);
-    return walk.go(h, from, out, distance, true) == Reach::goes_on && walk.go(partner, from, -out, distance, true) == Reach::goes_on;
-}
 
 }  // namespace
 
 bool is_fold_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {
-    const FoldWalk walk(mesh);
     const PlaceOnEdge from{at, nearness, level};
-    const HalfEdge partner = walk.partner(half_edge);
-    for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
-        const auto is_wide = [&](HalfEdge h) {
-            return walk.go(h, from, walk.towards(h, walk.side_of(h, h), way), kNegligibleFoldSubpixels) != Reach::narrow;
-        };
-        if (!is_wide(half_edge) || (partner != half_edge && !is_wide(partner))) continue;
-        // At a sliver that rounding turned over there is no fold, if the surface goes on past it: rows or columns cross it within
-        // its height times the root of two.
-        if (!goes_over_edge(walk, half_edge, from, way, 2 * kNegligibleFoldSubpixels)) return true;
-    }
-    return false;
+    const HalfEdge partner = mesh.partners[half_edge];
+    const EnteredTriangle one = enter(mesh, half_edge), other = enter(mesh, partner);
+    const EnteredTriangle* const two = partner != half_edge ? &other : nullptr;
+    return FoldWalk<true>(mesh, from).is_fold_wide(one, two) || FoldWalk<false>(mesh, from).is_fold_wide(one, two);
 }
 
 }  // namespace burin
