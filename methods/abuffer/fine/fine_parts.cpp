@@ -57,12 +57,33 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
     const int first_x = samples.first_column >> shift,
               last_x = (samples.first_column + samples.columns - 2) >> shift;
     const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
-    for (const TileEdge& in_tile : edges) {
-        if (is_surely_behind(in_tile, samples)) continue;
-        const FineEdge& e = in_tile.edge;
+    asked_.clear();
+    for (const TileEdge& edge : edges) {
+        if (is_surely_behind(edge, samples)) continue;
+        const ScreenMesh& mesh = screen_.mesh(edge.edge.instance);
+        // They are spread over the mesh.
+        __builtin_prefetch(mesh.corners + edge.edge.half_edge);
+        __builtin_prefetch(mesh.partners + edge.edge.half_edge);
+        asked_.push_back(edge.edge);
+    }
+    const auto ends_of = [](const ScreenMesh& mesh, HalfEdge h) {
+        return std::minmax(mesh.corners[h], mesh.corners[h % 3 == 2 ? h - 2 : h + 1]);
+    };
+    constexpr std::size_t kAhead = 4;
+    for (std::size_t number = 0; number < asked_.size(); ++number) {
+        if (number + kAhead < asked_.size()) {
+            const FineEdge& later = asked_[number + kAhead];
+            const ScreenMesh& mesh = screen_.mesh(later.instance);
+            const auto ends = ends_of(mesh, later.half_edge);
+            const HalfEdge partner = mesh.partners[later.half_edge];
+            __builtin_prefetch(mesh.vertices + ends.first);
+            __builtin_prefetch(mesh.vertices + ends.second);
+            __builtin_prefetch(mesh.corners + partner);
+            __builtin_prefetch(mesh.facing + partner / 3);
+        }
+        const FineEdge& e = asked_[number];
         const ScreenMesh& mesh = screen_.mesh(e.instance);
-        const std::uint32_t a = mesh.corners[e.half_edge], b = mesh.corners[e.half_edge % 3 == 2 ? e.half_edge - 2 : e.half_edge + 1];
-        const auto [first, second] = std::minmax(a, b);
+        const auto [first, second] = ends_of(mesh, e.half_edge);
         const auto on_screen = edge_on_screen(screen_, e.instance, first, second);
         if (!on_screen) continue;
         const EdgeOnScreen& edge = *on_screen;

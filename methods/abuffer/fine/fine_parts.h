@@ -68,6 +68,7 @@ class FineParts {
     static constexpr std::size_t kAreaPitch = BlockTable::kPitch >> (kAreaShift - kBlockShift);
     Squares blocks_{kBlockShift, BlockTable::kPitch, {}};
     Squares areas_{kAreaShift, kAreaPitch, {}};  // most edges lie behind whole ones
+    std::vector<FineEdge> asked_;
     std::vector<Interval> undrawn_, open_;
 };
 
