@@ -23,36 +23,41 @@ struct Expected {
     double begin, end, level_begin, level_end;
 };
 
+/// Corners on few places, so that lines meet them and run along edges.
+LayerTriangle random_triangle(Random& random, int places) {
+    LayerTriangle t{};
+    const auto place = [&] { return static_cast<double>(random.integer(0, places)); };
+    double area = 0;
+    while (area == 0) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            t.x[k] = place();
+            t.y[k] = place();
+        }
+        area = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
+    }
+    if (area < 0) {
+        std::swap(t.x[1], t.x[2]);
+        std::swap(t.y[1], t.y[2]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t n = (k + 1) % 3;
+        t.owns_edge[k] = t.y[n] < t.y[k] || (t.y[n] == t.y[k] && t.x[n] > t.x[k]);
+    }
+    t.nearness = random.integer(-2, 6);
+    t.per_x = random.integer(0, 1) == 0 ? 0 : random.real(-1, 1) / places;
+    t.per_y = random.integer(0, 1) == 0 ? 0 : random.real(-1, 1) / places;
+    t.slack = std::abs(t.per_x) + std::abs(t.per_y);
+    return t;
+}
+
 TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
     Random random(21);
     int hidden = 0, partly = 0, level = 0, along_edges = 0;
     for (int round = 0; round < 20000; ++round) {
         std::vector<LayerTriangle> triangles(static_cast<std::size_t>(random.integer(0, 9)));
-        // Few places, so that lines meet corners and run along edges.
         const int places = random.integer(0, 1) == 0 ? 8 : 5000;
         const auto place = [&] { return static_cast<double>(random.integer(0, places)); };
-        for (LayerTriangle& t : triangles) {
-            double area = 0;
-            while (area == 0) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    t.x[k] = place();
-                    t.y[k] = place();
-                }
-                area = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
-            }
-            if (area < 0) {
-                std::swap(t.x[1], t.x[2]);
-                std::swap(t.y[1], t.y[2]);
-            }
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::size_t n = (k + 1) % 3;
-                t.owns_edge[k] = t.y[n] < t.y[k] || (t.y[n] == t.y[k] && t.x[n] > t.x[k]);
-            }
-            t.nearness = random.integer(-2, 6);
-            t.per_x = random.integer(0, 1) == 0 ? 0 : random.real(-1, 1) / places;
-            t.per_y = random.integer(0, 1) == 0 ? 0 : random.real(-1, 1) / places;
-            t.slack = std::abs(t.per_x) + std::abs(t.per_y);
-        }
+        for (LayerTriangle& t : triangles) t = random_triangle(random, places);
         LayerLine line;
         while (line.from == line.to) {
             line.from = {place(), place()};
@@ -109,6 +114,41 @@ TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
     EXPECT_GT(partly, 1000);
     EXPECT_GT(level, 3000);
     EXPECT_GT(along_edges, 5);
+}
+
+TEST(LayerTriangle, ClippingTwiceIsClippingOnceAndAgain) {
+    int any = 0, only_most = 0, along_edges = 0, none = 0;
+    for (std::uint64_t seed = 0; seed < 20000; ++seed) {
+        Random random(seed);
+        const int places = random.integer(0, 1) == 0 ? 8 : 5000;
+        const LayerTriangle t = random_triangle(random, places);
+        LayerLine line;
+        while (line.from == line.to) {
+            for (glm::dvec2* end : {&line.from, &line.to}) *end = {random.integer(0, places), random.integer(0, places)};
+        }
+        line.nearness_from = random.integer(-2, 6);
+        line.nearness_to = random.integer(0, 1) == 0 ? line.nearness_from : random.integer(-2, 6);
+        const double begin = random.real(0, 0.5), end = random.real(0.5, 1);
+        const double slack = random.integer(0, 2) * 0.5, least = -random.integer(0, 2) * 0.5;
+        double most_begin = begin, most_end = end, own_begin = begin, own_end = end;
+        const bool is_any_most = clip_where_hidden(line, least, t, most_begin, most_end, true);
+        const bool is_any = is_any_most && clip_where_hidden(line, slack, t, own_begin, own_end);
+        const HiddenParts parts = clip_twice_where_hidden(line, least, slack, t, begin, end);
+        ASSERT_EQ(parts.is_any_most, is_any_most) << "seed " << seed;
+        ++(is_any ? any : is_any_most ? only_most : none);
+        if (!is_any_most) continue;
+        ASSERT_EQ(parts.is_any, is_any) << "seed " << seed;
+        ASSERT_EQ(std::pair(parts.most_begin, parts.most_end), std::pair(most_begin, most_end)) << "seed " << seed;
+        if (is_any) {
+            ASSERT_EQ(std::pair(parts.begin, parts.end), std::pair(own_begin, own_end)) << "seed " << seed;
+        }
+        double without_edges_begin = begin, without_edges_end = end;
+        along_edges += clip_where_hidden(line, least, t, without_edges_begin, without_edges_end) ? 0 : 1;
+    }
+    EXPECT_GT(any, 1000);
+    EXPECT_GT(only_most, 200);
+    EXPECT_GT(along_edges, 20);
+    EXPECT_GT(none, 5000);
 }
 
 TEST(LayerTriangle, FewNumbersAreSorted) {

@@ -263,8 +263,8 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
                                     i + static_cast<std::size_t>(samples.stride) + 1};
     std::uint32_t numbers[4];
     for (std::size_t k = 0; k < 4; ++k) numbers[k] = samples.ids[corners[k]] >> 1;
-    const auto sees = [&](std::uint32_t n) {  // without branches: they would be guesses
-        return ((numbers[0] == n) | (numbers[1] == n) | (numbers[2] == n) | (numbers[3] == n)) != 0;
+    const auto sees = [&](std::uint32_t n) {
+        return numbers[0] == n || numbers[1] == n || numbers[2] == n || numbers[3] == n;
     };
     const auto [a, b] = owners.numbers;
     const double nearness = edge.nearness_at(t), clearly = level(nearness);
