@@ -38,7 +38,17 @@ void LayerTile::fill(std::size_t tile) {
     SurfaceId s;
     std::uint32_t first = 0, end = 0;
     const std::span<const std::uint32_t> list = bins_.triangles(tile);
+    // Most are of the same mesh; what of others is asked for is never read.
+    constexpr std::size_t kVerticesAhead = 16, kCornersAhead = 32;
+    const auto corners_of = [&](std::size_t i) -> const std::uint32_t* {
+        if (i >= list.size() || list[i] < first || list[i] >= end) return nullptr;
+        return screen_.mesh(s.instance).corners + 3 * std::size_t{list[i] - first};
+    };
     for (std::size_t i = 0; i < list.size(); ++i) {
+        if (const std::uint32_t* const corners = corners_of(i + kCornersAhead)) __builtin_prefetch(corners);
+        if (const std::uint32_t* const corners = corners_of(i + kVerticesAhead)) {
+            for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(screen_.vertices(s.instance) + corners[k]);
+        }
         const std::uint32_t value = list[i], number = value & ~LayerBins::kClipped;
         if (number >= end) {
             s = screen_.surface_of(number);
