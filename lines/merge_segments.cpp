@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <utility>
 
@@ -10,12 +11,17 @@ namespace {
 
 constexpr double kStraightPx = 1.0 / 2048;
 
-/// From left to right, or downwards.
+/// From left to right, or downwards. Without a branch: which way pieces run is a guess.
 void put_in_order(LineSegment& s) {
-    if (s.from.x < s.to.x || (s.from.x == s.to.x && s.from.y < s.to.y)) return;
-    std::swap(s.from, s.to);
-    std::swap(s.nearness_from, s.nearness_to);
-    s.front_on_left = !s.front_on_left;
+    const bool turns = !((s.from.x < s.to.x) | ((s.from.x == s.to.x) & (s.from.y < s.to.y)));
+    const glm::dvec2 ends[2] = {s.from, s.to};
+    const float nearness[2] = {s.nearness_from, s.nearness_to};
+    const std::size_t first = turns ? 1 : 0;
+    s.from = ends[first];
+    s.to = ends[1 - first];
+    s.nearness_from = nearness[first];
+    s.nearness_to = nearness[1 - first];
+    s.front_on_left = s.front_on_left != turns;
 }
 
 /// Blocks are put in order by a few bits of their place first: of those of one tile, hardly two have the same.
@@ -25,6 +31,13 @@ std::size_t bucket_of(std::uint32_t block) { return (block >> 16 & 15u) << 4 | (
 bool is_block_before(std::uint32_t a, std::uint32_t b) {
     const std::size_t p = bucket_of(a), q = bucket_of(b);
     return p != q ? p < q : a < b;
+}
+
+/// Bits that are in order where numbers are.
+std::uint64_t in_order(double v) {
+    const auto bits = std::bit_cast<std::uint64_t>(v + 0.0);  // 0 has two signs
+    constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
+    return bits ^ ((bits & kSign) != 0 ? ~std::uint64_t{0} : kSign);
 }
 
 bool is_before(const LineSegment& a, const LineSegment& b) {
@@ -45,39 +58,65 @@ bool continues(const LineSegment& a, const LineSegment& b) {
 
 }  // namespace
 
-void SegmentMerger::merge(std::vector<LineSegment>& segments) {
-    std::array<std::uint32_t, kBuckets + 1> begin{};
-    for (LineSegment& s : segments) {
+void SegmentMerger::sort(std::span<Key> keys, std::span<const LineSegment> pieces) {
+    const auto is_key_before = [pieces](const Key& a, const Key& b) -> bool {
+        if (__builtin_expect(a.block != b.block, 0)) return a.block < b.block;
+        const bool is_one_line = a.line_key == b.line_key;
+        if (__builtin_expect(is_one_line & (a.from_x == b.from_x), 0)) return is_before(pieces[a.index], pieces[b.index]);
+        return (a.line_key < b.line_key) | (is_one_line & (a.from_x < b.from_x));  // without a branch: these are guesses
+    };
+    constexpr std::size_t kFew = 16;  // most blocks have so few
+    if (keys.size() > kFew) return std::sort(keys.begin(), keys.end(), is_key_before);
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        const Key key = keys[i];
+        std::size_t at = i;
+        for (; at > 0 && is_key_before(key, keys[at - 1]); --at) keys[at] = keys[at - 1];
+        keys[at] = key;
+    }
+}
+
+void SegmentMerger::merge(std::span<LineSegment> pieces, std::vector<LineSegment>& merged) {
+    std::array<std::uint32_t, kBuckets> next{};
+    std::array<std::uint64_t, kBuckets / 64> used{};  // a bit per bucket: few have any
+    for (LineSegment& s : pieces) {
         put_in_order(s);
-        ++begin[bucket_of(s.block) + 1];
+        const std::size_t bucket = bucket_of(s.block);
+        ++next[bucket];
+        used[bucket / 64] |= std::uint64_t{1} << bucket % 64;
     }
-    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    order_.resize(segments.size());
-    auto next = begin;
-    for (std::uint32_t i = 0; i < order_.size(); ++i) {
-        const LineSegment& s = segments[i];
-        order_[next[bucket_of(s.block)]++] = {s.line_key, s.block, i, s.from.x};
-    }
-    for (std::size_t i = 0; i < kBuckets; ++i) {
-        std::sort(order_.begin() + begin[i], order_.begin() + begin[i + 1], [&](const Key& a, const Key& b) {
-            if (a.line_key != b.line_key || a.block != b.block) {
-                return a.block != b.block ? a.block < b.block : a.line_key < b.line_key;
+    const auto for_used = [&used](const auto& visit) {
+        for (std::size_t word = 0; word < used.size(); ++word) {
+            for (std::uint64_t bits = used[word]; bits != 0; bits &= bits - 1) {
+                visit(64 * word + static_cast<std::size_t>(std::countr_zero(bits)));
             }
-            return a.from_x != b.from_x ? a.from_x < b.from_x : is_before(segments[a.index], segments[b.index]);
-        });
-    }
-    merged_.clear();
-    for (const Key& key : order_) {
-        const LineSegment& next_one = segments[key.index];
-        if (!merged_.empty() && continues(merged_.back(), next_one)) {
-            merged_.back().to = next_one.to;
-            merged_.back().nearness_to = next_one.nearness_to;
-            merged_.back().occludes = merged_.back().occludes || next_one.occludes;
-        } else {
-            merged_.push_back(next_one);
         }
+    };
+    std::uint32_t sum = 0;
+    for_used([&](std::size_t bucket) { sum += std::exchange(next[bucket], sum); });
+    order_.resize(pieces.size());
+    for (std::uint32_t i = 0; i < order_.size(); ++i) {
+        const LineSegment& s = pieces[i];
+        order_[next[bucket_of(s.block)]++] = {s.line_key, in_order(s.from.x), s.block, i};
     }
-    segments.swap(merged_);
+    std::size_t begin = 0;
+    for_used([&](std::size_t bucket) {
+        const std::span<Key> keys(order_.data() + begin, next[bucket] - begin);
+        begin = next[bucket];
+        sort(keys, pieces);
+        bool is_first = true;
+        for (const Key& key : keys) {
+            const LineSegment& piece = pieces[key.index];
+            if (!is_first && continues(merged.back(), piece)) {
+                LineSegment& last = merged.back();
+                last.to = piece.to;
+                last.nearness_to = piece.nearness_to;
+                last.occludes = last.occludes || piece.occludes;
+            } else {
+                merged.push_back(piece);
+            }
+            is_first = false;
+        }
+    });
 }
 
 std::span<const LineSegment> segments_in_block(std::span<const LineSegment> merged, std::uint32_t block) {

@@ -11,19 +11,19 @@ namespace burin {
 /// within 1/2048 pixel: strokes of long pieces are drawn faster than those of many short ones.
 class SegmentMerger {
   public:
-    /// Leaves the pieces block by block, and in each block line by line.
-    void merge(std::vector<LineSegment>& segments);
+    /// Puts them behind what `merged` has, block by block, and in each block line by line. Turns some of the pieces round.
+    void merge(std::span<LineSegment> pieces, std::vector<LineSegment>& merged);
 
   private:
     /// What pieces are sorted by, so that few of them are looked at, and none is moved.
     struct Key {
-        std::uint64_t line_key;
+        std::uint64_t line_key, from_x;  // in_order()
         std::uint32_t block, index;
-        double from_x;
     };
 
+    static void sort(std::span<Key> keys, std::span<const LineSegment> pieces);
+
     std::vector<Key> order_;
-    std::vector<LineSegment> merged_;
 };
 
 /// Those of one line in a block, or all in the block, among pieces that a SegmentMerger left.

@@ -22,9 +22,9 @@ TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
         s.front_on_left = from.x < to.x;
         return s;
     };
-    std::vector<LineSegment> segments{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
+    std::vector<LineSegment> segments, pieces{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
                                       piece({3, 1.5}, {4, 2}, 2), piece({4, 2}, {5, 2}, 2), piece({5, 2}, {6, 2}, 2, 1)};
-    SegmentMerger().merge(segments);
+    SegmentMerger().merge(pieces, segments);
     ASSERT_EQ(segments.size(), 4u);
     EXPECT_EQ(segments[0].from, glm::dvec2(0, 0));
     EXPECT_EQ(segments[0].to, glm::dvec2(3, 1.5));
@@ -37,17 +37,16 @@ TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
     for (int round = 0; round < 200; ++round) {
         const auto first_row = static_cast<std::uint32_t>(random.integer(0, 0xFFFF));
         const auto first_column = static_cast<std::uint32_t>(random.integer(0, 0xFFFF));
-        std::vector<LineSegment> segments(static_cast<std::size_t>(random.integer(0, 300)));
+        std::vector<LineSegment> segments, given(static_cast<std::size_t>(random.integer(0, 300)));
         const int blocks = random.integer(1, 40);
-        for (LineSegment& s : segments) {  // too far from each other to be merged
+        for (LineSegment& s : given) {  // too far from each other to be merged
             s.from = {random.real(0, 9000), random.real(0, 9000)};
             s.to = {random.real(0, 9000), random.real(0, 9000)};
             s.line_key = static_cast<std::uint64_t>(random.integer(0, 9));
             s.block = ((first_row + static_cast<std::uint32_t>(random.integer(0, blocks))) & 0xFFFFu) << 16 |
                       ((first_column + static_cast<std::uint32_t>(random.integer(0, blocks))) & 0xFFFFu);
         }
-        const std::vector<LineSegment> given = segments;
-        merger.merge(segments);
+        merger.merge(given, segments);
         ASSERT_EQ(segments.size(), given.size());
         for (const LineSegment& any : given) {
             const auto count = [&](const auto& is_it) { return std::count_if(given.begin(), given.end(), is_it); };

@@ -168,8 +168,7 @@ void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) 
     find_crossings();
     pieces_.clear();
     trace_cells(pieces_);
-    merger_.merge(pieces_);
-    segments.insert(segments.end(), pieces_.begin(), pieces_.end());
+    merger_.merge(pieces_, segments);
     for (const SamplePair& place : crossing_places_) crossing_between(place) = 0;
 }
 
