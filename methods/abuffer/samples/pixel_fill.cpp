@@ -1,6 +1,8 @@
 #include "methods/abuffer/samples/pixel_fill.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 
@@ -152,12 +154,21 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
 
 void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& film) {
     const int s = samples.samples_per_pixel;
-    std::uint8_t covered[kWidth + 8];
+    std::uint8_t covered[kWidth + 8] = {};
+    const auto end_of_run = [&](int begin) {  // eight at a time: where it ends is a guess
+        for (int at = begin; at < rect.width(); at += 8) {
+            std::uint64_t eight;
+            std::memcpy(&eight, covered + at, sizeof eight);
+            const std::uint64_t others = eight ^ covered[begin] * 0x0101010101010101u;
+            if (others != 0) return std::min(at + std::countr_zero(others) / 8, rect.width());
+        }
+        return rect.width();
+    };
     for (int y = rect.y0; y < rect.y1; ++y) {
         const std::size_t first = samples.index(rect.x0 * s, y * s);
         kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
         for (int begin = 0, end; begin < rect.width(); begin = end) {  // a few runs of equal counts
-            for (end = begin + 1; end < rect.width() && covered[end] == covered[begin];) ++end;
+            end = end_of_run(begin);
             film.put_color(rect.x0 + begin, rect.x0 + end, y, paper_[covered[begin]]);
         }
     }
