@@ -300,7 +300,7 @@ void Film::draw_over(int x, int y, const LinePixel& lines) {
         std::uint16_t* const beauty = planes.beauty[c];
         if (beauty != nullptr) beauty[i] = to_half(float_from_half(beauty[i]) * (1.0f - lines.color.a) + color);
     }
-    for (std::size_t c = 0; c < kLineClassCount; ++c) {
+    for (std::size_t c = 0; c < kLineClassCount && layers_.coverage; ++c) {
         if (planes.coverage[c] != nullptr) planes.coverage[c][i] = to_half(lines.coverage[c]);
     }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 #include <span>
 
@@ -27,6 +28,8 @@ class StrokePass::Bins {
         std::vector<Place> places;
         for (const auto& list : segments) {
             for (const LineSegment& s : list) {
+                constexpr std::ptrdiff_t kAhead = 16;
+                if (list.data() + list.size() - &s > kAhead) __builtin_prefetch(&s + kAhead);
                 const std::optional<Place> place = place_of(s, reach_px);
                 if (!place) continue;
                 places.push_back(*place);
@@ -117,12 +120,14 @@ class StrokePass::Printer {
         });
         for (const auto [column, row] : touched_) {
             LinePixel pixel;
+            LineClassSet present;
             strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
+                present |= c;
                 const int fresh = kernels_.count_bits(mask.rows.data(), taken.rows.data());
                 pixel.coverage[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(fresh) /
                                                           (StrokeMask::kRows * StrokeMask::kColumns);
             });
-            color(pixel);
+            color(pixel, present);
             film.draw_over(rect.x0 + column, rect.y0 + row, pixel);
         }
     }
@@ -142,7 +147,7 @@ class StrokePass::Printer {
             const int x = static_cast<int>(i) % rect.width(), y = static_cast<int>(i) / rect.width();
             LinePixel pixel;
             pixel.coverage = filtered_[i];
-            color(pixel);
+            color(pixel, LineClassSet::all());
             film.draw_over(rect.x0 + x, rect.y0 + y, pixel);
         }
     }
@@ -160,8 +165,10 @@ class StrokePass::Printer {
         }
     }
 
-    void color(LinePixel& pixel) const {
-        for (std::size_t c = 0; c < pixel.coverage.size(); ++c) {
+    /// `present`: no other classes have any.
+    void color(LinePixel& pixel, LineClassSet present) const {
+        for (unsigned bits = present.bits; bits != 0; bits &= bits - 1) {
+            const auto c = static_cast<std::size_t>(std::countr_zero(bits));
             if (pixel.coverage[c] == 0) continue;
             pixel.color += glm::vec4(style_.color_of(static_cast<LineClass>(c)), 1.0f) * pixel.coverage[c];
         }
