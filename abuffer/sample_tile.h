@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -36,8 +38,19 @@ struct SampleTile {
         samples_per_pixel = per_pixel;
         stride = (columns + 2 * kPadding - 1) / kPadding * kPadding;
         const auto size = static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows + kPadding);
-        nearness.assign(size, -std::numeric_limits<float>::infinity());
-        ids.assign(size, kBackground);
+        fill(nearness, size, -std::numeric_limits<float>::infinity());
+        fill(ids, size, kBackground);
+    }
+    /// Block after block as a copy of the first one: memcpy() has wider vectors than what is compiled here.
+    template <typename List>
+    static void fill(List& list, std::size_t size, const typename List::value_type& value) {
+        constexpr std::size_t kBlock = 1024;
+        list.resize(size);
+        const std::size_t first = std::min(kBlock, size);
+        std::fill_n(list.data(), first, value);
+        for (std::size_t at = first; at < size; at += kBlock) {
+            std::memcpy(list.data() + at, list.data(), std::min(kBlock, size - at) * sizeof value);
+        }
     }
     std::size_t index(int column, int row) const {  // on the image's grid
         return static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(stride) +
