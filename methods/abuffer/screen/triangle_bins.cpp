@@ -35,6 +35,12 @@ Box box_of(const Corners& corners, int count) {
     return box;
 }
 
+/// In order, which memory is faster at than at the order of lists.
+void prefetch_to_write(const TileTriangle* first, std::size_t count) {
+    const char* const at = reinterpret_cast<const char*>(first);
+    for (std::size_t byte = 0; byte < count * sizeof(TileTriangle); byte += 64) __builtin_prefetch(at + byte, 1);
+}
+
 /// One chunk's triangles with the tiles they touch.
 struct Records {
     std::unique_ptr<TileTriangle[]> small;  // sorted by tile
@@ -112,9 +118,10 @@ class Binner {
         const std::size_t run_count = kernels_.find_runs(found.keys, found.count, scratch.starts.data());
         for (std::size_t i = 0; i < run_count; ++i) add(found.keys[starts[i]], starts[i + 1] - starts[i]);
         for (const std::uint32_t key : scratch.more_keys) add(key, 1);
-        records.small = std::make_unique_for_overwrite<TileTriangle[]>(found.count + scratch.more_keys.size() +
-                                                                      kRoomBehindRun * scratch.used.size());
+        const std::size_t room = found.count + scratch.more_keys.size() + kRoomBehindRun * scratch.used.size();
+        records.small = std::make_unique_for_overwrite<TileTriangle[]>(room);
         TileTriangle* const small = records.small.get();
+        prefetch_to_write(small, room);
         std::uint32_t begin = 0;
         for (const std::uint32_t key : scratch.used) {
             const auto kind = static_cast<TriangleKind>(key % kTriangleKinds);
