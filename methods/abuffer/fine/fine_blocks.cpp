@@ -143,6 +143,7 @@ void FineBlocks::note_least(glm::ivec2 low, glm::ivec2 high, float lowest) {
 }
 
 void FineBlocks::add_small(const TriangleRun& run) {
+    if (run.is_behind(least_.data(), run.highest)) return;
     if (nearer_.size() < run.count) nearer_.resize(run.count);
     constexpr float kNoLevel = 0;
     const std::size_t count =

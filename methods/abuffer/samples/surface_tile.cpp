@@ -69,8 +69,12 @@ void SurfaceTile::draw_runs(bool is_worth_a_look) {
     constexpr std::size_t kWorthALook = 256;  // triangles
     std::size_t since_look = is_worth_a_look ? kWorthALook : 0;
     bool has_look = false;
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-        if (i + 1 < runs_.size()) prefetch(*runs_[i + 1].run);
+    const auto is_hidden = [&](const TriangleRun& run) {
+        return has_look && run.is_behind(farthest_.data(), run.highest + (run.highest * level_per_nearness_ + level_));
+    };
+    for (std::size_t i = 0, next = 0; i < runs_.size(); i = next) {
+        for (++next; next < runs_.size() && is_hidden(*runs_[next].run);) ++next;
+        if (next < runs_.size()) prefetch(*runs_[next].run);
         const TriangleRun& run = *runs_[i].run;
         if (since_look >= kWorthALook) {
             const ScreenMesh& mesh = screen_.mesh(run.instance);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 #include "abuffer/polygon_sides.h"
@@ -48,6 +50,45 @@ struct Records {
     std::vector<TileLists<std::uint32_t>::Record> large, thin_large;  // numbers into polygons
     std::vector<LargePolygon> polygons;
 };
+
+constexpr float kNotKnown = std::numeric_limits<float>::infinity();  // nearer than anything
+
+/// Finds what is said of all triangles of a run.
+void sum_up(TriangleRun& run) {
+    typedef float Floats __attribute__((vector_size(16)));
+    typedef std::uint32_t Words __attribute__((vector_size(16)));
+    typedef std::int16_t Halves __attribute__((vector_size(16)));
+    const auto min = [](const Halves& a, const Halves& b) { return a < b ? a : b; };
+    const auto max = [](const Halves& a, const Halves& b) { return a > b ? a : b; };
+    // The first columns and rows of four triangles in the low halves of words, the last ones in the high ones.
+    constexpr std::uint32_t kColumns = 0x1F001F, kRows = kColumns << 5;
+    const Halves least_yet = Halves{} + std::int16_t{kRows & 0xFFFF};
+    Halves columns[2] = {least_yet, {}}, rows[2] = {least_yet, {}};
+    Floats highest[3];  // in places of three vectors
+    for (Floats& h : highest) h = Floats{} - std::numeric_limits<float>::infinity();
+    const auto add = [&](const TileTriangle* four) {
+        Floats v[3];
+        for (int k = 0; k < 3; ++k) {  // one by one: all at once would go through memory
+            std::memcpy(&v[k], reinterpret_cast<const char*>(four) + sizeof(Floats) * static_cast<std::size_t>(k), sizeof(Floats));
+            highest[k] = v[k] > highest[k] ? v[k] : highest[k];
+        }
+        const Floats first = __builtin_shufflevector(v[0], v[1], 2, 2, 5, 5), second = __builtin_shufflevector(first, v[2], 0, 2, 4, 7);
+        const Words blocks = Words(second);
+        const Halves c = Halves(blocks & kColumns), r = Halves(blocks & kRows);
+        columns[0] = min(columns[0], c);
+        columns[1] = max(columns[1], c);
+        rows[0] = min(rows[0], r);
+        rows[1] = max(rows[1], r);
+    };
+    for (std::uint32_t i = 4; i < run.count; i += 4) add(run.triangles + i - 4);
+    TileTriangle last[4];  // some of them once more
+    for (std::uint32_t k = 0; k < 4; ++k) last[k] = run.triangles[run.count - 1 - std::min(k, run.count - 1)];
+    add(last);
+    const auto least = [](const Halves& v) { return static_cast<std::uint32_t>(std::min({v[0], v[2], v[4], v[6]})); };
+    const auto most = [](const Halves& v) { return static_cast<std::uint32_t>(std::max({v[1], v[3], v[5], v[7]})); };
+    run.highest = std::max({highest[0][1], highest[1][0], highest[1][3], highest[2][2]});
+    run.blocks = TileTriangle::pack(least(columns[0]), most(columns[1]), least(rows[0]) >> 5, most(rows[1]) >> 5);
+}
 
 /// Buffers of one thread.
 struct Scratch {
@@ -126,7 +167,7 @@ class Binner {
         for (const std::uint32_t key : scratch.used) {
             const auto kind = static_cast<TriangleKind>(key % kTriangleKinds);
             (kind == thin ? records.thin_runs : records.runs)
-                .push_back({key / kTriangleKinds, {instance, count[key], kind, 0, small + begin}});
+                .push_back({key / kTriangleKinds, {instance, count[key], kind, 0, small + begin, kNotKnown, 0}});
             begin += std::exchange(count[key], begin) + static_cast<std::uint32_t>(kRoomBehindRun);
         }
         kernels_.put_runs(found, starts, run_count, count.data(), small);
@@ -135,7 +176,11 @@ class Binner {
         }
         for (const std::uint32_t key : scratch.used) count[key] = 0;
         for (auto* list : {&records.runs, &records.thin_runs}) {
-            for (auto& [tile, run] : *list) run.nearness = run.triangles[run.count / 2].highest;
+            for (auto& [tile, run] : *list) {
+                run.nearness = run.triangles[run.count / 2].highest;
+                // Of closed surfaces these face away, as a rule; of the others a whole run is seldom hidden.
+                if (run.kind == wound_clockwise) sum_up(run);
+            }
         }
     }
 
@@ -262,6 +307,16 @@ class Binner {
 };
 
 }  // namespace
+
+bool TriangleRun::is_behind(const float* least, float high) const {
+    const TileTriangle all{0, high, blocks};
+    for (std::int32_t row = all.first_row(); row <= all.last_row(); ++row) {
+        for (std::int32_t column = all.first_column(); column <= all.last_column(); ++column) {
+            if (!(high < least[row * BlockTable::kPitch + column])) return false;
+        }
+    }
+    return true;
+}
 
 TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel,
                            const TileKernels& kernels, int threads, int tile_samples, bool keeps_thin)

@@ -25,6 +25,12 @@ struct TriangleRun {
     TriangleKind kind;
     float nearness;  // of one of them
     const TileTriangle* triangles;
+    float highest;         // of all of them
+    std::uint32_t blocks;  // around them all, see TileTriangle
+
+    /// Whether all of them are less near, at most `high`, than the least numbers of all blocks that they may touch: those of
+    /// a BlockTable.
+    bool is_behind(const float* least, float high) const;
 };
 
 /// What of the instances that are shown touches each tile of a picture.
