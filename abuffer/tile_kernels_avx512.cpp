@@ -1,7 +1,7 @@
 #include "abuffer/mesh_walks.h"
 #include "abuffer/tile_kernels.h"
 
-// As tile_kernels_avx2.cpp. Vectors stay eight wide; what helps are comparisons into mask registers.
+// As tile_kernels_avx2.cpp. Most vectors stay eight wide; what helps are comparisons into mask registers.
 #ifdef __AVX512VL__
 
 #include "abuffer/tile_kernels.inc"

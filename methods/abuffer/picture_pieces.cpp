@@ -20,7 +20,7 @@ namespace {
 /// So many are shown at a time to take a look at them, even if one instance has fewer.
 constexpr std::size_t kGroupVertices = 1 << 14;
 /// Buffers of one thread, and all that is small.
-constexpr std::uint64_t kBytesPerThread = 3 << 20, kBytesForTheRest = 4 << 20;
+constexpr std::uint64_t kBytesPerThread = 4 << 20, kBytesForTheRest = 4 << 20;
 
 std::uint64_t vertex_bytes(const Frame& frame, std::uint32_t instance) {
     return frame.surfaces.instances[instance].mesh->positions.size() * sizeof(ScreenVertex);

@@ -14,7 +14,8 @@ namespace {
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
 // Bytes. Lists that grow may have twice the room that they need.
 constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
-constexpr std::uint64_t kPerRun = 90;         // a chunk's list in a tile, as found and as sorted
+// A chunk's list in a tile, as found and as sorted, and the room behind it.
+constexpr std::uint64_t kPerRun = 2 * sizeof(TileLists<TriangleRun>::Record) + sizeof(TriangleRun) + kRoomBehindRun * sizeof(TileTriangle);
 constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerEdge = 56;        // that may be a line, in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
