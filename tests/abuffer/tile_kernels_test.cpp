@@ -266,6 +266,23 @@ TEST(TileKernels, CullingLosesNoSample) {
     }
 }
 
+// What is level with what is noted in the order of a tile's list, so pictures hang on it.
+TEST(TileKernels, CullingListsInOneOrder) {
+    constexpr int kShift = 5, kTiles = 4, kSize = kTiles << kShift, kPerPixel = 2;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        Triangles triangles(700 + seed, kPerPixel, 0, 0);
+        const TileGrid grid{0, 0, kSize, kSize, kTiles, 8 - std::countr_zero(static_cast<unsigned>(kPerPixel)), kShift, seed % 2 == 0};
+        const Culled first(*all_kernels().front(), triangles, grid);
+        for (const TileKernels* kernels : all_kernels()) {
+            const Culled culled(*kernels, triangles, grid);
+            EXPECT_EQ(culled.keys, first.keys) << kernels->name << " seed " << seed;
+            EXPECT_EQ(culled.others, first.others) << kernels->name << " seed " << seed;
+            const auto is_same = [](const TileTriangle& a, const TileTriangle& b) { return a.triangle == b.triangle && a.blocks == b.blocks; };
+            EXPECT_TRUE(std::ranges::equal(culled.kept, first.kept, is_same)) << kernels->name << " seed " << seed;
+        }
+    }
+}
+
 /// Each tile on its own lists what the grid as a whole does for it.
 TEST(TileKernels, TrianglesOfSeveralTilesAreListedForEach) {
     constexpr int kShift = 5, kTiles = 4, kSize = 1 << kShift;
