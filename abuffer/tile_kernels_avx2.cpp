@@ -1,3 +1,4 @@
+#include "abuffer/level_reach.h"
 #include "abuffer/mesh_walks.h"
 #include "abuffer/tile_kernels.h"
 

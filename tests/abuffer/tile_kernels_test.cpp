@@ -207,6 +207,43 @@ TEST(TileKernels, PolygonsAreDrawnRowByRow) {
     EXPECT_GT(drawn, 50000);
 }
 
+// What is level with what is seen is not plain there, in whichever order surfaces come.
+TEST(TileKernels, WhatIsLevelHangsOnNoOrder) {
+    constexpr int kColumns = 8;
+    int plain = 0, level = 0;
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        Random random(seed);
+        std::vector<SpanPlane> planes(static_cast<std::size_t>(random.integer(2, 4)));
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            planes[i].low = planes[i].high = planes[i].nearness = static_cast<float>(1 + random.real(0, 0.05));
+            planes[i].id = static_cast<std::uint32_t>(2 * (10 + i) + 1);
+        }
+        std::sort(planes.begin(), planes.end(), [](const SpanPlane& a, const SpanPlane& b) { return a.id < b.id; });
+        std::vector<std::uint32_t> first;
+        do {
+            for (const TileKernels* kernels : all_kernels()) {
+                SampleTile tile;
+                tile.reset(0, 0, kColumns, 1, 2);
+                SampleView view = view_of(tile);
+                std::vector<Contest> contests(64);
+                std::uint32_t contest_count = 0;
+                view.level = 0.004f;
+                view.level_per_nearness = seed % 2 == 0 ? 0.02f : 0.0f;
+                view.contests = contests.data();
+                view.contest_count = &contest_count;
+                view.contest_capacity = static_cast<std::uint32_t>(contests.size());
+                for (const SpanPlane& plane : planes) kernels->draw_span(view, 0, 0, kColumns, plane);
+                const std::vector<std::uint32_t> ids(tile.ids.begin(), tile.ids.begin() + kColumns);
+                if (first.empty()) first = ids;
+                ASSERT_EQ(ids, first) << kernels->name << " seed " << seed;
+            }
+        } while (std::next_permutation(planes.begin(), planes.end(), [](const SpanPlane& a, const SpanPlane& b) { return a.id < b.id; }));
+        ((first[0] & 1) != 0 ? plain : level) += 1;
+    }
+    EXPECT_GT(plain, 100);
+    EXPECT_GT(level, 100);
+}
+
 /// What cull() finds of all triangles: once for each tile, and the others.
 struct Culled {
     Culled(const TileKernels& kernels, Triangles& triangles, const TileGrid& grid)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "abuffer/level_reach.h"
 #include "abuffer/scan_convert.h"
 
 namespace burin {
@@ -12,7 +13,7 @@ namespace {
 
 /// The nearest that may be level with something of a given nearness.
 float highest_level_with(float nearness, const SampleView& tile) {
-    return nearness + (nearness * tile.level_per_nearness + tile.level);
+    return nearness + (nearness * tile.level_per_nearness + tile.level) * level_reach(tile.level_per_nearness);
 }
 
 /// The lists of a tile's runs lie far from each other.
@@ -37,6 +38,8 @@ SurfaceTile::SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const
     const double per_nearness = 2 / p.focal_px;
     level_ = static_cast<float>(per_nearness * (p.orthographic ? 1.0 : frame.surfaces.farthest_nearness));
     level_per_nearness_ = p.orthographic ? 0.0f : static_cast<float>(per_nearness);
+    hidden_level_ = level_ * level_reach(level_per_nearness_);
+    hidden_level_per_nearness_ = level_per_nearness_ * level_reach(level_per_nearness_);
 }
 
 SampleView SurfaceTile::view() {
@@ -70,7 +73,7 @@ void SurfaceTile::draw_runs(bool is_worth_a_look) {
     std::size_t since_look = is_worth_a_look ? kWorthALook : 0;
     bool has_look = false;
     const auto is_hidden = [&](const TriangleRun& run) {
-        return has_look && run.is_behind(farthest_.data(), run.highest + (run.highest * level_per_nearness_ + level_));
+        return has_look && run.is_behind(farthest_.data(), run.highest + (run.highest * hidden_level_per_nearness_ + hidden_level_));
     };
     for (std::size_t i = 0, next = 0; i < runs_.size(); i = next) {
         for (++next; next < runs_.size() && is_hidden(*runs_[next].run);) ++next;
@@ -99,7 +102,7 @@ void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
     std::uint32_t* const found = seen_.data() + seen_count_;
     std::size_t count = run.count;
     if (has_look) {
-        count = kernels_.find_nearer(farthest_.data(), level_, level_per_nearness_, run.triangles, run.count, found);
+        count = kernels_.find_nearer(farthest_.data(), hidden_level_, hidden_level_per_nearness_, run.triangles, run.count, found);
     } else {
         for (std::size_t i = 0; i < count; ++i) found[i] = run.triangles[i].triangle;
     }

@@ -46,6 +46,7 @@ class SurfaceTile {
     const TileKernels& kernels_;
     int per_pixel_;
     float level_, level_per_nearness_;  // see SampleView
+    float hidden_level_, hidden_level_per_nearness_;  // the same with level_reach(): what is farther behind is level with nothing
     PixelRect rect_;
     SampleTile samples_;
     Contests contests_;
