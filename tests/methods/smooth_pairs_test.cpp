@@ -10,6 +10,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
+#include "tests/support/rough_sphere.h"
 
 namespace burin {
 namespace {
@@ -71,25 +72,13 @@ Counts compare(const Scene& scene, glm::dvec3 eye, int samples) {
     return counts;
 }
 
-/// A rough sphere of triangles about as small as samples, so that walks take several steps; `flat`: squeezed, so that
-/// many of them are deep.
-PolygonSoup rough_sphere(std::uint64_t seed, int segments, double roughness, double flat) {
-    Random random(seed);
-    PolygonSoup soup = make_sphere(0.8, segments, segments / 2);
-    for (glm::dvec3& p : soup.positions) {
-        p *= 1 + random.real(-roughness, roughness) / segments;
-        p.z *= flat;
-    }
-    return soup;
-}
-
 TEST(SmoothPairs, ManyAtOnceAreAsEachAlone) {
     Counts sum;
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         std::vector<PolygonSoup> objects;
-        objects.push_back(rough_sphere(seed, random.integer(40, 260), random.real(0, 4), random.real(0.2, 8)));
+        objects.push_back(rough_sphere(random, random.integer(40, 260), random.real(0, 4), random.real(0.2, 8)));
         objects.push_back(make_torus(0.9, 0.3, random.integer(5, 90), random.integer(5, 60)));
         sum += compare(scene_of(std::move(objects)), random.direction() * random.real(2.0, 9.0), 1 << random.integer(1, 3));
     }
@@ -103,7 +92,7 @@ TEST(SmoothPairs, WallsAndSharpEdges) {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        std::vector<PolygonSoup> objects{make_cylinder(0.6, 0.6, 6, random.integer(40, 2000)), rough_sphere(seed, 300, 20, 30)};
+        std::vector<PolygonSoup> objects{make_cylinder(0.6, 0.6, 6, random.integer(40, 2000)), rough_sphere(random, 300, 20, 30)};
         const glm::dvec3 eye(random.real(-0.01, 0.01), 9, random.real(-0.01, 0.01));
         sum += compare(scene_of(std::move(objects)), eye, 4);
     }

@@ -12,6 +12,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
+#include "tests/support/rough_sphere.h"
 
 namespace burin {
 namespace {
@@ -111,12 +112,6 @@ Counts compare(const Scene& scene, const Camera& camera, int samples) {
         }
     }
     return counts;
-}
-
-PolygonSoup rough_sphere(Random& random, int segments, double roughness) {
-    PolygonSoup soup = make_sphere(0.8, segments, segments / 2);
-    for (glm::dvec3& p : soup.positions) p *= 1 + random.real(-roughness, roughness) / segments;
-    return soup;
 }
 
 /// Contours, creases, walls and triangles as small as samples, of several meshes.

@@ -209,12 +209,12 @@ class LayerEdgeFinder::Rules {
         line.edge_begin = begin;
         line.edge_end = end;
         if (begin > 0) {
-            line.from = glm::mix(whole.from, whole.to, begin);
+            line.from = whole.at(begin);
             line.nearness_from = whole.nearness_at(begin);
             line.nodes[0] = LayerLine::kNoNode;
         }
         if (end < 1) {
-            line.to = glm::mix(whole.from, whole.to, end);
+            line.to = whole.at(end);
             line.nearness_to = whole.nearness_at(end);
             line.nodes[1] = LayerLine::kNoNode;
         }
