@@ -112,7 +112,7 @@ struct SurfaceSet {
     }
     std::uint32_t polygon_id(SurfaceId s) const {
         return s.is_background() ? 0
-                                 : instance_of(s).first_polygon_id + mesh_of(s).polygon_of(s.triangle);
+                                 : instance_of(s).first_polygon_id + mesh_of(s).input_place_of(s.triangle);
     }
     std::uint32_t material_id(SurfaceId s) const {
         return s.is_background() ? 0 : instance_of(s).material_ids[mesh_of(s).material_of(s.triangle)];

@@ -12,6 +12,7 @@
 #include "mesh/duplicate_polygons.h"
 #include "mesh/edge_links.h"
 #include "mesh/object_collector.h"
+#include "mesh/spatial_order.h"
 #include "mesh/triangulate.h"
 #include "mesh/vertex_welder.h"
 
@@ -152,7 +153,10 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh) {
     mesh.repairs.duplicate_polygons = duplicates.size();
     const bool is_subdivided =
         options.subdivision_levels > 0 && mesh.polygon_count > duplicates.size();
-    if (!duplicates.empty()) polygons = without(polygons, duplicates);
+    if (!duplicates.empty()) {
+        polygons = without(polygons, duplicates);
+        mesh.input_order.drop(duplicates);
+    }
     if (is_subdivided) {
         polygons = subdivide(polygons, options.scheme, options.subdivision_levels, mesh.name);
     }
@@ -204,7 +208,9 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         Mesh mesh = empty_mesh(0);
         // What is done with makes room: fresh memory costs more than the work on it.
         release(soup.positions);
-        collect_triangles(soup, positions, welded, mesh);
+        const bool is_large = soup.polygon_count() >= kWorthSpatialOrder;
+        // Subdivision numbers polygons anew.
+        collect_triangles(soup, positions, welded, is_large && options.subdivision_levels == 0, mesh);
         release(soup.corners);
         release(positions);
         release(welded);

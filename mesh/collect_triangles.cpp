@@ -1,5 +1,6 @@
 #include "mesh/collect_triangles.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -7,12 +8,22 @@
 #include "base/huge_pages.h"
 #include "base/interrupt.h"
 #include "base/unfilled_vector.h"
+#include "mesh/spatial_order.h"
 
 namespace burin {
 namespace {
 
+/// Whether no vertices fall together.
+bool are_apart(const std::vector<std::uint32_t>& welded) {
+    std::uint32_t differing = 0;
+    for (std::uint32_t v = 0; v < welded.size(); ++v) differing |= welded[v] ^ v;
+    return differing == 0;
+}
+
 /// How many of the vertices that triangles use fall together with others of these.
-std::uint64_t count_welded(std::vector<std::uint8_t> is_corner, const std::vector<std::uint32_t>& welded) {
+std::uint64_t count_welded(const PolygonSoup& soup, const std::vector<std::uint32_t>& welded) {
+    std::vector<std::uint8_t> is_corner(welded.size(), 0);
+    for (const std::uint32_t v : soup.corners) is_corner[v] = 1;
     std::uint64_t count = 0;
     for (std::uint32_t v = 0; v < welded.size(); ++v) {
         const std::uint32_t first = welded[v];
@@ -38,14 +49,13 @@ bool has_only_triangles(const PolygonSoup& soup) {
            soup.marked_edges.empty();
 }
 
-void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
-                       const std::vector<std::uint32_t>& welded, Mesh& mesh) {
+void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& welded,
+                       bool in_spatial_order, Mesh& mesh) {
     constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
     const std::size_t count = soup.polygon_count();
     // Numbers in the object, of the first ones of vertices that fall together; and the other way round.
     std::vector<std::uint32_t> local = large_vector(positions.size(), kUnused);
     UnfilledVector<std::uint32_t> used(positions.size() + 1);
-    std::vector<std::uint8_t> is_corner(positions.size(), 0);
     reserve_large(mesh.triangles, count);
     std::uint32_t used_count = 0;
     // Half of the triangles meet a new vertex, and no guess at which is right: each is noted as if it were new.
@@ -57,23 +67,44 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
         used_count += is_new;
         return number;
     };
+    const std::uint32_t* const corners = soup.corners.data();
     const glm::vec3* const places = positions.data();
-    std::uint8_t* const is_met = is_corner.data();
-    for (std::size_t i = 0; i < count; ++i) {
-        if ((i & 0xFFFF) == 0) throw_if_interrupted();
-        const std::uint32_t a = soup.corners[3 * i], b = soup.corners[3 * i + 1], c = soup.corners[3 * i + 2];
-        is_met[a] = is_met[b] = is_met[c] = 1;
+    const auto take = [&](std::size_t i) {
+        const std::uint32_t a = corners[3 * i], b = corners[3 * i + 1], c = corners[3 * i + 2];
         // Vertices that are one make no area, and those that are not have different places.
-        if (!has_area(places[a], places[b], places[c])) continue;
+        if (!has_area(places[a], places[b], places[c])) return false;
         const std::uint32_t na = number_of(a), nb = number_of(b), nc = number_of(c);  // in this order
         mesh.triangles.push_back({na, nb, nc});
+        return true;
+    };
+    if (in_spatial_order) {
+        UnfilledVector<std::uint32_t> order = spatial_order(soup.corners, positions);
+        std::vector<std::uint32_t> dropped;
+        for (std::size_t k = 0; k < count; ++k) {
+            if ((k & 0xFFFF) == 0) throw_if_interrupted();
+            const auto corners_ahead = [&](std::size_t ahead) { return corners + 3 * std::size_t{order[std::min(k + ahead, count - 1)]}; };
+            __builtin_prefetch(corners_ahead(24));
+            const std::uint32_t* const soon = corners_ahead(8);
+            for (int corner = 0; corner < 3; ++corner) __builtin_prefetch(places + soon[corner]);
+            const std::uint32_t i = order[k];
+            order[mesh.triangles.size()] = i;
+            if (!take(i)) dropped.push_back(i);
+        }
+        order.resize(mesh.triangles.size());
+        std::sort(dropped.begin(), dropped.end());
+        mesh.input_order = InputOrder(std::move(order), std::move(dropped));
+    } else {
+        for (std::size_t i = 0; i < count; ++i) {
+            if ((i & 0xFFFF) == 0) throw_if_interrupted();
+            take(i);
+        }
     }
+    if (!are_apart(welded)) mesh.repairs.welded_vertices = count_welded(soup, welded);
     reserve_large(mesh.positions, used_count);
     for (std::uint32_t i = 0; i < used_count; ++i) mesh.positions.push_back(places[used[i]]);
     mesh.polygon_count = static_cast<std::uint32_t>(mesh.triangles.size());
     mesh.repairs.input_polygons = mesh.repairs.input_triangles = count;
     mesh.repairs.degenerate_polygons = count - mesh.triangles.size();
-    mesh.repairs.welded_vertices = count_welded(std::move(is_corner), welded);
 }
 
 }  // namespace burin

@@ -208,11 +208,19 @@ std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> t
 
 BorderIndex index_borders(const Mesh& mesh) {
     std::vector<BorderIndex::Segment> segments;
-    for (HalfEdge h = 0; h < mesh.next_on_edge.size(); ++h) {
-        if (mesh.next_on_edge[h] != h) continue;
-        const auto& t = mesh.triangles[h / 3];
-        segments.push_back(
-            {h, mesh.polygon_of(h / 3), mesh.positions[t[h % 3]], mesh.positions[t[(h + 1) % 3]]});
+    const std::size_t count = mesh.next_on_edge.size();
+    const HalfEdge* const next = mesh.next_on_edge.data();
+    constexpr std::size_t kBlock = 64;  // most have no border
+    for (std::size_t first = 0; first < count; first += kBlock) {
+        const std::size_t end = std::min(count, first + kBlock);
+        std::uint32_t borders = 0;
+        for (std::size_t h = first; h < end; ++h) borders += next[h] == static_cast<HalfEdge>(h) ? 1u : 0u;
+        if (borders == 0) continue;
+        for (auto h = static_cast<HalfEdge>(first); h < end; ++h) {
+            if (next[h] != h) continue;
+            const auto& t = mesh.triangles[h / 3];
+            segments.push_back({h, mesh.polygon_of(h / 3), mesh.positions[t[h % 3]], mesh.positions[t[(h + 1) % 3]]});
+        }
     }
     return BorderIndex(std::move(segments));
 }

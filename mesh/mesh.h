@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/border_index.h"
+#include "mesh/input_order.h"
 
 namespace burin {
 
@@ -38,6 +39,7 @@ struct Mesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< vertex numbers
     std::vector<std::uint32_t> triangle_polygon;  ///< empty: triangle i is polygon i
     std::uint32_t polygon_count = 0;
+    InputOrder input_order;  ///< of polygons; large meshes are put in spatial order
     /// Area vectors (Newell) of the polygons; empty if and only if all polygons are triangles.
     std::vector<glm::vec3> polygon_normals;
     std::vector<std::uint32_t> polygon_material;  ///< empty: all have material 0
@@ -55,6 +57,8 @@ struct Mesh {
     std::uint32_t polygon_of(std::uint32_t triangle) const {
         return triangle_polygon.empty() ? triangle : triangle_polygon[triangle];
     }
+    /// The place of its polygon among those of the input, which users know.
+    std::uint32_t input_place_of(std::uint32_t triangle) const { return input_order.place_of(polygon_of(triangle)); }
     std::uint32_t material_of(std::uint32_t triangle) const {
         return polygon_material.empty() ? 0 : polygon_material[polygon_of(triangle)];
     }

@@ -177,6 +177,7 @@ Mesh with_polygons_of(const Mesh& mesh) {
     result.name = mesh.name;
     result.origin = mesh.origin;
     result.polygon_count = mesh.polygon_count;
+    result.input_order = mesh.input_order;
     result.polygon_material = mesh.polygon_material;
     result.repairs = mesh.repairs;
     result.polygon_normals = mesh.polygon_normals;

@@ -65,7 +65,7 @@ class RayGeometry {
     }
     std::uint32_t object_id(Facet f) const { return f.object + 1; }
     std::uint32_t polygon_id(Facet f) const {
-        return objects_[f.object].first_polygon_id + mesh(f.object).polygon_of(f.triangle);
+        return objects_[f.object].first_polygon_id + mesh(f.object).input_place_of(f.triangle);
     }
     /// Number in Scene::materials.
     std::uint32_t material(Facet f) const {
