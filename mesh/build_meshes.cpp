@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
@@ -190,6 +193,20 @@ Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
     return mesh;
 }
 
+/// Whether the order of an object's polygons shows in nothing but their numbers: where some coincide, the first one is seen.
+bool may_be_put_in_order(const PolygonSoup& soup, std::span<const std::uint32_t> polygons) {
+    if (polygons.size() < kWorthSpatialOrder || !soup.marked_edges.empty()) return false;
+    return std::all_of(polygons.begin(), polygons.end(), [&](std::uint32_t i) { return soup.material_of(i) == soup.material_of(polygons[0]); });
+}
+
+/// Puts an object's polygons in spatial order. Returns where they were.
+InputOrder put_in_order(const PolygonSoup& soup, const SpatialOrder& spatial, std::span<std::uint32_t> polygons) {
+    UnfilledVector<std::uint32_t> order = spatial.of_polygons(soup, polygons);
+    const std::vector<std::uint32_t> given(polygons.begin(), polygons.end());
+    for (std::size_t i = 0; i < given.size(); ++i) polygons[i] = given[order[i]];
+    return InputOrder(std::move(order), {});
+}
+
 }  // namespace
 
 std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
@@ -204,27 +221,41 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         mesh.origin = origin;
         return mesh;
     };
+    const bool is_subdivided = options.subdivision_levels > 0;  // which numbers polygons anew
     if (has_only_triangles(soup)) {
         Mesh mesh = empty_mesh(0);
         // What is done with makes room: fresh memory costs more than the work on it.
         release(soup.positions);
         const bool is_large = soup.polygon_count() >= kWorthSpatialOrder;
-        // Subdivision numbers polygons anew.
-        collect_triangles(soup, positions, welded, is_large && options.subdivision_levels == 0, mesh);
+        collect_triangles(soup, positions, welded, is_large && !is_subdivided, mesh);
         release(soup.corners);
         release(positions);
         release(welded);
         meshes.push_back(finish_triangles(options, std::move(mesh)));
         return meshes;
     }
-    const PolygonsByObject groups = group_by_object(soup);
+    PolygonsByObject groups = group_by_object(soup);
+    if (groups.order.empty() && soup.polygon_count() >= kWorthSpatialOrder && !is_subdivided) {
+        groups.order.resize(soup.polygon_count());
+        std::iota(groups.order.begin(), groups.order.end(), 0u);
+    }
+    std::optional<SpatialOrder> spatial;
     ObjectCollector collector(soup, positions, welded);
     std::size_t begin = 0;
     for (std::size_t object = 0; object < groups.end.size(); ++object) {
         const std::size_t end = groups.end[object];
         if (begin == end) continue;
         Mesh mesh = empty_mesh(object);
-        PolygonMesh polygons = collector.collect(groups, begin, end, mesh.repairs);
+        if (!is_subdivided && !groups.order.empty()) {
+            const std::span<std::uint32_t> own(groups.order.data() + begin, end - begin);
+            if (may_be_put_in_order(soup, own)) {
+                if (!spatial) spatial.emplace(positions);
+                mesh.input_order = put_in_order(soup, *spatial, own);
+            }
+        }
+        std::vector<std::uint32_t> dropped;
+        PolygonMesh polygons = collector.collect(groups, begin, end, mesh.repairs, dropped);
+        mesh.input_order.drop(dropped);
         meshes.push_back(finish_mesh(std::move(polygons), options, std::move(mesh)));
         begin = end;
     }

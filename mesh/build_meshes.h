@@ -20,8 +20,8 @@ struct MeshOptions {
 /// the model lies far from 0), vertices with equal coordinates of one object are welded, repeated
 /// corners in a row and spikes (from a corner and straight back to it) collapse, polygons without three distinct corners or without area are dropped,
 /// duplicates of an earlier polygon (the same edges, in any direction) are dropped, the rest is
-/// subdivided if asked for, triangulated, and linked along its edges. Large models of nothing but triangles are put in spatial
-/// order (`mesh/spatial_order.h`), if not subdivided. Everything else is kept:
+/// subdivided if asked for, triangulated, and linked along its edges. Large objects of one
+/// material without marks are put in spatial order (`mesh/spatial_order.h`), if not subdivided. Everything else is kept:
 /// open, non-manifold, self-crossing and inconsistently wound surfaces.
 ///
 /// Each object that has polygons in the soup gives a mesh of its name, in order; a mesh whose

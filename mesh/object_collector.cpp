@@ -61,8 +61,8 @@ ObjectCollector::ObjectCollector(const PolygonSoup& soup, const std::vector<glm:
     std::sort(marks_.begin(), marks_.end());
 }
 
-PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t begin,
-                                     std::size_t end, MeshRepairs& repairs) {
+PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end, MeshRepairs& repairs,
+                                     std::vector<std::uint32_t>& dropped) {
     PolygonMesh mesh;
     mesh.corners.reserve(3 * (end - begin));
     for (std::size_t i = begin; i < end; ++i) {
@@ -75,6 +75,7 @@ PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t
         collapse(soup_.polygon(polygon), repairs);
         if (corners_.size() < 3 || has_no_area()) {
             ++repairs.degenerate_polygons;
+            dropped.push_back(static_cast<std::uint32_t>(i - begin));
             continue;
         }
         for (std::uint32_t& v : corners_) v = local_number(v, mesh);

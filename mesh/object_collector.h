@@ -31,9 +31,10 @@ class ObjectCollector {
     ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
                     const std::vector<std::uint32_t>& welded);
 
-    /// The polygons groups.order[begin, end), which are all of one object.
-    PolygonMesh collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end,
-                        MeshRepairs& repairs);
+    /// The polygons groups.order[begin, end), which are all of one object. `dropped`: gets the places, from `begin` on, of those
+    /// without area.
+    PolygonMesh collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end, MeshRepairs& repairs,
+                        std::vector<std::uint32_t>& dropped);
 
   private:
     static constexpr std::uint32_t kUnused = 0xFFFFFFFFu;

@@ -13,8 +13,31 @@ namespace {
 constexpr std::int32_t kCellsAlong = 32;  // cells of some hundred triangles in a mesh of a million
 constexpr std::size_t kCells = std::size_t{kCellsAlong} * kCellsAlong * kCellsAlong;
 
-/// The cell of each position.
-UnfilledVector<std::uint16_t> find_cells(std::span<const glm::vec3> positions) {
+/// Numbers below `count` by their cells, and in a cell in ascending order.
+template <typename CellOf>
+UnfilledVector<std::uint32_t> order_by_cell(std::size_t count, const CellOf& cell_of) {
+    UnfilledVector<std::uint16_t> cells;
+    reserve_large(cells, count);
+    cells.resize(count);
+    std::vector<std::uint32_t> next(kCells + 1, 0);  // place of each cell
+    for (std::size_t i = 0; i < count; ++i) {
+        cells[i] = cell_of(i);
+        ++next[cells[i] + 1u];
+    }
+    throw_if_interrupted();
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    UnfilledVector<std::uint32_t> order;
+    reserve_large(order, count);
+    order.resize(count);
+    for (std::size_t i = 0; i < count; ++i) order[next[cells[i]]++] = static_cast<std::uint32_t>(i);
+    return order;
+}
+
+}  // namespace
+
+SpatialOrder::SpatialOrder(std::span<const glm::vec3> positions) {
+    static_assert(kCells <= std::size_t{1} << 16);
+    if (positions.empty()) return;
     glm::vec3 low = positions[0], high = low;
     for (const glm::vec3& p : positions) {
         low = glm::min(low, p);
@@ -28,41 +51,28 @@ UnfilledVector<std::uint16_t> find_cells(std::span<const glm::vec3> positions) {
     const auto along = [half_per_length](float p, float first) {
         return std::min(static_cast<std::int32_t>((0.5f * p - 0.5f * first) * half_per_length), kCellsAlong - 1);
     };
-    UnfilledVector<std::uint16_t> cells;
-    reserve_large(cells, positions.size());
-    cells.resize(positions.size());
+    reserve_large(cells_, positions.size());
+    cells_.resize(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const glm::vec3& p = positions[i];
         const std::int32_t cell = (along(p.z, low.z) * kCellsAlong + along(p.y, low.y)) * kCellsAlong + along(p.x, low.x);
-        cells[i] = static_cast<std::uint16_t>(cell);
+        cells_[i] = static_cast<std::uint16_t>(cell);
     }
-    return cells;
 }
 
-}  // namespace
+UnfilledVector<std::uint32_t> SpatialOrder::of_triangles(std::span<const std::uint32_t> corners) const {
+    return order_by_cell(corners.size() / 3, [cells = cells_.data(), corners = corners.data()](std::size_t t) {
+        const std::uint32_t* const c = corners + 3 * t;
+        return std::min(std::min(cells[c[0]], cells[c[1]]), cells[c[2]]);
+    });
+}
 
-UnfilledVector<std::uint32_t> spatial_order(std::span<const std::uint32_t> corners, std::span<const glm::vec3> positions) {
-    static_assert(kCells <= std::size_t{1} << 16);
-    UnfilledVector<std::uint32_t> order;
-    if (corners.empty()) return order;
-    const UnfilledVector<std::uint16_t> cells = find_cells(positions);
-    const std::size_t count = corners.size() / 3;
-    UnfilledVector<std::uint16_t> cell_of;  // triangles
-    reserve_large(cell_of, count);
-    cell_of.resize(count);
-    std::vector<std::uint32_t> next(kCells + 1, 0);  // place in `order`, of each cell
-    for (std::size_t t = 0; t < count; ++t) {
-        const std::uint32_t* const c = &corners[3 * t];
-        const std::uint16_t cell = std::min(std::min(cells[c[0]], cells[c[1]]), cells[c[2]]);
-        cell_of[t] = cell;
-        ++next[cell + 1u];
-    }
-    throw_if_interrupted();
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    reserve_large(order, count);
-    order.resize(count);
-    for (std::size_t t = 0; t < count; ++t) order[next[cell_of[t]]++] = static_cast<std::uint32_t>(t);
-    return order;
+UnfilledVector<std::uint32_t> SpatialOrder::of_polygons(const PolygonSoup& soup, std::span<const std::uint32_t> polygons) const {
+    return order_by_cell(polygons.size(), [&](std::size_t i) {
+        std::uint16_t first = kCells - 1;
+        for (const std::uint32_t v : soup.polygon(polygons[i])) first = std::min(first, cells_[v]);
+        return first;
+    });
 }
 
 }  // namespace burin

@@ -19,7 +19,7 @@ namespace {
 using test::Random;
 
 std::vector<std::uint32_t> order_of(const std::vector<std::uint32_t>& corners, const std::vector<glm::vec3>& positions) {
-    const auto order = spatial_order(corners, positions);
+    const auto order = SpatialOrder(positions).of_triangles(corners);
     return {order.begin(), order.end()};
 }
 
@@ -105,35 +105,52 @@ TEST(SpatialOrder, PutsNeighboursTogether) {
     EXPECT_GT(mean_step(given), 10 * cell);
 }
 
-/// The general way, which keeps the order of the input, says what there is to be.
+enum class Kind { triangles, polygons, two_objects };
+
+/// With ends of polygons listed the general way is taken, which keeps the input's order where there are two materials: that
+/// says what there is to be.
 TEST(SpatialOrder, ChangesNothingButTheOrderOfLargeMeshes) {
-    for (const bool apart : {false, true}) {
-        Random random(apart ? 1 : 2);
-        const PolygonSoup soup = shuffled_sheet(190, apart, random);
-        ASSERT_GE(soup.polygon_count(), kWorthSpatialOrder);
-        PolygonSoup listed = soup;
-        for (std::size_t end = 3; end <= soup.corners.size(); end += 3) listed.polygon_ends.push_back(static_cast<std::uint32_t>(end));
-        const Mesh mesh = build_meshes(soup, {}).at(0), expected = build_meshes(listed, {}).at(0);
-        ASSERT_EQ(mesh.triangles.size(), expected.triangles.size());
-        EXPECT_EQ(mesh.repairs.degenerate_polygons, expected.repairs.degenerate_polygons);
-        EXPECT_GT(mesh.repairs.degenerate_polygons, 0u);
-        EXPECT_EQ(mesh.repairs.duplicate_polygons, expected.repairs.duplicate_polygons);
-        EXPECT_GT(mesh.repairs.duplicate_polygons, 0u);
-        EXPECT_EQ(mesh.repairs.welded_vertices, expected.repairs.welded_vertices);
-        EXPECT_EQ(count_edges(mesh).border, count_edges(expected).border);
-        std::vector<std::uint32_t> places;
-        std::size_t moved = 0;
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            const std::uint32_t place = mesh.input_place_of(t);
-            places.push_back(place);
-            moved += place != t ? 1 : 0;
-            ASSERT_LT(place, expected.triangles.size());
-            for (std::size_t k = 0; k < 3; ++k) {
-                ASSERT_EQ(mesh.positions[mesh.triangles[t][k]], expected.positions[expected.triangles[place][k]]) << "triangle " << t;
+    for (const Kind kind : {Kind::triangles, Kind::polygons, Kind::two_objects}) {
+        for (const bool apart : {false, true}) {
+            Random random(apart ? 1 : 2);
+            PolygonSoup soup = shuffled_sheet(190, apart, random);
+            ASSERT_GE(soup.polygon_count(), kWorthSpatialOrder);
+            std::vector<std::uint32_t> ends;
+            for (std::size_t end = 3; end <= soup.corners.size(); end += 3) ends.push_back(static_cast<std::uint32_t>(end));
+            if (kind != Kind::triangles) soup.polygon_ends = ends;
+            if (kind == Kind::two_objects) {
+                soup.object_names = {"small", "large"};
+                for (std::size_t i = 0; i < soup.polygon_count(); ++i) soup.polygon_object.push_back(i % 100 == 1 ? 0 : 1);
             }
+            PolygonSoup in_input_order = soup;
+            in_input_order.polygon_ends = ends;
+            in_input_order.materials.resize(2);
+            for (std::uint32_t i = 0; i < soup.polygon_count(); ++i) in_input_order.polygon_material.push_back(i / 100 % 2);
+            const std::vector<Mesh> meshes = build_meshes(soup, {}), expected_meshes = build_meshes(in_input_order, {});
+            ASSERT_EQ(meshes.size(), kind == Kind::two_objects ? 2u : 1u);
+            const Mesh &mesh = meshes.back(), &expected = expected_meshes.back();
+            ASSERT_EQ(mesh.triangles.size(), expected.triangles.size());
+            EXPECT_EQ(mesh.repairs.degenerate_polygons, expected.repairs.degenerate_polygons);
+            EXPECT_GT(mesh.repairs.degenerate_polygons, 0u);
+            EXPECT_EQ(mesh.repairs.duplicate_polygons, expected.repairs.duplicate_polygons);
+            EXPECT_GT(mesh.repairs.duplicate_polygons, 0u);
+            EXPECT_EQ(mesh.repairs.welded_vertices, expected.repairs.welded_vertices);
+            EXPECT_EQ(count_edges(mesh).border, count_edges(expected).border);
+            std::vector<std::uint32_t> places;
+            std::size_t moved = 0;
+            for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+                const std::uint32_t place = mesh.input_place_of(t);
+                places.push_back(place);
+                moved += place != t ? 1 : 0;
+                ASSERT_LT(place, expected.triangles.size());
+                for (std::size_t k = 0; k < 3; ++k) {
+                    ASSERT_EQ(mesh.positions[mesh.triangles[t][k]], expected.positions[expected.triangles[place][k]]) << "triangle " << t;
+                }
+                ASSERT_EQ(expected.input_place_of(t), t);
+            }
+            expect_each_once(places, mesh.triangles.size());
+            EXPECT_GT(moved, mesh.triangles.size() / 2);
         }
-        expect_each_once(places, mesh.triangles.size());
-        EXPECT_GT(moved, mesh.triangles.size() / 2);
     }
 }
 
