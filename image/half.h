@@ -44,4 +44,24 @@ inline float float_from_half(std::uint16_t half) {
     return std::bit_cast<float>(sign | bits);
 }
 
+/// Four at once, to the same bits, in the lower halves of lanes.
+typedef float FourFloats __attribute__((vector_size(16)));
+typedef std::int32_t FourHalves __attribute__((vector_size(16)));
+
+inline FourHalves halves_from_floats(const FourFloats& values) {
+    const FourHalves bits = std::bit_cast<FourHalves>(values), zero = {};
+    const FourHalves sign = bits >> 16 & 0x8000, magnitude = bits & 0x7FFFFFFF;
+    const FourHalves normal = ((magnitude + 0xFFF + (magnitude >> 13 & 1)) >> 13) - ((127 - 15) << 10);
+    const FourHalves subnormal = std::bit_cast<FourHalves>(std::bit_cast<FourFloats>(magnitude) + 0.5f) - 0x3F000000;
+    const FourHalves finite = magnitude >= 0x38800000 ? normal : subnormal;
+    const FourHalves any = magnitude >= 0x477FF000 ? zero + 0x7C00 : finite;
+    return sign | (magnitude > 0x7F800000 ? zero + 0x7E00 : any);
+}
+
+inline FourFloats floats_from_halves(const FourHalves& halves) {
+    const FourHalves magnitude = (halves & 0x7FFF) << 13;
+    const FourHalves finite = std::bit_cast<FourHalves>(std::bit_cast<FourFloats>(magnitude) * 0x1p112f);
+    return std::bit_cast<FourFloats>((halves & 0x8000) << 16 | (magnitude >= 0x1F << 23 ? magnitude | 0x7F800000 : finite));
+}
+
 }  // namespace burin

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -51,8 +52,9 @@ class StrokeCanvas {
     }
     /// The first byte in the lowest bits.
     static std::uint64_t eight_bytes(const std::uint8_t* first) {
-        std::uint64_t bytes = 0;  // compilers make one load of this
-        for (unsigned k = 0; k < 8; ++k) bytes |= std::uint64_t{first[k]} << 8 * k;
+        static_assert(std::endian::native == std::endian::little);
+        std::uint64_t bytes;
+        std::memcpy(&bytes, first, sizeof bytes);
         return bytes;
     }
     /// Calls visit(column, row) for the pixels that are touched, row by row.

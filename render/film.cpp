@@ -292,16 +292,26 @@ void Film::prefetch(int x, int y) const {
     }
 }
 
-void Film::draw_over(int x, int y, const LinePixel& lines) {
+LineInk::LineInk(const LinePixel& lines) : color(lines.color) {
+    for (std::size_t c = 0; c < 4; ++c) half_color[c] = Film::to_half(color[static_cast<int>(c)]);
+    for (std::size_t c = 0; c < kLineClassCount; ++c) coverage[c] = Film::to_half(lines.coverage[c]);
+}
+
+void Film::draw_over(int x, int y, const LineInk& lines) {
     const auto [planes, i] = place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
-        const float color = lines.color[static_cast<int>(c)];
-        if (planes.lines[c] != nullptr) planes.lines[c][i] = to_half(color);
-        std::uint16_t* const beauty = planes.beauty[c];
-        if (beauty != nullptr) beauty[i] = to_half(float_from_half(beauty[i]) * (1.0f - lines.color.a) + color);
+        if (planes.lines[c] != nullptr) planes.lines[c][i] = lines.half_color[c];
+    }
+    if (planes.beauty[0] != nullptr) {
+        std::uint16_t* const beauty[4] = {planes.beauty[0] + i, planes.beauty[1] + i, planes.beauty[2] + i, planes.beauty[3] + i};
+        const FourFloats color = {lines.color.r, lines.color.g, lines.color.b, lines.color.a};
+        const FourFloats before = floats_from_halves(FourHalves{*beauty[0], *beauty[1], *beauty[2], *beauty[3]});
+        const FourFloats after = before * (1.0f - lines.color.a) + color;
+        const FourHalves halves = halves_from_floats(after > 65504.0f ? FourFloats{} + 65504.0f : after);
+        for (unsigned c = 0; c < 4; ++c) *beauty[c] = static_cast<std::uint16_t>(halves[c]);
     }
     for (std::size_t c = 0; c < kLineClassCount && layers_.coverage; ++c) {
-        if (planes.coverage[c] != nullptr) planes.coverage[c][i] = to_half(lines.coverage[c]);
+        if (planes.coverage[c] != nullptr) planes.coverage[c][i] = lines.coverage[c];
     }
 }
 

@@ -51,6 +51,16 @@ struct LinePixel {
     std::array<float, kLineClassCount> coverage{};
 };
 
+/// The same as it is kept: many pixels have the same.
+struct LineInk {
+    LineInk() = default;
+    explicit LineInk(const LinePixel& lines);
+
+    glm::vec4 color{0.0f};
+    HalfColor half_color{};
+    std::array<std::uint16_t, kLineClassCount> coverage{};
+};
+
 /// Collects pixels into the channels of the chosen layers. Different threads may put different
 /// pixels at the same time.
 ///
@@ -113,7 +123,8 @@ class Film {
     /// Has the memory fetched that draw_over() will change of a pixel and of those to its right, up to 32 pixels in all.
     void prefetch(int x, int y) const;
     /// Draws lines over a pixel that was put without any.
-    void draw_over(int x, int y, const LinePixel& lines);
+    void draw_over(int x, int y, const LinePixel& lines) { draw_over(x, y, LineInk(lines)); }
+    void draw_over(int x, int y, const LineInk& lines);
     /// As colours are kept: half precision holds 0..1 well, what is beyond its range becomes its largest
     /// number.
     static std::uint16_t to_half(float value);

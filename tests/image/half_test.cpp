@@ -97,6 +97,29 @@ TEST(Half, RoundsRandomNumbersToTheNearest) {
     }
 }
 
+TEST(Half, FourAtOnceAreTheSame) {
+    for (unsigned bits = 0; bits < 0x10000; bits += 4) {
+        FourHalves halves{};
+        for (unsigned k = 0; k < 4; ++k) halves[k] = static_cast<std::int32_t>(bits + k);
+        const FourFloats values = floats_from_halves(halves);
+        for (unsigned k = 0; k < 4; ++k) {
+            const float one = float_from_half(static_cast<std::uint16_t>(bits + k));
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(float{values[k]}), std::bit_cast<std::uint32_t>(one)) << bits + k;
+        }
+    }
+    Random random(2);
+    for (int trial = 0; trial < 100000; ++trial) {
+        FourFloats values{};
+        for (unsigned k = 0; k < 4; ++k) {
+            const float usual = static_cast<float>(std::ldexp(random.real(-1, 1), random.integer(-30, 18)));
+            const float halfway = float_from_half(static_cast<std::uint16_t>(random.bits())) * (1 + 0x1p-11f);
+            values[k] = trial % 3 == 0 ? std::bit_cast<float>(random.bits()) : trial % 3 == 1 ? usual : halfway;
+        }
+        const FourHalves halves = halves_from_floats(values);
+        for (unsigned k = 0; k < 4; ++k) ASSERT_EQ(halves[k], half_from_float(values[k])) << trial << ": " << values[k];
+    }
+}
+
 TEST(Half, SpecialNumbers) {
     const float infinity = std::numeric_limits<float>::infinity();
     EXPECT_EQ(half_from_float(0.0f), 0x0000);

@@ -118,17 +118,22 @@ class StrokePass::Printer {
             if (touched_.empty() || touched_.back().row != row) film.prefetch(rect.x0 + column, rect.y0 + row);
             touched_.push_back({column, row});
         });
+        const StrokeMask nothing;
         for (const auto [column, row] : touched_) {
+            const int x = rect.x0 + column, y = rect.y0 + row;
+            if (const std::optional<LineClass> c = strokes_.only_class(column, row)) {  // mostly
+                const int samples = kernels_.count_bits(strokes_.mask_of(*c, column, row).rows.data(), nothing.rows.data());
+                film.draw_over(x, y, ink_of(*c)[samples]);
+                continue;
+            }
             LinePixel pixel;
             LineClassSet present;
             strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
                 present |= c;
-                const int fresh = kernels_.count_bits(mask.rows.data(), taken.rows.data());
-                pixel.coverage[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(fresh) /
-                                                          (StrokeMask::kRows * StrokeMask::kColumns);
+                add(c, opacity, kernels_.count_bits(mask.rows.data(), taken.rows.data()), pixel);
             });
             color(pixel, present);
-            film.draw_over(rect.x0 + column, rect.y0 + row, pixel);
+            film.draw_over(x, y, pixel);
         }
     }
 
@@ -165,6 +170,21 @@ class StrokePass::Printer {
         }
     }
 
+    void add(LineClass c, float opacity, int samples, LinePixel& pixel) const {
+        pixel.coverage[static_cast<std::size_t>(c)] +=
+            opacity * strokes_.pen().strength * static_cast<float>(samples) / (StrokeMask::kRows * StrokeMask::kColumns);
+    }
+    /// Of a class alone, by how many samples of the pixel it covers.
+    const LineInk* ink_of(LineClass c) {
+        std::vector<LineInk>& inks = inks_[static_cast<std::size_t>(c)];
+        for (int samples = static_cast<int>(inks.size()); samples <= StrokeMask::kRows * StrokeMask::kColumns; ++samples) {
+            LinePixel pixel;
+            add(c, 1.0f, samples, pixel);
+            color(pixel, c);
+            inks.emplace_back(pixel);
+        }
+        return inks.data();
+    }
     /// `present`: no other classes have any.
     void color(LinePixel& pixel, LineClassSet present) const {
         for (unsigned bits = present.bits; bits != 0; bits &= bits - 1) {
@@ -182,6 +202,7 @@ class StrokePass::Printer {
     };
     std::vector<Pixel> touched_;
     std::vector<Coverages> filtered_;
+    std::array<std::vector<LineInk>, kLineClassCount> inks_;
 };
 
 StrokePass::StrokePass(const Frame& frame, const TileKernels& kernels, int threads, Film& film)

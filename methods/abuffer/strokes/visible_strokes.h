@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,17 @@ class VisibleStrokes {
             }
         }
     }
+    /// The class of the strokes at a pixel that has some, if it is one and none of them fades.
+    std::optional<LineClass> only_class(int column, int row) const {
+        std::optional<LineClass> only;
+        for (const LineClass c : classes_) {
+            if (!canvas_of(c).is_touched(column, row)) continue;
+            if (only) return std::nullopt;
+            only = c;
+        }
+        return faded_.is_touched(column, row) ? std::nullopt : only;
+    }
+    const StrokeMask& mask_of(LineClass c, int column, int row) const { return canvas_of(c).at(column, row); }
     /// Calls use(class, mask, samples taken by others, opacity 0..1) for the strokes at a pixel, class by class;
     /// what fades comes last. Where several overlap, the first one counts.
     template <typename Use>
