@@ -25,6 +25,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       visible_(visible),
       samples_(visible.samples()),
       kernels_(kernels),
+      outline_classes_(LineClassSet(LineClass::silhouette) & frame.criteria.classes),
       keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
                                                           frame.criteria.classes.has(LineClass::border))),
       fast_(screen, frame.criteria),
@@ -64,19 +65,8 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
     }
     crossing.pixel = glm::mix(a, b, std::clamp(decision.fraction, 0.0, 1.0));
     crossing.towards_front = decision.front == 0 ? a - b : b - a;
-    const HalfEdge h = decision.edge.half_edge;
-    if (h != kNoHalfEdge) {
-        const std::uint32_t instance = decision.edge.surface.instance;
-        const ScreenMesh& mesh = screen_.mesh(instance);
-        crossing.line_key = std::uint64_t{instance} << 32 | std::min(h, mesh.partners[h]);
-        const std::uint32_t first = h - h % 3;
-        const ScreenVertex& from = mesh.vertices[mesh.corners[h]];
-        const ScreenVertex& to = mesh.vertices[mesh.corners[first + (h - first + 1) % 3]];
-        if (from.x != ScreenVertex::kOffScreen && to.x != ScreenVertex::kOffScreen) {
-            crossing.edge_ends[0] = glm::dvec2(from.x, from.y) / double{kSubpixelsPerPixel};
-            crossing.edge_ends[1] = glm::dvec2(to.x, to.y) / double{kSubpixelsPerPixel};
-            crossing.along = crossing.edge_ends[1] - crossing.edge_ends[0];
-        }
+    if (decision.edge.half_edge != kNoHalfEdge) {
+        set_edge(decision.edge, crossing);
     } else {
         if (decision.reason == LineReason::passes_through) {
             const DepthPlane p = frame_.surfaces.plane(neighbours.surfaces[0]);
@@ -88,6 +78,38 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
         const auto [low, high] = std::minmax({number(neighbours.surfaces[0]), number(neighbours.surfaces[1])});
         crossing.line_key = std::uint64_t{1} << 63 | std::uint64_t{low} << 32 | high;
     }
+    return true;
+}
+
+void LineTile::set_edge(SurfaceEdge edge, LineCrossing& crossing) const {
+    const HalfEdge h = edge.half_edge;
+    const std::uint32_t instance = edge.surface.instance;
+    const ScreenMesh& mesh = screen_.mesh(instance);
+    crossing.line_key = std::uint64_t{instance} << 32 | std::min(h, mesh.partners[h]);
+    const std::uint32_t first = h - h % 3;
+    const ScreenVertex& from = mesh.vertices[mesh.corners[h]];
+    const ScreenVertex& to = mesh.vertices[mesh.corners[first + (h - first + 1) % 3]];
+    const bool is_on_screen = from.x != ScreenVertex::kOffScreen && to.x != ScreenVertex::kOffScreen;
+    crossing.edge_ends[0] = is_on_screen ? glm::dvec2(from.x, from.y) / double{kSubpixelsPerPixel} : glm::dvec2(0.0);
+    crossing.edge_ends[1] = is_on_screen ? glm::dvec2(to.x, to.y) / double{kSubpixelsPerPixel} : glm::dvec2(0.0);
+    crossing.along = crossing.edge_ends[1] - crossing.edge_ends[0];
+}
+
+/// What decide() says of outlines before the background: most lines are. False where there is another line, or none.
+bool LineTile::decide_outline(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing) const {
+    const std::size_t from = neighbours.surfaces[0].is_background() ? 1 : 0;
+    const FastWalk* const walk = walks[from];
+    if (walk == nullptr || !neighbours.surfaces[1 - from].is_background() || outline_classes_.empty()) return false;
+    const double fraction = from == 0 ? walk->fraction : 1 - walk->fraction;
+    if (!fast_.is_outline({neighbours.surfaces[from].instance, walk->triangle}, *walk, neighbours.place(fraction), crossing.nearness)) return false;
+    const glm::dvec2 a = position(pair.column(), pair.row());
+    const glm::dvec2 b = position(pair.column() + (pair.down() ? 0 : 1), pair.row() + (pair.down() ? 1 : 0));
+    crossing.pixel = glm::mix(a, b, std::clamp(fraction, 0.0, 1.0));
+    crossing.towards_front = from == 0 ? a - b : b - a;
+    crossing.classes = outline_classes_;
+    crossing.occludes = true;
+    crossing.opacity = 255;
+    set_edge({neighbours.surfaces[from], walk->half_edge}, crossing);
     return true;
 }
 
@@ -151,7 +173,9 @@ void LineTile::decide_all(std::span<const SamplePair> pairs) {
     walks_.walk({neighbours_.data(), pairs.size()});
     if (crossings_.size() < crossing_count_ + pairs.size()) crossings_.resize(2 * crossings_.size() + pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (!decide(pairs[i], neighbours_[i], walks_.known(i), crossings_[crossing_count_])) continue;
+        LineCrossing& crossing = crossings_[crossing_count_];
+        const KnownWalks& walks = walks_.known(i);
+        if (!decide_outline(pairs[i], neighbours_[i], walks, crossing) && !decide(pairs[i], neighbours_[i], walks, crossing)) continue;
         crossing_places_.push_back(pairs[i]);
         crossing_between(pairs[i]) = static_cast<std::uint32_t>(++crossing_count_);
     }

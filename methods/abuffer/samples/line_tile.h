@@ -38,6 +38,8 @@ class LineTile {
     void find_pairs();
     void find_neighbours(std::span<const SamplePair> pairs);
     bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing);
+    bool decide_outline(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing) const;
+    void set_edge(SurfaceEdge edge, LineCrossing& crossing) const;
     void decide_all(std::span<const SamplePair> pairs);
     void trace_cells(std::vector<LineSegment>& segments);
 
@@ -47,6 +49,7 @@ class LineTile {
     const SampleTile& samples_;
     double pitch_px_ = 1;  // from one sample to the next
     const TileKernels& kernels_;
+    LineClassSet outline_classes_;  // of an outline that is nothing else
     bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;
     WalksAhead walks_;
