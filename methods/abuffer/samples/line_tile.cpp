@@ -203,31 +203,31 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     const auto block_of = [block_shift](int sample) {
         return static_cast<std::uint32_t>(sample >> block_shift) & 0xFFFFu;
     };
-    // Each cell is traced when its first crossing is met, in the order left, upper, lower, right side.
-    const auto trace = [&](int column, int row, const SamplePair& from) {
+    // Each cell is traced when its first crossing is met, in the order upper, left, right, lower side.
+    const auto trace = [&](int column, int row, std::uint32_t from) {
         if (column < 0 || row < 0 || column + 1 >= samples_.columns || row + 1 >= samples_.rows) return;
         const std::size_t i = static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
         const std::uint32_t sides[4] = {right_[i], down_[i], down_[i + 1], right_[i + stride]};
-        std::array<const LineCrossing*, 4> found{};
+        std::uint32_t numbers[5];  // without branches: which sides have any is a guess
         std::size_t count = 0;
         for (const std::uint32_t side : sides) {
-            if (side != 0) found[count++] = &crossings_[side - 1];
+            numbers[count] = side;
+            count += side != 0 ? 1 : 0;
         }
-        if (found[0] != &crossings_[crossing_between(from) - 1]) return;  // another crossing traces this cell
+        if (numbers[0] != from) return;  // another crossing traces this cell
+        std::array<const LineCrossing*, 4> found;
+        for (std::size_t k = 0; k < count; ++k) found[k] = &crossings_[numbers[k] - 1];
         const glm::dvec2 low((samples_.first_column + column + 0.5) * pitch_px_, (samples_.first_row + row + 0.5) * pitch_px_);
         std::size_t fresh = segments.size();
         trace_cell({found.data(), count}, low, low + pitch_px_, has_bridges, segments);
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
         for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };
+    std::uint32_t number = 0;
     for (const SamplePair& place : crossing_places_) {
-        if (place.down()) {
-            trace(place.column() - 1, place.row(), place);
-            trace(place.column(), place.row(), place);
-        } else {
-            trace(place.column(), place.row() - 1, place);
-            trace(place.column(), place.row(), place);
-        }
+        ++number;
+        trace(place.column() - (place.down() ? 1 : 0), place.row() - (place.down() ? 0 : 1), number);
+        trace(place.column(), place.row(), number);
     }
 }
 
