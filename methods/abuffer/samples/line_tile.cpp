@@ -120,6 +120,7 @@ void LineTile::find_pairs() {
     pair_count_ = kernels_.find_pairs(tile, pairs_.data());
     is_smooth_.assign(pair_count_, 0);
     const auto first_id = [&](std::size_t i) { return samples_.ids[first_of(pairs_[i])]; };
+    const bool has_one_mesh = screen_.surfaces().instances.size() == 1;
     // Those of one mesh after the other.
     for (std::size_t begin = 0; begin < pair_count_;) {
         if (first_id(begin) == SampleTile::kBackground) {
@@ -130,7 +131,7 @@ void LineTile::find_pairs() {
         const auto is_of_another = [&](std::uint32_t id) {
             return id != SampleTile::kBackground && (id >> 1) - mesh.first_number >= mesh.triangle_count;
         };
-        std::size_t end = begin + 1;
+        std::size_t end = has_one_mesh ? pair_count_ : begin + 1;
         while (end < pair_count_ && !is_of_another(first_id(end))) ++end;
         if (mesh.sharp != nullptr && mesh.triangle_count <= kMostToWalk) {
             kernels_.find_smooth(tile, mesh, fast_.smooth_limits(), pairs_.data() + begin, end - begin, is_smooth_.data() + begin);

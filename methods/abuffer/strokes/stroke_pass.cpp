@@ -60,12 +60,19 @@ class StrokePass::Bins {
         int x0, y0, x1, y1;
     };
     std::optional<Place> place_of(const LineSegment& s, double reach) const {
-        const glm::dvec2 origin(region_.x0, region_.y0);
-        const glm::dvec2 low = (glm::min(s.from, s.to) - reach - origin) / double(kTilePx);
-        const glm::dvec2 high = (glm::max(s.from, s.to) + reach - origin) / double(kTilePx);
-        if (!(high.x >= 0 && high.y >= 0 && low.x < columns_ && low.y < rows_)) return std::nullopt;
-        return Place{&s, static_cast<int>(std::max(low.x, 0.0)), static_cast<int>(std::max(low.y, 0.0)),
-                     static_cast<int>(std::min(high.x, columns_ - 1.0)), static_cast<int>(std::min(high.y, rows_ - 1.0))};
+        struct Range {
+            double low, high;
+        };
+        const auto range = [reach](double from, double to, int origin) {
+            return Range{(std::min(from, to) - reach - origin) / double(kTilePx), (std::max(from, to) + reach - origin) / double(kTilePx)};
+        };
+        // Most of those that reach no tile lie above or below all of them.
+        const Range y = range(s.from.y, s.to.y, region_.y0);
+        if (!(y.high >= 0 && y.low < rows_)) return std::nullopt;
+        const Range x = range(s.from.x, s.to.x, region_.x0);
+        if (!(x.high >= 0 && x.low < columns_)) return std::nullopt;
+        return Place{&s, static_cast<int>(std::max(x.low, 0.0)), static_cast<int>(std::max(y.low, 0.0)),
+                     static_cast<int>(std::min(x.high, columns_ - 1.0)), static_cast<int>(std::min(y.high, rows_ - 1.0))};
     }
     template <typename Visit>
     void for_tiles(const Place& place, const Visit& visit) const {
