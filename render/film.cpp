@@ -50,6 +50,19 @@ void for_channels(const LayerSet& layers, LineClassSet classes, Planes& planes, 
     }
 }
 
+/// Runs of pixels are short: the last ones are written twice, not one by one.
+void fill_run(std::uint16_t* to, std::size_t count, std::uint16_t value) {
+    typedef std::uint16_t Eight __attribute__((vector_size(16)));
+    constexpr std::size_t kEight = 8;
+    if (count < kEight) {
+        std::fill_n(to, count, value);
+        return;
+    }
+    const Eight eight = Eight{} + value;
+    for (std::size_t i = 0; i + kEight <= count; i += kEight) std::memcpy(to + i, &eight, sizeof eight);
+    std::memcpy(to + count - kEight, &eight, sizeof eight);
+}
+
 }  // namespace
 
 std::uint16_t Film::to_half(float value) { return half_from_float(std::min(value, 65504.0f)); }
@@ -228,7 +241,7 @@ void Film::put_background(int x0, int x1, int y) {
 void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
     for_row(x0, x1, y, [&](const Planes& planes, std::size_t begin, std::size_t count, std::size_t) {
         const auto fill = [&](std::uint16_t* plane, std::uint16_t value) {
-            if (plane != nullptr) std::fill_n(plane + begin, count, value);
+            if (plane != nullptr) fill_run(plane + begin, count, value);
         };
         for (std::size_t c = 0; c < 4; ++c) {
             fill(planes.beauty[c], color[c]);
