@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -73,10 +75,29 @@ class Region {
     std::size_t count_ = 0;
 };
 
+/// Whether there is a row or a column between two polygons. Not asked of those that are a point, or nothing.
+bool are_beside(const ScreenPolygon& a, const ScreenPolygon& b) {
+    struct Box {
+        std::int32_t x0 = std::numeric_limits<std::int32_t>::max(), y0 = x0, x1 = -x0, y1 = -x0;
+        explicit Box(const ScreenPolygon& polygon) {
+            for (int i = 0; i < polygon.count; ++i) {
+                const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
+                x0 = std::min(x0, p.x);
+                y0 = std::min(y0, p.y);
+                x1 = std::max(x1, p.x);
+                y1 = std::max(y1, p.y);
+            }
+        }
+        bool is_wide() const { return x0 < x1 || y0 < y1; }
+    };
+    const Box p(a), q(b);
+    return p.is_wide() && q.is_wide() && (p.x1 < q.x0 || q.x1 < p.x0 || p.y1 < q.y0 || q.y1 < p.y0);
+}
+
 /// Where both are in the picture, or anywhere if they are not.
-Region common_region(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3]) {
-    Region common(project_triangle(projection, a));
-    common.clip(Region(project_triangle(projection, b)));
+Region common_region(const Projection& projection, const ScreenPolygon& a, const ScreenPolygon& b) {
+    Region common(a);
+    common.clip(Region(b));
     const glm::dvec2 size = 2.0 * projection.center_px, right(size.x, 0), below(0, size.y);
     Region seen = common;
     for (const auto& [from, to] : {std::pair{glm::dvec2(0.0), right}, {right, size}, {size, below}, {below, glm::dvec2(0.0)}}) seen.clip(from, to);
@@ -151,9 +172,11 @@ bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]) { r
 
 SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
                               bool may_be_one_plane, double coordinate_error) {
+    const ScreenPolygon on_screen_a = project_triangle(projection, a), on_screen_b = project_triangle(projection, b);
+    if (are_beside(on_screen_a, on_screen_b)) return {};  // small ones mostly are, and this takes less time
     const PlanePair planes(projection, a, b);
     if (!planes.has_both()) return {};
-    const Region region = common_region(projection, a, b);
+    const Region region = common_region(projection, on_screen_a, on_screen_b);
     SurfaceOrder order;
     if (region.is_sliver()) return order;
     for (const glm::dvec2 p : region.corners()) order += planes.at(p, may_be_one_plane, coordinate_error);

@@ -45,7 +45,7 @@ SurfaceOrder SurfaceSet::compare(SurfaceId s, SurfaceId t, const glm::dvec2* pla
         return compare_surfaces(projection, corners_s, corners_t, may_be_one_plane, coordinate_error);
     };
     const SurfaceOrder order = compare_as(true);
-    if (s.instance != t.instance || order.is_apart) return order;
+    if (s.instance != t.instance || order.is_apart || !order.have_common_place) return order;
     // Mostly there is no need to know where bodies are.
     const SurfaceOrder exact = compare_as(false);
     if (!exact.is_apart) return order;
