@@ -254,10 +254,14 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
         std::vector<std::int32_t> begin(kRows), end(kRows);
         baseline_kernels().stroke_spans(s, 0, kRows, kColumns, begin.data(), end.data());
         for (const TileKernels* kernels : all_kernels()) {
-            std::vector<std::int32_t> own_begin(kRows), own_end(kRows);
-            kernels->stroke_spans(s, 0, kRows, kColumns, own_begin.data(), own_end.data());
-            EXPECT_EQ(own_begin, begin) << kernels->name;
-            EXPECT_EQ(own_end, end) << kernels->name;
+            for (const std::int32_t rows : {kRows, kRows - 8}) {
+                std::vector<std::int32_t> own_begin(begin), own_end(end);
+                std::fill_n(own_begin.begin(), rows, -1);
+                std::fill_n(own_end.begin(), rows, -1);
+                kernels->stroke_spans(s, 0, rows, kColumns, own_begin.data(), own_end.data());
+                EXPECT_EQ(own_begin, begin) << kernels->name;  // and nothing behind the rows was written
+                EXPECT_EQ(own_end, end) << kernels->name;
+            }
         }
         for (int row = 0; row < kRows; ++row) {
             for (int column = 0; column < kColumns; ++column) {
