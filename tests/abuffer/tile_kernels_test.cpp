@@ -23,8 +23,8 @@ using namespace test;
 
 TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
     std::size_t left_out = 0;
-    for (std::uint64_t seed = 0; seed < 12; ++seed) {
-        const int per_pixel = 2 << seed % 3;
+    for (std::uint64_t seed = 0; seed < 16; ++seed) {
+        const int per_pixel = 1 << seed % 4;
         Triangles triangles(seed, per_pixel, 37, -20);
         SampleTile expected;
         expected.reset(37, -20, 129, 97, per_pixel);
