@@ -39,8 +39,7 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
         // First all edges, then their vertices, which take longer to come from memory.
         std::vector<EdgeEnds> edges;
         for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
-            const HalfEdge g = mesh.partners[h];
-            if (mesh.partners[g] != h) return;
+            if (!is_surely_pair(mesh, h) && mesh.partners[mesh.partners[h]] != h) return;
             edges.push_back({h, 0, 0});
             __builtin_prefetch(mesh.corners + h);
         });

@@ -162,19 +162,27 @@ double FineParts::level(double nearness) const {
 FineParts::Owners FineParts::owners_of(FineEdge edge) const {
     const ScreenMesh& mesh = screen_.mesh(edge.instance);
     const HalfEdge h = edge.half_edge, partner = mesh.partners[h];
-    const auto corner = [&](HalfEdge g, std::uint32_t k) { return mesh.corners[g - g % 3 + (g + k) % 3]; };
-    const auto [first, second] = std::minmax({corner(h, 0), corner(h, 1)});
-    const auto side_of = [&](HalfEdge g) { return side_of_edge(screen_, edge.instance, first, second, corner(g, 2)); };
     const Facing own = screen_.facing(mesh.first_number + h / 3), other = screen_.facing(mesh.first_number + partner / 3);
-    Owners owners{{mesh.first_number + h / 3, mesh.first_number + partner / 3}, false, 0};
+    Owners owners{edge, {mesh.first_number + h / 3, mesh.first_number + partner / 3}, false};
     const bool is_cut = own == off_screen || other == off_screen;  // and has no facing
     // Where both are wound alike, they run along the edge in opposite directions.
-    const bool are_wound_alike = corner(h, 0) != corner(partner, 0);
-    if (h != partner) owners.needs_both = is_cut ? side_of(h) * side_of(partner) < 0 : (own == other) == are_wound_alike;
-    if (owners.needs_both) return owners;
-    owners.inner_side = side_of(h);
-    if (owners.inner_side == 0) owners.inner_side = side_of(partner);
+    const bool are_wound_alike = mesh.corners[h] != mesh.corners[partner];
+    if (h != partner) owners.needs_both = is_cut ? side_at(edge, h) * side_at(edge, partner) < 0 : (own == other) == are_wound_alike;
     return owners;
+}
+
+/// On which side of an edge the triangle at a half-edge on it is seen.
+int FineParts::side_at(FineEdge edge, HalfEdge h) const {
+    const ScreenMesh& mesh = screen_.mesh(edge.instance);
+    const auto corner = [&](HalfEdge g, std::uint32_t k) { return mesh.corners[g - g % 3 + (g + k) % 3]; };
+    const auto [first, second] = std::minmax({corner(edge.half_edge, 0), corner(edge.half_edge, 1)});
+    return side_of_edge(screen_, edge.instance, first, second, corner(h, 2));
+}
+
+/// Of an edge at which the surface ends or turns away: on which side it is. 0: it goes on.
+int FineParts::inner_side(FineEdge edge) const {
+    const int own = side_at(edge, edge.half_edge);
+    return own != 0 ? own : side_at(edge, screen_.mesh(edge.instance).partners[edge.half_edge]);
 }
 
 /// is_behind() of all of it, where whole areas are far in front: without a look at its vertices.
@@ -272,13 +280,14 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
         if (!takes_rests_) return false;
         // A line that ends in the square at another one, on the screen, may go on beside that.
         if (owners.needs_both) return std::any_of(std::begin(numbers), std::end(numbers), [&](std::uint32_t n) { return n != a && n != b; });
-        if (owners.inner_side == 0) return false;
+        const int inner = inner_side(owners.edge);
+        if (inner == 0) return false;
         // Of two lines with a narrow gap between them the samples tell of one only. Whether what they see beyond is in contact
         // instead, its triangles tell.
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec2 corner(square.x + static_cast<int>(k % 2), square.y + static_cast<int>(k / 2));
             const glm::dvec2 at = (corner + 0.5) * (256.0 / samples.samples_per_pixel);
-            if (numbers[k] != a && numbers[k] != b && edge.side_of(at) * owners.inner_side <= 0) return true;
+            if (numbers[k] != a && numbers[k] != b && edge.side_of(at) * inner <= 0) return true;
         }
         return false;
     }

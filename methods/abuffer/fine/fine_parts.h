@@ -32,15 +32,17 @@ class FineParts {
 
   private:
     struct Owners {
+        FineEdge edge;
         std::uint32_t numbers[2];
-        bool needs_both;    // the line runs between two polygons that are seen
-        int inner_side;     // of an edge at which the surface ends or turns away: where it is. 0: it goes on
+        bool needs_both;  // the line runs between two polygons that are seen
     };
     struct Interval {
         double begin, end;
     };
     void find_farthest(const SampleTile& samples);
     Owners owners_of(FineEdge edge) const;
+    int side_at(FineEdge edge, HalfEdge h) const;
+    int inner_side(FineEdge edge) const;
     /// Squares of samples, and the least nearness in each of them.
     struct Squares {
         int shift;  // log2 of a square's width in samples

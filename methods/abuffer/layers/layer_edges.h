@@ -20,6 +20,10 @@ std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint3
 /// be read.
 constexpr int rank_of_side(std::uint8_t facing) { return facing == counterclockwise ? 1 : facing == clockwise ? 2 : 0; }
 
+/// Whether an edge belongs to exactly two triangles, as its side alone tells: an edge that is not sharp does. False for some that
+/// do, too.
+inline bool is_surely_pair(const ScreenMesh& mesh, HalfEdge h) { return mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0; }
+
 /// Calls visit(triangle, half-edge) for the edges of these triangles. Edges of two triangles come once, as the smaller of
 /// their half-edges.
 template <typename Visit>
@@ -30,9 +34,11 @@ void for_possible_lines(const ScreenSurfaces& screen, const TriangleChunk& chunk
     constexpr std::size_t kAhead = 16;
     for (std::size_t i = 0; i < sides.size(); ++i) {
         if (i + 2 * kAhead < sides.size()) __builtin_prefetch(mesh.partners + sides[i + 2 * kAhead]);
-        if (i + kAhead < sides.size()) __builtin_prefetch(mesh.partners + mesh.partners[sides[i + kAhead]]);
+        if (i + kAhead < sides.size() && !is_surely_pair(mesh, sides[i + kAhead])) {
+            __builtin_prefetch(mesh.partners + mesh.partners[sides[i + kAhead]]);
+        }
         const HalfEdge h = sides[i], g = mesh.partners[h];
-        if (g != h && mesh.partners[g] == h) {
+        if (is_surely_pair(mesh, h) || (g != h && mesh.partners[g] == h)) {
             const int own = rank_of_side(mesh.facing[h / 3]), other = rank_of_side(mesh.facing[g / 3]);
             if (own != other ? own > other : g < h) continue;
             visit(SurfaceId{chunk.instance, std::min(h, g) / 3}, std::min(h, g));
