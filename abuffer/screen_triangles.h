@@ -23,34 +23,36 @@ inline CrossedTriangle crossed_triangle(const ScreenVertex& a, const ScreenVerte
             number};
 }
 
-/// Triangles, an array per number as the kernels want them.
-class ScreenTriangles {
+/// The boxes of triangles, an array per number as the kernels want them.
+class TriangleBoxes {
   public:
     /// Those before stay; the others mean nothing until they are set.
     void resize(std::size_t count) {
         for (auto& list : numbers_) list.resize(std::max(list.size(), count + kPadding));
     }
-    void set(std::size_t i, const CrossedTriangle& t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            numbers_[k][i] = t.x[k];
-            numbers_[3 + k][i] = t.y[k];
-        }
-        numbers_[6][i] = t.highest;
-    }
-    /// All at once.
     void set_all(const TileKernels& kernels, std::span<const CrossedTriangle> triangles) {
-        float* numbers[7];
-        for (std::size_t k = 0; k < 7; ++k) numbers[k] = numbers_[k].data();
-        kernels.transpose_triangles(triangles.data(), triangles.size(), numbers);
+        resize(triangles.size());
+        float* numbers[kNumbers];
+        for (std::size_t k = 0; k < kNumbers; ++k) numbers[k] = numbers_[k].data();
+        kernels.box_triangles(triangles.data(), triangles.size(), numbers);
     }
-    TriangleView view() const {
+    /// Those of `others` with the numbers listed, one after the other.
+    void set_listed(const TriangleBoxes& others, std::span<const std::uint32_t> listed) {
+        resize(listed.size());
+        for (std::size_t k = 0; k < kNumbers; ++k) {
+            for (std::size_t i = 0; i < listed.size(); ++i) numbers_[k][i] = others.numbers_[k][listed[i]];
+        }
+    }
+    FrontBoxes view() const {
         const auto at = [this](std::size_t k) { return numbers_[k].data(); };
-        return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6)};
+        return {at(0), at(1), at(2), at(3), at(4)};
     }
 
+    static constexpr std::size_t kPadding = 15;  ///< what kernels may read, or list, too far
+
   private:
-    static constexpr std::size_t kPadding = 15;  // what kernels may read too far
-    std::array<std::vector<float>, 7> numbers_;
+    static constexpr std::size_t kNumbers = 5;
+    std::array<std::vector<float>, kNumbers> numbers_;
 };
 
 }  // namespace burin

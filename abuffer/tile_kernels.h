@@ -100,10 +100,10 @@ struct BoxView {
     const float *x0, *y0, *x1, *y1, *low, *high;
 };
 
-/// Triangles on the screen, an array per number: corners in 1/256 pixel, clockwise as seen, and the nearness of the
-/// nearest one.
-struct TriangleView {
-    const float *x[3], *y[3], *highest;
+/// Boxes of triangles on the screen, borders included, in 1/256 pixel, and the nearness of their nearest corners: an array per
+/// number.
+struct FrontBoxes {
+    const float *x0, *y0, *x1, *y1, *highest;
 };
 
 /// A straight part of a line on the screen, in 1/256 pixel, and the nearness of its farther end.
@@ -161,6 +161,13 @@ struct HiddenPart {
     bool is_any;    ///< else the part is empty
     bool is_level;  ///< it is in front, or may be as near as the line, in [level_begin, level_end]
     double begin, end, level_begin, level_end;
+};
+
+/// The parts of a line that a triangle is in front of, by more than one slack or another.
+struct HiddenParts {
+    bool is_any_most, is_any;
+    double most_begin, most_end;  ///< by more than the first one, with the triangle's edges
+    double begin, end;            ///< by more than the second one
 };
 
 /// A range-encoded bitmap index (Chan and Ioannidis, 1998) of triangles' boxes: both axes and nearness are cut into steps, and
@@ -363,18 +370,24 @@ struct TileKernels {
     /// numbers more are read of each array.
     std::size_t (*find_touching)(const BoxView& boxes, std::size_t begin, std::size_t end, const ScreenBox& box,
                                  float least_x0, float least_y0, std::uint32_t* found);
-    /// Lists those of the triangles [begin, end) that may hide a part of a line: with a corner nearer than its farther
+    /// Lists those of the boxes [begin, end) that touch a box and reach nearer than its `low`. Returns their number. Up to 15
+    /// numbers more are read of each array, and written.
+    std::size_t (*find_in_front_of_box)(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenBox& box,
+                                        std::uint32_t* found);
+    /// Lists those of the triangles `listed` that may hide a part of a line: with a corner nearer than its farther
     /// end, and not beside it by more than 1/256 pixel, or 1/16 where either lies beyond 4096 pixels, or nothing where the line
-    /// is exact and the triangle no longer. Returns their number. Up to 15 numbers more are read of each array.
-    std::size_t (*find_hiding)(const TriangleView& triangles, std::size_t begin, std::size_t end, const ScreenLine& line,
-                               std::uint32_t* found);
+    /// is exact and the triangle no longer. Returns their number. `found` may be `listed`.
+    std::size_t (*find_hiding)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count,
+                               const ScreenLine& line, std::uint32_t* found);
+    /// Where a triangle is in front of a line, by more than `least` and by more than `slack`, which is no less.
+    void (*clip_twice)(const TrianglePlane& triangle, const PlaneLine& line, double least, double slack, HiddenParts& parts);
     /// Of triangles of a mesh, which must be small, finds those that are nearer than the farthest thing in the cells they touch:
     /// in up to two by two blocks, once for each, in no particular order. Returns how many; `found` needs room for four of each.
     /// Those that touch more are added to `others`.
     std::size_t (*sort_hiding)(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count, const HidingGrid& grid,
                                HidingInBlock* found, std::uint32_t* others, std::size_t* other_count);
-    /// From an array of triangles to one per number: corners' x and y, nearness. Up to seven more may be written of each.
-    void (*transpose_triangles)(const CrossedTriangle* triangles, std::size_t count, float* const numbers[7]);
+    /// The boxes of triangles, an array per number of FrontBoxes. Up to seven more may be written of each.
+    void (*box_triangles)(const CrossedTriangle* triangles, std::size_t count, float* const numbers[5]);
     /// Makes an index of the triangles `listed`. Its bits must be zero.
     void (*index_triangles)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count, const BitmapIndex& index);
     /// Lists those of the triangles `listed` that may hide a part of a line: with a corner nearer than its farther end, and not

@@ -134,31 +134,5 @@ TEST(SortHiding, TrianglesAreFoundInBlocksWhereTheyAreNearer) {
     EXPECT_GT(other_count, 100u);
 }
 
-TEST(SortHiding, TrianglesComeInOneArrayPerNumber) {
-    for (std::uint64_t seed = 0; seed < 40; ++seed) {
-        Random random(seed);
-        const auto number = [&] { return static_cast<float>(random.real(-1000, 1000)); };
-        std::vector<CrossedTriangle> triangles(seed);
-        ScreenTriangles expected;
-        expected.resize(triangles.size());
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
-            triangles[i] = {{number(), number(), number()}, {number(), number(), number()}, number(), static_cast<std::uint32_t>(i)};
-            expected.set(i, triangles[i]);
-        }
-        for (const TileKernels* kernels : all_kernels()) {
-            ScreenTriangles found;
-            found.resize(triangles.size());
-            found.set_all(*kernels, triangles);
-            for (std::size_t i = 0; i < triangles.size(); ++i) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    EXPECT_EQ(found.view().x[k][i], expected.view().x[k][i]) << kernels->name << " seed " << seed;
-                    EXPECT_EQ(found.view().y[k][i], expected.view().y[k][i]) << kernels->name << " seed " << seed;
-                }
-                EXPECT_EQ(found.view().highest[i], expected.view().highest[i]) << kernels->name << " seed " << seed;
-            }
-        }
-    }
-}
-
 }  // namespace
 }  // namespace burin

@@ -116,7 +116,7 @@ TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
     EXPECT_GT(along_edges, 5);
 }
 
-TEST(LayerTriangle, ClippingTwiceIsClippingOnceAndAgain) {
+TEST(LayerTriangle, TheKernelClipsTwiceAsOnceAndAgain) {
     int any = 0, only_most = 0, along_edges = 0, none = 0;
     for (std::uint64_t seed = 0; seed < 20000; ++seed) {
         Random random(seed);
@@ -133,15 +133,20 @@ TEST(LayerTriangle, ClippingTwiceIsClippingOnceAndAgain) {
         double most_begin = begin, most_end = end, own_begin = begin, own_end = end;
         const bool is_any_most = clip_where_hidden(line, least, t, most_begin, most_end, true);
         const bool is_any = is_any_most && clip_where_hidden(line, slack, t, own_begin, own_end);
-        const HiddenParts parts = clip_twice_where_hidden(line, least, slack, t, begin, end);
-        ASSERT_EQ(parts.is_any_most, is_any_most) << "seed " << seed;
+        const PlaneLine clipped{{line.from.x, line.to.x}, {line.from.y, line.to.y}, {line.nearness_from, line.nearness_to}, begin, end, 0};
+        for (const TileKernels* kernels : all_kernels()) {
+            HiddenParts parts;
+            kernels->clip_twice(t, clipped, least, slack, parts);
+            ASSERT_EQ(parts.is_any_most, is_any_most) << kernels->name << " seed " << seed;
+            if (!is_any_most) continue;
+            ASSERT_EQ(parts.is_any, is_any) << kernels->name << " seed " << seed;
+            ASSERT_EQ(std::pair(parts.most_begin, parts.most_end), std::pair(most_begin, most_end)) << kernels->name << " seed " << seed;
+            if (is_any) {
+                ASSERT_EQ(std::pair(parts.begin, parts.end), std::pair(own_begin, own_end)) << kernels->name << " seed " << seed;
+            }
+        }
         ++(is_any ? any : is_any_most ? only_most : none);
         if (!is_any_most) continue;
-        ASSERT_EQ(parts.is_any, is_any) << "seed " << seed;
-        ASSERT_EQ(std::pair(parts.most_begin, parts.most_end), std::pair(most_begin, most_end)) << "seed " << seed;
-        if (is_any) {
-            ASSERT_EQ(std::pair(parts.begin, parts.end), std::pair(own_begin, own_end)) << "seed " << seed;
-        }
         double without_edges_begin = begin, without_edges_end = end;
         along_edges += clip_where_hidden(line, least, t, without_edges_begin, without_edges_end) ? 0 : 1;
     }

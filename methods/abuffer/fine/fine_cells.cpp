@@ -1,5 +1,6 @@
 #include "methods/abuffer/fine/fine_cells.h"
 
+#include <cmath>
 #include <limits>
 
 namespace burin {
@@ -26,14 +27,10 @@ void FineCells::set(const std::vector<CrossedTriangle>& triangles, glm::ivec2 co
         --cell_shift_;
     }
     if (cells_ > 1) sort_to_cells();
+    own_boxes_.set_all(kernels_, triangles);
+    if (cells_ > 1) listed_boxes_.set_listed(own_boxes_, in_cells_);
     const std::size_t count = cells_ == 1 ? triangles.size() : in_cells_.size();
-    triangles_.resize(count);
-    found_.resize(std::max(found_.size(), count));
-    if (cells_ == 1) {
-        triangles_.set_all(kernels_, triangles);
-    } else {
-        for (std::size_t i = 0; i < count; ++i) triangles_.set(i, triangles[in_cells_[i]]);
-    }
+    found_.resize(std::max(found_.size(), count + TriangleBoxes::kPadding));
 }
 
 /// Lists the triangles in each cell they touch.
@@ -58,6 +55,23 @@ void FineCells::sort_to_cells() {
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
         for_cells(boxes_[i], [&](std::size_t cell) { in_cells_[cell_end_[cell + 1]++] = i; });
     }
+}
+
+std::size_t FineCells::find_hiding(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenLine& line, const ScreenBox& box) {
+    const std::size_t count = kernels_.find_in_front_of_box(boxes, begin, end, box, found_.data());
+    if (cells_ > 1) {
+        for (std::size_t i = 0; i < count; ++i) found_[i] = in_cells_[found_[i]];
+    }
+    return kernels_.find_hiding(given_->data(), found_.data(), count, line, found_.data());
+}
+
+/// What single precision may do to places is left beside them.
+ScreenBox FineCells::box_around(glm::dvec2 a, glm::dvec2 b, float low) {
+    constexpr float kMargin = 1, kFarMargin = 16, kNear = 1 << 20;
+    const glm::vec2 begin(glm::min(a, b)), end(glm::max(a, b));
+    const float farthest = std::max({std::abs(begin.x), std::abs(begin.y), std::abs(end.x), std::abs(end.y)});
+    const float margin = farthest < kNear ? kMargin : kFarMargin;
+    return {begin.x - margin, begin.y - margin, end.x + margin, end.y + margin, low, std::numeric_limits<float>::infinity()};
 }
 
 FineCells::Box FineCells::box_of(const CrossedTriangle& t) const {

@@ -26,16 +26,17 @@ class FineCells {
     /// from several cells.
     template <typename Use>
     void for_hiding(const ScreenLine& line, glm::dvec2 a, glm::dvec2 b, const Use& use) {
+        const ScreenBox box = box_around(a, b, line.low);
         if (cells_ == 1) {
-            const std::size_t count = kernels_.find_hiding(triangles_.view(), 0, given_->size(), line, found_.data());
+            const std::size_t count = find_hiding(own_boxes_.view(), 0, given_->size(), line, box);
             for (std::size_t i = 0; i < count && use(found_[i]);) ++i;
             return;
         }
         bool goes_on = true;
         for_cells({glm::ivec2(glm::floor(glm::min(a, b))), glm::ivec2(glm::ceil(glm::max(a, b)))}, [&](std::size_t cell) {
             if (!goes_on) return;
-            const std::size_t count = kernels_.find_hiding(triangles_.view(), cell_end_[cell], cell_end_[cell + 1], line, found_.data());
-            for (std::size_t i = 0; i < count && goes_on; ++i) goes_on = use(in_cells_[found_[i]]);
+            const std::size_t count = find_hiding(listed_boxes_.view(), cell_end_[cell], cell_end_[cell + 1], line, box);
+            for (std::size_t i = 0; i < count && goes_on; ++i) goes_on = use(found_[i]);
         });
     }
 
@@ -46,6 +47,9 @@ class FineCells {
     std::size_t count_of_cells() const { return static_cast<std::size_t>(cells_ * cells_); }
     void sort_to_cells();
     Box box_of(const CrossedTriangle& t) const;
+    /// Lists in found_ which of the triangles given may hide a line, of those that have the boxes [begin, end).
+    std::size_t find_hiding(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenLine& line, const ScreenBox& box);
+    static ScreenBox box_around(glm::dvec2 a, glm::dvec2 b, float low);
 
     /// Calls visit(cell) for those that a box touches.
     template <typename Visit>
@@ -65,7 +69,7 @@ class FineCells {
     int cells_ = 1, cell_shift_ = SampleBlocks::kShift;  // along each side, and log2 of a cell's width in 1/256 pixel
     std::vector<Box> boxes_;
     std::vector<std::uint32_t> cell_end_, in_cells_;  // lists of given triangles, one per cell of several
-    ScreenTriangles triangles_;                       // those given, or all lists
+    TriangleBoxes own_boxes_, listed_boxes_;          // of those given, and of all lists
     std::vector<std::uint32_t> found_;
 };
 

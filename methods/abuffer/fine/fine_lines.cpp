@@ -30,7 +30,7 @@ constexpr double kRounding = 1.0 / 64;
 class FineLines::BlockClipper {
   public:
     BlockClipper(const ScreenSurfaces& screen, const LayerEdgeFinder& finder, const TileKernels& kernels, const LineCriteria& criteria)
-        : screen_(screen), finder_(finder), contacts_(screen), criteria_(criteria), cells_(screen, kernels) {}
+        : screen_(screen), finder_(finder), kernels_(kernels), contacts_(screen), criteria_(criteria), cells_(screen, kernels) {}
 
     /// `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
     void set_triangles(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count) {
@@ -54,6 +54,12 @@ class FineLines::BlockClipper {
         double reached = begin;  // as far as no piece is left
         bool is_hidden = false;
         const glm::dvec2 a = line.at(begin), b = line.at(end);
+        const PlaneLine clipped{{line.from.x, line.to.x, a.x, b.x},
+                                {line.from.y, line.to.y, a.y, b.y},
+                                {line.nearness_from, line.nearness_to, line.nearness_at(begin), line.nearness_at(end)},
+                                begin,
+                                end,
+                                slack};
         for_triangles(line, a, b, part_or_line(line, a, b, line.lowest_in(begin, end) - slack),
                       [&](const LayerTriangle& t) {
                           // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
@@ -63,7 +69,8 @@ class FineLines::BlockClipper {
                           const double level = !is_own_mesh ? certain + t.slack : is_border ? rounding + t.slack : rounding;
                           // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
                           // its edges, too, for its neighbour there may turn away.
-                          const HiddenParts parts = clip_twice_where_hidden(line, -coincident - t.slack, level, t, begin, end);
+                          HiddenParts parts;
+                          kernels_.clip_twice(t, clipped, -coincident - t.slack, level, parts);
                           if (!parts.is_any_most) return true;
                           const double most_from = parts.most_begin, most_to = parts.most_end;
                           double from = parts.begin, to = parts.end;
@@ -245,6 +252,7 @@ class FineLines::BlockClipper {
 
     const ScreenSurfaces& screen_;
     const LayerEdgeFinder& finder_;
+    const TileKernels& kernels_;
     Contacts contacts_;
     const LineCriteria& criteria_;
     const std::vector<CrossedTriangle>* given_ = nullptr;

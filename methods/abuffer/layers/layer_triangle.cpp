@@ -187,25 +187,4 @@ bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle&
     return true;
 }
 
-HiddenParts clip_twice_where_hidden(const LayerLine& line, double least, double slack, const LayerTriangle& t, double begin,
-                                    double end) {
-    HiddenParts parts{};
-    const double gap_0 = t.nearness_at(line.from) - line.nearness_from, gap_1 = t.nearness_at(line.to) - line.nearness_to;
-    if (gap_0 - least < 0 && gap_1 - least < 0) return parts;
-    bool is_lost = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t next = k == 2 ? 0 : k + 1;
-        const double dx = t.x[next] - t.x[k], dy = t.y[next] - t.y[k];
-        const double at_0 = dx * (line.from.y - t.y[k]) - dy * (line.from.x - t.x[k]);
-        const double at_1 = dx * (line.to.y - t.y[k]) - dy * (line.to.x - t.x[k]);
-        is_lost |= at_0 == 0 && at_1 == 0 && !t.owns_edge[k];
-        if (!clip_where_positive(at_0, at_1, begin, end)) return parts;
-    }
-    parts.most_begin = parts.begin = begin;
-    parts.most_end = parts.end = end;
-    parts.is_any_most = clip_where_positive(gap_0 - least, gap_1 - least, parts.most_begin, parts.most_end);
-    parts.is_any = !is_lost && clip_where_positive(gap_0 - slack, gap_1 - slack, parts.begin, parts.end);
-    return parts;
-}
-
 }  // namespace burin

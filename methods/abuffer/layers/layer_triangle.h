@@ -85,14 +85,4 @@ double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begi
 bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& triangle, double& begin,
                        double& end, bool with_edges = false);
 
-/// The parts of a line that a triangle is in front of, by more than one slack or another.
-struct HiddenParts {
-    bool is_any_most, is_any;
-    double most_begin, most_end;  ///< by more than `least`, with edges
-    double begin, end;            ///< by more than `slack`
-};
-/// clip_where_hidden() twice, of a part that is not empty.
-HiddenParts clip_twice_where_hidden(const LayerLine& line, double least, double slack, const LayerTriangle& triangle, double begin,
-                                    double end);
-
 }  // namespace burin
