@@ -28,11 +28,6 @@ void put_in_order(LineSegment& s) {
 constexpr std::size_t kBuckets = 256;
 std::size_t bucket_of(std::uint32_t block) { return (block >> 16 & 15u) << 4 | (block & 15u); }
 
-bool is_block_before(std::uint32_t a, std::uint32_t b) {
-    const std::size_t p = bucket_of(a), q = bucket_of(b);
-    return p != q ? p < q : a < b;
-}
-
 /// Bits that are in order where numbers are.
 std::uint64_t in_order(double v) {
     const auto bits = std::bit_cast<std::uint64_t>(v + 0.0);  // 0 has two signs
@@ -119,22 +114,44 @@ void SegmentMerger::merge(std::span<LineSegment> pieces, std::vector<LineSegment
     });
 }
 
-std::span<const LineSegment> segments_in_block(std::span<const LineSegment> merged, std::uint32_t block) {
-    const auto first = std::partition_point(merged.begin(), merged.end(),
-                                            [&](const LineSegment& s) { return is_block_before(s.block, block); });
-    auto last = first;
-    while (last != merged.end() && last->block == block) ++last;
-    return {first, last};
+void SegmentIndex::set(std::span<const LineSegment> merged) {
+    static_assert(kBuckets == burin::kBuckets);
+    merged_ = merged;
+    keys_.resize(merged.size());
+    std::size_t bucket = 0;
+    for (std::uint32_t i = 0; i < merged.size(); ++i) {
+        keys_[i] = {merged[i].line_key, merged[i].block};
+        for (const std::size_t own = bucket_of(merged[i].block); bucket <= own; ++bucket) begin_[bucket] = i;
+    }
+    for (; bucket <= kBuckets; ++bucket) begin_[bucket] = static_cast<std::uint32_t>(merged.size());
 }
 
-std::span<const LineSegment> segments_of_line(std::span<const LineSegment> merged, std::uint32_t block,
-                                              std::uint64_t line_key) {
-    const auto first = std::partition_point(merged.begin(), merged.end(), [&](const LineSegment& s) {
-        return s.block != block ? is_block_before(s.block, block) : s.line_key < line_key;
-    });
-    auto last = first;
-    while (last != merged.end() && last->block == block && last->line_key == line_key) ++last;
-    return {first, last};
+/// Without branches on what keys are: they would be guesses.
+std::size_t SegmentIndex::first_not_before(std::uint32_t block, std::uint64_t line_key) const {
+    const std::size_t bucket = bucket_of(block);
+    std::size_t first = begin_[bucket];
+    for (std::size_t count = begin_[bucket + 1] - first; count > 0;) {
+        const std::size_t half = count / 2;
+        const Key& k = keys_[first + half];
+        const bool is_before = (k.block < block) | ((k.block == block) & (k.line_key < line_key));
+        first += is_before ? count - half : 0;
+        count = half;
+    }
+    return first;
+}
+
+std::span<const LineSegment> SegmentIndex::in_block(std::uint32_t block) const {
+    const std::size_t first = first_not_before(block, 0);
+    std::size_t last = first;
+    while (last < keys_.size() && keys_[last].block == block) ++last;
+    return merged_.subspan(first, last - first);
+}
+
+std::span<const LineSegment> SegmentIndex::of_line(std::uint32_t block, std::uint64_t line_key) const {
+    const std::size_t first = first_not_before(block, line_key);
+    std::size_t last = first;
+    while (last < keys_.size() && keys_[last].block == block && keys_[last].line_key == line_key) ++last;
+    return merged_.subspan(first, last - first);
 }
 
 }  // namespace burin

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,9 +28,27 @@ class SegmentMerger {
     std::vector<Key> order_;
 };
 
-/// Those of one line in a block, or all in the block, among pieces that a SegmentMerger left.
-std::span<const LineSegment> segments_in_block(std::span<const LineSegment> merged, std::uint32_t block);
-std::span<const LineSegment> segments_of_line(std::span<const LineSegment> merged, std::uint32_t block,
-                                              std::uint64_t line_key);
+/// Finds those of one line in a block, or all in the block, among pieces that a SegmentMerger left.
+class SegmentIndex {
+  public:
+    /// `merged` must stay. Buffers are used again.
+    void set(std::span<const LineSegment> merged);
+
+    std::span<const LineSegment> in_block(std::uint32_t block) const;
+    std::span<const LineSegment> of_line(std::uint32_t block, std::uint64_t line_key) const;
+
+  private:
+    /// What pieces are found by: a few of these lie side by side where a piece takes more than one line of the cache.
+    struct Key {
+        std::uint64_t line_key;
+        std::uint32_t block;
+    };
+    std::size_t first_not_before(std::uint32_t block, std::uint64_t line_key) const;
+
+    std::span<const LineSegment> merged_;
+    std::vector<Key> keys_;
+    static constexpr std::size_t kBuckets = 256;  // blocks of a tile are in different ones
+    std::array<std::uint32_t, kBuckets + 1> begin_{};
+};
 
 }  // namespace burin

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <limits>
 
+#include "lines/surface_end.h"
+
 namespace burin {
 namespace {
 
@@ -39,6 +41,8 @@ class Walker {
           along_(to - from),
           length_(glm::length(along_)) {}
 
+    /// `notes_edges`: what it crosses is wanted, too.
+    template <bool notes_edges>
     SurfaceWalk walk(SurfaceId start, int most_triangles) {
         SurfaceWalk result;
         result.surface = start;
@@ -53,7 +57,7 @@ class Walker {
 
         for (int steps = 0, steps_on_wall = 0; steps < most_triangles && steps_on_wall < kMostTrianglesOfWall;) {
             if (current.exit.fraction >= 1) {
-                if (slivers > 0) note_contact(result, last_solid, current.surface, 1);
+                if (notes_edges && slivers > 0) note_contact(result, last_solid, current.surface, 1);
                 result.end = WalkEnd::arrived;
                 result.surface = current.surface;
                 return result;
@@ -91,11 +95,11 @@ class Walker {
             const double at_edge = current.exit.fraction;
             if (sliver) {
                 ++slivers;
-                note(result, mark_of(edge), edge, at_edge);
+                if (notes_edges) note(result, mark_of(edge), edge, at_edge);
             } else if (slivers > 0 || next.over_seam) {
-                note_contact(result, last_solid, next.place.surface, at_edge);
+                if (notes_edges) note_contact(result, last_solid, next.place.surface, at_edge);
                 slivers = 0;
-            } else {
+            } else if (notes_edges) {
                 note(result, edge_classes_between(edge, {next.place.surface, next.entry}, &result.crease_cosine), edge,
                      at_edge);
             }
@@ -355,7 +359,12 @@ std::optional<bool> is_beyond(const SurfaceSet& surfaces, std::uint32_t instance
 
 SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
                          const LineCriteria& criteria, int most_triangles) {
-    return Walker(surfaces, from, to, criteria).walk(start, most_triangles);
+    return Walker(surfaces, from, to, criteria).walk<true>(start, most_triangles);
+}
+
+SurfaceWalk walk_to_end(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria,
+                        int most_triangles) {
+    return Walker(surfaces, from, to, criteria).walk<false>(start, most_triangles);
 }
 
 LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,

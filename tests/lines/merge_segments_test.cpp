@@ -34,6 +34,7 @@ TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
 TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
     Random random(11);
     SegmentMerger merger;
+    SegmentIndex index;
     for (int round = 0; round < 200; ++round) {
         const auto first_row = static_cast<std::uint32_t>(random.integer(0, 0xFFFF));
         const auto first_column = static_cast<std::uint32_t>(random.integer(0, 0xFFFF));
@@ -48,10 +49,12 @@ TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
         }
         merger.merge(given, segments);
         ASSERT_EQ(segments.size(), given.size());
+        index.set(segments);
+        EXPECT_TRUE(index.of_line(static_cast<std::uint32_t>(random.integer(0, 0xFFFF)), 10).empty());
         for (const LineSegment& any : given) {
             const auto count = [&](const auto& is_it) { return std::count_if(given.begin(), given.end(), is_it); };
-            const auto in_block = segments_in_block(segments, any.block);
-            const auto of_line = segments_of_line(segments, any.block, any.line_key);
+            const auto in_block = index.in_block(any.block);
+            const auto of_line = index.of_line(any.block, any.line_key);
             ASSERT_EQ(static_cast<std::ptrdiff_t>(in_block.size()), count([&](const LineSegment& s) { return s.block == any.block; }))
                 << round;
             ASSERT_EQ(static_cast<std::ptrdiff_t>(of_line.size()),

@@ -6,9 +6,10 @@
 namespace burin {
 namespace {
 
-/// A block is cut into so many cells along each side, at most, that about so many triangles are in one.
+/// A block is cut into so many cells along each side, at most, that about so many triangles are in one: fewer where there are
+/// very many pairs of a line and a triangle.
 constexpr int kMostCells = 32;
-constexpr std::size_t kTrianglesPerCell = 128;
+constexpr std::size_t kTrianglesPerCell = 512, kFewTrianglesPerCell = 128, kManyPairs = std::size_t{1} << 18;
 /// For so few lines it is not worth it.
 constexpr std::size_t kFewLines = 12, kMostForFewLines = 1024;
 /// In so many cells a triangle may be, on average.
@@ -22,7 +23,8 @@ void FineCells::set(const std::vector<CrossedTriangle>& triangles, glm::ivec2 co
     cells_ = 1;
     cell_shift_ = SampleBlocks::kShift;
     const bool has_few = line_count <= kFewLines && triangles.size() <= kMostForFewLines;
-    while (!has_few && cells_ < kMostCells && triangles.size() > kTrianglesPerCell * count_of_cells()) {
+    const std::size_t per_cell = line_count * triangles.size() > kManyPairs ? kFewTrianglesPerCell : kTrianglesPerCell;
+    while (!has_few && cells_ < kMostCells && triangles.size() > per_cell * count_of_cells()) {
         cells_ *= 2;
         --cell_shift_;
     }

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "lines/merge_segments.h"
 #include "methods/abuffer/layers/layer_triangle.h"
 
 namespace burin {
@@ -52,6 +51,7 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
                      std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
     if (edges.empty()) return;
     find_farthest(samples);
+    drawn_.set(drawn);
     const SampleBlocks blocks(samples.samples_per_pixel);
     const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
     const int first_x = samples.first_column >> shift,
@@ -104,7 +104,7 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
             }
             const std::uint32_t block =
                 static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
-            find_undrawn(edge, begin, end, segments_of_line(drawn, block, key));
+            find_undrawn(edge, begin, end, drawn_.of_line(block, key));
             open_.clear();
             for (const Interval& i : undrawn_) {
                 if (is_tip(samples, edge, i)) {
@@ -113,7 +113,7 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
                     find_open(samples, edge, owners, {x << shift, y << shift}, i);
                 }
             }
-            if (!takes_rests_ && !open_.empty() && is_drawn_by_another(edge, drawn, block)) return;
+            if (!takes_rests_ && !open_.empty() && is_drawn_by_another(edge, block)) return;
             for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
         };
         for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
@@ -310,8 +310,8 @@ bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double ne
 }
 
 /// Whether a line of another edge in the same place on the screen was found in the block.
-bool FineParts::is_drawn_by_another(const EdgeOnScreen& edge, std::span<const LineSegment> drawn, std::uint32_t block) {
-    const auto in_block = segments_in_block(drawn, block);
+bool FineParts::is_drawn_by_another(const EdgeOnScreen& edge, std::uint32_t block) const {
+    const auto in_block = drawn_.in_block(block);
     return std::any_of(in_block.begin(), in_block.end(), [&](const LineSegment& s) { return runs_along(edge, s); });
 }
 

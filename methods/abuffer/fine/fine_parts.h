@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "abuffer/sample_tile.h"
-#include "lines/line_segment.h"
+#include "lines/merge_segments.h"
 #include "methods/abuffer/fine/fine_edges.h"
 #include "methods/abuffer/screen/edge_on_screen.h"
 
@@ -57,7 +57,7 @@ class FineParts {
                  const Owners& owners) const;
     bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
     static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
-    static bool is_drawn_by_another(const EdgeOnScreen& edge, std::span<const LineSegment> drawn, std::uint32_t block);
+    bool is_drawn_by_another(const EdgeOnScreen& edge, std::uint32_t block) const;
     void find_undrawn(const EdgeOnScreen& edge, double begin, double end,
                       std::span<const LineSegment> pieces);
     double level(double nearness) const;
@@ -70,6 +70,7 @@ class FineParts {
     static constexpr std::size_t kAreaPitch = BlockTable::kPitch >> (kAreaShift - kBlockShift);
     Squares blocks_{kBlockShift, BlockTable::kPitch, {}};
     Squares areas_{kAreaShift, kAreaPitch, {}};  // most edges lie behind whole ones
+    SegmentIndex drawn_;
     std::vector<FineEdge> asked_;
     std::vector<Interval> undrawn_, open_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lines/surface_end.h"
 #include "methods/abuffer/layers/fold_width.h"
 #include "methods/abuffer/layers/layer_triangle.h"
 #include "methods/abuffer/samples/fast_walk.h"
@@ -135,7 +136,7 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
     if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
     // A short way beyond the wall is enough: a walk that gets there has come past it.
     const glm::dvec2 past = kPastWallPx * out;
-    const SurfaceWalk walk = walk_surface(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall);
+    const SurfaceWalk walk = walk_to_end(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall);
     // Where it turns back behind the wall, it gets farthest anywhere on that.
     constexpr double kMiddle = 0.5;
     return walk.end == WalkEnd::fold && std::abs(walk.fraction - kMiddle) <= kNoAdvance;
