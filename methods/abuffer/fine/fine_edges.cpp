@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.h"
 #include "lines/line_segment.h"
@@ -34,6 +35,7 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
     const int width = region.width() * kSubpixelsPerPixel, height = region.height() * kSubpixelsPerPixel;
     const int pitch_shift = std::countr_zero(static_cast<unsigned>(2 * blocks.half_pitch));
     const int tile_shift = std::countr_zero(static_cast<unsigned>(tiles.tile_px() * kSubpixelsPerPixel));
+    const int columns = tiles.columns();
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
         const ScreenMesh mesh = screen.mesh(chunks[c].instance);
         // First all edges, then their vertices, which take longer to come from memory.
@@ -50,6 +52,8 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
             __builtin_prefetch(mesh.vertices + e.from);
             __builtin_prefetch(mesh.vertices + e.to);
         };
+        std::vector<TileLists<TileEdge>::Record> found;
+        found.reserve(edges.size());
         constexpr std::size_t kAhead = 16;
         for (std::size_t i = 0; i < std::min(kAhead, edges.size()); ++i) find_ends(edges[i]);
         for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -72,18 +76,24 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
             if (x1 < 0 || y1 < 0 || x0 >= width || y0 >= height) continue;
             const int first_column = std::max(x0, 0) >> tile_shift, last_column = std::min(x1, width - 1) >> tile_shift;
             const int first_row = std::max(y0, 0) >> tile_shift, last_row = std::min(y1, height - 1) >> tile_shift;
+            const auto add = [&](int column, int row) {
+                const auto area = [&](int subpixel, int tile, int more) {
+                    const int sample = ((subpixel - (tile << tile_shift)) >> pitch_shift) + more;
+                    return static_cast<std::uint8_t>(std::clamp(sample >> TileEdge::kAreaShift, 0, 255));
+                };
+                found.push_back({static_cast<std::uint32_t>(row * columns + column),
+                                 {{chunks[c].instance, e.half_edge}, nearest, area(x0, column, 0), area(y0, row, 0),
+                                  area(x1 + 1, column, 1), area(y1 + 1, row, 1)}});
+            };
+            if (__builtin_expect(first_column == last_column && first_row == last_row, 1)) {
+                add(first_column, first_row);
+                continue;
+            }
             for (int row = first_row; row <= last_row; ++row) {
-                for (int column = first_column; column <= last_column; ++column) {
-                    const auto area = [&](int subpixel, int tile, int more) {
-                        const int sample = ((subpixel - (tile << tile_shift)) >> pitch_shift) + more;
-                        return static_cast<std::uint8_t>(std::clamp(sample >> TileEdge::kAreaShift, 0, 255));
-                    };
-                    records[c].push_back({static_cast<std::uint32_t>(row * tiles.columns() + column),
-                                          {{chunks[c].instance, e.half_edge}, nearest, area(x0, column, 0), area(y0, row, 0),
-                                           area(x1 + 1, column, 1), area(y1 + 1, row, 1)}});
-                }
+                for (int column = first_column; column <= last_column; ++column) add(column, row);
             }
         }
+        records[c] = std::move(found);
     });
     lists_ = TileLists<TileEdge>(records, tiles.count());
 }

@@ -19,31 +19,34 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 }  // namespace
 
 std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
-    constexpr std::uint32_t kGroup = 8;
-    constexpr std::uint64_t kEdges = 0x0707070707070707u;
+    constexpr std::uint32_t kGroup = 64, kWord = 8;
+    constexpr std::uint64_t kFirstEdges = 0x0101010101010101u, kToOneByte = 0x0102040810204080u;
     static_assert(std::endian::native == std::endian::little);
     std::vector<HalfEdge> sides;
     std::size_t count = 0;
-    const auto add = [&](std::uint32_t first, std::uint64_t edges) {  // a byte for each triangle
-        if (sides.size() < count + 3 * kGroup) sides.resize(2 * count + 3 * kGroup);
-        for (; edges != 0; edges &= edges - 1) {  // without other branches: they would be guesses
-            const auto bit = static_cast<unsigned>(std::countr_zero(edges));
-            const std::uint32_t t = first + bit / 8;
-            const bool is_found_from_behind = rank_of_side(mesh.facing[t]) == 2 && mesh.sharp != nullptr && mesh.sharp[t] == 0;
-            sides[count] = 3 * t + bit % 8;
-            count += is_found_from_behind ? 0 : 1;
+    const bool has_sharp = mesh.sharp != nullptr;
+    for (std::uint32_t first = begin; first < end; first += kGroup) {
+        std::uint8_t edges_of[kGroup] = {};
+        const std::uint8_t* own = mesh.line_edges + first;
+        if (end - first < kGroup) own = std::copy(own, own + (end - first), edges_of) - (end - first);
+        std::uint64_t with_edges = 0;  // a bit for each triangle
+        for (std::uint32_t k = 0; k < kGroup; k += kWord) {
+            std::uint64_t edges;  // a byte for each
+            std::memcpy(&edges, own + k, sizeof edges);
+            const std::uint64_t has_any = (edges | edges >> 1 | edges >> 2) & kFirstEdges;
+            with_edges |= (has_any * kToOneByte >> 56) << k;
         }
-    };
-    std::uint64_t edges = 0;
-    std::uint32_t first = begin;
-    for (; first + kGroup <= end; first += kGroup) {
-        std::memcpy(&edges, mesh.line_edges + first, sizeof edges);
-        edges &= kEdges;
-        if (edges != 0) add(first, edges);
+        if (sides.size() < count + 3 * kGroup) sides.resize(2 * count + 3 * kGroup);
+        for (; with_edges != 0; with_edges &= with_edges - 1) {  // without other branches: they would be guesses
+            const std::uint32_t t = first + static_cast<std::uint32_t>(std::countr_zero(with_edges));
+            const bool is_found_from_behind = (rank_of_side(mesh.facing[t]) == 2) & has_sharp && mesh.sharp[t] == 0;
+            const unsigned edges = is_found_from_behind ? 0u : mesh.line_edges[t];
+            for (unsigned k = 0; k < 3; ++k) {
+                sides[count] = 3 * t + k;
+                count += edges >> k & 1;
+            }
+        }
     }
-    edges = 0;
-    std::memcpy(&edges, mesh.line_edges + first, end - first);
-    add(first, edges & kEdges);
     sides.resize(count);
     return sides;
 }
