@@ -297,14 +297,15 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
         const bool is_same = before != nullptr && before->edge.instance == instance && before->edge.half_edge == h;
         if (!is_same) lines = lines_of(instance, h);
         before = &part;
-        for (LayerLine line : lines) {
-            FinePart own = part;
-            own.begin = (std::max(part.begin, line.edge_begin) - line.edge_begin) / (line.edge_end - line.edge_begin);
-            own.end = (std::min(part.end, line.edge_end) - line.edge_begin) / (line.edge_end - line.edge_begin);
-            if (own.begin >= own.end) continue;
-            if (screen_.mesh(instance).partners[h] == h)
-                line.owners[1] = line.owners[0];  // the other patch of a seam may hide it
-            candidates_.push_back({own, line});
+        for (const LayerLine& line : lines) {
+            const double begin = (std::max(part.begin, line.edge_begin) - line.edge_begin) / (line.edge_end - line.edge_begin);
+            const double end = (std::min(part.end, line.edge_end) - line.edge_begin) / (line.edge_end - line.edge_begin);
+            if (begin >= end) continue;
+            FineCandidate& candidate = candidates_.emplace_back(part, line);
+            candidate.part.begin = begin;
+            candidate.part.end = end;
+            // The other patch of a seam may hide it.
+            if (screen_.mesh(instance).partners[h] == h) candidate.line.owners[1] = candidate.line.owners[0];
         }
     }
 }

@@ -82,21 +82,32 @@ bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm:
 }
 
 LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
+    const ScreenMesh& mesh = screen.mesh(s.instance);
+    const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
+    const ScreenVertex &a = mesh.vertices[corner[0]], &first = mesh.vertices[corner[1]], &second = mesh.vertices[corner[2]];
+    const auto area = static_cast<double>(doubled_area(a, first, second));
+    // Which way it is wound is a guess, so without a branch. The plane is the same to the bit: both factors change their signs.
+    const std::size_t turned = area < 0 ? 1 : 0;
+    const ScreenVertex &b = mesh.vertices[corner[1 + turned]], &c = mesh.vertices[corner[2 - turned]];
     LayerTriangle triangle;
     triangle.number = number;
     triangle.instance = s.instance;
-    triangle.vertices = screen.surfaces().mesh_of(s).triangles[s.triangle];
-    const ScreenVertex* const v = screen.vertices(s.instance);
-    const ScreenVertex &a = v[triangle.vertices[0]], &b = v[triangle.vertices[1]],
-                       &c = v[triangle.vertices[2]];
-    const double per_area = 1.0 / static_cast<double>(doubled_area(a, b, c));
+    triangle.vertices = {corner[0], corner[1 + turned], corner[2 - turned]};
+    const double per_area = 1.0 / std::abs(area);
     const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
                  qc = static_cast<double>(c.nearness) - qa;
     triangle.nearness = qa;
     triangle.per_x = (qb * (c.y - a.y) - qc * (b.y - a.y)) * per_area;
     triangle.per_y = (qc * (b.x - a.x) - qb * (c.x - a.x)) * per_area;
-    const glm::dvec2 corners[3] = {{a.x, a.y}, {b.x, b.y}, {c.x, c.y}};
-    set_corners(triangle, corners);
+    triangle.slack = std::abs(triangle.per_x) + std::abs(triangle.per_y);
+    const auto set_corner = [&](std::size_t k, const ScreenVertex& from, const ScreenVertex& to) {
+        triangle.x[k] = from.x;
+        triangle.y[k] = from.y;
+        triangle.owns_edge[k] = (to.y < from.y) | ((to.y == from.y) & (to.x > from.x));
+    };
+    set_corner(0, a, b);
+    set_corner(1, b, c);
+    set_corner(2, c, a);
     return triangle;
 }
 
