@@ -40,6 +40,7 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     kernels_.combine_blocks(sample_blocks_, sample_blocks_, least_.data());
     for (const TriangleRun& run : bins_.runs_in(tile)) add_small(run);
     for (const TriangleRun& run : bins_.thin_runs_in(tile)) add_small(run);
+    sort_listed();
     for (const std::uint32_t i : bins_.large_in(tile)) add_large(bins_.large(i));
     for (const std::uint32_t i : bins_.thin_large_in(tile)) add_large(bins_.large(i));
     add_beyond(tile);
@@ -144,11 +145,19 @@ void FineBlocks::note_least(glm::ivec2 low, glm::ivec2 high, float lowest) {
 
 void FineBlocks::add_small(const TriangleRun& run) {
     if (run.is_behind(least_.data(), run.highest)) return;
-    if (nearer_.size() < run.count) nearer_.resize(run.count);
+    if (run.instance != listed_instance_) sort_listed();
+    listed_instance_ = run.instance;
+    if (nearer_.size() < listed_ + run.count) nearer_.resize(2 * (listed_ + run.count));
     constexpr float kNoLevel = 0;
-    const std::size_t count =
-        kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data());
-    sort_triangles(screen_.mesh(run.instance), nearer_.data(), count);
+    listed_ += kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data() + listed_);
+    // Of several runs: of one, too few are left to ask memory for the next ones meanwhile.
+    constexpr std::size_t kEnough = 4 * kAtOnce;
+    if (listed_ >= kEnough) sort_listed();
+}
+
+void FineBlocks::sort_listed() {
+    if (listed_ > 0) sort_triangles(screen_.mesh(listed_instance_), nearer_.data(), listed_);
+    listed_ = 0;
 }
 
 void FineBlocks::add_large(const LargePolygon& large) {

@@ -46,7 +46,7 @@ class FineBlocks {
     static constexpr int kCells = SampleBlocks::kShift - HidingGrid::kCellShift + 1;
     static_assert(SampleBlocks::kShift == HidingGrid::kShift && kCells == 2);
     /// So many triangles are sorted at once.
-    static constexpr std::size_t kAtOnce = 64;
+    static constexpr std::size_t kAtOnce = 256;
 
     struct Box {
         std::int32_t x0, y0, x1, y1;  // in 1/256 pixel
@@ -60,6 +60,7 @@ class FineBlocks {
     void combine_cells();
     void note_least(glm::ivec2 low, glm::ivec2 high, float lowest);
     void add_small(const TriangleRun& run);
+    void sort_listed();
     void add_beyond(std::size_t tile);
     void add_large(const LargePolygon& large);
     void sort_triangles(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count);
@@ -79,7 +80,9 @@ class FineBlocks {
     std::vector<float> least_;          // the same as a BlockTable
     int sample_blocks_ = 0;             // along each side
     glm::ivec2 beyond_low_{0}, beyond_high_{0};  // where borders may be in contact
-    std::vector<std::uint32_t> nearer_;
+    std::vector<std::uint32_t> nearer_;  // of one instance's triangles, those that are still to be sorted: so many
+    std::size_t listed_ = 0;
+    std::uint32_t listed_instance_ = 0;
     std::vector<std::vector<std::uint32_t>> candidates_;  // per block
     std::vector<std::vector<CrossedTriangle>> triangles_;
     std::vector<HidingInBlock> found_;

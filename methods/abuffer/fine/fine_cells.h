@@ -19,7 +19,8 @@ class FineCells {
 
     /// `triangles` must stay. `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
     void set(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count);
-    /// How many triangles are in a cell, on average. Unless there are very many, it may be more than cells could have.
+    /// How many triangles are in a cell, on average. Cells are as small as they can be where there are very many pairs of a line
+    /// and a triangle.
     std::size_t triangles_per_cell() const { return cells_ == 1 ? given_->size() : in_cells_.size() / count_of_cells(); }
 
     /// Calls use(number) for those in the cells from a to b that may hide a line between them, until it says false. Some come

@@ -71,7 +71,8 @@ class FineLines::BlockClipper {
                           // its edges, too, for its neighbour there may turn away.
                           HiddenParts parts;
                           kernels_.clip_twice(t, clipped, -coincident - t.slack, level, parts);
-                          if (!parts.is_any_most) return true;
+                          // What is hidden already does not become more so.
+                          if (!parts.is_any_most || parts.most_end <= reached) return true;
                           const double most_from = parts.most_begin, most_to = parts.most_end;
                           double from = parts.begin, to = parts.end;
                           const bool is_settled = parts.is_any && from == most_from && to == most_to;
