@@ -16,6 +16,14 @@ namespace {
 
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
 
+/// Of both triangles at an edge.
+void ask_for_vertices(const ScreenMesh& mesh, HalfEdge h) {
+    for (const HalfEdge side : {h, mesh.partners[h]}) {
+        const std::uint32_t* const corners = mesh.corners + (side - side % 3);
+        for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(mesh.vertices + corners[k]);
+    }
+}
+
 }  // namespace
 
 std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
@@ -289,7 +297,19 @@ std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces
     const LayerEdgeFinder finder(frame, screen, region);
     std::vector<std::vector<LayerLine>> found(chunks.size());
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
-        for_possible_lines(screen, chunks[c], [&](SurfaceId s, HalfEdge h) { finder.find(s, h, found[c]); });
+        const ScreenMesh& mesh = screen.mesh(chunks[c].instance);
+        // First all edges, then the corners of their triangles, which lie anywhere in memory.
+        std::vector<HalfEdge> edges;
+        for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
+            edges.push_back(h);
+            __builtin_prefetch(mesh.corners + h);
+            __builtin_prefetch(mesh.corners + mesh.partners[h]);
+        });
+        constexpr std::size_t kAhead = 16;
+        for (std::size_t i = 0; i < edges.size() + kAhead; ++i) {
+            if (i < edges.size()) ask_for_vertices(mesh, edges[i]);
+            if (i >= kAhead) finder.find({chunks[c].instance, edges[i - kAhead] / 3}, edges[i - kAhead], found[c]);
+        }
     });
     std::vector<LayerLine> lines;
     for (const auto& list : found) lines.insert(lines.end(), list.begin(), list.end());
