@@ -254,11 +254,11 @@ class LayerEdgeFinder::Rules {
         const std::uint32_t b = std::max(start_of(mesh, h), end_of(mesh, h));
         const auto ends = edge_on_screen(screen_, s.instance, a, b);
         if (!ends) return;
-        LayerLine line;
+        const glm::dvec2 low = glm::min(ends->from, ends->to), high = glm::max(ends->from, ends->to);
+        if (ends->from == ends->to || high.x < low_.x || high.y < low_.y || low.x > high_.x || low.y > high_.y) return;
+        LayerLine& line = lines.emplace_back();
         line.from = ends->from;
         line.to = ends->to;
-        const glm::dvec2 low = glm::min(line.from, line.to), high = glm::max(line.from, line.to);
-        if (line.from == line.to || high.x < low_.x || high.y < low_.y || low.x > high_.x || low.y > high_.y) return;
         line.nearness_from = ends->nearness_from;
         line.nearness_to = ends->nearness_to;
         line.owners = owners;
@@ -269,7 +269,6 @@ class LayerEdgeFinder::Rules {
         line.line_key = std::uint64_t{s.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
         if (is_on_screen(s.instance, a)) line.nodes[0] = std::uint64_t{s.instance} << 32 | a;
         if (is_on_screen(s.instance, b)) line.nodes[1] = std::uint64_t{s.instance} << 32 | b;
-        lines.push_back(line);
     }
 
     const SurfaceSet& surfaces_;
