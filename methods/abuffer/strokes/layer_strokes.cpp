@@ -232,12 +232,22 @@ class LayerStrokes::Worker {
     void draw_plain(std::span<const LayerSegment* const> list, PixelRect rect, const VisibleStrokes& visible, Film& film) {
         const float strength = hidden_pen_.strength * static_cast<float>(list.front()->transmission) / 255.0f;
         const auto all = [](const LayerSegment&) { return true; };
+        touched_.clear();
         strokes_.draw(list, hidden_pen_.radius_px, all, [&](std::size_t i, const StrokeMask& mask) {
             const int column = static_cast<int>(i) % rect.width(), row = static_cast<int>(i) / rect.width();
-            const StrokeMask taken = taken_by(visible, column, row);
-            put(style_, rect.x0 + column, rect.y0 + row, visible.pen().strength * strokes_.share(taken), glm::vec4(0.0f),
-                strength * strokes_.share(mask), strength * strokes_.share(mask, taken), film);
+            if (touched_.empty() || touched_.back().row != row) film.prefetch(rect.x0 + column, rect.y0 + row);
+            touched_.push_back({column, row, &mask});
         });
+        for (const auto& [column, row, mask] : touched_) {
+            const float own = strength * strokes_.share(*mask);
+            float ink = 0, seen = own;
+            if (visible.is_touched(column, row)) {
+                const StrokeMask taken = taken_by(visible, column, row);
+                ink = visible.pen().strength * strokes_.share(taken);
+                seen = strength * strokes_.share(*mask, taken);
+            }
+            put(style_, rect.x0 + column, rect.y0 + row, ink, glm::vec4(0.0f), own, seen, film);
+        }
     }
 
     const LineStyle& style_;
@@ -246,6 +256,11 @@ class LayerStrokes::Worker {
     Pen pen_, hidden_pen_;
     TileStrokes strokes_;
     std::vector<SeenThrough> seen_through_;
+    struct Touched {
+        int column, row;
+        const StrokeMask* mask;
+    };
+    std::vector<Touched> touched_;
 };
 
 LayerStrokes::LayerStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,

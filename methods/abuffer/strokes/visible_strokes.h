@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -46,6 +47,10 @@ class VisibleStrokes {
         return faded_.is_touched(column, row) ? std::nullopt : only;
     }
     const StrokeMask& mask_of(LineClass c, int column, int row) const { return canvas_of(c).at(column, row); }
+    bool is_touched(int column, int row) const {
+        return faded_.is_touched(column, row) ||
+               std::any_of(classes_.begin(), classes_.end(), [&](LineClass c) { return canvas_of(c).is_touched(column, row); });
+    }
     /// Calls use(class, mask, samples taken by others, opacity 0..1) for the strokes at a pixel, class by class;
     /// what fades comes last. Where several overlap, the first one counts.
     template <typename Use>
