@@ -112,7 +112,7 @@ void LayerTile::set_up(std::uint32_t i) {
     const std::uint32_t number = cells_[i].number;
     const SurfaceId s = screen_.surface_of(number);
     set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
-    triangles_.push_back(layer_triangle(screen_, s, number));
+    set_up_layer_triangle(screen_, s, number, triangles_.emplace_back());  // where it stays: copies would wait for its parts
     triangles_.back().transmission = transmission_of(s);
 }
 
@@ -157,8 +157,9 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
     sweep_.clear();
     contacts_of_line_.clear();
-    line_slack_ = line_slack(frame_.surfaces, line, begin, end);
-    certain_slack_ = line_slack(frame_.surfaces, line, begin, end, kCertainPx);
+    const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)), snapping = snapping_slack(line);
+    line_slack_ = level_slack(frame_.surfaces, nearest) + snapping;
+    certain_slack_ = level_slack(frame_.surfaces, nearest, kCertainPx) + snapping;
     const glm::dvec2 a = line.at(begin), b = line.at(end);
     const PartInTile part{begin, end, a, b, line.nearness_at(begin), line.nearness_at(end)};
     near_.clear();

@@ -10,6 +10,9 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
+/// The top-left rule, for an edge of a triangle whose corners run clockwise as seen.
+bool owns_edge(double along_x, double along_y) { return (along_y < 0) | ((along_y == 0) & (along_x > 0)); }
+
 /// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for
 /// triangles without area.
 bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
@@ -22,7 +25,7 @@ bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
         const glm::dvec2 along = p[(k + 1) % 3] - p[k];
         triangle.x[k] = p[k].x;
         triangle.y[k] = p[k].y;
-        triangle.owns_edge[k] = along.y < 0 || (along.y == 0 && along.x > 0);
+        triangle.owns_edge[k] = owns_edge(along.x, along.y);
     }
     triangle.slack = std::abs(triangle.per_x) + std::abs(triangle.per_y);
     return area != 0;
@@ -81,7 +84,7 @@ bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm:
            clip_where_positive(high.y - line_from.y, high.y - line_to.y, begin, end);
 }
 
-LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
+void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, LayerTriangle& triangle) {
     const ScreenMesh& mesh = screen.mesh(s.instance);
     const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
     const ScreenVertex &a = mesh.vertices[corner[0]], &first = mesh.vertices[corner[1]], &second = mesh.vertices[corner[2]];
@@ -89,7 +92,6 @@ LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uin
     // Which way it is wound is a guess, so without a branch. The plane is the same to the bit: both factors change their signs.
     const std::size_t turned = area < 0 ? 1 : 0;
     const ScreenVertex &b = mesh.vertices[corner[1 + turned]], &c = mesh.vertices[corner[2 - turned]];
-    LayerTriangle triangle;
     triangle.number = number;
     triangle.instance = s.instance;
     triangle.vertices = {corner[0], corner[1 + turned], corner[2 - turned]};
@@ -103,11 +105,16 @@ LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uin
     const auto set_corner = [&](std::size_t k, const ScreenVertex& from, const ScreenVertex& to) {
         triangle.x[k] = from.x;
         triangle.y[k] = from.y;
-        triangle.owns_edge[k] = (to.y < from.y) | ((to.y == from.y) & (to.x > from.x));
+        triangle.owns_edge[k] = owns_edge(to.x - from.x, to.y - from.y);
     };
     set_corner(0, a, b);
     set_corner(1, b, c);
     set_corner(2, c, a);
+}
+
+LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
+    LayerTriangle triangle;
+    set_up_layer_triangle(screen, s, number, triangle);
     return triangle;
 }
 

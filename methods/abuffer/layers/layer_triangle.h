@@ -40,6 +40,8 @@ inline bool clip_to_rect(const LayerLine& line, glm::dvec2 low, glm::dvec2 high,
 
 /// A triangle whose corners are all on the screen.
 LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
+/// The same where it is wanted, but for its transmission.
+void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, LayerTriangle& triangle);
 /// What the near plane and the guard band leave of any other one.
 std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s,
                                                    std::uint32_t number);
