@@ -24,19 +24,25 @@ class TriangleIndex {
     }
     /// Numbers of 64 bits.
     std::size_t words() const { return index_.words; }
-    /// Sets the bits of those that touch a box, or lie beside it by less than a step, and reach nearer than its `low`.
+    /// Sets the bits of those that touch a box, or lie beside it by less than a step, and reach nearer than its `low`, and no others.
+    void find_only(const ScreenBox& box, std::uint64_t* found) const {
+        for_words(box, [found](std::size_t i, std::uint64_t bits) { found[i] = bits; });
+    }
+    /// Sets these bits, too.
     void find(const ScreenBox& box, std::uint64_t* found) const {
+        for_words(box, [found](std::size_t i, std::uint64_t bits) { found[i] |= bits; });
+    }
+
+  private:
+    template <typename Use>
+    void for_words(const ScreenBox& box, const Use& use) const {
         const std::uint64_t* const not_right = index_.at(BitmapIndex::begins_x, step(index_.x, box.x1));
         const std::uint64_t* const not_left = index_.at(BitmapIndex::ends_x, step(index_.x, box.x0));
         const std::uint64_t* const not_below = index_.at(BitmapIndex::begins_y, step(index_.y, box.y1));
         const std::uint64_t* const not_above = index_.at(BitmapIndex::ends_y, step(index_.y, box.y0));
         const std::uint64_t* const nearer = index_.at(BitmapIndex::nearest, step(index_.nearness, box.low));
-        for (std::size_t i = 0; i < index_.words; ++i) {
-            found[i] |= not_right[i] & not_left[i] & not_below[i] & not_above[i] & nearer[i];
-        }
+        for (std::size_t i = 0; i < index_.words; ++i) use(i, not_right[i] & not_left[i] & not_below[i] & not_above[i] & nearer[i]);
     }
-
-  private:
     static BitmapIndex::Axis axis(float begin, float end) {
         return {begin, end > begin ? static_cast<float>(BitmapIndex::kSteps) / (end - begin) : 0};
     }

@@ -82,6 +82,9 @@ TEST(TriangleIndex, TrianglesThatTouchABoxAreFound) {
             index.make(*kernels, triangles.data(), listed.data(), count, bounds);
             std::vector<std::uint64_t> found(index.words(), 0);
             index.find(box, found.data());
+            std::vector<std::uint64_t> only(index.words(), ~std::uint64_t{0});
+            index.find_only(box, only.data());
+            EXPECT_EQ(only, found) << kernels->name << " round " << round;
             if (expected.empty()) expected = found;
             EXPECT_EQ(found, expected) << kernels->name << " round " << round;
         }

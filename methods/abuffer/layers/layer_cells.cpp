@@ -103,21 +103,22 @@ std::size_t LayerCells::find_crossed(std::size_t cell, const LayerLine& line, do
     const glm::dvec2 corner(corner_), along = line.to - line.from;
     const auto low = static_cast<float>(line.lowest_in(from, to) - slack);
     const TriangleIndex& index = indices_[cell];
-    bits_.assign(index.words(), 0);
     const double length = (to - from) * std::max(std::abs(along.x), std::abs(along.y));
     const int parts = std::max(1, static_cast<int>(std::ceil(length / (cell_px_ * kPartOfCell))));
-    glm::vec2 a(line.from + along * from - corner);
-    for (int i = 1; i <= parts; ++i) {
-        const glm::vec2 b(line.from + along * (from + (to - from) * i / parts) - corner);
+    const auto around = [&](glm::vec2 a, glm::vec2 b) {
         const glm::vec2 first = glm::min(a, b) - (kRounding + reach), last = glm::max(a, b) + (kRounding + reach);
-        index.find({first.x, first.y, last.x, last.y, low, kFar}, bits_.data());
-        a = b;
-    }
+        return ScreenBox{first.x, first.y, last.x, last.y, low, kFar};
+    };
+    const auto place = [&](int i) { return glm::vec2(line.from + along * (from + (to - from) * i / parts) - corner); };
+    bits_.resize(index.words());
+    index.find_only(around(place(0), place(1)), bits_.data());
+    for (int i = 2; i <= parts; ++i) index.find(around(place(i - 1), place(i)), bits_.data());
     const std::uint32_t* const places = places_.data() + cell_at(cell).begin;
+    std::uint32_t* const listed = listed_.data();
     std::size_t count = 0;
     for (std::size_t word = 0; word < bits_.size(); ++word) {
         for (std::uint64_t bits = bits_[word]; bits != 0; bits &= bits - 1) {
-            listed_[count++] = places[64 * word + static_cast<std::size_t>(std::countr_zero(bits))];
+            listed[count++] = places[64 * word + static_cast<std::size_t>(std::countr_zero(bits))];
         }
     }
     // A short line is taken as a whole, since its ends are whole numbers.

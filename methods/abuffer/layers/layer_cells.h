@@ -28,7 +28,9 @@ class LayerCells {
     void clear(PixelRect rect);
     /// Where triangles are measured from, in 1/256 pixel.
     glm::ivec2 corner() const { return corner_; }
-    void add(const CrossedTriangle& triangle) { triangles_.push_back(triangle); }
+    void reserve(std::size_t count) { triangles_.reserve(count); }
+    /// One more, which is set where it stays.
+    CrossedTriangle& add() { return triangles_.emplace_back(); }
     /// After all were added. Cells are made so small that about `per_cell` triangles begin in one.
     void sort(double per_cell);
     /// What for_crossed() needs, after that.

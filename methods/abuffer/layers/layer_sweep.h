@@ -20,7 +20,7 @@ class LayerSweep {
     bool is_empty() const { return intervals_.empty(); }
     /// A triangle, by its number, is in front of the line between two shares of it. `transmission`: 0 = opaque.
     void add(std::uint32_t triangle, double begin, double end, double transmission) {
-        intervals_.push_back({triangle, begin, end, transmission});
+        intervals_.emplace_back(triangle, begin, end, transmission);
         has_transparent_ = has_transparent_ || transmission > 0;
     }
     /// Adds the pieces of the part [begin, end] of a line that something is in front of. `has_parts`: triangles may have been

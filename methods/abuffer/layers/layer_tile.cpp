@@ -38,6 +38,7 @@ void LayerTile::fill(std::size_t tile) {
     SurfaceId s;
     std::uint32_t first = 0, end = 0;
     const std::span<const std::uint32_t> list = bins_.triangles(tile);
+    cells_.reserve(list.size());
     // Most are of the same mesh; what of others is asked for is never read.
     constexpr std::size_t kVerticesAhead = 16, kCornersAhead = 32;
     const auto corners_of = [&](std::size_t i) -> const std::uint32_t* {
@@ -67,7 +68,15 @@ void LayerTile::fill(std::size_t tile) {
         const ScreenVertex &p = is_clockwise ? b : c, &q = is_clockwise ? c : b;
         const auto x = [this](const ScreenVertex& at) { return static_cast<float>(at.x - cells_.corner().x); };
         const auto y = [this](const ScreenVertex& at) { return static_cast<float>(at.y - cells_.corner().y); };
-        add({{x(a), x(p), x(q)}, {y(a), y(p), y(q)}, std::max(std::max(a.nearness, b.nearness), c.nearness), number}, kNotSetUp);
+        CrossedTriangle& entry = add(kNotSetUp);
+        entry.x[0] = x(a);
+        entry.x[1] = x(p);
+        entry.x[2] = x(q);
+        entry.y[0] = y(a);
+        entry.y[1] = y(p);
+        entry.y[2] = y(q);
+        entry.highest = std::max(std::max(a.nearness, b.nearness), c.nearness);
+        entry.number = number;
         if (!finds_pairs_) continue;
         const auto first_vertex = static_cast<std::uint32_t>(vertices - screen_.vertices(0));
         pairs_.add(std::min({a.nearness, b.nearness, c.nearness}), {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]});
@@ -77,9 +86,9 @@ void LayerTile::fill(std::size_t tile) {
     fragment_count_ += cells_.places().size();
 }
 
-void LayerTile::add(const CrossedTriangle& triangle, std::uint32_t set_up) {
-    cells_.add(triangle);
+CrossedTriangle& LayerTile::add(std::uint32_t set_up) {
     set_up_.push_back(set_up);
+    return cells_.add();
 }
 
 double LayerTile::transmission_of(SurfaceId s) const {
@@ -94,7 +103,7 @@ void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
     for (LayerTriangle& triangle : clipped_layer_triangles(screen_, s, number)) {
         triangle.transmission = transmission_of(s);
         triangles_.push_back(triangle);
-        CrossedTriangle entry;
+        CrossedTriangle& entry = add(static_cast<std::uint32_t>(triangles_.size() - 1));
         LayerPairs::Corners vertices;
         for (std::size_t k = 0; k < 3; ++k) {
             entry.x[k] = static_cast<float>(triangle.x[k] - cells_.corner().x);
@@ -103,7 +112,6 @@ void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
         }
         entry.highest = static_cast<float>(plane.highest - zero);
         entry.number = number;
-        add(entry, static_cast<std::uint32_t>(triangles_.size() - 1));
         if (finds_pairs_) pairs_.add(static_cast<float>(plane.lowest - zero), vertices);
     }
 }

@@ -51,7 +51,7 @@ class LayerTile {
     static constexpr std::uint32_t kNotSetUp = 0xFFFFFFFFu;
 
     void add_clipped(SurfaceId s, std::uint32_t number);
-    void add(const CrossedTriangle& triangle, std::uint32_t set_up);
+    CrossedTriangle& add(std::uint32_t set_up);
     const LayerTriangle& triangle(std::uint32_t i) {
         if (set_up_[i] == kNotSetUp) set_up(i);
         return triangles_[set_up_[i]];
