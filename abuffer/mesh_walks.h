@@ -29,11 +29,11 @@ struct MeshWalks {
     std::uint32_t down[kRoom], backwards[kRoom];  ///< all bits or none
 
     // Those that ended, in no order; of others nothing is known.
-    static constexpr std::uint32_t kFolds = 1;         ///< the surface turns away, else the walk arrives
-    static constexpr std::uint32_t kCrossesSharp = 2;  ///< it went over a sharp edge
+    static constexpr std::uint32_t kFolds = 1;          ///< the surface turns away, else the walk arrives
+    static constexpr std::uint32_t kMayCrossLines = 2;  ///< it went over a sharp edge, or through what may be a sliver
     std::size_t ended_count;
     std::uint32_t ended[kRoom];      ///< walks
-    std::uint32_t how[kRoom];        ///< kFolds and kCrossesSharp
+    std::uint32_t how[kRoom];        ///< kFolds and kMayCrossLines
     std::uint32_t end_step[kRoom];   ///< whose exit is where it ends
     std::uint32_t last_step[kRoom];  ///< the last one taken, which may lead behind that
 

@@ -22,13 +22,14 @@ using namespace test;
 constexpr int kWidth = 90, kHeight = 70;
 
 struct Counts {
-    int arrived = 0, folded = 0, crossed = 0, stopped = 0;
+    int arrived = 0, folded = 0, crossed = 0, stopped = 0, over_slivers = 0;
 
     void operator+=(const Counts& c) {
         arrived += c.arrived;
         folded += c.folded;
         crossed += c.crossed;
         stopped += c.stopped;
+        over_slivers += c.over_slivers;
     }
 };
 
@@ -54,6 +55,11 @@ void expect_equal_classes(const FastWalk& ahead, const FastWalk& alone) {
     if (alone.crossed.empty()) return;
     EXPECT_EQ(ahead.crossed_edge.half_edge, alone.crossed_edge.half_edge);
     EXPECT_EQ(ahead.crossed_fraction, alone.crossed_fraction);
+}
+
+bool is_over_sliver(const FastWalk& walk, std::uint32_t instance, const SurfaceSet& surfaces) {
+    return std::any_of(walk.steps + 1, walk.steps + walk.step_count,
+                       [&](const FastWalk::Step& step) { return is_sliver(surfaces, {instance, step.triangle}); });
 }
 
 /// Pairs of a tile that show different triangles.
@@ -107,6 +113,7 @@ Counts compare(const Scene& scene, const Camera& camera, int samples) {
                     ++(alone.end == FastWalk::arrived ? counts.arrived : counts.folded);
                     counts.crossed += is_through && !alone.crossed.empty() ? 1 : 0;
                     counts.stopped += has_steps ? 1 : 0;
+                    counts.over_slivers += is_over_sliver(alone, pair.surfaces[i % 2].instance, frame.surfaces) ? 1 : 0;
                 }
             }
         }
@@ -155,6 +162,31 @@ TEST(WalksAhead, WallsSeenEdgeOn) {
     }
     EXPECT_GT(sum.folded, 10000);
     EXPECT_GT(sum.arrived, 10000);
+}
+
+/// Strips of slivers between strips that lie higher or lower, seen from all sides.
+TEST(WalksAhead, SliversOnTheWay) {
+    constexpr std::size_t kColumns = 60;
+    Counts sum;
+    for (std::uint64_t seed = 0; seed < 24; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        PolygonSoup strips = make_plane(2.5, 2.5, kColumns, 12);
+        const double deep = random.real(0, 0.2), thin = random.real(0, 1e-3);
+        std::vector<double> heights;
+        for (std::size_t k = 0; k <= kColumns; ++k) heights.push_back(deep * random.real(0, 1));
+        for (std::size_t i = 0; i < strips.positions.size(); ++i) {
+            const std::size_t column = i % (kColumns + 1), strip = column % 3 == 2 ? column - 1 : column;
+            glm::dvec3& p = strips.positions[i];
+            p = {p.x, -p.z, heights[strip]};
+            if (strip != column) p.x = strips.positions[i - 1].x + thin;
+        }
+        const glm::dvec3 eye = glm::dvec3(random.real(-3, 3), random.real(-3, 3), 4);
+        sum += compare(scene_of({std::move(strips)}), perspective_camera(eye, {0, 0, 0}), 1 << random.integer(1, 3));
+    }
+    EXPECT_GT(sum.over_slivers, 10000);
+    EXPECT_GT(sum.crossed, 10000);
+    EXPECT_GT(sum.folded, 1000);
 }
 
 /// Edges whose two polygons are wound alike, or that have one.

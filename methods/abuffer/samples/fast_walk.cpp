@@ -10,6 +10,8 @@ namespace {
 constexpr double kNegligibleFoldPx = 1.0 / 64;
 constexpr double kWidestCrackPx = 1;
 
+bool is_sharp(const ScreenMesh& mesh, HalfEdge h) { return mesh.sharp == nullptr || (mesh.sharp[h / 3] >> h % 3 & 1) != 0; }
+
 }  // namespace
 
 /// The line that is walked along, and the triangle looked at. `u` runs along the line, `v` across.
@@ -124,8 +126,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
     const FastWalk::Step* before_wall = current;  // where it last got farther at all
     const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
-    std::uint32_t last_solid = start.triangle;
-    int slivers = 0;  // since then
+    Slivers slivers{start.triangle};
     const double snapping = kSnappingPx * kSubpixelsPerPixel / pair.pitch;
     const auto end_at = [&result](FastWalk::End end, const FastWalk::Step& at) {
         result.end = end;
@@ -135,13 +136,14 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     };
     for (result.step_count = 1; result.step_count < FastWalk::kMaxSteps; ++result.step_count) {
         if (current->left >= 1) {
-            if (slivers > 0) note_contact(instance, last_solid, current->triangle, way.at(1), 1, result);
-            return end_at(FastWalk::arrived, *current);
+            end_at(FastWalk::arrived, *current);
+            // Elsewhere nobody asks for lines.
+            if (SurfaceId{instance, current->triangle} == pair.surfaces[backwards ? 0 : 1]) note_lines(pair, backwards, result);
+            return;
         }
         FastWalk::Step& next = steps[result.step_count];
         const HalfEdge entry = mesh.partners[current->exit];
         const bool over_seam = entry == current->exit;
-        const bool is_sharp = mesh.sharp == nullptr || (mesh.sharp[current->triangle] >> (current->exit - 3 * current->triangle) & 1) != 0;
         if (over_seam) {
             Way beyond(mesh, pair, backwards);
             const FastWalk::End end = step_over_seam(way, instance, *current, beyond, next);
@@ -153,13 +155,12 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             way.look_at(next.triangle);
         } else {
             // An edge that is not sharp has one partner.
-            if ((is_sharp && mesh.partners[entry] != current->exit) || !way.look_at(entry / 3)) return;
+            if ((is_sharp(mesh, current->exit) && mesh.partners[entry] != current->exit) || !way.look_at(entry / 3)) return;
             next = way.step_from(entry, current->left);
         }
         const bool unfolds = current->left < farthest->left && next.left >= farthest->left;
-        const bool sliver = !is_surely_solid(mesh, next.triangle) && slivers < kMostSlivers &&
-                            is_sliver(surfaces_, {instance, next.triangle});
-        const SurfaceId solid{instance, sliver ? last_solid : next.triangle};
+        const bool sliver = is_sliver_on_way({instance, next.triangle}, slivers);
+        const SurfaceId solid{instance, sliver ? slivers.last_solid : next.triangle};
         if (next.left < farthest->left - negligible_fold ||
             (unfolds &&
              !is_level(way.nearness_at(farthest->exit), way.nearness_between(*current, next, farthest->left), solid))) {
@@ -177,17 +178,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             !is_level(way.nearness_at(before_wall->exit), way.nearness_at(current->exit), solid)) {
             return end_at(FastWalk::fold, *before_wall);
         }
-        if (sliver) {
-            ++slivers;
-            const bool is_mark = surfaces_.instances[instance].mesh->is_marked(current->exit);
-            if (is_mark) note(LineClass::mark, {{instance, current->triangle}, current->exit}, current->left, result);
-        } else if (slivers > 0 || over_seam) {
-            note_contact(instance, last_solid, next.triangle, way.at(current->left), current->left, result);
-            slivers = 0;
-        } else if (is_sharp) {
-            note_edge(instance, *current, result);
-        }
-        if (!sliver) last_solid = next.triangle;
+        slivers.enter(next.triangle, sliver);
         current = &next;
         if (is_farthest) farthest = current;
         if (goes_on) before_wall = current;
@@ -206,11 +197,29 @@ WalkLimits FastWalker::limits(std::int32_t pitch) const {
             p.orthographic ? 0.0 : deep};
 }
 
-void FastWalker::note_edges(std::uint32_t instance, FastWalk& result) {
-    const std::uint8_t* const sharp = screen_.mesh(instance).sharp;
-    for (const FastWalk::Step* step = result.steps; step != result.steps + result.step_count - 1; ++step) {
-        if ((sharp[step->triangle] >> (step->exit - 3 * step->triangle) & 1) != 0) note_edge(instance, *step, result);
+void FastWalker::note_lines(const NeighbourSamples& pair, bool backwards, FastWalk& result) {
+    const std::uint32_t instance = pair.surfaces[backwards ? 1 : 0].instance;
+    const ScreenMesh& mesh = screen_.mesh(instance);
+    const Way way(mesh, pair, backwards);
+    Slivers slivers{result.steps[0].triangle};
+    const auto note_contact_at = [&](std::uint32_t triangle, double fraction) {
+        note_contact(instance, slivers.last_solid, triangle, way.at(fraction), fraction, result);
+    };
+    for (int k = 1; k < result.step_count; ++k) {
+        const FastWalk::Step& from = result.steps[k - 1];
+        const std::uint32_t next = result.steps[k].triangle;
+        const bool sliver = is_sliver_on_way({instance, next}, slivers);
+        if (sliver) {
+            const bool is_mark = surfaces_.instances[instance].mesh->is_marked(from.exit);
+            if (is_mark) note(LineClass::mark, {{instance, from.triangle}, from.exit}, from.left, result);
+        } else if (slivers.count > 0 || mesh.partners[from.exit] == from.exit) {  // or over a seam
+            note_contact_at(next, from.left);
+        } else if (is_sharp(mesh, from.exit)) {
+            note_edge(instance, from, result);
+        }
+        slivers.enter(next, sliver);
     }
+    if (slivers.count > 0) note_contact_at(result.triangle, 1);
 }
 
 /// From a border to another patch of the mesh. `arrived`: it goes on with the step `next`.
@@ -252,6 +261,10 @@ LineClassSet FastWalker::edge_classes(SurfaceEdge edge, double* crease_cosine) {
     }
     *crease_cosine = std::min(*crease_cosine, known.crease_cosine);
     return known.classes;
+}
+
+bool FastWalker::is_sliver_on_way(SurfaceId s, const Slivers& before) const {
+    return !is_surely_solid(screen_.mesh(s.instance), s.triangle) && before.count < kMostSlivers && is_sliver(surfaces_, s);
 }
 
 void FastWalker::note_edge(std::uint32_t instance, const FastWalk::Step& left, FastWalk& result) {

@@ -52,7 +52,7 @@ struct FastWalk {
     HalfEdge half_edge;        ///< of the fold, border or crack
     std::uint32_t beyond;      ///< crack: the triangle on its other side
     double fraction;
-    LineClassSet crossed;      ///< of those asked for
+    LineClassSet crossed;      ///< of those asked for, where it gets to the other sample's triangle
     SurfaceEdge crossed_edge;  ///< the first one
     double crossed_fraction;
     double crease_cosine;
@@ -85,8 +85,8 @@ class FastWalker {
 
     /// For many walks at once, TileKernels::walk_over_mesh().
     WalkLimits limits(std::int32_t pitch) const;
-    /// Notes the edges that a walk crossed.
-    void note_edges(std::uint32_t instance, FastWalk& result);
+    /// Notes the lines that a walk crossed that arrived, by its steps.
+    void note_lines(const NeighbourSamples& pair, bool backwards, FastWalk& result);
 
     /// Whether a triangle is no sliver in any view.
     static bool is_surely_solid(const ScreenMesh& mesh, std::uint32_t triangle) {
@@ -99,6 +99,17 @@ class FastWalker {
 
   private:
     class Way;
+    /// Slivers on the way, as if they were not there.
+    struct Slivers {
+        std::uint32_t last_solid;  ///< triangle
+        int count = 0;             ///< since then
+
+        void enter(std::uint32_t triangle, bool is_sliver) {
+            count = is_sliver ? count + 1 : 0;
+            if (!is_sliver) last_solid = triangle;
+        }
+    };
+    bool is_sliver_on_way(SurfaceId s, const Slivers& before) const;
     FastWalk::End step_over_seam(const Way& way, std::uint32_t instance, const FastWalk::Step& from, Way& beyond,
                                  FastWalk::Step& next);
     void note_edge(std::uint32_t instance, const FastWalk::Step& left, FastWalk& result);

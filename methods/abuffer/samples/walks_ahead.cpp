@@ -80,7 +80,7 @@ void WalksAhead::note_end(std::size_t ended, const Asked& asked) {
     const SurfaceId other = pairs_[asked.pair].surfaces[1 - asked.from];
     const bool is_through = walk.end == FastWalk::arrived && SurfaceId{asked.instance, walk.triangle} == other;
     // Nobody asks for other steps.
-    if (other.is_background() || (is_through && (walks.how[ended] & MeshWalks::kCrossesSharp) == 0)) return;
+    if (other.is_background() || (is_through && (walks.how[ended] & MeshWalks::kMayCrossLines) == 0)) return;
     walk.step_count = 0;
     for (std::uint32_t step = walks.last_step[ended]; step != MeshWalks::kNoStep; step = walks.previous[step]) ++walk.step_count;
     FastWalk::Step* const steps = &steps_[step_count_];
@@ -93,7 +93,7 @@ void WalksAhead::note_end(std::size_t ended, const Asked& asked) {
     for (int k = 1; k < walk.step_count; ++k) steps[k].entered = steps[k - 1].left;
     steps[0].entered = FastWalk::kBefore;
     walk.steps = steps;
-    if (is_through) walker_.note_edges(asked.instance, walk);
+    if (is_through) walker_.note_lines(pairs_[asked.pair], asked.from == 1, walk);
 }
 
 }  // namespace burin
