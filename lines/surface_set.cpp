@@ -21,7 +21,7 @@ std::pair<std::uint32_t, std::uint32_t> triangles_of_polygon(const Mesh& mesh, s
 }  // namespace
 
 SurfaceOrder SurfaceSet::order(SurfaceId a, SurfaceId b) const {
-    if (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(b).polygon_of(b.triangle)) return {};
+    if (are_of_one_polygon(a, b)) return {};
     // The triangles in question first: they tell for most.
     SurfaceOrder order = compare(a, b, nullptr);
     const auto [begin_a, end_a] = triangles_of_polygon(mesh_of(a), a.triangle);

@@ -114,6 +114,10 @@ struct SurfaceSet {
         return s.is_background() ? 0
                                  : instance_of(s).first_polygon_id + mesh_of(s).input_place_of(s.triangle);
     }
+    /// Whether their ids are equal, without looking them up far away in memory.
+    bool are_of_one_polygon(SurfaceId a, SurfaceId b) const {
+        return a == b || (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(a).polygon_of(b.triangle));
+    }
     std::uint32_t material_id(SurfaceId s) const {
         return s.is_background() ? 0 : instance_of(s).material_ids[mesh_of(s).material_of(s.triangle)];
     }

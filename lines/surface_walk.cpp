@@ -383,7 +383,7 @@ LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
                              const LineCriteria& criteria, double* crease_cosine) {
     LineClassSet classes;
-    if (surfaces.polygon_id(a) == surfaces.polygon_id(b)) return classes;
+    if (surfaces.are_of_one_polygon(a, b)) return classes;
     if (surfaces.material_id(a) != surfaces.material_id(b)) classes |= LineClass::material;
     if (surfaces.object_id(a) != surfaces.object_id(b)) return classes | LineClass::object;
     classes |= LineClass::polygon;

@@ -56,6 +56,19 @@ TEST(SurfaceSet, ComparesWholePolygons) {
     EXPECT_EQ(quads.in_front + quads.behind, 0);
 }
 
+TEST(SurfaceSet, TrianglesAreOfOnePolygonWhereIdsAreEqual) {
+    const Scene scene = scene_of({disc({50, 50, 0}, 7), make_plane(60, 60, 3, 2), disc({40, 50, 1}, 7)});
+    const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100});
+    const SurfaceSet& surfaces = frame.surfaces;
+    std::vector<SurfaceId> all = {kBackground};
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
+        for (std::uint32_t t = 0; t < scene.meshes[i].triangles.size(); ++t) all.push_back({i, t});
+    }
+    for (const SurfaceId a : all) {
+        for (const SurfaceId b : all) EXPECT_EQ(surfaces.are_of_one_polygon(a, b), surfaces.polygon_id(a) == surfaces.polygon_id(b));
+    }
+}
+
 /// Or time would grow with the square of the corners.
 TEST(SurfaceSet, ComparesTrianglesOfPolygonsWithManyCorners) {
     const Orders discs({disc({50, 50, 0}, 60), disc({50, 50, 0.0015}, 47, 2e-4)});

@@ -154,7 +154,7 @@ void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std:
     if (high_end.x < low_.x || high_end.y < low_.y || low_end.x > high_.x || low_end.y > high_.y) return;
     line.owners = {a.number, b.number};
     const SurfaceId sa = screen_.surface_of(a.number), sb = screen_.surface_of(b.number);
-    if (frame_.surfaces.polygon_id(sa) == frame_.surfaces.polygon_id(sb)) return;
+    if (frame_.surfaces.are_of_one_polygon(sa, sb)) return;
     const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, 0.5 * (line.from + line.to) / 256.0, frame_.criteria);
     const LineClassSet classes =
         (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;
