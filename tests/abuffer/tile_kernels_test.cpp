@@ -171,7 +171,7 @@ TEST(TileKernels, EdgesThatMayBeLinesAreFound) {
         mesh.facing = facing.data();
         mesh.sharp = sharp.data();
         mesh.partners = partners.data();
-        kernels->find_line_edges(mesh, 3, kCount - 4, found.data());
+        kernels->find_line_edges(mesh, 3, kCount - 7, found.data());
         int plain = 0, sharp_ones = 0;
         for (std::uint32_t t = 0; t < kCount; ++t) {
             const bool has_side = facing[t] == clockwise || facing[t] == counterclockwise;
@@ -181,7 +181,7 @@ TEST(TileKernels, EdgesThatMayBeLinesAreFound) {
                 if (!has_side || turns || is_sharp) expected |= 1u << k;
                 sharp_ones += is_sharp ? 1 : 0;
             }
-            const bool is_asked = t >= 3 && t < kCount - 4;
+            const bool is_asked = t >= 3 && t < kCount - 7;
             ASSERT_EQ(found[t], is_asked ? expected : 77) << kernels->name << " triangle " << t;
             plain += expected == 0 ? 1 : 0;
         }
