@@ -4,68 +4,16 @@
 #include <cstdint>
 #include <string_view>
 
+#include "abuffer/hiding_views.h"
 #include "abuffer/scan_edge.h"
 #include "abuffer/screen_triangle.h"
 #include "abuffer/stroke_samples.h"
+#include "abuffer/tile_views.h"
 
 namespace burin {
 
 struct MeshWalks;
 struct WalkLimits;
-
-/// A triangle that lost a sample to another one at about the same depth.
-struct Contest {
-    std::uint32_t sample;  ///< index in the tile
-    std::uint32_t loser;   ///< id
-};
-
-/// A SampleTile as the kernels see it.
-struct SampleView {
-    float* nearness;
-    std::uint32_t* ids;
-    std::int32_t first_column, first_row, columns, rows, stride, samples_per_pixel;
-    /// Surfaces whose nearness differs by at most `level + level_per_nearness * nearness` are level.
-    float level, level_per_nearness;
-    /// Where what is level competes for a sample; nullptr: not noted. `contest_count` goes on counting beyond the capacity.
-    Contest* contests;
-    std::uint32_t* contest_count;
-    std::uint32_t contest_capacity;
-};
-
-/// Nearness of a polygon of any size: `nearness` at the position (x, y) in 1/256 pixel, changes per
-/// 1/256 pixel, and its range.
-struct SpanPlane {
-    std::int32_t x, y;
-    float nearness, per_x, per_y, low, high;
-    std::uint32_t id;
-};
-
-/// Columns and rows [first, end) of a tile's samples.
-struct SampleRect {
-    std::int32_t first_column, first_row, end_column, end_row;
-};
-
-/// Two neighbouring samples with different ids between which a line may lie. Bits 0 to 14: the first one's column in the tile;
-/// 15 to 29: its row; 30: the second one lies below it, else to its right.
-struct SamplePair {
-    static constexpr std::uint32_t kRowShift = 15, kDownShift = 30, kPlaceMask = (1u << kRowShift) - 1u;
-    std::uint32_t bits;
-
-    static constexpr SamplePair at(std::int32_t column, std::int32_t row, bool down) {
-        return {static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << kRowShift | std::uint32_t{down} << kDownShift};
-    }
-    constexpr std::int32_t column() const { return static_cast<std::int32_t>(bits & kPlaceMask); }
-    constexpr std::int32_t row() const { return static_cast<std::int32_t>(bits >> kRowShift & kPlaceMask); }
-    constexpr bool down() const { return bits >> kDownShift != 0; }
-};
-
-constexpr std::size_t kRoomBehindPairs = 15;  ///< where kernels may write
-
-/// What a smooth surface is: find_smooth().
-struct SmoothLimits {
-    float level, level_per_nearness;  ///< see SampleView: what is less deep is no wall
-    double snapping;                  ///< by so much a corner may move a deep triangle's edges, in 1/256 pixel
-};
 
 /// A round pen's stroke along a segment from a to b, in pixels: all that is closer than `radius`.
 struct PenStroke {
@@ -90,112 +38,6 @@ struct ScreenTransform {
     double view_to_world[3][3];  ///< columns
 };
 
-/// A rectangle on the screen in 1/256 pixel, borders included, and a range of nearness.
-struct ScreenBox {
-    float x0, y0, x1, y1, low, high;
-};
-
-/// Boxes, an array per number.
-struct BoxView {
-    const float *x0, *y0, *x1, *y1, *low, *high;
-};
-
-/// Boxes of triangles on the screen, borders included, in 1/256 pixel, and the nearness of their nearest corners: an array per
-/// number.
-struct FrontBoxes {
-    const float *x0, *y0, *x1, *y1, *highest;
-};
-
-/// A straight part of a line on the screen, in 1/256 pixel, and the nearness of its farther end.
-struct ScreenLine {
-    float ax, ay, bx, by, low;
-    bool is_exact = false;  ///< it is no longer than kLongestExact, and its ends are whole numbers
-    float reach = 0;        ///< so far beside it counts, too; it is not exact then
-};
-/// Along both axes together.
-constexpr float kLongestExact = 2048;
-
-/// A triangle that may hide lines: corners, clockwise as seen, in 1/256 pixel from some place, and the nearness of the nearest
-/// one.
-struct CrossedTriangle {
-    float x[3], y[3], highest;
-    std::uint32_t number;
-};
-
-/// The blocks of a tile for what may hide lines there. Each is cut into two by two cells.
-struct HidingGrid {
-    static constexpr std::int32_t kShift = 11, kCellShift = kShift - 1;  ///< log2 of widths in 1/256 pixel
-    std::int32_t first_x, first_y;  ///< of the upper left block, in 1/256 pixel
-    std::int32_t columns, rows;
-    std::int32_t reach;  ///< so far from a block triangles touch it, too; they lie beside the cells at its end then
-    /// Blocks row by row, for each the least nearness in any rectangle of its cells.
-    const float* farthest;
-    static constexpr std::size_t kPlaces = 16;
-    static constexpr std::size_t place(int x0, int x1, int y0, int y1) { return static_cast<std::size_t>(x0 | x1 << 1 | y0 << 2 | y1 << 3); }
-};
-
-/// A triangle in one of the blocks it touches. Corners from the picture's.
-struct HidingInBlock {
-    CrossedTriangle triangle;
-    std::uint32_t block;
-};
-
-/// A triangle on the screen and the plane of its nearness.
-struct TrianglePlane {
-    double x[3], y[3];              ///< corners in 1/256 pixel, clockwise as seen
-    double nearness, per_x, per_y;  ///< at corner 0, and change per 1/256 pixel
-    double slack;                   ///< what snapping may do to nearness
-    bool owns_edge[3];              ///< whether points on the edge after a corner belong to it
-};
-
-/// A line, and the part [begin, end] of it that is looked at.
-struct PlaneLine {
-    double x[4], y[4], nearness[4];  ///< of the line's ends and of the part's
-    double begin, end;
-    double slack;  ///< what is in front by more, and a triangle's own slack, is so for certain
-};
-
-/// Where in a part of a line a triangle is in front of it for certain.
-struct HiddenPart {
-    std::uint32_t triangle;
-    bool is_any;    ///< else the part is empty
-    bool is_level;  ///< it is in front, or may be as near as the line, in [level_begin, level_end]
-    double begin, end, level_begin, level_end;
-};
-
-/// The parts of a line that a triangle is in front of, by more than one slack or another.
-struct HiddenParts {
-    bool is_any_most, is_any;
-    double most_begin, most_end;  ///< by more than the first one, with the triangle's edges
-    double begin, end;            ///< by more than the second one
-};
-
-/// A range-encoded bitmap index (Chan and Ioannidis, 1998) of triangles' boxes: both axes and nearness are cut into steps, and
-/// for each step there is a bit per triangle that begins there or before, ends there or after, or has its nearest corner
-/// there or nearer. So 64 triangles are compared with a box at once.
-struct BitmapIndex {
-    enum Table { begins_x, ends_x, begins_y, ends_y, nearest };
-    static constexpr std::size_t kTables = 5, kSteps = 64;
-    struct Axis {
-        float from = 0, steps_per_unit = 0;
-    };
-    Axis x, y, nearness;
-    std::size_t words = 0;  ///< numbers of 64 bits per step, a multiple of four
-    std::uint64_t* bits = nullptr;
-
-    std::uint64_t* at(std::size_t table, std::size_t step) const { return bits + (table * kSteps + step) * words; }
-};
-
-/// How far away something is in a picture: square blocks, row by row, each with the least nearness in it, the one to the
-/// right, the one below, and the one between these.
-struct DepthGrid {
-    const float* least;
-    std::int32_t first_x, first_y, last_x, last_y;  ///< of the picture, in 1/256 pixel
-    std::int32_t block_shift;                       ///< log2 of a block's width in 1/256 pixel
-    std::int32_t columns, first_row, rows;          ///< of blocks; rows from the first one on
-    std::int32_t tile_shift;                        ///< log2 of a tile's width in blocks; columns and rows fill whole tiles
-};
-
 /// What all pixels of a triangle have in common.
 struct TriangleLook {
     double normal[3];       ///< unit length, in view space, towards the eye
@@ -218,71 +60,6 @@ struct GeometryRow {
     float* normal[3];
     std::uint32_t* ids[3];  ///< object, material, polygon
 };
-
-/// The tiles of a picture, all of one size but the last ones. A tile also gets the samples next to its
-/// right and lower border.
-struct TileGrid {
-    static constexpr std::int32_t kTileSamples = 128;  ///< along either side: the most, and the best
-    std::int32_t first_column, first_row;  ///< of the upper left sample on the image's grid
-    std::int32_t width, height;            ///< in samples
-    std::int32_t columns;                  ///< of tiles
-    std::int32_t pitch_shift;              ///< log2 of the distance of samples, in 1/256 pixel
-    std::int32_t tile_shift;               ///< log2 of a tile's width in samples
-    bool keeps_thin;                       ///< whether triangles between samples, which touch none, are wanted
-};
-
-constexpr std::int32_t kBlockShift = 3;
-constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
-
-/// Numbers of a tile's blocks of kBlockSamples x kBlockSamples samples: first one per block, row by row, kPitch to a
-/// row; then, kPage further each, those of a block and the next one to the right together, of a block and the one
-/// below, of two by two.
-struct BlockTable {
-    static constexpr std::int32_t kPitch = 32, kPage = kPitch * kPitch;
-    static constexpr std::size_t kSize = 4 * static_cast<std::size_t>(kPage);
-};
-
-/// A small triangle in a tile, with what tells whether it can be seen there.
-struct TileTriangle {
-    std::uint32_t triangle;  ///< number in its mesh
-    float highest;           ///< nearness of its nearest corner
-    /// The blocks of samples of the tile that it may touch; if it lies between samples, those of the samples on either
-    /// side. The lowest 12 bits say where a BlockTable has their number, unless there are more than two by two
-    /// (kMany). Then five bits each: the last column and row.
-    std::uint32_t blocks;
-
-    static constexpr std::uint32_t kPlace = BlockTable::kSize - 1, kMany = BlockTable::kSize;
-    static constexpr std::uint32_t pack(std::uint32_t first_column, std::uint32_t last_column, std::uint32_t first_row,
-                                        std::uint32_t last_row) {
-        const std::uint32_t columns = last_column - first_column, rows = last_row - first_row;
-        const std::uint32_t page = (columns | rows) > 1 ? kMany : (columns | rows << 1) << 10;
-        return first_column | first_row << 5 | page | last_column << 16 | last_row << 21;
-    }
-    std::int32_t first_column() const { return static_cast<std::int32_t>(blocks & 31u); }
-    std::int32_t first_row() const { return static_cast<std::int32_t>(blocks >> 5 & 31u); }
-    std::int32_t last_column() const { return static_cast<std::int32_t>(blocks >> 16 & 31u); }
-    std::int32_t last_row() const { return static_cast<std::int32_t>(blocks >> 21 & 31u); }
-};
-
-/// What cull() lists, an array per number.
-struct CulledTriangles {
-    std::uint32_t* keys;       ///< of their tiles: tile_key()
-    std::uint32_t* triangles;  ///< the rest of a TileTriangle
-    float* highest;
-    std::uint32_t* blocks;
-    std::size_t count;
-    std::uint32_t* others;  ///< numbers of those that are not in two by two tiles or fewer, or not small
-    std::size_t other_count;
-};
-
-/// So many triangles are on their way from memory while others are drawn.
-constexpr std::size_t kTrianglesAhead = 64;
-
-/// So much room behind them kernels may read and write.
-constexpr std::size_t kRoomBehindCulled = 16, kRoomBehindRun = 7;
-
-/// What a tile lists separately. `thin` ones have no column or no row of samples in their box.
-enum TriangleKind : std::uint32_t { wound_counterclockwise, wound_clockwise, thin, kTriangleKinds };
 
 /// The inner loops of the production A-buffer. There is one set per instruction set; all give equal
 /// results to the bit: they are one source, but for what is one instruction in some of them, and floating point is not
