@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "lines/sharp_edges.h"
 #include "lines/surface_end.h"
 
 namespace burin {
@@ -32,9 +33,11 @@ double nearness_of(const Projection& p, double distance) { return p.orthographic
 
 class Walker {
   public:
-    Walker(const SurfaceSet& surfaces, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria)
+    /// `sharp`: find_sharp_edges() of the mesh, or nullptr.
+    Walker(const SurfaceSet& surfaces, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria, const std::uint8_t* sharp = nullptr)
         : surfaces_(surfaces),
           criteria_(criteria),
+          sharp_(sharp),
           from_(from),
           to_(to),
           line_(glm::cross(glm::dvec3(from, 1.0), glm::dvec3(to, 1.0))),
@@ -73,7 +76,7 @@ class Walker {
             const bool unfolds = current.exit.fraction < farthest.exit.fraction &&
                                  reached >= farthest.exit.fraction;
             // Slivers say nothing about how steep the surface is.
-            const bool sliver = slivers < kMostSlivers && is_sliver(surfaces_, next.place.surface);
+            const bool sliver = slivers < kMostSlivers && is_sliver_here(next.place.surface);
             const SurfaceId solid = sliver ? last_solid : next.place.surface;
             if (turned_back ||
                 (unfolds && !is_level(distance_at(farthest), distance_between(current, next.place, farthest.exit.fraction),
@@ -153,6 +156,11 @@ class Walker {
         result.half_edge = at.exit.half_edge;
         result.fraction = at.exit.fraction;
         return result;
+    }
+
+    bool is_sliver_here(SurfaceId s) const {
+        const bool may_be_sliver = sharp_ == nullptr || (sharp_[s.triangle] & kThinTriangle) != 0;
+        return may_be_sliver && is_sliver(surfaces_, s);
     }
 
     Slice slice_of(SurfaceId s) const {
@@ -306,6 +314,7 @@ class Walker {
 
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
+    const std::uint8_t* sharp_;
     glm::dvec2 from_, to_;
     glm::dvec3 line_;  // dot(line_, homogeneous point) says on which side of the line it is
     glm::dvec2 along_;
@@ -363,8 +372,8 @@ SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2
 }
 
 SurfaceWalk walk_to_end(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria,
-                        int most_triangles) {
-    return Walker(surfaces, from, to, criteria).walk<false>(start, most_triangles);
+                        int most_triangles, const std::uint8_t* sharp) {
+    return Walker(surfaces, from, to, criteria, sharp).walk<false>(start, most_triangles);
 }
 
 LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,

@@ -136,7 +136,8 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
     if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
     // A short way beyond the wall is enough: a walk that gets there has come past it.
     const glm::dvec2 past = kPastWallPx * out;
-    const SurfaceWalk walk = walk_to_end(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall);
+    const SurfaceWalk walk = walk_to_end(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall,
+                                         screen_.sharp_edges(instance));
     // Where it turns back behind the wall, it gets farthest anywhere on that.
     constexpr double kMiddle = 0.5;
     return walk.end == WalkEnd::fold && std::abs(walk.fraction - kMiddle) <= kNoAdvance;
