@@ -249,7 +249,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         if (!is_subdivided && !groups.order.empty()) {
             const std::span<std::uint32_t> own(groups.order.data() + begin, end - begin);
             if (may_be_put_in_order(soup, own)) {
-                if (!spatial) spatial.emplace(positions);
+                if (!spatial) spatial.emplace(positions, soup.corners);
                 mesh.input_order = put_in_order(soup, *spatial, own);
             }
         }

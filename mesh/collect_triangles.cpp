@@ -78,7 +78,7 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
         return true;
     };
     if (in_spatial_order) {
-        UnfilledVector<std::uint32_t> order = SpatialOrder(positions).of_triangles(soup.corners);
+        UnfilledVector<std::uint32_t> order = SpatialOrder(positions, soup.corners).of_triangles(soup.corners);
         std::vector<std::uint32_t> dropped;
         for (std::size_t k = 0; k < count; ++k) {
             if ((k & 0xFFFF) == 0) throw_if_interrupted();

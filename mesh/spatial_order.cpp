@@ -10,7 +10,7 @@
 namespace burin {
 namespace {
 
-constexpr std::int32_t kCellsAlong = 32;  // cells of some hundred triangles in a mesh of a million
+constexpr std::int32_t kCellsAlong = 16;  // cells of some hundred triangles in a mesh of a million; 32 are as good, and take longer
 constexpr std::size_t kCells = std::size_t{kCellsAlong} * kCellsAlong * kCellsAlong;
 
 /// Numbers below `count` by their cells, and in a cell in ascending order.
@@ -35,21 +35,25 @@ UnfilledVector<std::uint32_t> order_by_cell(std::size_t count, const CellOf& cel
 
 }  // namespace
 
-SpatialOrder::SpatialOrder(std::span<const glm::vec3> positions) {
+SpatialOrder::SpatialOrder(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners) {
     static_assert(kCells <= std::size_t{1} << 16);
-    if (positions.empty()) return;
-    glm::vec3 low = positions[0], high = low;
-    for (const glm::vec3& p : positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
+    if (corners.empty()) return;
+    // Some of the corners tell how large the model is; vertices that are none may lie anywhere.
+    glm::vec3 low = positions[corners[0]], high = low;
+    const std::size_t step = corners.size() / 4096 + 1;
+    for (std::size_t i = 0; i < corners.size(); i += step) {
+        low = glm::min(low, positions[corners[i]]);
+        high = glm::max(high, positions[corners[i]]);
     }
     // Halves, for the whole size may be too large for a number.
     const glm::vec3 half = 0.5f * high - 0.5f * low;
     const float largest = std::max({half.x, half.y, half.z});
     constexpr float kLeast = 1e-30f;  // the quotient is to be a number
-    const float half_per_length = largest > kLeast ? 0.5f * kCellsAlong / largest : 0.0f;
-    const auto along = [half_per_length](float p, float first) {
-        return std::min(static_cast<std::int32_t>((0.5f * p - 0.5f * first) * half_per_length), kCellsAlong - 1);
+    const float per_half = largest > kLeast ? kCellsAlong / largest : 0.0f;
+    const auto along = [per_half](float p, float first) {
+        const float cell = (0.5f * p - 0.5f * first) * per_half;
+        constexpr float kLast = kCellsAlong - 1;
+        return static_cast<std::int32_t>(cell > 0 ? (cell < kLast ? cell : kLast) : 0.0f);
     };
     reserve_large(cells_, positions.size());
     cells_.resize(positions.size());

@@ -255,12 +255,13 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
         baseline_kernels().stroke_spans(s, 0, kRows, kColumns, begin.data(), end.data());
         for (const TileKernels* kernels : all_kernels()) {
             for (const std::int32_t rows : {kRows, kRows - 8}) {
-                std::vector<std::int32_t> own_begin(begin), own_end(end);
-                std::fill_n(own_begin.begin(), rows, -1);
-                std::fill_n(own_end.begin(), rows, -1);
+                constexpr std::int32_t kMark = -7;  // nothing is to be written behind the rows
+                std::vector<std::int32_t> own_begin(kRows, kMark), own_end(kRows, kMark), expected_begin(begin), expected_end(end);
+                std::fill(expected_begin.begin() + rows, expected_begin.end(), kMark);
+                std::fill(expected_end.begin() + rows, expected_end.end(), kMark);
                 kernels->stroke_spans(s, 0, rows, kColumns, own_begin.data(), own_end.data());
-                EXPECT_EQ(own_begin, begin) << kernels->name;  // and nothing behind the rows was written
-                EXPECT_EQ(own_end, end) << kernels->name;
+                EXPECT_EQ(own_begin, expected_begin) << kernels->name;
+                EXPECT_EQ(own_end, expected_end) << kernels->name;
             }
         }
         for (int row = 0; row < kRows; ++row) {

@@ -53,7 +53,6 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
             __builtin_prefetch(mesh.vertices + e.to);
         };
         std::vector<TileLists<TileEdge>::Record> found;
-        found.reserve(edges.size());
         constexpr std::size_t kAhead = 16;
         for (std::size_t i = 0; i < std::min(kAhead, edges.size()); ++i) find_ends(edges[i]);
         for (std::size_t i = 0; i < edges.size(); ++i) {

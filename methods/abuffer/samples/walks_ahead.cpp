@@ -36,7 +36,8 @@ void WalksAhead::walk(std::span<const NeighbourSamples> pairs) {
 
 void WalksAhead::ask(std::size_t pair, std::size_t from) {
     const std::uint32_t instance = pairs_[pair].surfaces[from].instance;
-    if (screen_.mesh(instance).sharp == nullptr) return;
+    const ScreenMesh& mesh = screen_.mesh(instance);
+    if (mesh.sharp == nullptr || mesh.triangle_count > kMostToWalk) return;
     asked_.push_back({instance, static_cast<std::uint32_t>(pair), static_cast<std::uint32_t>(from)});
 }
 
