@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "lines/sharp_edges.h"
-#include "lines/surface_end.h"
 
 namespace burin {
 namespace {

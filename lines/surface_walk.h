@@ -65,6 +65,11 @@ struct SurfaceWalk {
 SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
                          const LineCriteria& criteria, int most_triangles = kMostTrianglesOfWalk);
 
+/// walk_surface() where only its end is wanted, which is found sooner: what it crosses is not looked at. `sharp`:
+/// find_sharp_edges() of the mesh, which tells of most triangles that they are no slivers; or nullptr.
+SurfaceWalk walk_to_end(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria,
+                        int most_triangles, const std::uint8_t* sharp);
+
 /// The classes of the edge between two polygons as such: mark, material, crease, polygon. For a
 /// border edge that can only be mark. Where it is a crease, `crease_cosine` is lowered to the cosine
 /// between its normals.

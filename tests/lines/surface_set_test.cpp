@@ -115,5 +115,18 @@ TEST(SurfaceSet, ComparesNoPolygonWithItself) {
     EXPECT_FALSE(frame.surfaces.order({0, 0}, {0, 0}).have_common_place);
 }
 
+/// Users know polygons by the order of the file, whatever the mesh's is.
+TEST(SurfaceSet, PolygonsHaveTheNumbersOfTheInput) {
+    Scene scene = scene_of({make_box({10, 10, 10}), make_box({10, 10, 10})});
+    ASSERT_EQ(scene.meshes[1].polygon_count, 6u);
+    scene.meshes[1].input_order = InputOrder({5, 4, 3, 2, 1, 0}, {});
+    const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100});
+    for (std::uint32_t t = 0; t < 12; ++t) {
+        const std::uint32_t polygon = scene.meshes[1].polygon_of(t);
+        EXPECT_EQ(frame.surfaces.polygon_id({0, t}), 1 + scene.meshes[0].polygon_of(t));
+        EXPECT_EQ(frame.surfaces.polygon_id({1, t}), 1 + 6 + (5 - polygon));
+    }
+}
+
 }  // namespace
 }  // namespace burin

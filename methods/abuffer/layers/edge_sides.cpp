@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lines/surface_end.h"
 #include "methods/abuffer/layers/fold_width.h"
 #include "methods/abuffer/layers/layer_triangle.h"
 #include "methods/abuffer/samples/fast_walk.h"
