@@ -17,13 +17,16 @@ namespace {
 
 using namespace test;
 
+constexpr int kWidth = 960, kHeight = 540;
+
 struct Place {
     PolygonSoup model;
     Camera camera;
-    PixelRect crop;  // of a picture of kWidth x kHeight
+    PixelRect crop;
     HiddenStyle hidden = HiddenStyle::none;
+    StrokeSide side = StrokeSide::both;
+    int width = kWidth, height = kHeight;
 };
-constexpr int kWidth = 960, kHeight = 540;
 
 /// With vertices, polygons and the corners at which these begin in another order.
 PolygonSoup shuffled(const PolygonSoup& soup, Random& random) {
@@ -52,7 +55,8 @@ PolygonSoup shuffled(const PolygonSoup& soup, Random& random) {
 Drawing draw(const Place& place, const PolygonSoup& soup, RenderFunction render) {
     Scene scene = scene_of({soup});
     scene.lines.style.hidden.style = place.hidden;
-    return {scene, place.camera, kWidth, kHeight, place.crop, 1, render};
+    scene.lines.style.side = place.side;
+    return {scene, place.camera, place.width, place.height, place.crop, 1, render};
 }
 
 void expect_no_order(const Place& place) {
@@ -124,6 +128,22 @@ TEST(Order, OfContactsThatMeet) {
                                       {{0, 1, 2}, {3, 4, 5}, {5, 6, 3}, {7, 8, 9}, {10, 11, 12}, {12, 9, 10}});
     const Camera camera = perspective_camera({5.826264236871671, 2.793804647109596, -7.9993638867810315}, {0.217, 1.575, 0.0});
     expect_no_order({spout, camera, {596, 319, 618, 340}, HiddenStyle::solid});
+}
+
+// Strokes on one side of a rough ball's contour, at which one triangle is a wall seen nearly edge-on, on the other side of the edge than
+// the surface: the surface says which side is which.
+TEST(Order, OfAWallBehindAContour) {
+    const PolygonSoup ball = soup_of({{1.0784982442855835, 0.4099586606025696, 1.6425725221633911},
+                                      {1.0720760822296143, 0.4252711534500122, 1.5732669830322266},
+                                      {1.0854066610336304, 0.3835430443286896, 1.5680179595947266},
+                                      {1.0990792512893677, 0.3809163272380829, 1.5702377557754517},
+                                      {1.0903856754302979, 0.47444990277290344, 1.5142865180969238},
+                                      {1.1079907417297363, 0.45247650146484375, 1.583343505859375}},
+                                     {{0, 1, 2}, {0, 2, 3}, {4, 3, 2}, {0, 3, 5}});
+    const Camera camera = perspective_camera({-2.3748178074763104, -0.16716297688561355, -1.7383308488569554}, {1, 1, 1});
+    for (const StrokeSide side : {StrokeSide::inside, StrokeSide::outside}) {
+        expect_no_order({ball, camera, {0, 0, 64, 48}, HiddenStyle::none, side, 64, 48});
+    }
 }
 
 }  // namespace

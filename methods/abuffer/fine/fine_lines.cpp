@@ -206,7 +206,7 @@ class FineLines::BlockClipper {
         s.nearness_from = static_cast<float>(zero + line.nearness_at(begin));
         s.nearness_to = static_cast<float>(zero + line.nearness_at(end));
         s.occludes = occludes;
-        s.front_on_left = is_owner_on_left(candidate);
+        s.front_on_left = is_front_on_left(candidate);
         segments.push_back(s);
     }
 
@@ -239,16 +239,23 @@ class FineLines::BlockClipper {
     /// From the edge of the surface to beyond it. 1/256 pixel.
     glm::dvec2 outward(const FineCandidate& candidate) const {
         const glm::dvec2 along = glm::normalize(candidate.line.to - candidate.line.from), right(-along.y, along.x);
-        return double{kBeyondSubpixels} * (is_owner_on_left(candidate) ? right : -right);
+        return double{kBeyondSubpixels} * (is_front_on_left(candidate) ? right : -right);
     }
 
     /// Of the way from the line's beginning to its end.
-    bool is_owner_on_left(const FineCandidate& candidate) const {
+    bool is_front_on_left(const FineCandidate& candidate) const {
+        const LayerLine& line = candidate.line;
+        const int side = line.front_side != 0 ? line.front_side : owner_side(candidate);
+        // Of a surface that is seen edge-on, either side will do, but the same one whichever way the line runs.
+        if (side == 0) return line.from.x != line.to.x ? line.from.x < line.to.x : line.from.y < line.to.y;
+        return side < 0;  // y runs down
+    }
+    int owner_side(const FineCandidate& candidate) const {
         const std::uint32_t instance = candidate.part.edge.instance;
         const HalfEdge h = candidate.part.edge.half_edge;
         const auto corner = [&](HalfEdge k) { return screen_.mesh(instance).corners[h - h % 3 + (h + k) % 3]; };
         const auto [from, to] = std::minmax({corner(0), corner(1)});
-        return side_of_edge(screen_, instance, from, to, corner(2)) < 0;  // y runs down
+        return side_of_edge(screen_, instance, from, to, corner(2));
     }
 
     const ScreenSurfaces& screen_;

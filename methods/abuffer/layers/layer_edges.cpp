@@ -98,18 +98,21 @@ class LayerEdgeFinder::Rules {
     void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const auto solid_h = sides_.solid_behind(s.instance, h), solid_g = sides_.solid_behind(s.instance, g);
+        const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
         LineClassSet classes;
         double crease_cosine = 1;
+        int front_side = 0;
         if (mesh.is_marked(h)) classes |= LineClass::mark;
         if (solid_h && solid_g) {
-            const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             const int side_h = sides_.side_at(s.instance, *solid_h, a, b), side_g = sides_.side_at(s.instance, *solid_g, a, b);
             const bool is_past_sliver = *solid_h != h || *solid_g != g;
-            if (side_h != 0 && side_h == side_g && !(is_past_sliver && sides_.is_negligible_fold(s.instance, h))) classes |= LineClass::silhouette;
+            if (side_h != 0 && side_h == side_g && !(is_past_sliver && sides_.is_negligible_fold(s.instance, h))) front_side = side_h;
         }
-        if (!classes.has(LineClass::silhouette) && (sides_.ends_at_wall(s.instance, h, g) || sides_.ends_at_wall(s.instance, g, h))) {
-            classes |= LineClass::silhouette;
+        if (front_side == 0) {  // a wall may lie on either side, and is not in front
+            if (sides_.ends_at_wall(s.instance, h, g)) front_side = sides_.side_at(s.instance, h, a, b);
+            else if (sides_.ends_at_wall(s.instance, g, h)) front_side = sides_.side_at(s.instance, g, a, b);
         }
+        if (front_side != 0) classes |= LineClass::silhouette;
         if (!sides_.is_sliver_at(s, h) && !sides_.is_sliver_at(s, g)) {
             const std::uint8_t* const sharp = screen_.sharp_edges(s.instance);
             const bool may_have_any = sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0;
@@ -118,7 +121,7 @@ class LayerEdgeFinder::Rules {
             classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g),
                                        middle_px(s, h), criteria_, &crease_cosine);
         }
-        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, lines);
+        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, front_side, lines);
     }
 
     /// Where more than two triangles meet, those that are in front on either side of the edge make the line, as walks over it
@@ -161,7 +164,7 @@ class LayerEdgeFinder::Rules {
             crease_cosine = std::min(crease_cosine, cosine);
         }
         const std::uint32_t number = screen_.number_of(s);
-        add(s, h, classes, crease_cosine, {number, number}, true, lines);
+        add(s, h, classes, crease_cosine, {number, number}, true, 0, lines);
     }
 
     void visit_border(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
@@ -176,6 +179,7 @@ class LayerEdgeFinder::Rules {
         const Mesh& mesh = surfaces_.mesh_of(s);
         LineClassSet classes;
         double crease_cosine = 1;
+        int front_side = 0;
         if (mesh.is_marked(h)) classes |= LineClass::mark;
         const std::uint32_t number = screen_.number_of(s);
         std::array<std::uint32_t, 2> owners{number, number};
@@ -195,6 +199,7 @@ class LayerEdgeFinder::Rules {
             const int side_h = side_of(h, solid_h), side_g = side_of(*part.partner, solid_g);
             if (side_h != 0 && side_h == side_g) {
                 classes |= LineClass::silhouette;  // one lies on the other, and may hide it
+                front_side = side_h;
             } else {
                 const double own = length_of(mesh, h), other = length_of(mesh, *part.partner);
                 const bool is_drawn_as_partner = own < other || (own == other && *part.partner < h);
@@ -209,7 +214,7 @@ class LayerEdgeFinder::Rules {
             classes |= LineClass::border;
         }
         const std::size_t count = lines.size();
-        add(s, h, classes, crease_cosine, owners, false, lines);
+        add(s, h, classes, crease_cosine, owners, false, front_side, lines);
         if (lines.size() == count || (part.begin == 0 && part.end == 1)) return;
         const bool is_reversed = start_of(mesh, h) > end_of(mesh, h);
         cut(lines.back(), is_reversed ? 1 - part.end : part.begin, is_reversed ? 1 - part.begin : part.end);
@@ -242,8 +247,9 @@ class LayerEdgeFinder::Rules {
         return ends ? ends->at(0.5) / double{kSubpixelsPerPixel} : glm::dvec2(0.0);
     }
 
-    void add(SurfaceId s, HalfEdge h, LineClassSet classes, double crease_cosine,
-             std::array<std::uint32_t, 2> owners, bool has_more, std::vector<LayerLine>& lines) const {
+    /// `front_side`: of the way from the half-edge's start.
+    void add(SurfaceId s, HalfEdge h, LineClassSet classes, double crease_cosine, std::array<std::uint32_t, 2> owners,
+             bool has_more, int front_side, std::vector<LayerLine>& lines) const {
         classes = classes & criteria_.classes;
         if (classes.empty()) return;
         const std::uint8_t opacity = fade_.opacity(classes, crease_cosine);
@@ -263,6 +269,7 @@ class LayerEdgeFinder::Rules {
         line.nearness_to = ends->nearness_to;
         line.owners = owners;
         line.has_more_owners = has_more;
+        line.front_side = static_cast<std::int8_t>(a == start_of(mesh, h) ? front_side : -front_side);
         line.classes = classes;
         line.drawn_as = *classes.first();
         line.opacity = opacity;

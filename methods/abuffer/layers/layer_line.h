@@ -23,6 +23,8 @@ struct LayerLine {
     std::array<std::uint32_t, 2> owners{};
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;
+    /// Of a contour, on which side of the way the surface in front is, as side_of_edge() counts. 0: elsewhere.
+    std::int8_t front_side = 0;
     /// Of a border that is a seam elsewhere, the part of edge_on_screen() that the line is, as shares.
     double edge_begin = 0, edge_end = 1;
     static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
