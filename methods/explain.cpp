@@ -22,6 +22,17 @@ namespace {
     return text;
 }
 
+/// Counted as the file has the polygons: large meshes are put in spatial order.
+std::uint32_t triangle_in_input(const Mesh& mesh, std::uint32_t triangle) {
+    const std::uint32_t place = mesh.input_place_of(triangle);
+    std::uint32_t before = 0;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t other = mesh.input_place_of(t);
+        before += other < place || (other == place && t < triangle) ? 1 : 0;
+    }
+    return before;
+}
+
 /// Pictures of masks side by side, each under its title.
 template <typename Mask>
 std::string pictures_side_by_side(const std::vector<std::pair<std::string, Mask>>& titled) {
@@ -100,7 +111,7 @@ class Explainer {
             text += format("\nfragment %zu: object %u \"%s\", material %u \"%s\", polygon %u, triangle %u\n",
                            i + 1, surfaces.object_id(id),
                            frame_.scene->objects[id.instance].name.c_str(), surfaces.material_id(id),
-                           frame_.material_of(id).name.c_str(), surfaces.polygon_id(id), id.triangle);
+                           frame_.material_of(id).name.c_str(), surfaces.polygon_id(id), triangle_in_input(surfaces.mesh_of(id), id.triangle));
             text += format("    distance %.9g at the pixel's centre, %+.4g per pixel right, %+.4g per pixel down\n",
                            distance, plane.per_x * per_nearness, plane.per_y * per_nearness);
             text += format("    normal %.4f %.4f %.4f\n", normal.x, normal.y, normal.z);
