@@ -7,6 +7,7 @@
 #include "methods/abuffer/layers/contacts.h"
 #include "methods/abuffer/layers/fold_width.h"
 #include "methods/abuffer/layers/layer_triangle.h"
+#include "methods/abuffer/screen/edge_on_screen.h"
 #include "methods/abuffer/screen/sampling.h"
 
 namespace burin {
@@ -254,7 +255,7 @@ class FineLines::BlockClipper {
         const std::uint32_t instance = candidate.part.edge.instance;
         const HalfEdge h = candidate.part.edge.half_edge;
         const auto corner = [&](HalfEdge k) { return screen_.mesh(instance).corners[h - h % 3 + (h + k) % 3]; };
-        const auto [from, to] = std::minmax({corner(0), corner(1)});
+        const auto [from, to] = ends_in_order(screen_, instance, corner(0), corner(1));
         return side_of_edge(screen_, instance, from, to, corner(2));
     }
 

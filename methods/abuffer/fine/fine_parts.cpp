@@ -67,7 +67,7 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
         asked_.push_back(edge.edge);
     }
     const auto ends_of = [](const ScreenMesh& mesh, HalfEdge h) {
-        return std::minmax(mesh.corners[h], mesh.corners[h % 3 == 2 ? h - 2 : h + 1]);
+        return std::pair(mesh.corners[h], mesh.corners[h % 3 == 2 ? h - 2 : h + 1]);
     };
     constexpr std::size_t kAhead = 4;
     for (std::size_t number = 0; number < asked_.size(); ++number) {
@@ -83,7 +83,8 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
         }
         const FineEdge& e = asked_[number];
         const ScreenMesh& mesh = screen_.mesh(e.instance);
-        const auto [first, second] = ends_of(mesh, e.half_edge);
+        const auto ends = ends_of(mesh, e.half_edge);
+        const auto [first, second] = ends_in_order(screen_, e.instance, ends.first, ends.second);
         const auto on_screen = edge_on_screen(screen_, e.instance, first, second);
         if (!on_screen) continue;
         const EdgeOnScreen& edge = *on_screen;
@@ -175,7 +176,7 @@ FineParts::Owners FineParts::owners_of(FineEdge edge) const {
 int FineParts::side_at(FineEdge edge, HalfEdge h) const {
     const ScreenMesh& mesh = screen_.mesh(edge.instance);
     const auto corner = [&](HalfEdge g, std::uint32_t k) { return mesh.corners[g - g % 3 + (g + k) % 3]; };
-    const auto [first, second] = std::minmax({corner(edge.half_edge, 0), corner(edge.half_edge, 1)});
+    const auto [first, second] = ends_in_order(screen_, edge.instance, corner(edge.half_edge, 0), corner(edge.half_edge, 1));
     return side_of_edge(screen_, edge.instance, first, second, corner(h, 2));
 }
 

@@ -14,7 +14,7 @@ namespace burin {
 struct FinePart {
     FineEdge edge;
     std::int32_t block_x, block_y;
-    double begin, end;  ///< shares of edge_on_screen(), which begins at the vertex with the smaller number
+    double begin, end;  ///< shares of edge_on_screen(), which begins where ends_in_order() says
 };
 
 /// Finds where along edges the samples of a tile do not tell whether there is a line: no line of the edge

@@ -216,7 +216,7 @@ class LayerEdgeFinder::Rules {
         const std::size_t count = lines.size();
         add(s, h, classes, crease_cosine, owners, false, front_side, lines);
         if (lines.size() == count || (part.begin == 0 && part.end == 1)) return;
-        const bool is_reversed = start_of(mesh, h) > end_of(mesh, h);
+        const bool is_reversed = ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h)).first != start_of(mesh, h);
         cut(lines.back(), is_reversed ? 1 - part.end : part.begin, is_reversed ? 1 - part.begin : part.end);
     }
 
@@ -256,8 +256,7 @@ class LayerEdgeFinder::Rules {
         if (opacity == 0) return;
         const Mesh& mesh = surfaces_.mesh_of(s);
         // One direction, whichever triangle asks.
-        const std::uint32_t a = std::min(start_of(mesh, h), end_of(mesh, h));
-        const std::uint32_t b = std::max(start_of(mesh, h), end_of(mesh, h));
+        const auto [a, b] = ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
         const auto ends = edge_on_screen(screen_, s.instance, a, b);
         if (!ends) return;
         const glm::dvec2 low = glm::min(ends->from, ends->to), high = glm::max(ends->from, ends->to);

@@ -1,6 +1,7 @@
 #include "methods/abuffer/screen/edge_on_screen.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace burin {
 namespace {
@@ -50,6 +51,12 @@ std::optional<EdgeOnScreen> clipped_edge(const ScreenSurfaces& screen, std::uint
     end(from, part.t0, edge.from, edge.nearness_from);
     end(to, part.t1, edge.to, edge.nearness_to);
     return edge;
+}
+
+bool comes_first_in_space(const ScreenSurfaces& screen, std::uint32_t instance, std::uint32_t one, std::uint32_t two) {
+    const Mesh& mesh = *screen.surfaces().instances[instance].mesh;
+    const glm::vec3 &p = mesh.positions[one], &q = mesh.positions[two];
+    return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
 
 double share_in_space(const ScreenSurfaces& screen, const EdgeOnScreen& edge, double on_screen) {

@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <utility>
 
 #include "methods/abuffer/screen/screen_surfaces.h"
 
@@ -32,6 +33,19 @@ inline std::optional<EdgeOnScreen> edge_on_screen(const ScreenSurfaces& screen, 
     const ScreenVertex &a = screen.vertices(instance)[from], &b = screen.vertices(instance)[to];
     if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen) return clipped_edge(screen, instance, from, to);
     return EdgeOnScreen{{a.x, a.y}, {b.x, b.y}, static_cast<double>(a.nearness), static_cast<double>(b.nearness), 0, 1};
+}
+
+/// Whether a vertex comes first by its coordinates in the mesh.
+bool comes_first_in_space(const ScreenSurfaces& screen, std::uint32_t instance, std::uint32_t one, std::uint32_t two);
+
+/// The vertices of an edge as it is gone along: to the right on the screen, or downwards. Rounding hangs on the direction, and no order
+/// in the file may.
+inline std::pair<std::uint32_t, std::uint32_t> ends_in_order(const ScreenSurfaces& screen, std::uint32_t instance, std::uint32_t one,
+                                                             std::uint32_t two) {
+    const ScreenVertex &a = screen.vertices(instance)[one], &b = screen.vertices(instance)[two];
+    const bool is_known = a.x != b.x || (a.y != b.y && a.x != ScreenVertex::kOffScreen);
+    const bool turns = is_known ? (a.x != b.x ? a.x > b.x : a.y > b.y) : comes_first_in_space(screen, instance, two, one);
+    return turns ? std::pair(two, one) : std::pair(one, two);
 }
 
 /// The share of the way in space at which a share of what is left is seen, and the other way round.
