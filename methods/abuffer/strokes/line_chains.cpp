@@ -98,8 +98,11 @@ class Chains {
         if (is_loop) std::rotate(chain.begin(), std::min_element(chain.begin(), chain.end(), before), chain.end());
         std::vector<std::uint32_t> backwards(chain.rbegin(), chain.rend());
         for (std::uint32_t& end : backwards) end ^= 1;
-        // By all vertices on the way: a chain may end where it began.
-        if (std::lexicographical_compare(backwards.begin(), backwards.end(), chain.begin(), chain.end(), before)) chain.swap(backwards);
+        // By all vertices on the way: a chain may end where it began. A loop does, and rounding says which of two intersections begins first.
+        const std::ptrdiff_t known = is_loop ? 1 : 0;
+        if (std::lexicographical_compare(backwards.begin() + known, backwards.end(), chain.begin() + known, chain.end(), before)) {
+            chain.swap(backwards);
+        }
     }
 
     std::span<const LayerLine> lines_;
