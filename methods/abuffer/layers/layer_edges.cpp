@@ -110,11 +110,12 @@ class LayerEdgeFinder::Rules {
             const bool is_past_sliver = *solid_h != h || *solid_g != g;
             if (side_h != 0 && side_h == side_g && !(is_past_sliver && sides_.is_negligible_fold(s.instance, h))) front_side = side_h;
         }
-        if (front_side == 0) {  // a wall may lie on either side, and is not in front
-            if (sides_.ends_at_wall(s.instance, h, g)) front_side = sides_.side_at(s.instance, h, a, b);
-            else if (sides_.ends_at_wall(s.instance, g, h)) front_side = sides_.side_at(s.instance, g, a, b);
+        if (front_side != 0) {
+            classes |= LineClass::silhouette;
+        } else if (const auto wall_at = half_edge_at_wall(s.instance, h, g)) {  // the wall may lie on either side, and is not in front
+            classes |= LineClass::silhouette;
+            front_side = sides_.side_at(s.instance, *wall_at, a, b);
         }
-        if (front_side != 0) classes |= LineClass::silhouette;
         if (!sides_.is_sliver_at(s, h) && !sides_.is_sliver_at(s, g)) {
             const std::uint8_t* const sharp = screen_.sharp_edges(s.instance);
             const bool may_have_any = sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0;
@@ -124,6 +125,13 @@ class LayerEdgeFinder::Rules {
                                        middle_px(s, h), criteria_, &crease_cosine);
         }
         add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, front_side, lines);
+    }
+
+    /// The half-edge whose surface ends at a wall that begins behind the other.
+    std::optional<HalfEdge> half_edge_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
+        if (sides_.ends_at_wall(instance, h, g)) return h;
+        if (sides_.ends_at_wall(instance, g, h)) return g;
+        return std::nullopt;
     }
 
     /// Where more than two triangles meet, those that are in front on either side of the edge make the line, as walks over it
