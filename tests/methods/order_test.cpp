@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "methods/abuffer/abuffer.h"
+#include "methods/abuffer/screen/edge_on_screen.h"
 #include "methods/reference.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
@@ -143,6 +144,40 @@ TEST(Order, OfAWallBehindAContour) {
     const Camera camera = perspective_camera({-2.3748178074763104, -0.16716297688561355, -1.7383308488569554}, {1, 1, 1});
     for (const StrokeSide side : {StrokeSide::inside, StrokeSide::outside}) {
         expect_no_order({ball, camera, {0, 0, 64, 48}, HiddenStyle::none, side, 64, 48});
+    }
+}
+
+// A strip of a scan, narrower than a pixel, whose surface ends at walls that lean back: they are not in front, whichever comes first.
+TEST(Order, OfWallsThatLeanBack) {
+    const PolygonSoup strip = soup_of({{0.008927, 0.159211, -0.0212875},
+                                       {0.00927702, 0.159206, -0.0212875},
+                                       {0.008927, 0.159388, -0.0209375},
+                                       {0.00927702, 0.15938, -0.0209375},
+                                       {0.008927, 0.159389, -0.0205875},
+                                       {0.00927702, 0.159382, -0.0205875},
+                                       {0.008927, 0.15926, -0.0202375},
+                                       {0.00927702, 0.159208, -0.0202375}},
+                                      {{0, 3, 1}, {0, 2, 3}, {2, 5, 3}, {2, 4, 5}, {4, 7, 5}, {4, 6, 7}});
+    const Camera camera = perspective_camera({0.0141211, 0.15495125, 0.4153966}, {-0.0058789, 0.12495125, -0.0046034});
+    for (const StrokeSide side : {StrokeSide::inside, StrokeSide::outside}) {
+        expect_no_order({strip, camera, {0, 0, 64, 48}, HiddenStyle::none, side, 64, 48});
+    }
+}
+
+/// Whoever asks; also where the screen does not say it: off the screen, and of an edge that is seen as a point.
+TEST(Order, OfAnEdgesEndsIsOneForAll) {
+    const PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 5}, {0, 0, 20}, {1, 0, 20}, {0, 1, 30}}, {{0, 1, 2}, {0, 1, 3}, {4, 5, 6}});
+    const Scene scene = scene_of({soup});
+    const Frame frame = make_frame(scene, perspective_camera({0, 0, 10}, {0, 0, 0}), 64, 48, {0, 0, 64, 48});
+    const ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
+    const ScreenVertex* const v = screen.vertices(0);
+    ASSERT_TRUE(v[0].x == v[3].x && v[0].y == v[3].y && v[4].x == ScreenVertex::kOffScreen && v[6].x == ScreenVertex::kOffScreen);
+    for (std::uint32_t a = 0; a < soup.positions.size(); ++a) {
+        for (std::uint32_t b = 0; b < a; ++b) {
+            const auto [first, second] = ends_in_order(screen, 0, a, b);
+            EXPECT_EQ(ends_in_order(screen, 0, b, a), std::pair(first, second)) << a << ", " << b;
+            EXPECT_LE(v[first].x, v[second].x) << a << ", " << b;
+        }
     }
 }
 
