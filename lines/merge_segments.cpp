@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "base/for_this_cpu.h"
-
 namespace burin {
 namespace {
 
@@ -55,7 +53,6 @@ bool continues(const LineSegment& a, const LineSegment& b) {
 
 }  // namespace
 
-BURIN_FOR_THIS_CPU
 void SegmentMerger::sort(std::span<Key> keys, std::span<const LineSegment> pieces) {
     const auto is_key_before = [pieces](const Key& a, const Key& b) -> bool {
         if (__builtin_expect(a.block != b.block, 0)) return a.block < b.block;
@@ -73,7 +70,6 @@ void SegmentMerger::sort(std::span<Key> keys, std::span<const LineSegment> piece
     }
 }
 
-BURIN_FOR_THIS_CPU
 void SegmentMerger::merge(std::span<LineSegment> pieces, std::vector<LineSegment>& merged) {
     std::array<std::uint32_t, kBuckets> next{};
     std::array<std::uint64_t, kBuckets / 64> used{};  // a bit per bucket: few have any
@@ -151,7 +147,6 @@ std::span<const LineSegment> SegmentIndex::in_block(std::uint32_t block) const {
     return merged_.subspan(first, last - first);
 }
 
-BURIN_FOR_THIS_CPU
 std::span<const LineSegment> SegmentIndex::of_line(std::uint32_t block, std::uint64_t line_key) const {
     const std::size_t first = first_not_before(block, line_key);
     std::size_t last = first;

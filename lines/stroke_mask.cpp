@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/for_this_cpu.h"
-
 namespace burin {
 
 void StrokeCanvas::reset(int x0, int y0, int width, int height) {
@@ -27,7 +25,6 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
     }
 }
 
-BURIN_FOR_THIS_CPU
 void StrokeCanvas::draw(glm::dvec2 from, glm::dvec2 to, double radius_px, bool in_sets) {
     if (to.x < from.x) std::swap(from, to);  // samples exactly on a side belong to one, whichever way a stroke is drawn
     const glm::dvec2 a = from - glm::dvec2(x0_, y0_), b = to - glm::dvec2(x0_, y0_);

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <limits>
 
-#include "base/for_this_cpu.h"
 #include "lines/sharp_edges.h"
 
 namespace burin {
@@ -389,7 +388,6 @@ LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
     return classes;
 }
 
-BURIN_FOR_THIS_CPU
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
                              const LineCriteria& criteria, double* crease_cosine) {
     LineClassSet classes;

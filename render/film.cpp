@@ -12,7 +12,6 @@
 #include <type_traits>
 
 #include "base/error.h"
-#include "base/for_this_cpu.h"
 #include "base/stream_store.h"
 #include "image/half.h"
 
@@ -239,7 +238,6 @@ void Film::put_background(int x0, int x1, int y) {
     }
 }
 
-BURIN_FOR_THIS_CPU
 void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
     for_row(x0, x1, y, [&](const Planes& planes, std::size_t begin, std::size_t count, std::size_t) {
         const auto fill = [&](std::uint16_t* plane, std::uint16_t value) {
@@ -312,7 +310,6 @@ LineInk::LineInk(const LinePixel& lines) : color(lines.color) {
     for (std::size_t c = 0; c < kLineClassCount; ++c) coverage[c] = Film::to_half(lines.coverage[c]);
 }
 
-BURIN_FOR_THIS_CPU
 void Film::draw_over(int x, int y, const LineInk& lines) {
     const auto [planes, i] = place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
@@ -340,7 +337,6 @@ void Film::replace_surface(int x, int y, const glm::vec4& color) {
     }
 }
 
-BURIN_FOR_THIS_CPU
 void Film::draw_hidden(int x, int y, const glm::vec4& hidden, const glm::vec4& seen) {
     const auto [planes, i] = place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {

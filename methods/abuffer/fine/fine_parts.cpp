@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/for_this_cpu.h"
 #include "methods/abuffer/layers/layer_triangle.h"
 
 namespace burin {
@@ -48,7 +47,6 @@ std::pair<int, int> columns_beside(const EdgeOnScreen& edge, double top, double 
 
 }  // namespace
 
-BURIN_FOR_THIS_CPU
 void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
                      std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
     if (edges.empty()) return;
@@ -204,7 +202,6 @@ bool FineParts::is_surely_behind(const TileEdge& edge, const SampleTile& samples
 }
 
 /// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.
-BURIN_FOR_THIS_CPU
 bool FineParts::is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin,
                           double end) const {
     const double per_sample = samples.samples_per_pixel / 256.0;
@@ -228,7 +225,6 @@ bool FineParts::is_behind(const Squares& squares, const SampleTile& samples, con
 
 /// Goes along an edge from square to square of four samples, in a block whose upper left sample is given.
 /// All places are on the picture's grid of samples: equal in all tiles.
-BURIN_FOR_THIS_CPU
 void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
                           glm::ivec2 block, Interval part) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -269,7 +265,6 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
     }
 }
 
-BURIN_FOR_THIS_CPU
 bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
                         const Owners& owners) const {
     const std::size_t i = samples.index(square.x, square.y);
@@ -322,7 +317,6 @@ bool FineParts::is_drawn_by_another(const EdgeOnScreen& edge, std::uint32_t bloc
 }
 
 /// What is left of an edge where pieces of its line were found.
-BURIN_FOR_THIS_CPU
 void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
                              std::span<const LineSegment> pieces) {
     undrawn_.assign(1, {begin, end});

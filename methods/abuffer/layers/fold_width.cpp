@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "base/for_this_cpu.h"
-
 namespace burin {
 namespace {
 
@@ -113,7 +111,6 @@ class FoldWalk {
 
 }  // namespace
 
-BURIN_FOR_THIS_CPU
 bool is_fold_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {
     const PlaceOnEdge from{at, nearness, level};
     const HalfEdge partner = mesh.partners[half_edge];

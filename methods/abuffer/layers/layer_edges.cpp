@@ -6,7 +6,6 @@
 #include <cstring>
 #include <optional>
 
-#include "base/for_this_cpu.h"
 #include "base/parallel.h"
 #include "methods/abuffer/layers/border_parts.h"
 #include "methods/abuffer/layers/edge_sides.h"
@@ -27,7 +26,6 @@ void ask_for_vertices(const ScreenMesh& mesh, HalfEdge h) {
 
 }  // namespace
 
-BURIN_FOR_THIS_CPU
 std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
     constexpr std::uint32_t kGroup = 64, kWord = 8;
     constexpr std::uint64_t kFirstEdges = 0x0101010101010101u, kToOneByte = 0x0102040810204080u;

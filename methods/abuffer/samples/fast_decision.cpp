@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/for_this_cpu.h"
-
 namespace burin {
 
 /// Whether snapping may decide which way a triangle faces that is as deep as what separates surfaces.
@@ -50,7 +48,6 @@ bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
     return false;
 }
 
-BURIN_FOR_THIS_CPU
 double FastDecision::nearness_at(SurfaceId s, glm::dvec2 subpixel) const {
     const ScreenMesh& mesh = screen_.mesh(s.instance);
     const std::uint32_t* const corners = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
@@ -136,7 +133,6 @@ bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
     return are_flush(surfaces_, pair.surfaces[0], pair.surfaces[1], at, criteria_);
 }
 
-BURIN_FOR_THIS_CPU
 bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known) {
     decision = LineDecision{};
     const auto nearness_of = [&](int i, const FastWalk& w) {

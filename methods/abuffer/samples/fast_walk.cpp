@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/for_this_cpu.h"
-
 namespace burin {
 namespace {
 
@@ -111,7 +109,6 @@ FastWalk::Stop FastWalk::stop_at(double goal) const {
     return {true, step->triangle, goal};
 }
 
-BURIN_FOR_THIS_CPU
 void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& result) {
     const SurfaceId start = pair.surfaces[backwards ? 1 : 0];
     const std::uint32_t instance = start.instance;

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 
-#include "base/for_this_cpu.h"
 #include "lines/cell_tracer.h"
 #include "methods/abuffer/screen/sampling.h"
 
@@ -42,7 +41,6 @@ glm::dvec2 LineTile::position(int column, int row) const {
 }
 
 /// Whether there is a line between two samples that are not known to lie on one smooth surface.
-BURIN_FOR_THIS_CPU
 bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing) {
     crossing = LineCrossing{};
     LineDecision decision;
@@ -171,7 +169,6 @@ void LineTile::find_crossings() {
     }
 }
 
-BURIN_FOR_THIS_CPU
 void LineTile::decide_all(std::span<const SamplePair> pairs) {
     find_neighbours(pairs);
     walks_.walk({neighbours_.data(), pairs.size()});
@@ -200,7 +197,6 @@ void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) 
     for (const SamplePair& place : crossing_places_) crossing_between(place) = 0;
 }
 
-BURIN_FOR_THIS_CPU
 void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
     const bool has_bridges = !completes_lines(*frame_.scene);

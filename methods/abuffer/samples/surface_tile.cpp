@@ -6,7 +6,6 @@
 
 #include "abuffer/level_reach.h"
 #include "abuffer/scan_convert.h"
-#include "base/for_this_cpu.h"
 
 namespace burin {
 
@@ -57,7 +56,6 @@ void SurfaceTile::draw(std::size_t tile) {
     contests_.settle(samples_);
 }
 
-BURIN_FOR_THIS_CPU
 void SurfaceTile::draw_all(std::size_t tile) {
     contests_.clear();
     samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
@@ -99,7 +97,6 @@ void SurfaceTile::draw_runs(bool is_worth_a_look) {
 }
 
 /// Adds what of a run is not hidden.
-BURIN_FOR_THIS_CPU
 void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
     if (seen_.size() < seen_count_ + run.count) seen_.resize(2 * (seen_count_ + run.count));
     std::uint32_t* const found = seen_.data() + seen_count_;

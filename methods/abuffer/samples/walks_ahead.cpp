@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/for_this_cpu.h"
-
 namespace burin {
 
 WalksAhead::WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels, FastWalker& walker)
@@ -15,7 +13,6 @@ WalksAhead::WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels,
       walks_(2 * kMostPairs),
       steps_(2 * kMostPairs * (MeshWalks::kMostSteps + 1)) {}
 
-BURIN_FOR_THIS_CPU
 void WalksAhead::walk(std::span<const NeighbourSamples> pairs) {
     pairs_ = pairs;
     walk_count_ = step_count_ = 0;
@@ -70,7 +67,6 @@ void WalksAhead::walk_asked() {
     }
 }
 
-BURIN_FOR_THIS_CPU
 void WalksAhead::note_end(std::size_t ended, const Asked& asked) {
     const MeshWalks& walks = *mesh_walks_;
     FastWalk& walk = walks_[walk_count_++];
