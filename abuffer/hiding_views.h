@@ -87,20 +87,26 @@ struct HiddenParts {
     double begin, end;            ///< by more than the second one
 };
 
-/// A range-encoded bitmap index (Chan and Ioannidis, 1998) of triangles' boxes: both axes and nearness are cut into steps, and
-/// for each step there is a bit per triangle that begins there or before, ends there or after, or has its nearest corner
-/// there or nearer. So 64 triangles are compared with a box at once.
-struct BitmapIndex {
-    enum Table { begins_x, ends_x, begins_y, ends_y, nearest };
-    static constexpr std::size_t kTables = 5, kSteps = 64;
+/// A box on the screen, in steps of the axes of StepBoxes.
+struct StepBox {
+    std::uint8_t x0, y0, x1, y1, low;
+};
+
+/// Boxes of triangles on the screen, and the nearness of their nearest corners, cut into steps of a byte: an array per number. So as
+/// many are compared with a box at once as vectors have bytes. Boxes around each 64 of them come first: neighbours in a mesh are
+/// neighbours in its list.
+struct StepBoxes {
+    enum Number { begins_x, begins_y, ends_x, ends_y, nearest };
+    static constexpr std::size_t kNumbers = 5, kLows = 2, kSteps = 256;  // the first ones are least values
+    static constexpr std::size_t kAtOnce = 64;  ///< arrays have room for a multiple of so many
+    static constexpr std::size_t rounded_up(std::size_t count) { return (count + kAtOnce - 1) / kAtOnce * kAtOnce; }
     struct Axis {
         float from = 0, steps_per_unit = 0;
     };
     Axis x, y, nearness;
-    std::size_t words = 0;  ///< numbers of 64 bits per step, a multiple of four
-    std::uint64_t* bits = nullptr;
-
-    std::uint64_t* at(std::size_t table, std::size_t step) const { return bits + (table * kSteps + step) * words; }
+    std::size_t count = 0;
+    std::uint8_t* steps[kNumbers] = {};
+    std::uint8_t* around[kNumbers] = {};  ///< each kAtOnce of them
 };
 
 /// How far away something is in a picture: square blocks, row by row, each with the least nearness in it, the one to the

@@ -165,8 +165,11 @@ struct TileKernels {
                                HidingInBlock* found, std::uint32_t* others, std::size_t* other_count);
     /// The boxes of triangles, an array per number of FrontBoxes. Up to seven more may be written of each.
     void (*box_triangles)(const CrossedTriangle* triangles, std::size_t count, float* const numbers[5]);
-    /// Makes an index of the triangles `listed`. Its bits must be zero.
-    void (*index_triangles)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count, const BitmapIndex& index);
+    /// Fills in the boxes of the triangles `listed`, as many as `boxes` says.
+    void (*box_in_steps)(const CrossedTriangle* triangles, const std::uint32_t* listed, const StepBoxes& boxes);
+    /// Lists those whose boxes touch any of some boxes, and reach its `low`, by their `numbers` and in their order. Returns how many.
+    std::size_t (*list_in_boxes)(const StepBoxes& boxes, const StepBox* any_of, std::size_t any_count, const std::uint32_t* numbers,
+                                 std::uint32_t* listed);
     /// Lists those of the triangles `listed` that may hide a part of a line: with a corner nearer than its farther end, and not
     /// beside it, by more than its reach and what rounding does: that is nothing where the line is exact and a triangle no longer.
     /// Returns their number.

@@ -6,55 +6,49 @@
 
 namespace burin {
 
-/// Which of some triangles touch a box on the screen: see BitmapIndex.
+/// Which of some triangles touch boxes on the screen: by their own boxes, cut into steps of a byte.
 class TriangleIndex {
   public:
-    /// Of the triangles `listed`, which are then told by their places in that list. What lies beyond `bounds` is taken to be
-    /// at its border.
+    /// Of the triangles `listed`. What lies beyond `bounds` is taken to be at its border.
     void make(const TileKernels& kernels, const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count,
               const ScreenBox& bounds) {
-        constexpr std::size_t kWordsAtOnce = 4;
-        index_.x = axis(bounds.x0, bounds.x1);
-        index_.y = axis(bounds.y0, bounds.y1);
-        index_.nearness = axis(bounds.low, bounds.high);
-        index_.words = (count + 64 * kWordsAtOnce - 1) / (64 * kWordsAtOnce) * kWordsAtOnce;
-        bits_.assign(BitmapIndex::kTables * BitmapIndex::kSteps * index_.words, 0);
-        index_.bits = bits_.data();
-        kernels.index_triangles(triangles, listed, count, index_);
+        kernels_ = &kernels;
+        boxes_.x = axis(bounds.x0, bounds.x1);
+        boxes_.y = axis(bounds.y0, bounds.y1);
+        boxes_.nearness = axis(bounds.low, bounds.high);
+        boxes_.count = count;
+        const std::size_t size = StepBoxes::rounded_up(count), around_size = StepBoxes::rounded_up(size / StepBoxes::kAtOnce);
+        steps_.resize(StepBoxes::kNumbers * (size + around_size));
+        for (std::size_t k = 0; k < StepBoxes::kNumbers; ++k) {
+            boxes_.steps[k] = steps_.data() + k * (size + around_size);
+            boxes_.around[k] = boxes_.steps[k] + size;
+        }
+        kernels.box_in_steps(triangles, listed, boxes_);
     }
-    /// Numbers of 64 bits.
-    std::size_t words() const { return index_.words; }
-    /// Sets the bits of those that touch a box, or lie beside it by less than a step, and reach nearer than its `low`, and no others.
-    void find_only(const ScreenBox& box, std::uint64_t* found) const {
-        for_words(box, [found](std::size_t i, std::uint64_t bits) { found[i] = bits; });
+    /// What find() takes.
+    StepBox in_steps(const ScreenBox& box) const {
+        return {step(boxes_.x, box.x0), step(boxes_.y, box.y0), step(boxes_.x, box.x1), step(boxes_.y, box.y1), step(boxes_.nearness, box.low)};
     }
-    /// Sets these bits, too.
-    void find(const ScreenBox& box, std::uint64_t* found) const {
-        for_words(box, [found](std::size_t i, std::uint64_t bits) { found[i] |= bits; });
+    /// Lists those that touch any of some boxes, or lie beside one by less than a step, and reach nearer than its `low`, in their
+    /// order. `numbers`: of the triangles, as they are to be called; `found` needs room for all. Returns how many.
+    std::size_t find(const StepBox* boxes, std::size_t count, const std::uint32_t* numbers, std::uint32_t* found) const {
+        return kernels_->list_in_boxes(boxes_, boxes, count, numbers, found);
     }
 
   private:
-    template <typename Use>
-    void for_words(const ScreenBox& box, const Use& use) const {
-        const std::uint64_t* const not_right = index_.at(BitmapIndex::begins_x, step(index_.x, box.x1));
-        const std::uint64_t* const not_left = index_.at(BitmapIndex::ends_x, step(index_.x, box.x0));
-        const std::uint64_t* const not_below = index_.at(BitmapIndex::begins_y, step(index_.y, box.y1));
-        const std::uint64_t* const not_above = index_.at(BitmapIndex::ends_y, step(index_.y, box.y0));
-        const std::uint64_t* const nearer = index_.at(BitmapIndex::nearest, step(index_.nearness, box.low));
-        for (std::size_t i = 0; i < index_.words; ++i) use(i, not_right[i] & not_left[i] & not_below[i] & not_above[i] & nearer[i]);
-    }
-    static BitmapIndex::Axis axis(float begin, float end) {
-        return {begin, end > begin ? static_cast<float>(BitmapIndex::kSteps) / (end - begin) : 0};
+    static StepBoxes::Axis axis(float begin, float end) {
+        return {begin, end > begin ? static_cast<float>(StepBoxes::kSteps) / (end - begin) : 0};
     }
     /// As the kernel has it.
-    static std::size_t step(const BitmapIndex::Axis& axis, float v) {
+    static std::uint8_t step(const StepBoxes::Axis& axis, float v) {
         const float steps = (v - axis.from) * axis.steps_per_unit;
-        constexpr float kLast = BitmapIndex::kSteps - 1;
-        return steps > 0 ? static_cast<std::size_t>(steps < kLast ? steps : kLast) : 0;
+        constexpr float kLast = StepBoxes::kSteps - 1;
+        return steps > 0 ? static_cast<std::uint8_t>(steps < kLast ? steps : kLast) : std::uint8_t{0};
     }
 
-    BitmapIndex index_;
-    std::vector<std::uint64_t> bits_;
+    const TileKernels* kernels_ = nullptr;
+    StepBoxes boxes_;
+    std::vector<std::uint8_t> steps_;
 };
 
 }  // namespace burin

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -72,44 +73,46 @@ TEST(TriangleIndex, TrianglesThatTouchABoxAreFound) {
         const auto place = [&] { return static_cast<float>(random.integer(0, kTile)); };
         ScreenBox bounds{0, 0, kTile, kTile, 1, 9};
         if (random.integer(0, 3) == 0) bounds.high = bounds.low;  // all at one depth
-        ScreenBox box{place(), place(), 0, 0, 0.125f * static_cast<float>(random.integer(0, 80)), 1e30f};
-        box.x1 = box.x0 + static_cast<float>(random.integer(0, 1000));
-        box.y1 = box.y0 + static_cast<float>(random.integer(0, 1000));
-        std::vector<std::uint64_t> expected;
+        std::vector<ScreenBox> boxes(static_cast<std::size_t>(random.integer(0, 2) == 0 ? random.integer(2, 9) : 1));
+        for (ScreenBox& box : boxes) {
+            box = {place(), place(), 0, 0, 0.125f * static_cast<float>(random.integer(0, 80)), 1e30f};
+            box.x1 = box.x0 + static_cast<float>(random.integer(0, 1000));
+            box.y1 = box.y0 + static_cast<float>(random.integer(0, 1000));
+        }
+        std::optional<std::vector<std::uint32_t>> expected;
         for (const TileKernels* kernels : all_kernels()) {
             TriangleIndex index;
             if (random.integer(0, 1) == 0) index.make(*kernels, triangles.data(), listed.data(), count / 2, bounds);  // it is used again
             index.make(*kernels, triangles.data(), listed.data(), count, bounds);
-            std::vector<std::uint64_t> found(index.words(), 0);
-            index.find(box, found.data());
-            std::vector<std::uint64_t> only(index.words(), ~std::uint64_t{0});
-            index.find_only(box, only.data());
-            EXPECT_EQ(only, found) << kernels->name << " round " << round;
-            if (expected.empty()) expected = found;
-            EXPECT_EQ(found, expected) << kernels->name << " round " << round;
+            std::vector<StepBox> in_steps;
+            for (const ScreenBox& box : boxes) in_steps.push_back(index.in_steps(box));
+            std::vector<std::uint32_t> found(count);
+            found.resize(index.find(in_steps.data(), in_steps.size(), listed.data(), found.data()));
+            if (!expected) expected = found;
+            EXPECT_EQ(found, *expected) << kernels->name << " round " << round;
         }
-        constexpr float kStep = kTile / 64.0f, kDepthStep = 8.0f / 64;
-        for (std::size_t i = 0; i < 64 * expected.size(); ++i) {
-            const bool is_found = (expected[i / 64] >> i % 64 & 1) != 0;
-            if (i >= count) {
-                EXPECT_FALSE(is_found);
-                continue;
-            }
+        EXPECT_TRUE(std::is_sorted(expected->begin(), expected->end()));
+        constexpr float kStep = kTile / 256.0f, kDepthStep = 8.0f / 256;
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool is_found = std::binary_search(expected->begin(), expected->end(), listed[i]);
             const CrossedTriangle& t = triangles[listed[i]];
             const auto [x0, x1] = std::minmax({t.x[0], t.x[1], t.x[2]});
             const auto [y0, y1] = std::minmax({t.y[0], t.y[1], t.y[2]});
-            const auto touches = [&, x0 = x0, x1 = x1, y0 = y0, y1 = y1](float by) {
+            const auto touches = [&, x0 = x0, x1 = x1, y0 = y0, y1 = y1](const ScreenBox& box, float by) {
                 return x0 <= box.x1 + by && x1 >= box.x0 - by && y0 <= box.y1 + by && y1 >= box.y0 - by;
             };
+            // What is beyond the bounds is at their border.
+            const auto may_touch = [&](const ScreenBox& box) {
+                const bool is_near_border = std::max(box.x1, box.y1) + 2 * kStep > kTile || std::min(box.x0, box.y0) < 2 * kStep;
+                const bool may_be_level = bounds.high == bounds.low || box.low < 1.25f || t.highest > std::min(box.low, 9.0f) - 2 * kDepthStep;
+                return is_near_border || (touches(box, kStep) && may_be_level);
+            };
             found_count += is_found;
-            if (touches(0) && t.highest > box.low) {
+            if (std::any_of(boxes.begin(), boxes.end(), [&](const ScreenBox& box) { return touches(box, 0) && t.highest > box.low; })) {
                 ++touching;
                 EXPECT_TRUE(is_found) << "round " << round << ' ' << i;
             }
-            // What is beyond the bounds is at their border.
-            const bool is_near_border = std::max(box.x1, box.y1) + 2 * kStep > kTile || std::min(box.x0, box.y0) < 2 * kStep;
-            const bool may_be_level = bounds.high == bounds.low || box.low < 1.25f || t.highest > std::min(box.low, 9.0f) - 2 * kDepthStep;
-            if (!is_near_border && (!touches(kStep) || !may_be_level)) {
+            if (std::none_of(boxes.begin(), boxes.end(), may_touch)) {
                 ++beside;
                 EXPECT_FALSE(is_found) << "round " << round << ' ' << i;
             }

@@ -1,7 +1,6 @@
 #include "methods/abuffer/layers/layer_cells.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -110,17 +109,9 @@ std::size_t LayerCells::find_crossed(std::size_t cell, const LayerLine& line, do
         return ScreenBox{first.x, first.y, last.x, last.y, low, kFar};
     };
     const auto place = [&](int i) { return glm::vec2(line.from + along * (from + (to - from) * i / parts) - corner); };
-    bits_.resize(index.words());
-    index.find_only(around(place(0), place(1)), bits_.data());
-    for (int i = 2; i <= parts; ++i) index.find(around(place(i - 1), place(i)), bits_.data());
-    const std::uint32_t* const places = places_.data() + cell_at(cell).begin;
-    std::uint32_t* const listed = listed_.data();
-    std::size_t count = 0;
-    for (std::size_t word = 0; word < bits_.size(); ++word) {
-        for (std::uint64_t bits = bits_[word]; bits != 0; bits &= bits - 1) {
-            listed[count++] = places[64 * word + static_cast<std::size_t>(std::countr_zero(bits))];
-        }
-    }
+    boxes_.clear();
+    for (int i = 1; i <= parts; ++i) boxes_.push_back(index.in_steps(around(place(i - 1), place(i))));
+    const std::size_t count = index.find(boxes_.data(), boxes_.size(), places_.data() + cell_at(cell).begin, listed_.data());
     // A short line is taken as a whole, since its ends are whole numbers.
     const bool is_exact = reach == 0 && line.is_exact();
     const glm::vec2 p(line.from + along * (is_exact ? 0 : from) - corner), q(line.from + along * (is_exact ? 1 : to) - corner);

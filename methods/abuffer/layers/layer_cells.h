@@ -90,7 +90,7 @@ class LayerCells {
     std::vector<CrossedTriangle> triangles_;
     std::vector<std::uint32_t> cell_end_, places_;
     std::vector<TriangleIndex> indices_;        // per cell
-    std::vector<std::uint64_t> bits_;           // found by one
+    std::vector<StepBox> boxes_;                // around parts of a line
     std::vector<std::uint32_t> listed_, found_;  // of these, and by a kernel
     std::vector<std::uint32_t> looked_at_by_;   // the last line, so that none looks twice at what is in many cells
     std::uint32_t lines_looked_at_ = 0;
