@@ -93,7 +93,7 @@ struct StepBox {
 };
 
 /// Boxes of triangles on the screen, and the nearness of their nearest corners, cut into steps of a byte: an array per number. So as
-/// many are compared with a box at once as vectors have bytes. Boxes around each 64 of them come first: neighbours in a mesh are
+/// many are compared with a box at once as vectors have bytes. Boxes around each 64 of them are compared first: neighbours in a mesh are
 /// neighbours in its list.
 struct StepBoxes {
     enum Number { begins_x, begins_y, ends_x, ends_y, nearest };

@@ -9,6 +9,10 @@ namespace burin {
 /// Which of some triangles touch boxes on the screen: by their own boxes, cut into steps of a byte.
 class TriangleIndex {
   public:
+    TriangleIndex() = default;
+    TriangleIndex(TriangleIndex&&) = default;  // not copied: boxes are told by where they lie
+    TriangleIndex& operator=(TriangleIndex&&) = default;
+
     /// Of the triangles `listed`. What lies beyond `bounds` is taken to be at its border.
     void make(const TileKernels& kernels, const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count,
               const ScreenBox& bounds) {
@@ -29,8 +33,8 @@ class TriangleIndex {
     StepBox in_steps(const ScreenBox& box) const {
         return {step(boxes_.x, box.x0), step(boxes_.y, box.y0), step(boxes_.x, box.x1), step(boxes_.y, box.y1), step(boxes_.nearness, box.low)};
     }
-    /// Lists those that touch any of some boxes, or lie beside one by less than a step, and reach nearer than its `low`, in their
-    /// order. `numbers`: of the triangles, as they are to be called; `found` needs room for all. Returns how many.
+    /// Lists all that touch any of some boxes and reach nearer than its `low`, in their order, and some more that are off by less than a
+    /// step, or lie beyond the bounds, or where all are equally near. `numbers`: of the triangles, as they are to be called; `found` needs room for all. Returns how many.
     std::size_t find(const StepBox* boxes, std::size_t count, const std::uint32_t* numbers, std::uint32_t* found) const {
         return kernels_->list_in_boxes(boxes_, boxes, count, numbers, found);
     }

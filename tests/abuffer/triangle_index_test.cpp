@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -62,7 +64,7 @@ TEST(TriangleIndex, TrianglesThatTouchABoxAreFound) {
     Random random(15);
     int touching = 0, beside = 0, found_count = 0;
     for (int round = 0; round < 300; ++round) {
-        const std::size_t count = static_cast<std::size_t>(round < 50 ? round : random.integer(1, 700));
+        const std::size_t count = static_cast<std::size_t>(round < 50 ? round : round % 100 == 99 ? random.integer(4097, 9000) : random.integer(1, 700));
         std::vector<CrossedTriangle> triangles;
         std::vector<std::uint32_t> listed;
         for (std::uint32_t i = 0; i < 2 * count; ++i) {
@@ -79,10 +81,14 @@ TEST(TriangleIndex, TrianglesThatTouchABoxAreFound) {
             box.x1 = box.x0 + static_cast<float>(random.integer(0, 1000));
             box.y1 = box.y0 + static_cast<float>(random.integer(0, 1000));
         }
+        // An index is used again, after fewer triangles or more.
+        const std::size_t count_before = std::array{std::size_t{0}, count / 2, 2 * count}[static_cast<std::size_t>(random.integer(0, 2))];
+        std::vector<std::uint32_t> listed_before(2 * count);
+        std::iota(listed_before.begin(), listed_before.end(), 0u);
         std::optional<std::vector<std::uint32_t>> expected;
         for (const TileKernels* kernels : all_kernels()) {
             TriangleIndex index;
-            if (random.integer(0, 1) == 0) index.make(*kernels, triangles.data(), listed.data(), count / 2, bounds);  // it is used again
+            index.make(*kernels, triangles.data(), listed_before.data(), count_before, bounds);
             index.make(*kernels, triangles.data(), listed.data(), count, bounds);
             std::vector<StepBox> in_steps;
             for (const ScreenBox& box : boxes) in_steps.push_back(index.in_steps(box));
