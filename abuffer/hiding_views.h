@@ -109,9 +109,10 @@ struct StepBoxes {
     std::uint8_t* around[kNumbers] = {};  ///< each kAtOnce of them
 };
 
-/// How far away something is in a picture: square blocks, row by row, each with the least nearness in it, the one to the
-/// right, the one below, and the one between these.
+/// How far away something is in a picture: square blocks, row by row.
 struct DepthGrid {
+    /// Four pages, each with all blocks: the least nearness in a block; in it and the one to the right; in it and the one below; and
+    /// in all four.
     const float* least;
     std::int32_t first_x, first_y, last_x, last_y;  ///< of the picture, in 1/256 pixel
     std::int32_t block_shift;                       ///< log2 of a block's width in 1/256 pixel

@@ -85,9 +85,9 @@ struct TileKernels {
     /// Once the facing of all triangles is known: sets ScreenMesh::line_edges for triangles [begin, end) of a
     /// mesh (`line_edges`: that of the mesh's first one). Other bits of `sharp` are kept there.
     void (*find_line_edges)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint8_t* line_edges);
-    /// Lists the triangles [begin, end) of a mesh that may be nearer than what is noted where they are: all of them, and
-    /// some others. Returns their number. `tiles`: of each, or kSeveralTiles; not looked at are those that touch more than two
-    /// by two blocks or are not all on the screen, which have that, too.
+    /// Lists the triangles [begin, end) of a mesh that are nearer than what is noted where they are, once for each tile in which
+    /// they are, and some that need be looked at: those that touch more than two by two blocks or are not all on the screen. Of those
+    /// `tiles` is kSeveralTiles. Returns how many; both need room for 4 * (end - begin) + kRoomBehindCulled.
     std::size_t (*find_in_front)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const DepthGrid& grid,
                                  std::uint32_t* found, std::uint32_t* tiles);
     /// Draws triangles of a mesh into a tile: nearest wins, then the smaller id. They must be smaller than

@@ -49,10 +49,18 @@ void bin_all(const ScreenSurfaces& screen, const PixelTiles& grid, const Triangl
     }
 }
 
+/// Buffers of one thread.
+struct Scratch {
+    static constexpr std::size_t kRoom = 4 * std::size_t{kChunkTriangles} + kRoomBehindCulled;
+    std::vector<std::uint32_t> found, tiles;
+};
+
 void bin_in_front(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, const LineDepths& lines,
-                  const TriangleChunk& chunk, std::vector<Record>& records) {
+                  const TriangleChunk& chunk, Scratch& scratch, std::vector<Record>& records) {
     const ScreenMesh& mesh = screen.mesh(chunk.instance);
-    std::vector<std::uint32_t> found(chunk.end - chunk.begin), tiles(chunk.end - chunk.begin);
+    auto& [found, tiles] = scratch;
+    found.resize(Scratch::kRoom);
+    tiles.resize(Scratch::kRoom);
     const std::size_t count = kernels.find_in_front(mesh, chunk.begin, chunk.end, lines.grid(), found.data(), tiles.data());
     records.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -71,9 +79,10 @@ LayerBins::LayerBins(const ScreenSurfaces& screen, const TileKernels& kernels, c
                      const LineDepths* lines) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     std::vector<std::vector<Record>> records(chunks.size());
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+    std::vector<Scratch> scratch(static_cast<std::size_t>(threads));
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int worker) {
         if (lines != nullptr) {
-            bin_in_front(screen, kernels, grid, *lines, chunks[c], records[c]);
+            bin_in_front(screen, kernels, grid, *lines, chunks[c], scratch[static_cast<std::size_t>(worker)], records[c]);
         } else {
             bin_all(screen, grid, chunks[c], records[c]);
         }

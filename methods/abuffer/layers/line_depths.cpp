@@ -28,19 +28,25 @@ LineDepths::LineDepths(std::span<const LayerLine> lines, const PixelTiles& tiles
 }
 
 void LineDepths::combine_blocks() {
-    of_four_.resize(of_block_.size());
+    const std::size_t page = of_block_.size();
+    of_blocks_.resize(4 * page);
     const auto of_block = [this](int x, int y) {
         x = std::min(x, columns_ - 1);
         y = std::min(y, end_row_ - 1);
         return of_block_[place(tile_at(x, y), x, y)];
     };
-    float* of_four = of_four_.data();
+    float* at = of_blocks_.data();
     for (int y = begin_row_; y < end_row_; ++y) {
-        float left = std::min(of_block(0, y), of_block(0, y + 1));
+        float own = of_block(0, y), own_or_below = std::min(own, of_block(0, y + 1));
         for (int x = 0; x < columns_; ++x) {
-            const float right = std::min(of_block(x + 1, y), of_block(x + 1, y + 1));
-            *of_four++ = std::min(left, right);
-            left = right;
+            const float right = of_block(x + 1, y), right_or_below = std::min(right, of_block(x + 1, y + 1));
+            at[0] = own;
+            at[page] = std::min(own, right);
+            at[2 * page] = own_or_below;
+            at[3 * page] = std::min(own_or_below, right_or_below);
+            ++at;
+            own = right;
+            own_or_below = right_or_below;
         }
     }
 }

@@ -38,7 +38,7 @@ class LineDepths {
 
     /// The same by pairs of blocks along both axes, so that few triangles need be asked for one by one.
     DepthGrid grid() const {
-        return {of_four_.data(), first_.x, first_.y, last_.x, last_.y, kBlockShift, columns_, begin_row_, end_row_ - begin_row_, kTileShift};
+        return {of_blocks_.data(), first_.x, first_.y, last_.x, last_.y, kBlockShift, columns_, begin_row_, end_row_ - begin_row_, kTileShift};
     }
 
   private:
@@ -79,7 +79,7 @@ class LineDepths {
     glm::ivec2 first_, last_;  // of the picture, in 1/256 pixel
     int columns_, rows_, begin_row_, end_row_;  // of blocks
     std::vector<float> of_tile_, of_block_;     // tile by tile
-    std::vector<float> of_four_;                // DepthGrid::least
+    std::vector<float> of_blocks_;              // DepthGrid::least
 };
 
 }  // namespace burin
