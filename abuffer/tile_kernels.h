@@ -165,6 +165,10 @@ struct TileKernels {
                                HidingInBlock* found, std::uint32_t* others, std::size_t* other_count);
     /// The boxes of triangles, an array per number of FrontBoxes. Up to seven more may be written of each.
     void (*box_triangles)(const CrossedTriangle* triangles, std::size_t count, float* const numbers[5]);
+    /// Those of a mesh with the `numbers` of their surfaces, from (x, y) on; all of their corners must be on the screen. Up to seven
+    /// more may be written.
+    void (*put_crossed)(const ScreenMesh& mesh, const std::uint32_t* numbers, std::size_t count, std::int32_t x, std::int32_t y,
+                        CrossedTriangle* to);
     /// Fills in the boxes of the triangles `listed`, as many as `boxes` says.
     void (*box_in_steps)(const CrossedTriangle* triangles, const std::uint32_t* listed, const StepBoxes& boxes);
     /// Lists those whose boxes touch any of some boxes, and reach its `low`, by their `numbers` and in their order. Returns how many.

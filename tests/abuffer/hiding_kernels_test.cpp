@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <glm/glm.hpp>
 #include <utility>
 #include <vector>
 
 #include "abuffer/screen_triangles.h"
+#include "tests/abuffer/random_triangles.h"
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
 
@@ -250,6 +252,40 @@ TEST(HidingKernels, LinesJustInsideLargeTrianglesAreFound) {
         }
     }
     EXPECT_GT(inside, 30000);
+}
+
+TEST(HidingKernels, TrianglesArePutAsLinesCrossThem) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Random random(seed);
+        Triangles triangles(seed, 2, 64, -128);
+        triangles.facing.resize(triangles.count() + ScreenMesh::kPadding);
+        triangles.mesh.facing = triangles.facing.data();
+        for (std::uint32_t t = 0; t < triangles.count(); ++t) {
+            const std::int64_t area = triangles.area(t);
+            triangles.facing[t] = area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise;
+        }
+        std::vector<std::uint32_t> numbers;
+        for (std::uint32_t t = 0; t < triangles.count(); ++t) {
+            if (random.integer(0, 3) != 0 && numbers.size() < seed) numbers.push_back(triangles.mesh.first_number + t);
+        }
+        if (seed == 39) numbers.push_back(triangles.mesh.first_number + triangles.count() - 1);
+        const int x = random.integer(-5000, 50000), y = random.integer(-50000, 5000);
+        for (const TileKernels* kernels : all_kernels()) {
+            std::vector<CrossedTriangle> put(numbers.size() + 7);
+            kernels->put_crossed(triangles.mesh, numbers.data(), numbers.size(), x, y, put.data());
+            for (std::size_t i = 0; i < numbers.size(); ++i) {
+                const std::uint32_t t = numbers[i] - triangles.mesh.first_number;
+                const auto corner = [&](std::uint32_t k) {
+                    ScreenVertex v = triangles.corner(t, k);
+                    v.x -= x;
+                    v.y -= y;
+                    return v;
+                };
+                const CrossedTriangle expected = crossed_triangle(corner(0), corner(1), corner(2), static_cast<Facing>(triangles.facing[t]), numbers[i]);
+                EXPECT_EQ(std::memcmp(&put[i], &expected, sizeof expected), 0) << kernels->name << " seed " << seed << " place " << i;
+            }
+        }
+    }
 }
 
 }  // namespace

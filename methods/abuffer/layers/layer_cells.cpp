@@ -18,7 +18,7 @@ constexpr float kFar = 1e30f;
 void LayerCells::clear(PixelRect rect) {
     rect_ = rect;
     corner_ = glm::ivec2(rect.x0, rect.y0) * 256;
-    triangles_.clear();
+    count_ = 0;
 }
 
 ScreenBox LayerCells::box_of(const CrossedTriangle& t) {
@@ -38,15 +38,15 @@ LayerCells::Range LayerCells::range_of(glm::vec2 low, glm::vec2 high) const {
 void LayerCells::sort(double per_cell) {
     const int largest = std::max(rect_.width(), rect_.height());
     const double area = static_cast<double>(rect_.width()) * rect_.height();
-    const double wanted = std::sqrt(area * per_cell / std::max(1.0, static_cast<double>(triangles_.size())));
+    const double wanted = std::sqrt(area * per_cell / std::max(1.0, static_cast<double>(count_)));
     cell_px_ = 1;
     while (cell_px_ < largest && 2 * cell_px_ <= wanted) cell_px_ *= 2;
     cells_per_subpixel_ = 1 / static_cast<float>(cell_px_ * 256);
     columns_ = (rect_.width() + cell_px_ - 1) / cell_px_;
     rows_ = (rect_.height() + cell_px_ - 1) / cell_px_;
     if (columns_ * rows_ == 1) {
-        cell_end_ = {0, static_cast<std::uint32_t>(triangles_.size())};
-        places_.resize(triangles_.size());
+        cell_end_ = {0, static_cast<std::uint32_t>(count_)};
+        places_.resize(count_);
         std::iota(places_.begin(), places_.end(), 0u);
     } else {
         fill();
@@ -63,19 +63,19 @@ void LayerCells::fill() {
     };
     // Counts are kept one place further, so that filling moves each list's end to its place.
     cell_end_.assign(static_cast<std::size_t>(columns_ * rows_) + 2, 0);
-    for (const CrossedTriangle& t : triangles_) for_cells(t, [&](std::size_t c) { ++cell_end_[c + 2]; });
+    for (std::size_t i = 0; i < count_; ++i) for_cells(triangles_[i], [&](std::size_t c) { ++cell_end_[c + 2]; });
     for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
     places_.resize(cell_end_.back());
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    for (std::uint32_t i = 0; i < count_; ++i) {
         for_cells(triangles_[i], [&](std::size_t c) { places_[cell_end_[c + 1]++] = i; });
     }
 }
 
 void LayerCells::make_indices() {
     ScreenBox bounds{0, 0, 0, 0, kFar, -kFar};
-    for (const CrossedTriangle& t : triangles_) {
-        bounds.low = std::min(bounds.low, t.highest);
-        bounds.high = std::max(bounds.high, t.highest);
+    for (std::size_t i = 0; i < count_; ++i) {
+        bounds.low = std::min(bounds.low, triangles_[i].highest);
+        bounds.high = std::max(bounds.high, triangles_[i].highest);
     }
     const auto count = static_cast<std::size_t>(columns_ * rows_);
     if (indices_.size() < count) indices_.resize(count);
@@ -89,7 +89,7 @@ void LayerCells::make_indices() {
         indices_[i].make(kernels_, triangles_.data(), places_.data() + c.begin, c.end - c.begin, bounds);
         largest = std::max(largest, c.end - c.begin);
     }
-    if (count > 1) looked_at_by_.assign(triangles_.size(), 0);
+    if (count > 1) looked_at_by_.assign(count_, 0);
     lines_looked_at_ = 0;
     if (found_.size() < largest) {
         found_.resize(largest);

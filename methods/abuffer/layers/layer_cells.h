@@ -28,9 +28,12 @@ class LayerCells {
     void clear(PixelRect rect);
     /// Where triangles are measured from, in 1/256 pixel.
     glm::ivec2 corner() const { return corner_; }
-    void reserve(std::size_t count) { triangles_.reserve(count); }
-    /// One more, which is set where it stays.
-    CrossedTriangle& add() { return triangles_.emplace_back(); }
+    /// So many more, which are set where they stay, until the next ones come. Kernels may write kRoom beyond them.
+    CrossedTriangle* add(std::size_t count) {
+        count_ += count;
+        if (triangles_.size() < count_ + kRoom) triangles_.resize(2 * count_ + kRoom);
+        return triangles_.data() + (count_ - count);
+    }
     /// After all were added. Cells are made so small that about `per_cell` triangles begin in one.
     void sort(double per_cell);
     /// What for_crossed() needs, after that.
@@ -72,6 +75,7 @@ class LayerCells {
     }
 
   private:
+    static constexpr std::size_t kRoom = 7;
     struct Range {
         int first_column, last_column, first_row, last_row;
     };
@@ -87,7 +91,8 @@ class LayerCells {
     glm::ivec2 corner_{0};
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
     float cells_per_subpixel_ = 0;
-    std::vector<CrossedTriangle> triangles_;
+    std::size_t count_ = 0;
+    std::vector<CrossedTriangle> triangles_;  // so many, and room for more
     std::vector<std::uint32_t> cell_end_, places_;
     std::vector<TriangleIndex> indices_;        // per cell
     std::vector<StepBox> boxes_;                // around parts of a line

@@ -23,7 +23,8 @@ std::span<const std::uint32_t> LayerPairs::touching(std::size_t begin, std::size
 std::span<const LayerPairs::Pair> LayerPairs::find(const LayerCells& triangles, PixelRect rect) {
     pairs_.clear();
     cells_.clear(rect);
-    for (std::uint32_t i = 0; i < entries_.size(); ++i) cells_.add() = triangles[i];
+    CrossedTriangle* const to = cells_.add(entries_.size());
+    for (std::size_t i = 0; i < entries_.size(); ++i) to[i] = triangles[i];
     cells_.sort(kTrianglesPerCell);
     const std::span<const std::uint32_t> places = cells_.places();
     boxes_.resize(places.size());

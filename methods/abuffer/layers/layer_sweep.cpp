@@ -2,14 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace burin {
 namespace {
 
 /// Shorter parts of lines belong to the part before. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
+/// Behind the last value: kernels read so many more.
+constexpr std::size_t kReadMore = 3;
 
 }  // namespace
+
+void LayerSweep::clear(double begin, double end, std::size_t most, bool joins_parts) {
+    begin_ = begin;
+    end_ = end;
+    count_ = begin_count_ = end_count_ = 0;
+    opaque_ = 0;
+    joins_parts_ = joins_parts;
+    has_transparent_ = false;
+    intervals_.clear();
+    for (auto* list : {&begins_, &ends_, &sorted_}) {
+        if (list->size() < most + 1 + kReadMore) list->resize(2 * most + 1 + kReadMore);
+    }
+}
 
 /// Joins what the parts of a clipped triangle hide, which is one layer. In order, for shares of light are multiplied.
 void LayerSweep::merge_intervals() {
@@ -29,54 +45,42 @@ void LayerSweep::merge_intervals() {
 }
 
 /// Puts numbers in order.
-void LayerSweep::sort(std::vector<double>& values) {
-    constexpr std::size_t kFew = 64, kReadMore = 3;
-    const std::size_t count = values.size();
+void LayerSweep::sort(std::vector<double>& values, std::size_t count) {
+    constexpr std::size_t kFew = 64;
     if (count < 2) return;
-    if (count > kFew) return std::sort(values.begin(), values.end());
-    values.resize(count + kReadMore);
-    sorted_.resize(count);
+    if (count > kFew) return std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
     kernels_.sort_few(values.data(), count, sorted_.data());
     values.swap(sorted_);
 }
 
-/// Where layers begin and end between the ends of a line, in order. Returns how many opaque ones are in front where it begins.
-int LayerSweep::find_events(double begin, double end) {
+/// Where layers begin and end within the part, in order.
+void LayerSweep::find_events() {
     events_.clear();
-    begins_.clear();
-    ends_.clear();
-    int opaque = 0;
     for (const Interval& i : intervals_) {
-        const bool is_opaque = i.transmission == 0;
-        if (!is_opaque) {
-            if (i.begin > begin) events_.push_back({i.begin, 0});
-            if (i.end < end) events_.push_back({i.end, 0});
+        if (i.transmission == 0) {
+            add_opaque(i.begin, i.end);
             continue;
         }
-        if (i.begin <= begin) {
-            ++opaque;
-        } else {
-            begins_.push_back(i.begin);
-        }
-        if (i.end < end) ends_.push_back(i.end);
+        if (i.begin > begin_) events_.push_back({i.begin, 0});
+        if (i.end < end_) events_.push_back({i.end, 0});
     }
-    const bool has_transparent = !events_.empty();
-    sort(begins_);
-    sort(ends_);
-    auto next_end = ends_.begin();
-    for (const double at : begins_) {
-        for (; next_end != ends_.end() && *next_end < at; ++next_end) events_.push_back({*next_end, -1});
-        events_.push_back({at, 1});
+    const bool has_others = !events_.empty();
+    sort(begins_, begin_count_);
+    sort(ends_, end_count_);
+    begins_[begin_count_] = ends_[end_count_] = std::numeric_limits<double>::infinity();
+    const double *next_begin = begins_.data(), *next_end = ends_.data();
+    for (std::size_t left = begin_count_ + end_count_; left > 0; --left) {
+        const bool is_begin = *next_begin <= *next_end;
+        events_.push_back(is_begin ? Event{*next_begin++, 1} : Event{*next_end++, -1});
     }
-    for (; next_end != ends_.end(); ++next_end) events_.push_back({*next_end, -1});
-    if (has_transparent) std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
-    return opaque;
+    if (has_others) std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
 }
 
-void LayerSweep::find_pieces(const LayerLine& line, std::uint32_t line_number, double begin, double end, bool has_parts,
-                             std::vector<LayerPiece>& pieces) {
-    if (has_parts || has_transparent_) merge_intervals();
-    int opaque = find_events(begin, end);
+void LayerSweep::find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces) {
+    if (joins_parts_) merge_intervals();
+    find_events();
+    int opaque = opaque_;
+    const double begin = begin_, end = end_;
     const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
     double start = begin;
     const std::size_t first_piece = pieces.size();

@@ -8,7 +8,7 @@ namespace burin {
 namespace {
 
 /// Cells are made so small that about so many triangles begin in one.
-constexpr double kTrianglesPerCell = 2048;
+constexpr double kTrianglesPerCell = 4096;
 /// Between contacts, what is left of a line is at least so long.
 constexpr double kShortestRestPx = 1.0 / 32;
 
@@ -36,59 +36,41 @@ void LayerTile::fill(std::size_t tile) {
     set_up_.clear();
     has_clipped_ = false;
     SurfaceId s;
-    std::uint32_t first = 0, end = 0;
+    std::uint32_t first = 0, end = 0;  // numbers of its instance
     const std::span<const std::uint32_t> list = bins_.triangles(tile);
-    cells_.reserve(list.size());
-    // Most are of the same mesh; what of others is asked for is never read.
-    constexpr std::size_t kVerticesAhead = 16, kCornersAhead = 32;
-    const auto corners_of = [&](std::size_t i) -> const std::uint32_t* {
-        if (i >= list.size() || list[i] < first || list[i] >= end) return nullptr;
-        return screen_.mesh(s.instance).corners + 3 * std::size_t{list[i] - first};
-    };
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        if (const std::uint32_t* const corners = corners_of(i + kCornersAhead)) __builtin_prefetch(corners);
-        if (const std::uint32_t* const corners = corners_of(i + kVerticesAhead)) {
-            for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(screen_.vertices(s.instance) + corners[k]);
-        }
-        const std::uint32_t value = list[i], number = value & ~LayerBins::kClipped;
+    for (std::size_t i = 0, next; i < list.size(); i = next) {
+        const std::uint32_t number = list[i] & ~LayerBins::kClipped;
         if (number >= end) {
             s = screen_.surface_of(number);
             first = number - s.triangle;
             end = first + static_cast<std::uint32_t>(frame_.surfaces.mesh_of(s).triangles.size());
         }
         s.triangle = number - first;
-        if (value != number) {
+        next = i + 1;
+        if (list[i] != number) {
             add_clipped(s, number);
             continue;
         }
-        const auto& v = frame_.surfaces.mesh_of(s).triangles[s.triangle];
-        const ScreenVertex* const vertices = screen_.vertices(s.instance);
-        const ScreenVertex &a = vertices[v[0]], &b = vertices[v[1]], &c = vertices[v[2]];
-        const bool is_clockwise = screen_.facing(number) == clockwise;
-        const ScreenVertex &p = is_clockwise ? b : c, &q = is_clockwise ? c : b;
-        const auto x = [this](const ScreenVertex& at) { return static_cast<float>(at.x - cells_.corner().x); };
-        const auto y = [this](const ScreenVertex& at) { return static_cast<float>(at.y - cells_.corner().y); };
-        CrossedTriangle& entry = add(kNotSetUp);
-        entry.x[0] = x(a);
-        entry.x[1] = x(p);
-        entry.x[2] = x(q);
-        entry.y[0] = y(a);
-        entry.y[1] = y(p);
-        entry.y[2] = y(q);
-        entry.highest = std::max(std::max(a.nearness, b.nearness), c.nearness);
-        entry.number = number;
-        if (!finds_pairs_) continue;
-        const auto first_vertex = static_cast<std::uint32_t>(vertices - screen_.vertices(0));
-        pairs_.add(std::min({a.nearness, b.nearness, c.nearness}), {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]});
+        while (next < list.size() && list[next] < end) ++next;  // not clipped
+        add(s.instance, list.subspan(i, next - i));
     }
     cells_.sort(kTrianglesPerCell);
     cells_.make_indices();
     fragment_count_ += cells_.places().size();
 }
 
-CrossedTriangle& LayerTile::add(std::uint32_t set_up) {
-    set_up_.push_back(set_up);
-    return cells_.add();
+void LayerTile::add(std::uint32_t instance, std::span<const std::uint32_t> numbers) {
+    const ScreenMesh& mesh = screen_.mesh(instance);
+    const glm::ivec2 corner = cells_.corner();
+    kernels_.put_crossed(mesh, numbers.data(), numbers.size(), corner.x, corner.y, cells_.add(numbers.size()));
+    set_up_.resize(set_up_.size() + numbers.size(), kNotSetUp);
+    if (!finds_pairs_) return;
+    const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices - screen_.vertices(0));
+    for (const std::uint32_t number : numbers) {
+        const std::uint32_t* const v = mesh.corners + 3 * std::size_t{number - mesh.first_number};
+        const auto nearness = [&](std::size_t k) { return mesh.vertices[v[k]].nearness; };
+        pairs_.add(std::min({nearness(0), nearness(1), nearness(2)}), {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]});
+    }
 }
 
 double LayerTile::transmission_of(SurfaceId s) const {
@@ -103,7 +85,8 @@ void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
     for (LayerTriangle& triangle : clipped_layer_triangles(screen_, s, number)) {
         triangle.transmission = transmission_of(s);
         triangles_.push_back(triangle);
-        CrossedTriangle& entry = add(static_cast<std::uint32_t>(triangles_.size() - 1));
+        set_up_.push_back(static_cast<std::uint32_t>(triangles_.size() - 1));
+        CrossedTriangle& entry = *cells_.add(1);
         LayerPairs::Corners vertices;
         for (std::size_t k = 0; k < 3; ++k) {
             entry.x[k] = static_cast<float>(triangle.x[k] - cells_.corner().x);
@@ -137,11 +120,11 @@ void LayerTile::hide(const LayerLine& line, std::span<const std::uint32_t> near,
                                certain_slack_};
     parts_.resize(std::max(parts_.size(), near.size()));
     const std::size_t count = kernels_.clip_hidden(planes_.data(), near.size(), plane_line, parts_.data());
-    for (std::size_t k = 0; k < count; ++k) hide(line, near[parts_[k].triangle], parts_[k]);
+    for (std::size_t k = 0; k < count; ++k) hide(line, near[parts_[k].triangle], static_cast<const LayerTriangle&>(*planes_[parts_[k].triangle]), parts_[k]);
 }
 
-void LayerTile::hide(const LayerLine& line, std::uint32_t i, const HiddenPart& hidden) {
-    const LayerTriangle& t = triangle(i);
+/// Notes a part in which a triangle, entry `i`, is in front.
+void LayerTile::hide(const LayerLine& line, std::uint32_t i, const LayerTriangle& t, const HiddenPart& hidden) {
     if (line.has_more_owners && lies_on(line, t)) return;
     // What is level with the line is in front where it is seen instead: what that is, is asked last.
     if (hidden.is_level && line.drawn_as != LineClass::intersection) {
@@ -163,7 +146,6 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     const glm::dvec2 corner = glm::dvec2(rect_.x0, rect_.y0) * 256.0;
     double begin = 0, end = 1;
     if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
-    sweep_.clear();
     contacts_of_line_.clear();
     const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)), snapping = snapping_slack(line);
     line_slack_ = level_slack(frame_.surfaces, nearest) + snapping;
@@ -175,11 +157,12 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
         const std::uint32_t number = cells_[entry].number;
         if (number != line.owners[0] && number != line.owners[1]) near_.push_back(entry);
     });
+    sweep_.clear(begin, end, near_.size(), has_clipped_ || has_transparent_);
     hide(line, near_, part);
     if (sweep_.is_empty()) return;
     if (line.classes.has(LineClass::border)) find_contacts(line, part);
     const std::size_t first_piece = pieces.size();
-    sweep_.find_pieces(line, line_number, begin, end, has_clipped_, pieces);
+    sweep_.find_pieces(line, line_number, pieces);
     drop_contacts(line, first_piece, pieces);
 }
 

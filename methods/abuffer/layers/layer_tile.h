@@ -51,7 +51,8 @@ class LayerTile {
     static constexpr std::uint32_t kNotSetUp = 0xFFFFFFFFu;
 
     void add_clipped(SurfaceId s, std::uint32_t number);
-    CrossedTriangle& add(std::uint32_t set_up);
+    /// Triangles of one instance by their numbers, all on the screen.
+    void add(std::uint32_t instance, std::span<const std::uint32_t> numbers);
     const LayerTriangle& triangle(std::uint32_t i) {
         if (set_up_[i] == kNotSetUp) set_up(i);
         return triangles_[set_up_[i]];
@@ -59,7 +60,7 @@ class LayerTile {
     void set_up(std::uint32_t i);
     double transmission_of(SurfaceId s) const;
     void hide(const LayerLine& line, std::span<const std::uint32_t> near, const PartInTile& part);
-    void hide(const LayerLine& line, std::uint32_t i, const HiddenPart& hidden);
+    void hide(const LayerLine& line, std::uint32_t i, const LayerTriangle& t, const HiddenPart& hidden);
     void find_contacts(const LayerLine& line, const PartInTile& part);
     void drop_contacts(const LayerLine& line, std::size_t first, std::vector<LayerPiece>& pieces);
 
