@@ -1,6 +1,7 @@
 #include "methods/abuffer/layers/edge_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "methods/abuffer/layers/fold_width.h"
@@ -18,36 +19,56 @@ constexpr double kPastWallPx = 1.0 / 16;
 /// Where there are more on the way to a wall, it is one of very many in a pixel.
 constexpr int kMostTrianglesToWall = 96;
 
+bool is_off_screen(const ScreenVertex& v) { return v.x == ScreenVertex::kOffScreen; }
+
+/// Of the way between two vertices on the screen.
+std::int64_t square(const ScreenVertex& a, const ScreenVertex& b) {
+    const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
+    return dx * dx + dy * dy;
+}
+
+/// Whether a triangle on a base is lower than a negligible fold, by its doubled area and the square of the base.
+bool is_thin(std::int64_t area, std::int64_t base) {
+    const auto exact = static_cast<double>(area);
+    return exact * exact < kThinSubpixels * kThinSubpixels * static_cast<double>(base);
+}
+
 }  // namespace
 
-std::optional<HalfEdge> EdgeSides::base_of_thin(SurfaceId s) const {
-    const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
-    const ScreenVertex* const v = screen_.vertices(s.instance);
-    double squares[3];
-    for (unsigned k = 0; k < 3; ++k) {
-        const ScreenVertex &a = v[t[k]], &b = v[t[(k + 1) % 3]];
-        if (a.x == ScreenVertex::kOffScreen) return std::nullopt;
-        const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y;
-        squares[k] = dx * dx + dy * dy;
-    }
-    const double longest = std::max(squares[0], std::max(squares[1], squares[2]));
-    const auto area = static_cast<double>(doubled_area(v[t[0]], v[t[1]], v[t[2]]));
-    if (area * area >= kThinSubpixels * kThinSubpixels * longest) return std::nullopt;
-    unsigned base = 0;
-    while (squares[base] != longest) ++base;
-    return 3 * s.triangle + base;
+inline HalfEdge EdgeSides::base_of_thin(SurfaceId s) const {
+    const ScreenMesh& mesh = screen_.mesh(s.instance);
+    const std::uint32_t* const corner = mesh.corners + 3 * std::size_t{s.triangle};
+    const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
+    if (is_off_screen(a) | is_off_screen(b) | is_off_screen(c)) return kNoHalfEdge;
+    const std::int64_t ab = square(a, b), bc = square(b, c), longest = std::max(std::max(ab, bc), square(c, a));
+    if (!is_thin(doubled_area(a, b, c), longest)) return kNoHalfEdge;
+    return 3 * s.triangle + (ab == longest ? 0 : bc == longest ? 1 : 2);
+}
+
+EdgeSides::PlainPair EdgeSides::plain_pair(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
+    const ScreenMesh& mesh = screen_.mesh(instance);
+    const auto corners_from = [&](HalfEdge e) {
+        const HalfEdge k = e % 3;
+        return std::array{mesh.corners[e], mesh.corners[k == 2 ? e - 2 : e + 1], mesh.corners[k == 0 ? e + 2 : e - 1]};
+    };
+    const auto has_side = [&](HalfEdge e) { return mesh.facing[e / 3] == clockwise || mesh.facing[e / 3] == counterclockwise; };
+    const auto [from, to, apex] = corners_from(h);
+    const auto [other_from, other_to, other_apex] = corners_from(g);
+    const bool have_same_ends = (other_from == to && other_to == from) || (other_from == from && other_to == to);
+    if (!have_same_ends || !has_side(h) || !has_side(g)) return {};
+    const ScreenVertex &a = mesh.vertices[from], &b = mesh.vertices[to], &p = mesh.vertices[apex], &q = mesh.vertices[other_apex];
+    const std::int64_t ab = square(a, b), area_h = doubled_area(a, b, p), area_g = doubled_area(a, b, q);
+    const bool is_any_thin = is_thin(area_h, std::max(ab, std::max(square(a, p), square(b, p)))) |
+                             is_thin(area_g, std::max(ab, std::max(square(a, q), square(b, q))));
+    return {!is_any_thin, area_h < 0 ? -1 : 1, area_g < 0 ? -1 : 1};
 }
 
 HalfEdge EdgeSides::longer_of_others(std::uint32_t instance, HalfEdge h) const {
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
     const ScreenVertex* const v = screen_.vertices(instance);
     const HalfEdge one = h - h % 3 + (h + 1) % 3, two = h - h % 3 + (h + 2) % 3;
-    const auto square = [&](HalfEdge e) {
-        const ScreenVertex &a = v[start_of(mesh, e)], &b = v[end_of(mesh, e)];
-        const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y;
-        return dx * dx + dy * dy;
-    };
-    return square(two) > square(one) ? two : one;
+    const auto length = [&](HalfEdge e) { return square(v[start_of(mesh, e)], v[end_of(mesh, e)]); };
+    return length(two) > length(one) ? two : one;
 }
 
 bool EdgeSides::face_alike(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
@@ -62,26 +83,24 @@ bool EdgeSides::is_beside(std::uint32_t instance, HalfEdge edge, std::uint32_t v
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
     const ScreenVertex* const v = screen_.vertices(instance);
     const ScreenVertex &a = v[start_of(mesh, edge)], &b = v[end_of(mesh, edge)], &p = v[vertex];
-    const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y, square = dx * dx + dy * dy;
-    if (square <= kSubpixelsPerPixel * kSubpixelsPerPixel) return false;
-    if (a.x == ScreenVertex::kOffScreen || b.x == ScreenVertex::kOffScreen || p.x == ScreenVertex::kOffScreen) return false;
-    const auto area = static_cast<double>(doubled_area(a, b, p));
-    return area * area < kThinSubpixels * kThinSubpixels * square;
+    if (is_off_screen(a) || is_off_screen(b) || is_off_screen(p)) return false;
+    const std::int64_t base = square(a, b);
+    return base > kSubpixelsPerPixel * kSubpixelsPerPixel && is_thin(doubled_area(a, b, p), base);
 }
 
-std::optional<HalfEdge> EdgeSides::solid_behind(std::uint32_t instance, HalfEdge h) const {
+HalfEdge EdgeSides::solid_behind(std::uint32_t instance, HalfEdge h) const {
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
     const HalfEdge edge = h;
     HalfEdge last = h;
     for (int step = 0; step < kMostTrianglesToWall; ++step) {
-        const auto base = base_of_thin({instance, h / 3});
-        if (!base) return h;
+        const HalfEdge base = base_of_thin({instance, h / 3});
+        if (base == kNoHalfEdge) return h;
         // A wall of many rows may be no wider than one of a single row, if something lies behind it.
         if (step >= kMostSlivers && !is_beside(instance, edge, apex_of(mesh, h))) return last;
-        const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base;
+        const HalfEdge exit = base == h ? longer_of_others(instance, h) : base;
         const HalfEdge g = mesh.next_on_edge[exit];
         const bool is_pair = g != exit && mesh.next_on_edge[g] == exit;
-        if (*base == h && step == 0 && !(is_pair && face_alike(instance, exit, g))) return std::nullopt;
+        if (base == h && step == 0 && !(is_pair && face_alike(instance, exit, g))) return kNoHalfEdge;
         if (!is_pair) return last;
         h = g;
         if (step < kMostSlivers) last = h;
@@ -102,13 +121,13 @@ int EdgeSides::side_at(std::uint32_t instance, HalfEdge h, std::uint32_t a, std:
 }
 
 bool EdgeSides::is_turned_over(std::uint32_t instance, HalfEdge h) const {
-    if (!base_of_thin({instance, h / 3})) return false;
-    const auto solid = solid_behind(instance, h);
-    if (!solid) return true;
-    if (base_of_thin({instance, *solid / 3})) return false;
+    if (!is_thin_at(instance, h)) return false;
+    const HalfEdge solid = solid_behind(instance, h);
+    if (solid == kNoHalfEdge) return true;
+    if (is_thin_at(instance, solid)) return false;
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
     const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
-    return side_at(instance, *solid, a, b) * side_at(instance, h, a, b) < 0;
+    return side_at(instance, solid, a, b) * side_at(instance, h, a, b) < 0;
 }
 
 bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond) const {
@@ -119,7 +138,7 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
     // A wall may also lean by less than makes a contour. Where snapping turned triangles of it over, they do not end there.
     const bool is_wall = screen_.facing(screen_.number_of({instance, beyond / 3})) == edge_on
                              ? !is_turned_over(instance, h)
-                             : is_beside(instance, h, apex_of(mesh, beyond)) && !base_of_thin(own);
+                             : is_beside(instance, h, apex_of(mesh, beyond)) && !is_thin_at(instance, h);
     if (!is_wall) return false;
     const ScreenVertex* const v = screen_.vertices(instance);
     const auto place = [&](std::uint32_t vertex) { return glm::dvec2(v[vertex].x, v[vertex].y) / double{kSubpixelsPerPixel}; };
@@ -156,9 +175,9 @@ std::optional<HalfEdge> EdgeSides::past_sliver(std::uint32_t instance, HalfEdge 
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
     for (int step = 0; step < kMostSlivers; ++step) {
         if (!is_sliver_at({instance, h / 3}, h)) return h;
-        const auto base = base_of_thin({instance, h / 3});
-        if (!base) return h;
-        const HalfEdge exit = *base == h ? longer_of_others(instance, h) : *base, g = mesh.next_on_edge[exit];
+        const HalfEdge base = base_of_thin({instance, h / 3});
+        if (base == kNoHalfEdge) return h;
+        const HalfEdge exit = base == h ? longer_of_others(instance, h) : base, g = mesh.next_on_edge[exit];
         if (g == exit || mesh.next_on_edge[g] != exit) return std::nullopt;
         h = g;
     }
@@ -175,10 +194,10 @@ bool EdgeSides::are_neighbours(std::uint32_t instance, HalfEdge h, HalfEdge g) c
 bool EdgeSides::is_needle_on_edge(SurfaceId s, HalfEdge h) const {
     if (!is_sliver_at(s, h)) return false;
     const Mesh& mesh = surfaces_.mesh_of(s);
-    const auto base = base_of_thin(s);
-    if (!base) return false;
+    const HalfEdge base = base_of_thin(s);
+    if (base == kNoHalfEdge) return false;
     int solids = 0;
-    for (HalfEdge g = mesh.next_on_edge[*base]; g != *base; g = mesh.next_on_edge[g]) {
+    for (HalfEdge g = mesh.next_on_edge[base]; g != base; g = mesh.next_on_edge[g]) {
         if (!is_sliver_at(SurfaceId{s.instance, g / 3}, g)) ++solids;
     }
     return solids > 1;

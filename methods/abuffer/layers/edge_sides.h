@@ -21,9 +21,16 @@ class EdgeSides {
     EdgeSides(const ScreenSurfaces& screen, const LineCriteria& criteria)
         : surfaces_(screen.surfaces()), screen_(screen), criteria_(criteria) {}
 
-    /// The triangle that counts at an edge: behind thin triangles the next one. Nothing at a thin
+    /// Of most edges of two triangles, their sides as side_at() tells them: where neither is thin or off the screen, each counts on
+    /// its side, and neither is a wall to the other.
+    struct PlainPair {
+        bool is_plain = false;
+        int side_h = 0, side_g = 0;  ///< from the start of `h` to its end
+    };
+    PlainPair plain_pair(std::uint32_t instance, HalfEdge h, HalfEdge g) const;
+    /// The triangle that counts at an edge: behind thin triangles the next one. kNoHalfEdge at a thin
     /// triangle's longest edge, if the two others stand for it: they do not where what lies behind faces alike.
-    std::optional<HalfEdge> solid_behind(std::uint32_t instance, HalfEdge h) const;
+    HalfEdge solid_behind(std::uint32_t instance, HalfEdge h) const;
     /// The side of the triangle at `h`, with its edge taken in the direction of a to b.
     int side_at(std::uint32_t instance, HalfEdge h, std::uint32_t a, std::uint32_t b) const;
     /// Whether the surface ends for the eye at half-edge h, with a wall beyond it that is seen edge-on: where it goes
@@ -47,8 +54,10 @@ class EdgeSides {
     double cosine_to_eye(std::uint32_t instance, HalfEdge h) const;
 
   private:
-    /// The longest edge of a triangle that is lower than a negligible fold.
-    std::optional<HalfEdge> base_of_thin(SurfaceId s) const;
+    /// The longest edge of a triangle that is lower than a negligible fold; of others, kNoHalfEdge: an optional would be returned
+    /// through memory, in parts that its reader waits for.
+    HalfEdge base_of_thin(SurfaceId s) const;
+    bool is_thin_at(std::uint32_t instance, HalfEdge h) const { return base_of_thin({instance, h / 3}) != kNoHalfEdge; }
     /// Whether a vertex is nearer to a long edge than a negligible fold is wide.
     bool is_beside(std::uint32_t instance, HalfEdge edge, std::uint32_t vertex) const;
     /// Whether a thin triangle is on the other side of its edge than the surface behind it, as of a wall that leans back.

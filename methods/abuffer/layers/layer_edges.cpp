@@ -97,39 +97,44 @@ class LayerEdgeFinder::Rules {
 
     void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
-        const auto solid_h = sides_.solid_behind(s.instance, h), solid_g = sides_.solid_behind(s.instance, g);
         const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
         LineClassSet classes;
         double crease_cosine = 1;
         int front_side = 0;
+        HalfEdge solid_h = h, solid_g = g;
         if (mesh.is_marked(h)) classes |= LineClass::mark;
-        if (solid_h && solid_g) {
-            const int side_h = sides_.side_at(s.instance, *solid_h, a, b), side_g = sides_.side_at(s.instance, *solid_g, a, b);
-            const bool is_past_sliver = *solid_h != h || *solid_g != g;
-            if (side_h != 0 && side_h == side_g && !(is_past_sliver && sides_.is_negligible_fold(s.instance, h))) front_side = side_h;
-        }
-        if (front_side != 0) {
-            classes |= LineClass::silhouette;
-        } else if (const auto wall_at = half_edge_at_wall(s.instance, h, g)) {  // the wall may lie on either side, and is not in front
-            classes |= LineClass::silhouette;
-            front_side = sides_.side_at(s.instance, *wall_at, a, b);
+        if (const EdgeSides::PlainPair pair = sides_.plain_pair(s.instance, h, g); pair.is_plain) {
+            if (pair.side_h == pair.side_g) front_side = pair.side_h;
+            if (front_side != 0) classes |= LineClass::silhouette;
+        } else {
+            solid_h = sides_.solid_behind(s.instance, h);
+            solid_g = sides_.solid_behind(s.instance, g);
+            if (solid_h != kNoHalfEdge && solid_g != kNoHalfEdge) {
+                const int side_h = sides_.side_at(s.instance, solid_h, a, b), side_g = sides_.side_at(s.instance, solid_g, a, b);
+                const bool is_past_sliver = solid_h != h || solid_g != g;
+                if (side_h != 0 && side_h == side_g && !(is_past_sliver && sides_.is_negligible_fold(s.instance, h))) front_side = side_h;
+            }
+            if (front_side != 0) {
+                classes |= LineClass::silhouette;
+            } else if (const HalfEdge at_wall = half_edge_at_wall(s.instance, h, g); at_wall != kNoHalfEdge) {
+                classes |= LineClass::silhouette;  // the wall may lie on either side, and is not in front
+                front_side = sides_.side_at(s.instance, at_wall, a, b);
+            }
         }
         if (!sides_.is_sliver_at(s, h) && !sides_.is_sliver_at(s, g)) {
             const std::uint8_t* const sharp = screen_.sharp_edges(s.instance);
             const bool may_have_any = sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0;
             if (may_have_any) classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
-        } else if (solid_h && solid_g) {
-            classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g),
+        } else if (solid_h != kNoHalfEdge && solid_g != kNoHalfEdge) {
+            classes |= contact_classes(surfaces_, triangle_of(s, solid_h), triangle_of(s, solid_g),
                                        middle_px(s, h), criteria_, &crease_cosine);
         }
         add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, front_side, lines);
     }
 
     /// The half-edge whose surface ends at a wall that begins behind the other.
-    std::optional<HalfEdge> half_edge_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
-        if (sides_.ends_at_wall(instance, h, g)) return h;
-        if (sides_.ends_at_wall(instance, g, h)) return g;
-        return std::nullopt;
+    HalfEdge half_edge_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
+        return sides_.ends_at_wall(instance, h, g) ? h : sides_.ends_at_wall(instance, g, h) ? g : kNoHalfEdge;
     }
 
     /// Where more than two triangles meet, those that are in front on either side of the edge make the line, as walks over it
