@@ -6,6 +6,7 @@
 
 #include "methods/abuffer/layers/fold_width.h"
 #include "methods/abuffer/layers/layer_triangle.h"
+#include "methods/abuffer/layers/level_walk.h"
 #include "methods/abuffer/samples/fast_walk.h"
 #include "methods/abuffer/screen/edge_on_screen.h"
 
@@ -154,6 +155,7 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
     if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
     // A short way beyond the wall is enough: a walk that gets there has come past it.
     const glm::dvec2 past = kPastWallPx * out;
+    if (surely_goes_on(screen_, instance, h, double{kSubpixelsPerPixel} * middle, out, kSubpixelsPerPixel * kPastWallPx)) return false;
     const SurfaceWalk walk = walk_to_end(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall,
                                          screen_.sharp_edges(instance));
     // Where it turns back behind the wall, it gets farthest anywhere on that.
