@@ -12,11 +12,16 @@ namespace {
 /// So far from a line its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
 
-/// False for most triangles that do not cover a place, by their corners alone.
-bool may_cover(const ScreenTriangle& t, glm::dvec2 place) {
-    const auto& [a, b, c] = t.corners;
-    return place.x >= std::min({a.x, b.x, c.x}) && place.x <= std::max({a.x, b.x, c.x}) && place.y >= std::min({a.y, b.y, c.y}) &&
-           place.y <= std::max({a.y, b.y, c.y});
+/// Doubled areas are off by less than this, (1/256 pixel)^2.
+constexpr double kAreaRounding = 1;
+
+double doubled_area(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+glm::dvec2 place_of(const ScreenVertex& v) { return {v.x, v.y}; }
+
+/// False for nearly all triangles that do not cover a place, which need not be set up. `turn`: 1 if the corners run clockwise, or -1.
+bool may_cover(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, double turn, glm::dvec2 place) {
+    return turn * doubled_area(a, b, place) >= -kAreaRounding && turn * doubled_area(b, c, place) >= -kAreaRounding &&
+           turn * doubled_area(c, a, place) >= -kAreaRounding;
 }
 
 }  // namespace
@@ -172,17 +177,29 @@ std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const Layer
         if (const auto part = part_at_place(own, t.number)) return part;
     }
     const HalfEdge first = 3 * own.triangle;
-    for (HalfEdge h = first; h < first + 3; ++h) {
-        const bool is_plain = mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0;
-        if (over == Over::plain_edges && !is_plain) continue;
+    const unsigned line_edges = mesh.line_edges[own.triangle];
+    for (unsigned k = 0; k < 3; ++k) {
+        const HalfEdge h = first + k;
+        if ((line_edges >> k & 1) == 0) {
+            // The neighbour faces alike, and lies beyond the edge: its third corner tells.
+            const std::size_t from = screen_.facing(t.number) == clockwise ? k : 2 - k, to = from == 2 ? 0 : from + 1;
+            const glm::dvec2 a(t.x[from], t.y[from]), b(t.x[to], t.y[to]);
+            if (doubled_area(a, b, place) > kAreaRounding) continue;
+            const HalfEdge g = mesh.partners[h];
+            if (!may_cover(b, a, place_of(mesh.vertices[mesh.corners[g % 3 == 0 ? g + 2 : g - 1]]), 1, place)) continue;
+        } else if (over == Over::plain_edges && (mesh.sharp == nullptr || (mesh.sharp[own.triangle] >> k & 1) != 0)) {
+            continue;
+        }
         const SurfaceId s{t.instance, mesh.partners[h] / 3};
         const std::uint32_t number = screen_.number_of(s);
-        if (number == t.number || screen_.facing(number) == edge_on) continue;
-        if (screen_.facing(number) == off_screen) {
+        const Facing facing = screen_.facing(number);
+        if (number == t.number || facing == edge_on) continue;
+        if (facing == off_screen) {
             if (const auto part = part_at_place(s, number)) return part;
             continue;
         }
-        if (!may_cover(screen_.triangle(s), place)) continue;
+        const auto& [a, b, c] = screen_.triangle(s).corners;
+        if (!may_cover(place_of(a), place_of(b), place_of(c), facing == clockwise ? 1 : -1, place)) continue;
         const LayerTriangle neighbour = layer_triangle(screen_, s, number);
         if (neighbour.covers(place)) return neighbour;
     }
