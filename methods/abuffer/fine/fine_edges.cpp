@@ -40,11 +40,11 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
         const ScreenMesh mesh = screen.mesh(chunks[c].instance);
         // First all edges, then their vertices, which take longer to come from memory.
         std::vector<EdgeEnds> edges;
-        for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
-            if (!is_surely_pair(mesh, h) && mesh.partners[mesh.partners[h]] != h) return;
+        for (const HalfEdge h : possible_lines(mesh, chunks[c].begin, chunks[c].end)) {
+            if (!is_surely_pair(mesh, h) && mesh.partners[mesh.partners[h]] != h) continue;
             edges.push_back({h, 0, 0});
             __builtin_prefetch(mesh.corners + h);
-        });
+        }
         const auto find_ends = [&](EdgeEnds& e) {
             const HalfEdge k = e.half_edge % 3;
             e.from = mesh.corners[e.half_edge];

@@ -24,8 +24,15 @@ void ask_for_vertices(const ScreenMesh& mesh, HalfEdge h) {
     }
 }
 
-}  // namespace
+/// A contour is found from the side that comes first in this order, so that half of a surface without sharp edges need not
+/// be read.
+constexpr unsigned rank_of_side(std::uint8_t facing) {
+    constexpr unsigned kRanks = 1 << 2 * counterclockwise | 2 << 2 * clockwise;
+    return kRanks >> 2 * facing & 3;
+}
 
+/// The sides of edges of some triangles that may be lines in this view: that are sharp, or whose triangles do not face one
+/// way. Of a contour, one side may be missing. The facing of all triangles must be known.
 std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
     constexpr std::uint32_t kGroup = 64, kWord = 8;
     constexpr std::uint64_t kFirstEdges = 0x0101010101010101u, kToOneByte = 0x0102040810204080u;
@@ -33,6 +40,7 @@ std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint3
     std::vector<HalfEdge> sides;
     std::size_t count = 0;
     const bool has_sharp = mesh.sharp != nullptr;
+    const std::uint8_t* const sharp = has_sharp ? mesh.sharp : mesh.line_edges;
     for (std::uint32_t first = begin; first < end; first += kGroup) {
         std::uint8_t edges_of[kGroup] = {};
         const std::uint8_t* own = mesh.line_edges + first;
@@ -47,8 +55,8 @@ std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint3
         if (sides.size() < count + 3 * kGroup) sides.resize(2 * count + 3 * kGroup);
         for (; with_edges != 0; with_edges &= with_edges - 1) {  // without other branches: they would be guesses
             const std::uint32_t t = first + static_cast<std::uint32_t>(std::countr_zero(with_edges));
-            const bool is_found_from_behind = (rank_of_side(mesh.facing[t]) == 2) & has_sharp && mesh.sharp[t] == 0;
-            const unsigned edges = is_found_from_behind ? 0u : mesh.line_edges[t];
+            const bool is_found_from_behind = has_sharp & (rank_of_side(mesh.facing[t]) == 2) & (sharp[t] == 0);
+            const unsigned edges = mesh.line_edges[t] & (is_found_from_behind - 1u);
             for (unsigned k = 0; k < 3; ++k) {
                 sides[count] = 3 * t + k;
                 count += edges >> k & 1;
@@ -57,6 +65,30 @@ std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint3
     }
     sides.resize(count);
     return sides;
+}
+
+}  // namespace
+
+std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
+    const std::vector<HalfEdge> sides = sides_of_possible_lines(mesh, begin, end);
+    std::vector<HalfEdge> edges(sides.size());
+    std::size_t count = 0;
+    // What is on the other side of an edge may lie anywhere in memory.
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (i + 2 * kAhead < sides.size()) __builtin_prefetch(mesh.partners + sides[i + 2 * kAhead]);
+        if (i + kAhead < sides.size() && !is_surely_pair(mesh, sides[i + kAhead])) {
+            __builtin_prefetch(mesh.partners + mesh.partners[sides[i + kAhead]]);
+        }
+        const HalfEdge h = sides[i], g = mesh.partners[h];
+        const bool is_pair = is_surely_pair(mesh, h) || (g != h && mesh.partners[g] == h);
+        const unsigned own = rank_of_side(mesh.facing[h / 3]), other = rank_of_side(mesh.facing[g / 3]);
+        const bool is_found_from_other = is_pair & ((own > other) | ((own == other) & (g < h)));  // a branch would be a guess
+        edges[count] = is_pair ? std::min(h, g) : h;
+        count += is_found_from_other ? 0 : 1;
+    }
+    edges.resize(count);
+    return edges;
 }
 
 class LayerEdgeFinder::Rules {
@@ -317,12 +349,11 @@ std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces
     parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
         const ScreenMesh& mesh = screen.mesh(chunks[c].instance);
         // First all edges, then the corners of their triangles, which lie anywhere in memory.
-        std::vector<HalfEdge> edges;
-        for_possible_lines(screen, chunks[c], [&](SurfaceId, HalfEdge h) {
-            edges.push_back(h);
+        const std::vector<HalfEdge> edges = possible_lines(mesh, chunks[c].begin, chunks[c].end);
+        for (const HalfEdge h : edges) {
             __builtin_prefetch(mesh.corners + h);
             __builtin_prefetch(mesh.corners + mesh.partners[h]);
-        });
+        }
         constexpr std::size_t kAhead = 16;
         for (std::size_t i = 0; i < edges.size() + kAhead; ++i) {
             if (i < edges.size()) ask_for_vertices(mesh, edges[i]);
