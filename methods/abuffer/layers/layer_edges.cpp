@@ -354,6 +354,7 @@ std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces
             __builtin_prefetch(mesh.corners + h);
             __builtin_prefetch(mesh.corners + mesh.partners[h]);
         }
+        found[c].reserve(edges.size());  // nearly all are lines
         constexpr std::size_t kAhead = 16;
         for (std::size_t i = 0; i < edges.size() + kAhead; ++i) {
             if (i < edges.size()) ask_for_vertices(mesh, edges[i]);
@@ -361,6 +362,9 @@ std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces
         }
     });
     std::vector<LayerLine> lines;
+    std::size_t count = 0;
+    for (const auto& list : found) count += list.size();
+    lines.reserve(count);
     for (const auto& list : found) lines.insert(lines.end(), list.begin(), list.end());
     return lines;
 }
