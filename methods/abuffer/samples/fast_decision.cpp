@@ -124,13 +124,40 @@ void FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const Fas
     }
 }
 
+/// Whether an edge of one of two triangles lies between them on the screen. Then they have no place in common, so
+/// burin::are_flush() is false.
+bool FastDecision::are_beside(SurfaceId a, SurfaceId b) const {
+    for (const SurfaceId s : {a, b}) {
+        if (!surfaces_.mesh_of(s).triangle_polygon.empty()) return false;  // other triangles of their polygons may have
+    }
+    const ScreenTriangle triangles[2] = {screen_.triangle(a), screen_.triangle(b)};
+    for (const ScreenTriangle& t : triangles) {
+        for (const ScreenVertex& v : t.corners) {
+            if (v.x == ScreenVertex::kOffScreen) return false;
+        }
+    }
+    for (const int i : {0, 1}) {
+        const auto& [p, q, r] = triangles[i].corners;
+        const std::int64_t area = doubled_area(p, q, r);
+        if (area == 0) continue;
+        const auto is_beyond = [&](const ScreenVertex& from, const ScreenVertex& to) {
+            const auto side = [&](const ScreenVertex& v) { return area > 0 ? doubled_area(from, to, v) : -doubled_area(from, to, v); };
+            const auto& [u, v, w] = triangles[1 - i].corners;
+            return side(u) < 0 && side(v) < 0 && side(w) < 0;
+        };
+        if (is_beyond(p, q) || is_beyond(q, r) || is_beyond(r, p)) return true;
+    }
+    return false;
+}
+
 /// Whether what is seen lies in one plane, or the surface that goes on does so under the one that ends.
 bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
     const glm::dvec2 at = pair.place(0.5) / double{kSubpixelsPerPixel};
     const FastWalk& other = *walks_[1 - ends];
+    const auto are_flush = [&](SurfaceId a, SurfaceId b) { return !are_beside(a, b) && burin::are_flush(surfaces_, a, b, at, criteria_); };
     const SurfaceId beneath{pair.surfaces[1 - ends].instance, other.triangle};
-    if (other.end == FastWalk::arrived && are_flush(surfaces_, beneath, pair.surfaces[ends], at, criteria_)) return true;
-    return are_flush(surfaces_, pair.surfaces[0], pair.surfaces[1], at, criteria_);
+    if (other.end == FastWalk::arrived && are_flush(beneath, pair.surfaces[ends])) return true;
+    return are_flush(pair.surfaces[0], pair.surfaces[1]);
 }
 
 bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known) {

@@ -53,6 +53,7 @@ class FastDecision {
     void end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched, LineDecision& decision);
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
     bool may_be_wall(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const;
+    bool are_beside(SurfaceId a, SurfaceId b) const;
     bool may_be_flush(const NeighbourSamples& pair, int ends) const;
 
     const ScreenSurfaces& screen_;
