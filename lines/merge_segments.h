@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "abuffer/tile_kernels.h"
 #include "lines/line_segment.h"
 
 namespace burin {
@@ -13,19 +14,17 @@ namespace burin {
 /// within 1/2048 pixel: strokes of long pieces are drawn faster than those of many short ones.
 class SegmentMerger {
   public:
+    explicit SegmentMerger(const TileKernels& kernels) : kernels_(kernels) {}
+
     /// Puts them behind what `merged` has, block by block, and in each block line by line. Turns some of the pieces round.
     void merge(std::span<LineSegment> pieces, std::vector<LineSegment>& merged);
 
   private:
-    /// What pieces are sorted by, so that few of them are looked at, and none is moved.
-    struct Key {
-        std::uint64_t line_key, from_x;  // in_order()
-        std::uint32_t block, index;
-    };
+    void sort(std::span<std::uint32_t> order, std::span<const LineSegment> pieces) const;
+    bool sort_few(std::span<std::uint32_t> order, std::span<const LineSegment> pieces) const;
 
-    static void sort(std::span<Key> keys, std::span<const LineSegment> pieces);
-
-    std::vector<Key> order_;
+    const TileKernels& kernels_;
+    std::vector<std::uint32_t> order_;  // numbers of pieces
 };
 
 /// Finds those of one line in a block, or all in the block, among pieces that a SegmentMerger left.

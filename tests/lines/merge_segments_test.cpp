@@ -24,7 +24,7 @@ TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
     };
     std::vector<LineSegment> segments, pieces{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
                                       piece({3, 1.5}, {4, 2}, 2), piece({4, 2}, {5, 2}, 2), piece({5, 2}, {6, 2}, 2, 1)};
-    SegmentMerger().merge(pieces, segments);
+    SegmentMerger(best_kernels()).merge(pieces, segments);
     ASSERT_EQ(segments.size(), 4u);
     EXPECT_EQ(segments[0].from, glm::dvec2(0, 0));
     EXPECT_EQ(segments[0].to, glm::dvec2(3, 1.5));
@@ -33,7 +33,7 @@ TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
 /// Merged pieces are found by their block and line, wherever the tile lies.
 TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
     Random random(11);
-    SegmentMerger merger;
+    SegmentMerger merger(best_kernels());
     SegmentIndex index;
     for (int round = 0; round < 200; ++round) {
         const auto first_row = static_cast<std::uint32_t>(random.integer(0, 0xFFFF));

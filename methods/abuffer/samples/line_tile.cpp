@@ -31,7 +31,8 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       fast_(screen, frame.criteria),
       walks_(screen, kernels, fast_.walker()),
       flush_(screen, bins, frame.criteria),
-      fade_(frame.scene->lines.crease_fade()) {}
+      fade_(frame.scene->lines.crease_fade()),
+      merger_(kernels) {}
 
 glm::dvec2 LineTile::position(int column, int row) const {
     // A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken
