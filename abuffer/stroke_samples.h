@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace burin {
@@ -8,6 +9,8 @@ namespace burin {
 /// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Of these places they
 /// are staggered, or a stroke in step with them would be too wide or too narrow all along.
 constexpr int kStrokeRows = 16, kStrokeColumns = 32;
+/// Masks of pixels behind those of a canvas, which are read and written as they are. A multiple of eight.
+constexpr std::size_t kRoomBehindMasks = 8;
 
 /// Rows are shifted by less than half a column, and again so after this many of the picture: 8 pixels.
 constexpr std::uint32_t kStrokeShiftRows = 128;

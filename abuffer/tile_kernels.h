@@ -15,18 +15,17 @@ namespace burin {
 struct MeshWalks;
 struct WalkLimits;
 
-/// A round pen's stroke along a segment from a to b, in pixels: all that is closer than `radius`.
+/// A round pen's stroke along a segment, in pixels: all that is closer than `radius`.
 struct PenStroke {
-    double ax, ay, bx, by;
-    double ux, uy, length;  ///< unit direction from a to b
+    double from[2], to[2];
     double radius;
-    std::int32_t first_row;  ///< of the canvas, in the picture: rows of samples, for their shifts
 };
 
-/// Coverage masks of pixels, as StrokeMask has them, row by row.
+/// Coverage masks of a rectangle of pixels, as StrokeMask has them, row by row.
 struct StrokeView {
-    std::uint32_t* masks;   ///< kStrokeRows for each pixel
+    std::uint32_t* masks;   ///< kStrokeRows for each pixel, and room for kRoomBehindMasks more
     std::uint8_t* touched;  ///< per pixel: whether it has any bits
+    std::int32_t x0, y0, width, height;
     std::int32_t stride;    ///< pixels from one row to the next
 };
 
@@ -132,14 +131,8 @@ struct TileKernels {
     /// its triangle, it is the triangle's nearest or farthest distance.
     void (*put_geometry)(const RowRays& rays, const TriangleLook* looks, const std::uint16_t* look_at, std::size_t count,
                          const GeometryRow& row);
-    /// The columns [begin, end) that a stroke covers in `count` rows of a stroke canvas (StrokeMask's
-    /// samples), cut off at `columns`. In single precision; equal in any canvas. Up to seven more may be written.
-    void (*stroke_spans)(const PenStroke& stroke, std::int32_t row, std::int32_t count, std::int32_t columns,
-                         std::int32_t* begin, std::int32_t* end);
-    /// Adds to masks those of `columns`' bits that are in the spans [begin[i], end[i]) of the rows of samples from `row` on.
-    /// `row` and `count`: multiples of eight.
-    void (*add_spans)(const StrokeView& canvas, std::int32_t row, std::int32_t count, const std::int32_t* begin,
-                      const std::int32_t* end, std::uint32_t columns);
+    /// Adds to masks what a stroke covers. In single precision; equal in any canvas.
+    void (*draw_stroke)(const PenStroke& stroke, const StrokeView& canvas);
     /// How many bits are set in 16 numbers, without those of `hidden`.
     int (*count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
     /// Lists those of the boxes [begin, end) that touch a box and have nearness in common with it, the ends of

@@ -295,7 +295,7 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     }
 
     canvas_.reset(x0_, y0_, width_, height_);
-    canvas_.draw(piece.from, piece.to, radius_px, in_sets_);
+    canvas_.draw(piece.from, piece.to, radius_px);
     for (int y = first_y; y < end_y; ++y) {
         for (int x = first_x; x < end_x; ++x) {
             if (!canvas_.is_touched(x, y)) continue;

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "abuffer/cache_line.h"
 #include "abuffer/stroke_samples.h"
 #include "abuffer/tile_kernels.h"
 
@@ -29,11 +30,9 @@ class StrokeCanvas {
     void reset(int x0, int y0, int width, int height);
 
     /// Adds all that is closer than `radius_px` to a segment: a round pen's stroke.
-    void draw(glm::dvec2 from, glm::dvec2 to, double radius_px) {
-        draw(from, to, radius_px, is_level(to.x - from.x, to.y - from.y));
+    void draw(const glm::dvec2& from, const glm::dvec2& to, double radius_px) {
+        kernels_->draw_stroke({{from.x, from.y}, {to.x, to.y}, radius_px}, {masks_.data()->rows.data(), touched_.data(), x0_, y0_, width_, height_, stride_});
     }
-    /// `in_sets`: sampled as level boundaries are, see kStrokeColumnShifts.
-    void draw(glm::dvec2 from, glm::dvec2 to, double radius_px, bool in_sets);
 
     /// Adds samples of one pixel.
     void add(int column, int row, const StrokeMask& mask) {
@@ -81,10 +80,9 @@ class StrokeCanvas {
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
 
     const TileKernels* kernels_;
-    std::vector<std::int32_t> begin_, end_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
     int stride_ = 0;  // a multiple of eight; pixels beyond the width stay untouched
-    std::vector<StrokeMask> masks_;
+    std::vector<StrokeMask, CacheLineAllocator<StrokeMask>> masks_;
     std::vector<std::uint8_t> touched_;
 };
 

@@ -236,44 +236,65 @@ TEST(TileKernels, NearerTrianglesAreFound) {
     }
 }
 
+/// Whether a stroke covers a sample of the picture, or rounding decides.
+enum class Covers { no, yes, unsure };
+Covers covers(const PenStroke& s, double x, double y) {
+    const double dx = s.to[0] - s.from[0], dy = s.to[1] - s.from[1], square = dx * dx + dy * dy;
+    const double along = square > 0 ? std::clamp(((x - s.from[0]) * dx + (y - s.from[1]) * dy) / square, 0.0, 1.0) : 0;
+    const double beyond = std::hypot(x - s.from[0] - along * dx, y - s.from[1] - along * dy) - s.radius;
+    if (std::abs(beyond) < 1e-6) return Covers::unsure;
+    return beyond < 0 ? Covers::yes : Covers::no;
+}
+
 TEST(TileKernels, StrokesCoverWhatIsNear) {
-    Random random(7);
-    for (int trial = 0; trial < 400; ++trial) {
+    constexpr std::size_t kRows = kStrokeRows;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        Random random(seed);
+        const std::int32_t width = random.integer(1, 14), height = random.integer(1, 5), stride = (width + 7) / 8 * 8;
+        const std::int32_t x0 = random.integer(-100, 100), y0 = random.integer(-100, 100);
         PenStroke s{};
-        s.ax = random.real(-1, 9);
-        s.ay = random.real(-1, 5);
-        const double turn = random.integer(0, 3) == 0 ? 0.7853981634 * random.integer(0, 7) : random.real(0, 6.28);
-        s.length = random.integer(0, 4) == 0 ? 0 : random.real(0, 4);
-        s.ux = s.length > 0 ? std::cos(turn) : 1;
-        s.uy = s.length > 0 ? std::sin(turn) : 0;
-        s.bx = s.ax + s.ux * s.length;
-        s.by = s.ay + s.uy * s.length;
+        s.from[0] = x0 + random.real(-2, width + 1);
+        s.from[1] = y0 + random.real(-2, height + 1);
+        const int kind = random.integer(0, 4);
+        const double turn = kind == 0 ? 0.7853981634 * random.integer(0, 7) : kind == 1 ? 3.1415926536 * random.integer(0, 1) + random.real(-0.07, 0.07) : random.real(0, 6.28);
+        const double length = random.integer(0, 4) == 0 ? 0 : random.real(0, random.integer(0, 1) == 0 ? 1 : 12);
+        s.to[0] = s.from[0] + std::cos(turn) * length;
+        s.to[1] = s.from[1] + std::sin(turn) * length;
         s.radius = random.real(0.1, 2);
-        s.first_row = random.integer(-100, 100);
-        constexpr int kRows = 4 * 16, kColumns = 8 * 32;
-        std::vector<std::int32_t> begin(kRows), end(kRows);
-        baseline_kernels().stroke_spans(s, 0, kRows, kColumns, begin.data(), end.data());
+        const bool in_sets = is_level(s.to[0] - s.from[0], s.to[1] - s.from[1]);
+        const auto pixels = static_cast<std::size_t>(stride * height) + kRoomBehindMasks;
+        std::vector<std::uint32_t> before(kRows * pixels), expected;
+        for (std::uint32_t& rows : before) rows = 0x80001000u;  // is kept
         for (const TileKernels* kernels : all_kernels()) {
-            for (const std::int32_t rows : {kRows, kRows - 8}) {
-                constexpr std::int32_t kMark = -7;  // nothing is to be written behind the rows
-                std::vector<std::int32_t> own_begin(kRows, kMark), own_end(kRows, kMark), expected_begin(begin), expected_end(end);
-                std::fill(expected_begin.begin() + rows, expected_begin.end(), kMark);
-                std::fill(expected_end.begin() + rows, expected_end.end(), kMark);
-                kernels->stroke_spans(s, 0, rows, kColumns, own_begin.data(), own_end.data());
-                EXPECT_EQ(own_begin, expected_begin) << kernels->name;
-                EXPECT_EQ(own_end, expected_end) << kernels->name;
+            std::vector<std::uint32_t> masks = before;
+            std::vector<std::uint8_t> touched(pixels, 0);
+            kernels->draw_stroke(s, {masks.data(), touched.data(), x0, y0, width, height, stride});
+            for (std::size_t i = 0; i < pixels; ++i) {
+                const auto column = static_cast<int>(i) % stride, row = static_cast<int>(i) / stride;
+                bool is_any = false, may_be_any = false;
+                for (std::size_t r = 0; r < kRows; ++r) {
+                    const std::uint32_t bits = masks[kRows * i + r];
+                    if (column >= width || row >= height) {
+                        ASSERT_EQ(bits, 0x80001000u) << kernels->name << " seed " << seed;
+                        continue;
+                    }
+                    const double y = y0 + row + (static_cast<double>(r) + 0.5) / kStrokeRows;
+                    const double shift = stroke_row_shift(kStrokeRows * (y0 + row) + static_cast<int>(r));
+                    for (std::size_t c = 0; c < kStrokeColumns; ++c) {
+                        const double down = in_sets ? kStrokeColumnShifts[c % kStrokeColumnSets] / kStrokeRows : 0;
+                        const Covers wanted = covers(s, x0 + column + (static_cast<double>(c) + 0.5 + shift) / kStrokeColumns, y + down);
+                        is_any = is_any || wanted == Covers::yes;
+                        may_be_any = may_be_any || wanted != Covers::no;
+                        if (wanted == Covers::unsure) continue;
+                        const std::uint32_t bit = wanted == Covers::yes ? 1 : 0x80001000u >> c & 1u;
+                        ASSERT_EQ(bits >> c & 1u, bit) << kernels->name << " seed " << seed << ", pixel " << column << "," << row << ", sample " << c << "," << r;
+                    }
+                }
+                if (is_any != may_be_any) continue;
+                ASSERT_EQ(touched[i], is_any ? 1 : 0) << kernels->name << " seed " << seed;
             }
-        }
-        for (int row = 0; row < kRows; ++row) {
-            for (int column = 0; column < kColumns; ++column) {
-                const double x = (column + 0.5 + stroke_row_shift(s.first_row + row)) / 32 - s.ax, y = (row + 0.5) / 16 - s.ay;
-                const double along = std::clamp(x * s.ux + y * s.uy, 0.0, s.length);
-                const double distance = std::hypot(x - along * s.ux, y - along * s.uy);
-                if (std::abs(distance - s.radius) < 1e-9) continue;
-                const auto r = static_cast<std::size_t>(row);
-                ASSERT_EQ(column >= begin[r] && column < end[r], distance < s.radius)
-                    << "trial " << trial << " row " << row << " column " << column;
-            }
+            if (expected.empty()) expected = masks;
+            ASSERT_EQ(masks, expected) << kernels->name << " seed " << seed;
         }
     }
 }
