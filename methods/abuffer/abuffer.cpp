@@ -40,7 +40,7 @@ void drop_above(double y, std::vector<std::vector<Segment>>& lists) {
 
 /// Edges that are lines from anywhere, wherever they are on the screen.
 void add_features(const Frame& frame, const ScreenSurfaces& screen, int threads, std::vector<LayerLine>& features) {
-    const std::vector<LayerLine> lines = find_layer_edges(frame, screen, anywhere_on_screen(), threads);
+    const std::vector<LayerLine> lines = find_layer_edges(frame, screen, PossibleLines(screen, threads), anywhere_on_screen(), threads);
     std::copy_if(lines.begin(), lines.end(), std::back_inserter(features), is_feature);
 }
 
@@ -137,16 +137,17 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     LayerPass layers(frame, screen, kernels, stats.threads, contours.get());
     const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
     const bool needs_all = LayerPass::needs_all_lines(frame);
+    const PossibleLines* const possible = surfaces.possible_lines();
     for (const std::vector<std::uint32_t>& group : plan.groups) {
         if (!needs_all) break;
         show(group);
-        layers.find_lines(layer_tiles.rows());
+        layers.find_lines(layer_tiles.rows(), possible);
     }
     std::vector<std::vector<LayerSegment>> layer_segments;
     for (const PicturePiece& piece : plan.layers) {
         const bool is_last = &piece == &plan.layers.back();
         show(piece.instances);
-        if (!needs_all) layers.find_lines(piece.rows);
+        if (!needs_all) layers.find_lines(piece.rows, possible);
         layers.sort(piece.rows);
         layers.composite(film);
         layers.find_pieces();

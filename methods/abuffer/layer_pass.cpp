@@ -4,9 +4,9 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "base/parallel.h"
-#include "methods/abuffer/layers/layer_edges.h"
 #include "methods/abuffer/layers/transparent_fill.h"
 #include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/strokes/line_chains.h"
@@ -127,12 +127,14 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
 
 bool LayerPass::knows_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
 
-void LayerPass::find_lines(TileRows rows) {
+void LayerPass::find_lines(TileRows rows, const PossibleLines* possible) {
     const bool is_dashed = frame_.scene->lines.style.hidden.style == HiddenStyle::dashed || frame_.scene->lines.style.dash_px;
     const PixelRect region = is_dashed                 ? anywhere_on_screen()
                              : needs_all_lines(frame_) ? region_of_lines(frame_)
                                                        : all_tiles_.only(rows).rect();
-    std::vector<LayerLine> found = find_layer_edges(frame_, screen_, region, threads_);
+    std::optional<PossibleLines> own;
+    if (possible == nullptr) possible = &own.emplace(screen_, threads_);
+    std::vector<LayerLine> found = find_layer_edges(frame_, screen_, *possible, region, threads_);
     if (lines_.empty()) {
         lines_ = std::move(found);
     } else {

@@ -5,6 +5,7 @@
 #include "methods/abuffer/layers/intersecting_pairs.h"
 #include "methods/abuffer/layers/intersection_lines.h"
 #include "methods/abuffer/layers/layer_bins.h"
+#include "methods/abuffer/layers/layer_edges.h"
 #include "methods/abuffer/layers/layer_tile.h"
 #include "methods/abuffer/strokes/layer_strokes.h"
 #include "methods/abuffer/strokes/smooth_contours.h"
@@ -46,7 +47,8 @@ class LayerPass {
     const std::vector<LayerPiece>& pieces() const { return pieces_; }
 
     /// Adds the edges that are lines, of the instances shown, as far as they touch these rows; and intersections.
-    void find_lines(TileRows rows);
+    /// `possible`: of these instances, where they are known already.
+    void find_lines(TileRows rows, const PossibleLines* possible = nullptr);
     /// Sorts the instances shown to the tiles of these rows, for the lines found.
     void sort(TileRows rows);
     /// Replaces the surfaces of pixels behind transparent ones, in the rows sorted.

@@ -77,7 +77,8 @@ void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher
     const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples, has_fine);
     std::optional<FineEdges> fine_edges;
     const PixelTiles grid(region, tile_samples / per_pixel);
-    if (has_fine) fine_edges.emplace(screen_, grid, per_pixel, threads_);
+    if (has_fine) fine_edges.emplace(screen_, possible_lines_.emplace(screen_, threads_), grid, per_pixel, threads_);
+    if (!screen_.shows_all()) possible_lines_.reset();
     stats.prepare_s += watch.lap();
 
     const auto workers = static_cast<std::size_t>(threads_);

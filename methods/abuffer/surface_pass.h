@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "abuffer/tile_kernels.h"
 #include "base/progress.h"
 #include "lines/line_segment.h"
+#include "methods/abuffer/layers/layer_edges.h"
 #include "methods/abuffer/row_finisher.h"
 #include "methods/abuffer/screen/screen_surfaces.h"
 #include "methods/abuffer/strokes/smooth_contours.h"
@@ -26,6 +28,8 @@ class SurfacePass {
     /// finished, except for the last ones; nullptr: none.
     void draw(PixelRect region, int tile_samples, RowFinisher* finisher, std::vector<std::vector<LineSegment>>& segments,
               Film& film, RenderStats& stats);
+    /// Of all instances, if they are shown always and it looked for lines that samples miss.
+    const PossibleLines* possible_lines() const { return possible_lines_ ? &*possible_lines_ : nullptr; }
 
   private:
     const Frame& frame_;
@@ -34,6 +38,7 @@ class SurfacePass {
     int threads_;
     Progress* progress_;
     const SmoothContours* contours_;  // nullptr where they follow the mesh
+    std::optional<PossibleLines> possible_lines_;
 };
 
 }  // namespace burin

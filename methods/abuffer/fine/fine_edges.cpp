@@ -8,13 +8,11 @@
 
 #include "base/parallel.h"
 #include "lines/line_segment.h"
-#include "methods/abuffer/layers/layer_edges.h"
 #include "methods/abuffer/screen/edge_on_screen.h"
 
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct EdgeEnds {
@@ -24,9 +22,9 @@ struct EdgeEnds {
 
 }  // namespace
 
-FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int samples_per_pixel,
+FineEdges::FineEdges(const ScreenSurfaces& screen, const PossibleLines& possible, const PixelTiles& tiles, int samples_per_pixel,
                      int threads) {
-    const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
+    const std::vector<TriangleChunk>& chunks = possible.chunks;
     std::vector<std::vector<TileLists<TileEdge>::Record>> records(chunks.size());
     const SampleBlocks blocks(samples_per_pixel);
     const PixelRect region = tiles.rect();  // of whole blocks, as are its tiles
@@ -40,7 +38,7 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int 
         const ScreenMesh mesh = screen.mesh(chunks[c].instance);
         // First all edges, then their vertices, which take longer to come from memory.
         std::vector<EdgeEnds> edges;
-        for (const HalfEdge h : possible_lines(mesh, chunks[c].begin, chunks[c].end)) {
+        for (const HalfEdge h : possible.edges[c]) {
             if (!is_surely_pair(mesh, h) && mesh.partners[mesh.partners[h]] != h) continue;
             edges.push_back({h, 0, 0});
             __builtin_prefetch(mesh.corners + h);

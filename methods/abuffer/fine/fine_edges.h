@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/abuffer/layers/layer_edges.h"
 #include "methods/abuffer/screen/screen_surfaces.h"
 #include "methods/abuffer/screen/tile_lists.h"
 
@@ -38,8 +39,7 @@ struct SampleBlocks {
 /// miss. Left to the samples are edges of more than two triangles: which of them is seen makes the line.
 class FineEdges {
   public:
-    /// Of the instances shown; the facing of their triangles must be known.
-    FineEdges(const ScreenSurfaces& screen, const PixelTiles& tiles, int samples_per_pixel, int threads);
+    FineEdges(const ScreenSurfaces& screen, const PossibleLines& possible, const PixelTiles& tiles, int samples_per_pixel, int threads);
 
     /// Those that touch squares of samples of a tile.
     std::span<const TileEdge> in(std::size_t tile) const { return lists_.of(tile); }

@@ -67,8 +67,6 @@ std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint3
     return sides;
 }
 
-}  // namespace
-
 std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
     const std::vector<HalfEdge> sides = sides_of_possible_lines(mesh, begin, end);
     std::vector<HalfEdge> edges(sides.size());
@@ -89,6 +87,14 @@ std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin
     }
     edges.resize(count);
     return edges;
+}
+
+}  // namespace
+
+PossibleLines::PossibleLines(const ScreenSurfaces& screen, int threads) : chunks(screen.chunks_of_triangles(kChunkTriangles)), edges(chunks.size()) {
+    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+        edges[c] = possible_lines(screen.mesh(chunks[c].instance), chunks[c].begin, chunks[c].end);
+    });
 }
 
 class LayerEdgeFinder::Rules {
@@ -341,24 +347,25 @@ void LayerEdgeFinder::find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& line
 
 std::optional<SurfaceId> LayerEdgeFinder::solid_at_border(SurfaceId s, HalfEdge h) const { return rules_->solid_at_border(s, h); }
 
-std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
-                                        int threads) {
-    const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
+std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
+                                        PixelRect region, int threads) {
     const LayerEdgeFinder finder(frame, screen, region);
-    std::vector<std::vector<LayerLine>> found(chunks.size());
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
-        const ScreenMesh& mesh = screen.mesh(chunks[c].instance);
-        // First all edges, then the corners of their triangles, which lie anywhere in memory.
-        const std::vector<HalfEdge> edges = possible_lines(mesh, chunks[c].begin, chunks[c].end);
-        for (const HalfEdge h : edges) {
-            __builtin_prefetch(mesh.corners + h);
-            __builtin_prefetch(mesh.corners + mesh.partners[h]);
+    std::vector<std::vector<LayerLine>> found(possible.chunks.size());
+    parallel_for(found.size(), threads, [&](std::size_t c, int) {
+        const std::uint32_t instance = possible.chunks[c].instance;
+        const ScreenMesh& mesh = screen.mesh(instance);
+        const std::vector<HalfEdge>& edges = possible.edges[c];
+        // Both triangles at an edge, and their corners, lie anywhere in memory.
+        constexpr std::size_t kAhead = 16;
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            if (i + kAhead < edges.size()) __builtin_prefetch(mesh.partners + edges[i + kAhead]);
+            __builtin_prefetch(mesh.corners + edges[i]);
+            __builtin_prefetch(mesh.corners + mesh.partners[edges[i]]);
         }
         found[c].reserve(edges.size());  // nearly all are lines
-        constexpr std::size_t kAhead = 16;
         for (std::size_t i = 0; i < edges.size() + kAhead; ++i) {
             if (i < edges.size()) ask_for_vertices(mesh, edges[i]);
-            if (i >= kAhead) finder.find({chunks[c].instance, edges[i - kAhead] / 3}, edges[i - kAhead], found[c]);
+            if (i >= kAhead) finder.find({instance, edges[i - kAhead] / 3}, edges[i - kAhead], found[c]);
         }
     });
     std::vector<LayerLine> lines;

@@ -16,8 +16,14 @@ namespace burin {
 /// do, too.
 inline bool is_surely_pair(const ScreenMesh& mesh, HalfEdge h) { return mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0; }
 
-/// The edges of these triangles that may be lines. Edges of two triangles come once, as the smaller of their half-edges.
-std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end);
+/// The edges of the instances shown that may be lines in this view, in chunks of triangles. Edges of two triangles are there once,
+/// as the smaller of their half-edges. The facing of all triangles must be known.
+struct PossibleLines {
+    PossibleLines(const ScreenSurfaces& screen, int threads);
+
+    std::vector<TriangleChunk> chunks;
+    std::vector<std::vector<HalfEdge>> edges;  ///< of each
+};
 
 /// Tells which edges are lines in this view: contours, borders that are no seams, and edges with another
 /// class asked for.
@@ -47,7 +53,7 @@ constexpr PixelRect anywhere_on_screen() {
 }
 
 /// All lines among the edges of the instances shown, be they seen or not.
-std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
-                                        int threads);
+std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
+                                        PixelRect region, int threads);
 
 }  // namespace burin
