@@ -79,16 +79,14 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
     const glm::dvec2 middle = line.at(0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
     const glm::dvec2 right = kToOneSideSubpixels * glm::dvec2(-along.y, along.x);
     const SurfaceSet& surfaces = screen_.surfaces();
-    struct Side {
-        bool is_known = false;
-        std::optional<LayerTriangle> cover;
-    };
-    Side sides[2];
-    const auto cover_on = [&](bool is_left) -> const std::optional<LayerTriangle>& {
-        Side& side = sides[is_left ? 0 : 1];
-        if (!side.is_known) side = {true, what_covers(is_left ? middle - right : middle + right, t, Over::plain_edges)};
-        return side.cover;
-    };
+    // Mostly one side is not covered: the triangle itself tells which it may be, before those at the line are looked at.
+    const glm::dvec2 places[2] = {middle - right, middle + right};
+    const std::size_t first = t.covers(places[0]) ? 1 : 0;
+    std::optional<LayerTriangle> covers[2];
+    for (const std::size_t side : {first, 1 - first}) {
+        covers[side] = what_covers(places[side], t, Over::plain_edges);
+        if (!covers[side]) return false;
+    }
     // What is asked last takes longest.
     struct Level {
         SurfaceId own, other;
@@ -100,13 +98,12 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
         const SurfaceId s = screen_.surface_of(owner);
         const auto beside = place_beside(s, owner, *touching);
         if (!beside) continue;
-        const auto& cover = cover_on(glm::dot(*beside - *touching, right) < 0);
-        if (!cover) return false;
-        const double gap = screen_.nearness_of(owner, *beside) - cover->nearness_at(*beside);
+        const LayerTriangle& cover = *covers[glm::dot(*beside - *touching, right) < 0 ? 0 : 1];
+        const double gap = screen_.nearness_of(owner, *beside) - cover.nearness_at(*beside);
         if (gap > level) return false;
-        if (gap >= -level) levels[level_count++] = {s, screen_.surface_of(cover->number), *beside / double{kSubpixelsPerPixel}};
+        if (gap >= -level) levels[level_count++] = {s, screen_.surface_of(cover.number), *beside / double{kSubpixelsPerPixel}};
     }
-    if (level_count == 0 || !cover_on(true) || !cover_on(false)) return false;
+    if (level_count == 0) return false;
     bool is_any_flush = false;
     for (int i = 0; i < level_count; ++i) {
         const auto& [own, other, place] = levels[i];
