@@ -63,6 +63,16 @@ void fill_run(std::uint16_t* to, std::size_t count, std::uint16_t value) {
     std::memcpy(to + count - kEight, &eight, sizeof eight);
 }
 
+/// Draws a colour over one pixel of four channels.
+__attribute__((always_inline)) inline void blend(std::uint16_t* const (&planes)[4], std::size_t i, const glm::vec4& over) {
+    std::uint16_t* const places[4] = {planes[0] + i, planes[1] + i, planes[2] + i, planes[3] + i};
+    const FourFloats color = {over.r, over.g, over.b, over.a};
+    const FourFloats before = floats_from_halves(FourHalves{*places[0], *places[1], *places[2], *places[3]});
+    const FourFloats after = before * (1.0f - over.a) + color;
+    const FourHalves halves = halves_from_floats(after > 65504.0f ? FourFloats{} + 65504.0f : after);
+    for (unsigned c = 0; c < 4; ++c) *places[c] = static_cast<std::uint16_t>(halves[c]);
+}
+
 }  // namespace
 
 std::uint16_t Film::to_half(float value) { return half_from_float(std::min(value, 65504.0f)); }
@@ -310,19 +320,16 @@ LineInk::LineInk(const LinePixel& lines) : color(lines.color) {
     for (std::size_t c = 0; c < kLineClassCount; ++c) coverage[c] = Film::to_half(lines.coverage[c]);
 }
 
+HiddenInk::HiddenInk(const glm::vec4& color, const glm::vec4& seen_part) : seen(seen_part) {
+    for (std::size_t c = 0; c < 4; ++c) half_color[c] = Film::to_half(color[static_cast<int>(c)]);
+}
+
 void Film::draw_over(int x, int y, const LineInk& lines) {
     const auto [planes, i] = place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
         if (planes.lines[c] != nullptr) planes.lines[c][i] = lines.half_color[c];
     }
-    if (planes.beauty[0] != nullptr) {
-        std::uint16_t* const beauty[4] = {planes.beauty[0] + i, planes.beauty[1] + i, planes.beauty[2] + i, planes.beauty[3] + i};
-        const FourFloats color = {lines.color.r, lines.color.g, lines.color.b, lines.color.a};
-        const FourFloats before = floats_from_halves(FourHalves{*beauty[0], *beauty[1], *beauty[2], *beauty[3]});
-        const FourFloats after = before * (1.0f - lines.color.a) + color;
-        const FourHalves halves = halves_from_floats(after > 65504.0f ? FourFloats{} + 65504.0f : after);
-        for (unsigned c = 0; c < 4; ++c) *beauty[c] = static_cast<std::uint16_t>(halves[c]);
-    }
+    if (planes.beauty[0] != nullptr) blend(planes.beauty, i, lines.color);
     for (std::size_t c = 0; c < kLineClassCount && layers_.coverage; ++c) {
         if (planes.coverage[c] != nullptr) planes.coverage[c][i] = lines.coverage[c];
     }
@@ -337,14 +344,12 @@ void Film::replace_surface(int x, int y, const glm::vec4& color) {
     }
 }
 
-void Film::draw_hidden(int x, int y, const glm::vec4& hidden, const glm::vec4& seen) {
+void Film::draw_hidden(int x, int y, const HiddenInk& lines) {
     const auto [planes, i] = place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
-        if (planes.lines_hidden[c] != nullptr) planes.lines_hidden[c][i] = to_half(hidden[static_cast<int>(c)]);
-        std::uint16_t* const beauty = planes.beauty[c];
-        if (beauty == nullptr) continue;
-        beauty[i] = to_half(float_from_half(beauty[i]) * (1.0f - seen.a) + seen[static_cast<int>(c)]);
+        if (planes.lines_hidden[c] != nullptr) planes.lines_hidden[c][i] = lines.half_color[c];
     }
+    if (planes.beauty[0] != nullptr) blend(planes.beauty, i, lines.seen);
 }
 
 void Film::add_lines(int x, int y, const LinePixel& lines) {

@@ -61,6 +61,15 @@ struct LineInk {
     std::array<std::uint16_t, kLineClassCount> coverage{};
 };
 
+/// Hidden lines of one pixel, in the same way: `seen` is the part of them that no visible line will cover, as share of what
+/// will be left.
+struct HiddenInk {
+    HiddenInk(const glm::vec4& color, const glm::vec4& seen_part);
+
+    HalfColor half_color;
+    glm::vec4 seen;
+};
+
 /// Collects pixels into the channels of the chosen layers. Different threads may put different
 /// pixels at the same time.
 ///
@@ -130,9 +139,8 @@ class Film {
     static std::uint16_t to_half(float value);
     /// Replaces the surface of a pixel that was put without lines.
     void replace_surface(int x, int y, const glm::vec4& color);
-    /// Before draw_over(): puts the hidden lines' own channels, and draws `seen` over the pixel: the
-    /// part of the hidden lines that no visible line will cover, as share of what will be left.
-    void draw_hidden(int x, int y, const glm::vec4& hidden, const glm::vec4& seen);
+    /// Before draw_over(): puts the hidden lines' own channels, and draws what is seen of them over the pixel.
+    void draw_hidden(int x, int y, const HiddenInk& lines);
     /// After draw_over(): adds to the line channels, but not to the beauty.
     void add_lines(int x, int y, const LinePixel& lines);
     /// Of a whole film.

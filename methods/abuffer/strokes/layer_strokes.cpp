@@ -1,6 +1,7 @@
 #include "methods/abuffer/strokes/layer_strokes.h"
 
 #include <algorithm>
+#include <array>
 
 #include "lines/pen.h"
 
@@ -84,10 +85,11 @@ class TileStrokes {
         }
     }
 
+    static constexpr int kSamples = StrokeMask::kRows * StrokeMask::kColumns;
     /// Of a pixel, without the samples taken.
-    float share(const StrokeMask& mask, const StrokeMask& taken = {}) const {
-        return static_cast<float>(kernels_.count_bits(mask.rows.data(), taken.rows.data())) / (StrokeMask::kRows * StrokeMask::kColumns);
-    }
+    int count(const StrokeMask& mask, const StrokeMask& taken = {}) const { return kernels_.count_bits(mask.rows.data(), taken.rows.data()); }
+    float share(const StrokeMask& mask, const StrokeMask& taken = {}) const { return share(count(mask, taken)); }
+    static float share(int samples) { return static_cast<float>(samples) / kSamples; }
 
   private:
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * rect_.width() + column); }
@@ -159,13 +161,12 @@ StrokeMask taken_by(const VisibleStrokes& visible, int column, int row) {
 }
 
 /// All kinds of lines are disjoint; visible ones come later and cover their share, `ink`.
-void put(const LineStyle& style, int x, int y, float ink, const glm::vec4& seen_through, float hidden_share, float hidden_seen,
-         Film& film) {
+HiddenInk hidden_ink(const LineStyle& style, float ink, const glm::vec4& seen_through, float hidden_share, float hidden_seen) {
     const float left = 1.0f - ink;
     const glm::vec4 hidden_color(style.hidden.color, 1.0f);
     glm::vec4 seen = seen_through + hidden_color * hidden_seen;
     seen *= left > 0 ? std::min(1.0f / left, 1.0f / std::max(seen.a, 1e-6f)) : 0.0f;
-    film.draw_hidden(x, y, hidden_color * hidden_share, seen);
+    return {hidden_color * hidden_share, seen};
 }
 
 }  // namespace
@@ -223,7 +224,7 @@ class LayerStrokes::Worker {
             const bool is_inner = x >= inner.x0 && y >= inner.y0 && x < inner.x1 && y < inner.y1;
             if (!pixel.is_touched || !is_inner) continue;
             if (filter_ != nullptr) cut_off_lobes(pixel);
-            put(style_, x, y, pixel.ink, pixel.seen_through.color, pixel.hidden_share, pixel.hidden_seen, film);
+            film.draw_hidden(x, y, hidden_ink(style_, pixel.ink, pixel.seen_through.color, pixel.hidden_share, pixel.hidden_seen));
             if (pixel.seen_through.color.a > 0) seen_through_.push_back({x, y, pixel.seen_through});
         }
     }
@@ -238,16 +239,27 @@ class LayerStrokes::Worker {
             if (touched_.empty() || touched_.back().row != row) film.prefetch(rect.x0 + column, rect.y0 + row);
             touched_.push_back({column, row, &mask});
         });
+        const std::vector<HiddenInk>& inks = inks_of(list.front()->transmission);
         for (const auto& [column, row, mask] : touched_) {
-            const float own = strength * strokes_.share(*mask);
-            float ink = 0, seen = own;
-            if (visible.is_touched(column, row)) {
-                const StrokeMask taken = taken_by(visible, column, row);
-                ink = visible.pen().strength * strokes_.share(taken);
-                seen = strength * strokes_.share(*mask, taken);
+            const int x = rect.x0 + column, y = rect.y0 + row;
+            if (!visible.is_touched(column, row)) {  // mostly
+                film.draw_hidden(x, y, inks[static_cast<std::size_t>(strokes_.count(*mask))]);
+                continue;
             }
-            put(style_, rect.x0 + column, rect.y0 + row, ink, glm::vec4(0.0f), own, seen, film);
+            const StrokeMask taken = taken_by(visible, column, row);
+            const float ink = visible.pen().strength * strokes_.share(taken);
+            film.draw_hidden(x, y, hidden_ink(style_, ink, glm::vec4(0.0f), strength * strokes_.share(*mask), strength * strokes_.share(*mask, taken)));
         }
+    }
+    /// Of hidden lines alone, by how many samples of the pixel they cover.
+    const std::vector<HiddenInk>& inks_of(std::uint8_t transmission) {
+        std::vector<HiddenInk>& inks = inks_[transmission];
+        const float strength = hidden_pen_.strength * static_cast<float>(transmission) / 255.0f;
+        for (int samples = static_cast<int>(inks.size()); samples <= TileStrokes::kSamples; ++samples) {
+            const float own = strength * TileStrokes::share(samples);
+            inks.push_back(hidden_ink(style_, 0, glm::vec4(0.0f), own, own));
+        }
+        return inks;
     }
 
     const LineStyle& style_;
@@ -256,6 +268,7 @@ class LayerStrokes::Worker {
     Pen pen_, hidden_pen_;
     TileStrokes strokes_;
     std::vector<SeenThrough> seen_through_;
+    std::array<std::vector<HiddenInk>, 256> inks_;  // by transmission, of those that were asked for
     struct Touched {
         int column, row;
         const StrokeMask* mask;
