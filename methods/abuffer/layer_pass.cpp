@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "base/parallel.h"
 #include "methods/abuffer/layers/transparent_fill.h"
@@ -56,10 +57,14 @@ void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, 
         if (i == 0 || is_before(found[i - 1], found[i])) lines.push_back(line(found[i]));
         number[found[i].tile][found[i].index] = static_cast<std::uint32_t>(lines.size() - 1);
     }
+    std::size_t count = pieces.size();
+    for (const LayerTileResult& result : results) count += result.pieces.size();
+    pieces.reserve(count);
     for (std::size_t tile = 0; tile < results.size(); ++tile) {
-        for (LayerPiece piece : results[tile].pieces) {
+        const auto first = pieces.insert(pieces.end(), results[tile].pieces.begin(), results[tile].pieces.end());
+        if (number[tile].empty()) continue;
+        for (LayerPiece& piece : std::span(first, pieces.end())) {
             if ((piece.line & kOfTile) != 0) piece.line = number[tile][piece.line & ~kOfTile];
-            pieces.push_back(piece);
         }
     }
 }
@@ -261,7 +266,14 @@ std::vector<LayerSegment> LayerPass::make_segments() const {
     if (style == HiddenStyle::dashed) hidden_positions = positions_of(frame_.scene->lines.style.hidden_dash_px());
     if (visible_dash_px) visible_positions = positions_of(*visible_dash_px);
     std::vector<LayerSegment> segments;
+    segments.reserve(pieces_.size());
     for (const LayerPiece& piece : pieces_) {
+        constexpr std::ptrdiff_t kAhead = 16;
+        if (pieces_.data() + pieces_.size() - &piece > kAhead) {
+            const LayerLine& next = lines_[(&piece)[kAhead].line];
+            __builtin_prefetch(&next.from);
+            __builtin_prefetch(&next.drawn_as);
+        }
         const bool is_hidden = piece.invisibility > 0;
         if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
         const auto& positions = is_hidden ? hidden_positions : visible_positions;
