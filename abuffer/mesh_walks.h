@@ -45,4 +45,15 @@ struct MeshWalks {
     double left[kStepRoom];             ///< where that is: 0 = where the walk begins, 1 = the other sample
 };
 
+/// Where walks to the background came to an outline, an array per number.
+struct WalkOutlines {
+    std::size_t count;
+    std::uint32_t walk[MeshWalks::kRoom];
+    std::uint32_t exit[MeshWalks::kRoom], partner[MeshWalks::kRoom];  ///< the edge's half-edge, and the next one there
+    std::int32_t from_x[MeshWalks::kRoom], from_y[MeshWalks::kRoom];  ///< its ends, in 1/256 pixel
+    std::int32_t to_x[MeshWalks::kRoom], to_y[MeshWalks::kRoom];
+    double fraction[MeshWalks::kRoom];  ///< of the way from the left or upper sample to the other one
+    double nearness[MeshWalks::kRoom];  ///< of the triangle there, within that of its corners
+};
+
 }  // namespace burin

@@ -13,6 +13,7 @@
 namespace burin {
 
 struct MeshWalks;
+struct WalkOutlines;
 struct WalkLimits;
 
 /// A round pen's stroke along a segment, in pixels: all that is closer than `radius`.
@@ -120,6 +121,9 @@ struct TileKernels {
     /// FastWalker::walk() for at most MeshWalks::kMost walks at once, where nothing out of the ordinary is met: seams, triangles
     /// off the screen, slivers, and depths that have to be looked at; then it is unsure. The mesh must have `sharp`.
     void (*walk_over_mesh)(const ScreenMesh& mesh, const WalkLimits& limits, MeshWalks& walks, std::size_t count);
+    /// Of walks over a mesh that ended, finds those that did at folds that are not sharp, and where that is. `pitch`: from one
+    /// sample to the other. `farthest_nearness`: what nearness of vertices is relative to.
+    void (*find_outlines)(const ScreenMesh& mesh, const MeshWalks& walks, std::int32_t pitch, double farthest_nearness, WalkOutlines& found);
     /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
     /// seven counts more than asked for may be written.
     void (*count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "mesh/shapes.h"
@@ -90,7 +91,8 @@ Counts compare(const Scene& scene, const Camera& camera, int samples) {
     Counts counts;
     for (const TileKernels* kernels : all_kernels()) {
         SCOPED_TRACE(kernels->name);
-        WalksAhead ahead(screen, *kernels, walker);
+        const auto mesh_walks = std::make_unique<MeshWalks>();
+        WalksAhead ahead(screen, *kernels, walker, *mesh_walks);
         for (std::size_t t = 0; t < bins.tile_count(); ++t) {
             tile.draw(t);
             const std::vector<NeighbourSamples> pairs = pairs_of(tile, samples);

@@ -29,16 +29,6 @@ class FastDecision {
     /// that of the line.
     bool decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known = {});
 
-    /// Whether a walk towards the background ends where the surface turns away, at an edge of triangle `last` that has
-    /// no other class. Then decide() would say so; `nearness` is that of the line, which crosses the way at `subpixel`.
-    bool is_outline(SurfaceId last, const FastWalk& walk, glm::dvec2 subpixel, double& nearness) const {
-        const std::uint8_t* const sharp = screen_.mesh(last.instance).sharp;
-        const HalfEdge h = walk.half_edge;
-        if (walk.end != FastWalk::fold || sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0) return false;
-        nearness = nearness_at(last, subpixel);
-        return true;
-    }
-
     FastWalker& walker() { return walker_; }
 
   private:

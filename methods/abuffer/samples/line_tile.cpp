@@ -29,7 +29,9 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
                                                           frame.criteria.classes.has(LineClass::border))),
       fast_(screen, frame.criteria),
-      walks_(screen, kernels, fast_.walker()),
+      mesh_walks_(new MeshWalks),
+      found_outlines_(new WalkOutlines),
+      walks_(screen, kernels, fast_.walker(), *mesh_walks_),
       flush_(screen, bins, frame.criteria),
       fade_(frame.scene->lines.crease_fade()),
       merger_(kernels) {}
@@ -96,24 +98,6 @@ void LineTile::set_edge(SurfaceEdge edge, LineCrossing& crossing) const {
     crossing.along = crossing.edge_ends[1] - crossing.edge_ends[0];
 }
 
-/// What decide() says of outlines before the background: most lines are. False where there is another line, or none.
-bool LineTile::decide_outline(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing) const {
-    const std::size_t from = neighbours.surfaces[0].is_background() ? 1 : 0;
-    const FastWalk* const walk = walks[from];
-    if (walk == nullptr || !neighbours.surfaces[1 - from].is_background() || outline_classes_.empty()) return false;
-    const double fraction = from == 0 ? walk->fraction : 1 - walk->fraction;
-    if (!fast_.is_outline({neighbours.surfaces[from].instance, walk->triangle}, *walk, neighbours.place(fraction), crossing.nearness)) return false;
-    const glm::dvec2 a = position(pair.column(), pair.row());
-    const glm::dvec2 b = position(pair.column() + (pair.down() ? 0 : 1), pair.row() + (pair.down() ? 1 : 0));
-    crossing.pixel = glm::mix(a, b, std::clamp(fraction, 0.0, 1.0));
-    crossing.towards_front = from == 0 ? a - b : b - a;
-    crossing.classes = outline_classes_;
-    crossing.occludes = true;
-    crossing.opacity = 255;
-    set_edge({neighbours.surfaces[from], walk->half_edge}, crossing);
-    return true;
-}
-
 /// Finds the pairs between which a line may lie, and which of them are known to be of one smooth surface.
 void LineTile::find_pairs() {
     pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows) + kRoomBehindPairs);
@@ -159,43 +143,128 @@ void LineTile::find_neighbours(std::span<const SamplePair> pairs) {
 void LineTile::find_crossings() {
     find_pairs();
     crossing_count_ = 0;
-    crossing_places_.clear();
     std::size_t asked = 0;
     for (std::size_t i = 0; i < pair_count_; ++i) {
         pairs_[asked] = pairs_[i];
         asked += is_smooth_[i] != 0 ? 0 : 1;
     }
+    if (!outline_classes_.empty()) asked = find_outlines(asked);
     for (std::size_t begin = 0; begin < asked; begin += WalksAhead::kMostPairs) {
         decide_all({pairs_.data() + begin, std::min(asked - begin, WalksAhead::kMostPairs)});
     }
 }
 
+/// The crossings of outlines before the background, which most lines are: mesh by mesh. Returns how many of the pairs that are
+/// asked are left.
+std::size_t LineTile::find_outlines(std::size_t asked) {
+    if (outlines_.size() < asked) outlines_.resize(2 * asked);
+    std::size_t count = 0, left = 0;
+    for (std::size_t i = 0; i < asked; ++i) {  // without branches: which ones are is a guess
+        const SamplePair pair = pairs_[i];
+        const std::uint32_t first = samples_.ids[first_of(pair)], second = samples_.ids[second_of(pair)];
+        const bool has_first = first != SampleTile::kBackground, is_outline = has_first != (second != SampleTile::kBackground);
+        outlines_[count] = {pair, has_first ? first : second, has_first ? 0u : 1u, 0};
+        count += is_outline ? 1 : 0;
+        pairs_[left] = pair;
+        left += is_outline ? 0 : 1;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const SurfaceId surface = screen_.surface_of(outlines_[i].triangle >> 1);
+        outlines_[i].instance = surface.instance;
+        outlines_[i].triangle = surface.triangle;
+    }
+    const std::span<OutlinePair> outlines(outlines_.data(), count);
+    const auto is_of_other = [&](const OutlinePair& o) { return o.instance != outlines[0].instance; };
+    if (std::any_of(outlines.begin(), outlines.end(), is_of_other)) {
+        std::stable_sort(outlines.begin(), outlines.end(), [](const OutlinePair& a, const OutlinePair& b) { return a.instance < b.instance; });
+    }
+    for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+        while (end < count && end - begin < MeshWalks::kMost && outlines[end].instance == outlines[begin].instance) ++end;
+        cross_outlines(outlines.subspan(begin, end - begin), left);
+    }
+    return left;
+}
+
+/// Those of one mesh, at most MeshWalks::kMost. Pairs where there is another line, or none, are added to those that are asked.
+void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& asked) {
+    const std::uint32_t instance = pairs[0].instance;
+    const ScreenMesh& mesh = screen_.mesh(instance);
+    std::array<std::uint8_t, MeshWalks::kMost> is_settled{};
+    if (mesh.sharp != nullptr && mesh.triangle_count <= kMostToWalk) {
+        const std::int32_t pitch = kSubpixelsPerPixel / samples_.samples_per_pixel;
+        MeshWalks& walks = *mesh_walks_;
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            const SamplePair pair = pairs[i].pair;
+            const std::int32_t x = (samples_.first_column + pair.column()) * pitch + pitch / 2, y = (samples_.first_row + pair.row()) * pitch + pitch / 2;
+            const bool down = pair.down();
+            walks.triangle[i] = pairs[i].triangle;
+            __builtin_prefetch(mesh.sharp + walks.triangle[i]);
+            walks.across[i] = down ? x : y;
+            walks.origin[i] = (down ? y : x) + (pairs[i].from == 1 ? pitch : 0);
+            walks.down[i] = down ? ~0u : 0u;
+            walks.backwards[i] = pairs[i].from == 1 ? ~0u : 0u;
+        }
+        kernels_.walk_over_mesh(mesh, fast_.walker().limits(pitch), walks, pairs.size());
+        WalkOutlines& found = *found_outlines_;
+        kernels_.find_outlines(mesh, walks, pitch, screen_.surfaces().farthest_nearness, found);
+        for (std::size_t i = 0; i < found.count; ++i) {
+            const OutlinePair& outline = pairs[found.walk[i]];
+            is_settled[found.walk[i]] = 1;
+            LineCrossing& crossing = next_crossing();
+            const SamplePair& pair = outline.pair;
+            const glm::dvec2 a = position(pair.column(), pair.row());
+            const glm::dvec2 b = position(pair.column() + (pair.down() ? 0 : 1), pair.row() + (pair.down() ? 1 : 0));
+            crossing.pixel = glm::mix(a, b, std::clamp(found.fraction[i], 0.0, 1.0));
+            crossing.towards_front = outline.from == 0 ? a - b : b - a;
+            crossing.classes = outline_classes_;
+            crossing.occludes = true;
+            crossing.opacity = 255;
+            crossing.nearness = found.nearness[i];
+            crossing.line_key = std::uint64_t{instance} << 32 | std::min(found.exit[i], found.partner[i]);
+            crossing.edge_ends[0] = glm::dvec2(found.from_x[i], found.from_y[i]) / double{kSubpixelsPerPixel};
+            crossing.edge_ends[1] = glm::dvec2(found.to_x[i], found.to_y[i]) / double{kSubpixelsPerPixel};
+            crossing.along = crossing.edge_ends[1] - crossing.edge_ends[0];
+            add_crossing(pair);
+        }
+    }
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        pairs_[asked] = pairs[i].pair;
+        asked += is_settled[i] != 0 ? 0 : 1;
+    }
+}
+
+/// Not kept before add_crossing().
+LineCrossing& LineTile::next_crossing() {
+    if (crossings_.size() == crossing_count_) {
+        crossings_.resize(2 * crossings_.size() + WalksAhead::kMostPairs);
+        crossing_places_.resize(crossings_.size());
+    }
+    return crossings_[crossing_count_];
+}
+
+void LineTile::add_crossing(const SamplePair& pair) {
+    crossing_places_[crossing_count_] = pair;
+    crossing_between(pair) = static_cast<std::uint32_t>(++crossing_count_);
+}
+
 void LineTile::decide_all(std::span<const SamplePair> pairs) {
     find_neighbours(pairs);
     walks_.walk({neighbours_.data(), pairs.size()});
-    if (crossings_.size() < crossing_count_ + pairs.size()) crossings_.resize(2 * crossings_.size() + pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        LineCrossing& crossing = crossings_[crossing_count_];
-        const KnownWalks& walks = walks_.known(i);
-        if (!decide_outline(pairs[i], neighbours_[i], walks, crossing) && !decide(pairs[i], neighbours_[i], walks, crossing)) continue;
-        crossing_places_.push_back(pairs[i]);
-        crossing_between(pairs[i]) = static_cast<std::uint32_t>(++crossing_count_);
+        if (decide(pairs[i], neighbours_[i], walks_.known(i), next_crossing())) add_crossing(pairs[i]);
     }
 }
 
 void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) {
     flush_.set_tile(tile);
     pitch_px_ = 1.0 / samples_.samples_per_pixel;  // exact
-    const std::size_t size = samples_.ids.size();
-    if (right_.size() < size) {
-        right_.assign(size, 0);
-        down_.assign(size, 0);
-    }
+    const std::size_t size = 2 * samples_.ids.size();
+    if (between_.size() < size) between_.assign(size, 0);
     find_crossings();
     pieces_.clear();
     trace_cells(pieces_);
     merger_.merge(pieces_, segments);
-    for (const SamplePair& place : crossing_places_) crossing_between(place) = 0;
+    for (const SamplePair& place : std::span(crossing_places_).first(crossing_count_)) crossing_between(place) = 0;
 }
 
 void LineTile::trace_cells(std::vector<LineSegment>& segments) {
@@ -208,8 +277,8 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     // Each cell is traced when its first crossing is met, in the order upper, left, right, lower side.
     const auto trace = [&](int column, int row, std::uint32_t from) {
         if (column < 0 || row < 0 || column + 1 >= samples_.columns || row + 1 >= samples_.rows) return;
-        const std::size_t i = static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
-        const std::uint32_t sides[4] = {right_[i], down_[i], down_[i + 1], right_[i + stride]};
+        const std::uint32_t* const own = &between_[2 * (static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column))];
+        const std::uint32_t sides[4] = {own[0], own[1], own[3], own[2 * stride]};
         std::uint32_t numbers[5];  // without branches: which sides have any is a guess
         std::size_t count = 0;
         for (const std::uint32_t side : sides) {
@@ -225,9 +294,17 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
         for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
     };
+    const std::span places = std::span(crossing_places_).first(crossing_count_);
     std::uint32_t number = 0;
-    for (const SamplePair& place : crossing_places_) {
+    for (const SamplePair& place : places) {
         ++number;
+        constexpr std::ptrdiff_t kAhead = 8;
+        if (places.data() + places.size() - &place > kAhead) {
+            const std::uint32_t* const ahead = &crossing_between(*(&place + kAhead));
+            __builtin_prefetch(ahead);
+            __builtin_prefetch(ahead + 2 * stride);
+            __builtin_prefetch(ahead - 2 * stride);
+        }
         trace(place.column() - (place.down() ? 1 : 0), place.row() - (place.down() ? 0 : 1), number);
         trace(place.column(), place.row(), number);
     }

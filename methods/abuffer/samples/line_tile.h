@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,13 +34,22 @@ class LineTile {
     std::size_t second_of(const SamplePair& pair) const {
         return first_of(pair) + (pair.down() ? static_cast<std::size_t>(samples_.stride) : 1);
     }
-    std::uint32_t& crossing_between(const SamplePair& pair) { return (pair.down() ? down_ : right_)[first_of(pair)]; }
+    std::uint32_t& crossing_between(const SamplePair& pair) { return between_[2 * first_of(pair) + (pair.down() ? 1 : 0)]; }
+    /// One sample shows the background.
+    struct OutlinePair {
+        SamplePair pair;
+        std::uint32_t triangle, from;  // of the other sample, 0 or 1
+        std::uint32_t instance;
+    };
     void find_crossings();
     void find_pairs();
     void find_neighbours(std::span<const SamplePair> pairs);
     bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing);
-    bool decide_outline(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing) const;
     void set_edge(SurfaceEdge edge, LineCrossing& crossing) const;
+    std::size_t find_outlines(std::size_t asked);
+    void cross_outlines(std::span<const OutlinePair> pairs, std::size_t& asked);
+    LineCrossing& next_crossing();
+    void add_crossing(const SamplePair& pair);
     void decide_all(std::span<const SamplePair> pairs);
     void trace_cells(std::vector<LineSegment>& segments);
 
@@ -52,18 +62,21 @@ class LineTile {
     LineClassSet outline_classes_;  // of an outline that is nothing else
     bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;
+    std::unique_ptr<MeshWalks> mesh_walks_;
+    std::unique_ptr<WalkOutlines> found_outlines_;
     WalksAhead walks_;
     FlushCover flush_;
     CreaseFade fade_;
     std::vector<SamplePair> pairs_;  // with room for all that there can be
     std::size_t pair_count_ = 0;
     std::vector<std::uint8_t> is_smooth_;  // per pair
+    std::vector<OutlinePair> outlines_;
     std::vector<NeighbourSamples> neighbours_;
     std::vector<LineCrossing> crossings_;  // not made anew: making one zeroes it first
     std::size_t crossing_count_ = 0;
-    std::vector<SamplePair> crossing_places_;
-    // Per sample, crossing_between() it and the one to its right or below it.
-    std::vector<std::uint32_t> right_, down_;
+    std::vector<SamplePair> crossing_places_;  // of each
+    // Per sample, crossing_between() it and the one to its right, and the one below it.
+    std::vector<std::uint32_t> between_;
     std::vector<LineSegment> pieces_;
     SegmentMerger merger_;
 };

@@ -4,11 +4,11 @@
 
 namespace burin {
 
-WalksAhead::WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels, FastWalker& walker)
+WalksAhead::WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels, FastWalker& walker, MeshWalks& mesh_walks)
     : screen_(screen),
       kernels_(kernels),
       walker_(walker),
-      mesh_walks_(new MeshWalks),
+      mesh_walks_(mesh_walks),
       known_(kMostPairs),
       walks_(2 * kMostPairs),
       steps_(2 * kMostPairs * (MeshWalks::kMostSteps + 1)) {}
@@ -47,7 +47,7 @@ void WalksAhead::walk_asked() {
     if (std::any_of(asked_.begin(), asked_.end(), is_of_other)) {
         std::stable_sort(asked_.begin(), asked_.end(), [](const Asked& a, const Asked& b) { return a.instance < b.instance; });
     }
-    MeshWalks& walks = *mesh_walks_;
+    MeshWalks& walks = mesh_walks_;
     for (std::size_t begin = 0, end = 0; begin < asked_.size(); begin = end) {
         const ScreenMesh& mesh = screen_.mesh(asked_[begin].instance);
         while (end < asked_.size() && asked_[end].instance == asked_[begin].instance) {
@@ -68,7 +68,7 @@ void WalksAhead::walk_asked() {
 }
 
 void WalksAhead::note_end(std::size_t ended, const Asked& asked) {
-    const MeshWalks& walks = *mesh_walks_;
+    const MeshWalks& walks = mesh_walks_;
     FastWalk& walk = walks_[walk_count_++];
     known_[asked.pair][asked.from] = &walk;
     const std::uint32_t end = walks.end_step[ended];

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,7 +13,8 @@ class WalksAhead {
   public:
     static constexpr std::size_t kMostPairs = MeshWalks::kMost;
 
-    WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels, FastWalker& walker);
+    /// `mesh_walks`: where they are made, each time anew.
+    WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels, FastWalker& walker, MeshWalks& mesh_walks);
 
     /// Walks between pairs, at most kMostPairs, of which at least one sample shows a surface.
     void walk(std::span<const NeighbourSamples> pairs);
@@ -35,9 +35,9 @@ class WalksAhead {
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
     FastWalker& walker_;
+    MeshWalks& mesh_walks_;
     std::span<const NeighbourSamples> pairs_;
     std::vector<Asked> asked_;
-    std::unique_ptr<MeshWalks> mesh_walks_;
     std::vector<KnownWalks> known_;
     std::vector<FastWalk> walks_;
     std::size_t walk_count_ = 0;
