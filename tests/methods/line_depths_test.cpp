@@ -88,7 +88,9 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
         std::vector<std::uint32_t> corners;
         const auto count = static_cast<std::uint32_t>(random.integer(1, 300));
         for (std::uint32_t t = 0; t < count; ++t) {
-            const int x = random.integer(-60 * 256, 190 * 256), y = random.integer(-30 * 256, 130 * 256);
+            int x = random.integer(-60 * 256, 190 * 256), y = random.integer(-30 * 256, 130 * 256);
+            if (random.integer(0, 2) == 0) x = random.integer(-1, 5) * 32 * 256;  // where tiles meet
+            if (random.integer(0, 2) == 0) y = random.integer(0, 3) * 32 * 256;
             const int size = 1 << random.integer(2, 11);
             for (int k = 0; k < 3; ++k) {
                 corners.push_back(static_cast<std::uint32_t>(vertices.size()));
@@ -123,7 +125,11 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
             }
             const glm::ivec2 low(std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})), high(std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}));
             depths.for_tiles(low, high, std::max({a.nearness, b.nearness, c.nearness}), [&](std::uint32_t tile) { must.insert(tile); });
-            if (!needs_look) { EXPECT_EQ(tiles_found, must) << "trial " << trial << " triangle " << t; }
+            // What lies above or below the rows may be found in their border.
+            const PixelRect rows = tiles.rect();
+            const bool is_beside = high.y < rows.y0 * 256 || low.y >= rows.y1 * 256;
+            if (!needs_look && !is_beside) { EXPECT_EQ(tiles_found, must) << "trial " << trial << " triangle " << t; }
+            if (!needs_look) { EXPECT_TRUE(std::includes(tiles_found.begin(), tiles_found.end(), must.begin(), must.end())); }
             const bool is_small = high.x - low.x <= 1024 && high.y - low.y <= 1024;  // in two by two blocks at most
             if (is_small) { EXPECT_FALSE(needs_look) << "trial " << trial << " triangle " << t; }
             in_one_tile += tiles_found.size() == 1 && !needs_look;
