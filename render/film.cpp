@@ -87,6 +87,7 @@ struct Film::Pool {
 Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes)
     : Film(display, crop, layers, classes, kWholeShift, kWholeShift) {
     add_block(0, true);
+    drawn_ = DrawnSpans(std::max(crop.width(), 0), std::max(crop.height(), 0));
 }
 
 Film Film::in_bands(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes) {
@@ -218,6 +219,7 @@ bool Film::has_geometry() const { return layers_.depth || layers_.normal || laye
 void Film::expect_all_of(PixelRect part) {
     const std::size_t number = number_of(part.x0, part.y0);
     if (block_of(number) == nullptr && rect_of(number) == part) add_block(number, true);
+    for (int y = part.y0; y < part.y1; ++y) drawn_.note(part.x0 - crop_.x0, part.x1 - crop_.x0, y - crop_.y0);
 }
 
 template <typename Use>
@@ -231,21 +233,23 @@ void Film::for_row(int x0, int x1, int y, const Use& use) {
 void Film::put_background(int x0, int x1, int y) {
     if (!is_whole()) return;
     const auto [planes, begin] = place_of(x0, y);
-    const std::size_t count = static_cast<std::size_t>(x1 - x0);
-    const auto clear = [&](auto* plane, auto value) {
-        if (plane != nullptr) stream_fill(plane + begin, count, value);
-    };
-    for (std::size_t c = 0; c < 4; ++c) {
-        for (std::uint16_t* plane : {planes.beauty[c], planes.lines[c], planes.surface[c]}) {
-            clear(plane, std::uint16_t{0});
+    const int first = x0 - crop_.x0;
+    drawn_.for_drawn(first, x1 - crop_.x0, y - crop_.y0, [&, &planes = planes, at = begin](int from, int to) {
+        const auto clear = [&](auto* plane, auto value) {
+            if (plane != nullptr) stream_fill(plane + at + (from - first), static_cast<std::size_t>(to - from), value);
+        };
+        for (std::size_t c = 0; c < 4; ++c) {
+            for (std::uint16_t* plane : {planes.beauty[c], planes.lines[c], planes.surface[c], planes.lines_hidden[c]}) {
+                clear(plane, std::uint16_t{0});
+            }
         }
-    }
-    for (std::uint16_t* plane : planes.coverage) clear(plane, std::uint16_t{0});
-    clear(planes.depth, std::numeric_limits<float>::infinity());
-    for (std::size_t c = 0; c < 3; ++c) {
-        clear(planes.normal[c], 0.0f);
-        clear(planes.ids[c], std::uint32_t{0});
-    }
+        for (std::uint16_t* plane : planes.coverage) clear(plane, std::uint16_t{0});
+        clear(planes.depth, std::numeric_limits<float>::infinity());
+        for (std::size_t c = 0; c < 3; ++c) {
+            clear(planes.normal[c], 0.0f);
+            clear(planes.ids[c], std::uint32_t{0});
+        }
+    });
 }
 
 void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
@@ -257,6 +261,7 @@ void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
             fill(planes.beauty[c], color[c]);
             fill(planes.surface[c], color[c]);
             fill(planes.lines[c], 0);
+            fill(planes.lines_hidden[c], 0);
         }
         for (std::uint16_t* plane : planes.coverage) fill(plane, 0);
     });
@@ -272,6 +277,7 @@ void Film::put_colors(int x0, int x1, int y, const std::array<const std::uint16_
                 if (plane != nullptr) std::copy_n(colors[c] + from, count, plane + begin);
             }
             clear(planes.lines[c]);
+            clear(planes.lines_hidden[c]);
         }
         for (std::uint16_t* plane : planes.coverage) clear(plane);
     });
@@ -325,6 +331,7 @@ HiddenInk::HiddenInk(const glm::vec4& color, const glm::vec4& seen_part) : seen(
 }
 
 void Film::draw_over(int x, int y, const LineInk& lines) {
+    note_drawn(x, y);
     const auto [planes, i] = place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
         if (planes.lines[c] != nullptr) planes.lines[c][i] = lines.half_color[c];
@@ -336,6 +343,7 @@ void Film::draw_over(int x, int y, const LineInk& lines) {
 }
 
 void Film::replace_surface(int x, int y, const glm::vec4& color) {
+    note_drawn(x, y);
     const auto [planes, i] = place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
         const std::uint16_t value = to_half(color[static_cast<int>(c)]);
@@ -345,6 +353,7 @@ void Film::replace_surface(int x, int y, const glm::vec4& color) {
 }
 
 void Film::draw_hidden(int x, int y, const HiddenInk& lines) {
+    note_drawn(x, y);
     const auto [planes, i] = place_of(x, y);
     for (std::size_t c = 0; c < 4; ++c) {
         if (planes.lines_hidden[c] != nullptr) planes.lines_hidden[c][i] = lines.half_color[c];
@@ -353,6 +362,7 @@ void Film::draw_hidden(int x, int y, const HiddenInk& lines) {
 }
 
 void Film::add_lines(int x, int y, const LinePixel& lines) {
+    note_drawn(x, y);
     const auto [planes, i] = place_of(x, y);
     const auto add = [i](std::uint16_t* plane, float value) {
         if (plane != nullptr) plane[i] = to_half(float_from_half(plane[i]) + value);
@@ -362,6 +372,7 @@ void Film::add_lines(int x, int y, const LinePixel& lines) {
 }
 
 void Film::put(int x, int y, const PixelResult& pixel) {
+    note_drawn(x, y);
     const auto [planes, i] = place_of(x, y);
     const auto put_rgba = [at = i](std::uint16_t* const (&of)[4], const glm::vec4& color) {
         if (of[0] == nullptr) return;

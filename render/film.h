@@ -14,6 +14,7 @@
 #include "image/image.h"
 #include "image/image_strip.h"
 #include "lines/line_class.h"
+#include "render/drawn_spans.h"
 
 namespace burin {
 
@@ -113,7 +114,8 @@ class Film {
         }
     }
 
-    /// Before all pixels of a part of one block are put: where it is the whole block, this need not begin as background.
+    /// Before all pixels of a part of one block are put, with surfaces or without: where it is the whole block, this need not begin as
+    /// background. Due before put_color() and put_colors().
     void expect_all_of(PixelRect part);
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
@@ -143,6 +145,9 @@ class Film {
     void draw_hidden(int x, int y, const HiddenInk& lines);
     /// After draw_over(): adds to the line channels, but not to the beauty.
     void add_lines(int x, int y, const LinePixel& lines);
+    /// After every pixel was put and all was drawn: another picture may be put, for which background is not cleared again where
+    /// there was nothing else. Without it another one may be put, too.
+    void end_picture() { drawn_.end_picture(); }
     /// Of a whole film.
     const Image& image() const { return block_of(0)->image; }
 
@@ -187,6 +192,7 @@ class Film {
         std::size_t index;
     };
     Place place_of(int x, int y);
+    void note_drawn(int x, int y) { drawn_.note(x - crop_.x0, y - crop_.y0); }
     /// Calls use(planes, first place, count, pixels before) for the parts of pixels [x0, x1) of a row.
     template <typename Use>
     void for_row(int x0, int x1, int y, const Use& use);
@@ -201,6 +207,7 @@ class Film {
     std::size_t bytes_per_pixel_ = 0;
     std::vector<std::atomic<Block*>> blocks_;
     std::unique_ptr<Pool> pool_;
+    DrawnSpans drawn_;  // of a whole film
 };
 
 }  // namespace burin

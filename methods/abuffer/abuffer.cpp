@@ -132,7 +132,10 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         }
         stats.lines_s += watch.lap();
     }
-    if (!has_layers) return stats;
+    if (!has_layers) {
+        film.end_picture();
+        return stats;
+    }
 
     LayerPass layers(frame, screen, kernels, stats.threads, contours.get());
     const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
@@ -162,6 +165,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         drop_above(part.y1 - finisher.reach_px(), segments);
         drop_above(part.y1 - finisher.reach_px(), layer_segments);
     }
+    film.end_picture();
     stats.fragments += layers.fragment_count();
     stats.lines_s += watch.lap();
     return stats;

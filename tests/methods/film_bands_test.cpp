@@ -116,6 +116,33 @@ TEST(FilmBands, AreRowsOfTheWholeFilm) {
     }
 }
 
+/// A film that has a picture already becomes the next one all the same, whatever was where.
+TEST(Film, TakesOnePictureAfterTheOther) {
+    constexpr int kPictureHeight = 90;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const PixelRect display{0, 0, kWidth, kPictureHeight};
+        const PixelRect crop = seed % 3 == 0 ? PixelRect{random.integer(0, 20), random.integer(0, 30), random.integer(40, kWidth), kPictureHeight - 1} : display;
+        LayerSet layers = kAllLayers;
+        if (seed % 4 == 1) layers.depth = layers.lines = layers.lines_hidden = false;
+        Film film(display, crop, layers, LineClassSet::all());
+        for (int picture = 0; picture < 4; ++picture) {
+            Scene scene = styled_scene(random);
+            prepare_for_abuffer(scene, 1);
+            // Near, far away, and beside the picture.
+            const Camera camera = perspective_camera({random.real(-3, 3), random.real(-3, 3), random.real(3, 25)}, random.in_box(2));
+            const Frame frame = make_frame(scene, camera, kWidth, kPictureHeight, crop);
+            RunOptions options;
+            options.threads = random.integer(1, 3);
+            Film fresh(display, crop, layers, LineClassSet::all());
+            render_abuffer(frame, options, fresh);
+            render_abuffer(frame, options, film);
+            ASSERT_TRUE(same_bits(film.image(), fresh.image())) << "picture " << picture;
+        }
+    }
+}
+
 /// Only what something is drawn into takes memory, also where it is drawn by a line alone.
 TEST(FilmBands, BackgroundIsNotThere) {
     Scene scene = scene_of({make_torus(0.9, 0.4, 40, 25)});
