@@ -81,8 +81,9 @@ bool SegmentMerger::sort_few(std::span<std::uint32_t> order, std::span<const Lin
     for (std::size_t i = 0; i < order.size(); ++i) {
         const LineSegment& s = pieces[order[i]];
         const double place = (s.from.x - begin) * kPerPx;
-        fits &= (s.block == first.block) & (s.line_key >> 32 == first.line_key >> 32) & (place >= 0) & (place < 1 << kPlaceBits);
-        const std::uint64_t key = (s.line_key & 0xFFFFFFFFu) << kPlaceBits | static_cast<std::uint32_t>(static_cast<std::int64_t>(place));
+        const bool is_inside = (place >= 0) & (place < 1 << kPlaceBits);
+        fits &= (s.block == first.block) & (s.line_key >> 32 == first.line_key >> 32) & is_inside;
+        const std::uint64_t key = (s.line_key & 0xFFFFFFFFu) << kPlaceBits | static_cast<std::uint32_t>(is_inside ? place : 0.0);
         keys[i] = std::bit_cast<double>(kExponent | key << kIndexBits | i);
     }
     if (!fits) return false;

@@ -6,8 +6,8 @@
 
 namespace burin {
 
-/// The numbers of all triangles that touch each tile, be they seen or not, in ascending order; of the
-/// instances that are shown.
+/// The numbers of all triangles that touch each tile, be they seen or not; of the instances that are shown, instance by instance,
+/// and in ascending order if no lines are given.
 /// Triangles that are seen exactly edge-on hide nothing and are left out, as are those in front of none of the lines,
 /// if these are given.
 class LayerBins {

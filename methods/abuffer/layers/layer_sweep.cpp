@@ -68,9 +68,9 @@ void LayerSweep::find_events() {
     sort(begins_, begin_count_);
     sort(ends_, end_count_);
     begins_[begin_count_] = ends_[end_count_] = std::numeric_limits<double>::infinity();
-    const double *next_begin = begins_.data(), *next_end = ends_.data();
+    const double *next_begin = begins_.data(), *next_end = ends_.data(), *const last_end = next_end + end_count_;
     for (std::size_t left = begin_count_ + end_count_; left > 0; --left) {
-        const bool is_begin = *next_begin <= *next_end;
+        const bool is_begin = next_end == last_end || *next_begin <= *next_end;
         events_.push_back(is_begin ? Event{*next_begin++, 1} : Event{*next_end++, -1});
     }
     if (has_others) std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
