@@ -25,7 +25,7 @@ struct PenStroke {
 /// Coverage masks of a rectangle of pixels, as StrokeMask has them, row by row.
 struct StrokeView {
     std::uint32_t* masks;   ///< kStrokeRows for each pixel, and room for kRoomBehindMasks more
-    std::uint8_t* touched;  ///< per pixel: whether it has any bits
+    std::uint8_t* touched;  ///< per pixel, and room as for masks: whether it has any bits
     std::int32_t x0, y0, width, height;
     std::int32_t stride;    ///< pixels from one row to the next
 };

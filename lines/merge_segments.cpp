@@ -28,25 +28,13 @@ void put_in_order(LineSegment& s) {
 constexpr std::size_t kBuckets = 256;
 std::size_t bucket_of(std::uint32_t block) { return (block >> 16 & 15u) << 4 | (block & 15u); }
 
-/// Bits that are in order where numbers are.
-std::uint64_t in_order(double v) {
-    const auto bits = std::bit_cast<std::uint64_t>(v + 0.0);  // 0 has two signs
-    constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
-    return bits ^ ((bits & kSign) != 0 ? ~std::uint64_t{0} : kSign);
-}
-
-bool is_before_on_line(const LineSegment& a, const LineSegment& b) {
+bool is_before(const LineSegment& a, const LineSegment& b) {
+    if (a.block != b.block) return a.block < b.block;
+    if (a.line_key != b.line_key) return a.line_key < b.line_key;
     if (a.from.x != b.from.x) return a.from.x < b.from.x;
     if (a.from.y != b.from.y) return a.from.y < b.from.y;
     if (a.to.x != b.to.x) return a.to.x < b.to.x;
     return a.to.y != b.to.y ? a.to.y < b.to.y : a.opacity < b.opacity;
-}
-
-bool is_before(const LineSegment& a, const LineSegment& b) {
-    if (a.block != b.block) return a.block < b.block;
-    if (a.line_key != b.line_key) return a.line_key < b.line_key;
-    const std::uint64_t x = in_order(a.from.x), other_x = in_order(b.from.x);
-    return x != other_x ? x < other_x : is_before_on_line(a, b);
 }
 
 bool continues(const LineSegment& a, const LineSegment& b) {

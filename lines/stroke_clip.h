@@ -69,7 +69,7 @@ class StrokeClipper {
 
     StrokeCanvas canvas_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
-    bool in_sets_ = false;  // StrokeCanvas::draw()
+    bool in_sets_ = false;  // is_level(), as its canvas samples it
     int first_row_ = 0, end_row_ = 0, first_column_ = 0, end_column_ = 0;  // of the stroke, in samples
     std::vector<Shadow> shadows_;
     std::vector<std::array<Behind, StrokeMask::kRows>> behind_;

@@ -11,8 +11,6 @@
 namespace burin {
 namespace {
 
-/// A fold that turns back by less than this is no contour. Pixels.
-constexpr double kNegligibleFoldPx = 1.0 / 64;
 /// A triangle lower than this (in pixels) and than kSliverHeightPart of its length is a sliver: rounding
 /// decides its normal, and it says nothing about the surface.
 constexpr double kSliverHeightPx = 1.0 / 64;

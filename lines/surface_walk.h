@@ -101,6 +101,8 @@ double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthP
 /// A walk that gets farther by no more than this part of its way has met a wall that is seen edge-on.
 constexpr double kNoAdvance = 1e-9;
 
+/// A fold that turns back by less than this is no contour.
+constexpr double kNegligibleFoldPx = 1.0 / 64;
 /// Snapping of corners to 1/256 pixel may decide which of two edges a walk comes to first if they are nearer than this.
 constexpr double kSnappingPx = 4.0 / 256;
 /// Whether a part of a wall between two distances may make it so deep that the surface ends there.

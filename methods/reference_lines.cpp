@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFarApartPx = 2;             // conventions: a farther surface
-constexpr double kNegligibleFoldPx = 1.0 / 64;  // conventions: folds that are no contours
 constexpr double kWidestCrackPx = 1;
 constexpr int kMaxRays = 96;   // between two samples
 constexpr int kMaxFacets = 48;  // on the way over a surface

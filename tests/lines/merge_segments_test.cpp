@@ -30,6 +30,46 @@ TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
     EXPECT_EQ(segments[0].to, glm::dvec2(3, 1.5));
 }
 
+/// Pieces of ordinary blocks, few and many, are put in order however they come: some begin at one place, or nearly.
+TEST(MergeSegments, TheOrderOfPiecesChangesNothing) {
+    std::size_t few = 0, many = 0, nearly = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        Random random(seed);
+        const int row = random.integer(-3, 200), column = random.integer(-3, 200);
+        const std::uint32_t block = (static_cast<std::uint32_t>(row) & 0xFFFFu) << 16 | (static_cast<std::uint32_t>(column) & 0xFFFFu);
+        const glm::dvec2 corner = double{kMergeBlockPx} * glm::dvec2(column, row);
+        std::vector<LineSegment> pieces(static_cast<std::size_t>(random.integer(1, 90)));
+        const std::uint64_t instance = static_cast<std::uint64_t>(random.integer(0, 5)) << 32;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            LineSegment& s = pieces[i];
+            s.from = corner + glm::dvec2(random.real(-1, 9), random.real(-1, 9));
+            if (i > 0 && random.integer(0, 2) == 0) {
+                s.from.x = pieces[i - 1].from.x + random.integer(-1, 1) * 1e-9;  // no bit of the place tells
+                ++nearly;
+            }
+            s.to = s.from + glm::dvec2(random.real(0, 1), random.real(-1, 1));
+            s.line_key = (seed % 7 == 0 ? static_cast<std::uint64_t>(random.integer(0, 2)) << 32 : instance) | (random.integer(0, 3) == 0 ? 0xFFFFFFFFu : static_cast<std::uint32_t>(random.integer(0, 4)));
+            s.block = block;
+        }
+        ++(pieces.size() > 64 ? many : few);
+        std::vector<LineSegment> shuffled = pieces, merged, other;
+        for (std::size_t i = shuffled.size(); i > 1; --i) std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+        SegmentMerger(best_kernels()).merge(pieces, merged);
+        SegmentMerger(best_kernels()).merge(shuffled, other);
+        ASSERT_EQ(merged.size(), other.size()) << "seed " << seed;
+        for (std::size_t i = 0; i < merged.size(); ++i) {
+            const LineSegment &a = merged[i], &b = other[i];
+            ASSERT_TRUE(a.line_key == b.line_key && a.from == b.from && a.to == b.to) << "seed " << seed << ", piece " << i;
+            if (i == 0) continue;
+            const LineSegment& before = merged[i - 1];
+            ASSERT_TRUE(before.line_key < a.line_key || (before.line_key == a.line_key && before.from.x <= a.from.x)) << "seed " << seed << ", piece " << i;
+        }
+    }
+    EXPECT_GT(few, 100u);
+    EXPECT_GT(many, 50u);
+    EXPECT_GT(nearly, 1000u);
+}
+
 /// Merged pieces are found by their block and line, wherever the tile lies.
 TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
     Random random(11);

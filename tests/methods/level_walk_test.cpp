@@ -9,6 +9,7 @@
 #include "methods/abuffer/screen/triangle_bins.h"
 #include "tests/support/drawing.h"
 #include "tests/support/rough_sphere.h"
+#include "tests/support/terraces.h"
 
 namespace burin {
 namespace {
@@ -72,22 +73,12 @@ TEST(LevelWalk, FoldsAreNeverWalkedOver) {
 
 /// Terraces seen from the front: walls that are edge-on to within snapping, or exactly.
 TEST(LevelWalk, WallsSeenEdgeOn) {
-    constexpr std::size_t kSteps = 40;
     Counts counts;
     for (std::uint64_t seed = 0; seed < 80; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        PolygonSoup terraces = make_plane(2.5, 2.5, kSteps, kSteps);
-        const double deep = random.real(0, 0.3) * random.real(0, 1), apart = random.integer(0, 2) * random.real(0, 2e-3);
-        for (std::size_t i = 0; i < terraces.positions.size(); ++i) {
-            glm::dvec3& p = terraces.positions[i];
-            p = {p.x, -p.z, deep * random.integer(0, 2)};
-            if (i % (kSteps + 1) % 2 == 1) p.x = terraces.positions[i - 1].x + random.real(-apart, apart);
-        }
-        Camera camera = perspective_camera({random.real(-1, 1) * apart, random.real(-1, 1) * apart, 9}, {0, 0, 0}, 18);
-        camera.orthographic = random.integer(0, 2) != 0;
-        camera.height = 2.5;
-        compare(random, scene_of({std::move(terraces)}), camera, counts);
+        Terraces terraces(random, 0.3);
+        compare(random, scene_of({std::move(terraces.soup)}), terraces.camera, counts);
         if (HasFatalFailure()) return;
     }
     EXPECT_GT(counts.told, 10000);

@@ -14,6 +14,7 @@
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
 #include "tests/support/rough_sphere.h"
+#include "tests/support/terraces.h"
 
 namespace burin {
 namespace {
@@ -145,22 +146,12 @@ TEST(WalksAhead, ManyAtOnceAreAsEachAlone) {
 /// Terraces seen from the front: walls that are edge-on to within snapping, or exactly, where walks turn back and go on in another
 /// depth.
 TEST(WalksAhead, WallsSeenEdgeOn) {
-    constexpr std::size_t kSteps = 40;
     Counts sum;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        PolygonSoup terraces = make_plane(2.5, 2.5, kSteps, kSteps);
-        const double deep = random.real(0, 1) * random.real(0, 1), apart = random.integer(0, 2) * random.real(0, 2e-3);
-        for (std::size_t i = 0; i < terraces.positions.size(); ++i) {
-            glm::dvec3& p = terraces.positions[i];
-            p = {p.x, -p.z, deep * random.integer(0, 2)};
-            if (i % (kSteps + 1) % 2 == 1) p.x = terraces.positions[i - 1].x + random.real(-apart, apart);
-        }
-        Camera camera = perspective_camera({random.real(-1, 1) * apart, random.real(-1, 1) * apart, 9}, {0, 0, 0}, 18);
-        camera.orthographic = random.integer(0, 2) != 0;
-        camera.height = 2.5;
-        sum += compare(scene_of({std::move(terraces)}), camera, 1 << random.integer(1, 3));
+        Terraces terraces(random, 1);
+        sum += compare(scene_of({std::move(terraces.soup)}), terraces.camera, 1 << random.integer(1, 3));
     }
     EXPECT_GT(sum.folded, 10000);
     EXPECT_GT(sum.arrived, 10000);

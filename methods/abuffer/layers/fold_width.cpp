@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "lines/surface_walk.h"
+
 namespace burin {
 namespace {
 
-/// Folds that turn back by less are no contours (docs/conventions.md). 1/64 pixel.
-constexpr double kNegligibleFoldSubpixels = 4;
+/// docs/conventions.md
+constexpr double kNegligibleFoldSubpixels = kNegligibleFoldPx * kSubpixelsPerPixel;
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 

@@ -13,8 +13,7 @@ namespace {
 constexpr double kMargin = 1.0 / 16;
 constexpr double kFarthestPlace = 8192 * kSubpixelsPerPixel;
 constexpr double kMostAlongPerSide = 256;
-/// A walk that turns back by less is on a negligible fold. 1/64 pixel.
-constexpr double kNegligibleFoldSubpixels = 4;
+constexpr double kNegligibleFoldSubpixels = kNegligibleFoldPx * kSubpixelsPerPixel;
 /// Depths are compared where it gets no farther than by kSnappingPx.
 constexpr double kSnappingSubpixels = kSnappingPx * kSubpixelsPerPixel;
 /// depth_tolerance() is 2 pixels' widths, or more.

@@ -6,8 +6,6 @@
 namespace burin {
 namespace {
 
-/// surface_walk.cpp's.
-constexpr double kNegligibleFoldPx = 1.0 / 64;
 constexpr double kWidestCrackPx = 1;
 
 bool is_sharp(const ScreenMesh& mesh, HalfEdge h) { return mesh.sharp == nullptr || (mesh.sharp[h / 3] >> h % 3 & 1) != 0; }
