@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <vector>
 
 #include "base/error.h"
+#include "base/stream_store.h"
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
 #include "tests/support/drawing.h"
@@ -139,6 +142,49 @@ TEST(Film, TakesOnePictureAfterTheOther) {
             render_abuffer(frame, options, fresh);
             render_abuffer(frame, options, film);
             ASSERT_TRUE(same_bits(film.image(), fresh.image())) << "picture " << picture;
+        }
+    }
+}
+
+/// Whatever draws into a pixel, alone in its row, the next picture begins there as background.
+TEST(Film, ForgetsWhatWasDrawnIntoIt) {
+    const PixelRect all{0, 0, 150, 9};
+    const auto blank = [&](Film& film) {
+        for (int y = all.y0; y < all.y1; ++y) film.put_background(all.x0, all.x1, y);
+        finish_stream_stores();
+    };
+    const auto film_of = [&] { return Film(all, all, kAllLayers, LineClassSet::all()); };
+    Film fresh = film_of();
+    blank(fresh);
+    const glm::vec4 ink(0.25f, 0.5f, 0.75f, 1.0f);
+    LinePixel lines;
+    lines.color = ink;
+    lines.coverage.fill(0.5f);
+    PixelResult pixel;
+    pixel.beauty = pixel.lines = ink;
+    pixel.distance = 3;
+    pixel.object_id = 7;
+    const std::vector<std::function<void(Film&)>> writers{
+        [&](Film& film) { film.draw_over(70, 4, lines); },
+        [&](Film& film) { film.add_lines(70, 4, lines); },
+        [&](Film& film) { film.draw_hidden(70, 4, HiddenInk(ink, ink)); },
+        [&](Film& film) { film.replace_surface(70, 4, ink); },
+        [&](Film& film) { film.put(70, 4, pixel); },
+        [&](Film& film) {
+            film.expect_all_of({70, 4, 71, 5});
+            film.put_color(70, 71, 4, {1, 2, 3, 4});
+        }};
+    for (std::size_t i = 0; i < writers.size(); ++i) {
+        for (const bool ends : {false, true}) {
+            Film film = film_of();
+            blank(film);
+            film.end_picture();  // what comes is all that it knows of
+            blank(film);
+            writers[i](film);
+            EXPECT_FALSE(same_bits(film.image(), fresh.image())) << "writer " << i;
+            if (ends) film.end_picture();
+            blank(film);
+            EXPECT_TRUE(same_bits(film.image(), fresh.image())) << "writer " << i;
         }
     }
 }
