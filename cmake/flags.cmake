@@ -4,6 +4,7 @@ add_library(burin_flags INTERFACE)
 target_include_directories(burin_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(burin_flags INTERFACE
     -ffp-contract=off
+    -fno-math-errno -fno-trapping-math  # nobody reads errno or floating-point exceptions; values stay the same
     -fno-semantic-interposition  # functions of one file may be inlined, though the code is position-independent
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion
     -Wold-style-cast -Wnon-virtual-dtor -Wimplicit-fallthrough -Wundef
