@@ -84,6 +84,12 @@ std::vector<std::array<double, 2>> positions_of_ends(const std::vector<LayerLine
     return positions;
 }
 
+/// Whether one piece of a line is drawn as the one before, behind however many layers they are.
+bool goes_on_alike(const LayerPiece& before, const LayerPiece& piece) {
+    return piece.line == before.line && piece.begin == before.end && (piece.invisibility > 0) == (before.invisibility > 0) &&
+           piece.transmission == before.transmission;
+}
+
 /// Early, since they lie anywhere.
 void ask_for(const LayerLine& line) {
     const char* const at = reinterpret_cast<const char*>(&line);
@@ -267,13 +273,15 @@ std::vector<LayerSegment> LayerPass::make_segments() const {
     if (visible_dash_px) visible_positions = positions_of(*visible_dash_px);
     std::vector<LayerSegment> segments;
     segments.reserve(pieces_.size());
-    for (const LayerPiece& piece : pieces_) {
-        constexpr std::ptrdiff_t kAhead = 16;
-        if (pieces_.data() + pieces_.size() - &piece > kAhead) {
-            const LayerLine& next = lines_[(&piece)[kAhead].line];
-            __builtin_prefetch(&next.from);
-            __builtin_prefetch(&next.drawn_as);
+    for (std::size_t i = 0; i < pieces_.size();) {
+        constexpr std::size_t kAhead = 16;
+        if (i + kAhead < pieces_.size()) {
+            const LayerLine& soon = lines_[pieces_[i + kAhead].line];
+            __builtin_prefetch(&soon.from);
+            __builtin_prefetch(&soon.drawn_as);
         }
+        LayerPiece piece = pieces_[i];
+        while (++i < pieces_.size() && goes_on_alike(piece, pieces_[i])) piece.end = pieces_[i].end;
         const bool is_hidden = piece.invisibility > 0;
         if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
         const auto& positions = is_hidden ? hidden_positions : visible_positions;
