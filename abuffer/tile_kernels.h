@@ -173,7 +173,7 @@ struct TileKernels {
                                  std::uint32_t* listed);
     /// Lists those of the triangles `listed` that may hide a part of a line: with a corner nearer than its farther end, and not
     /// beside it, by more than its reach and what rounding does: that is nothing where the line is exact and a triangle no longer.
-    /// Returns their number.
+    /// Returns their number. Up to 15 more are read of `listed`, and written of `found`.
     std::size_t (*find_crossed)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count,
                                 const ScreenLine& line, std::uint32_t* found);
     /// Where triangles are in front of a line: of those that are, or may be level with it, in their order. Returns their number.

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -143,6 +144,17 @@ bool is_crossed(const Corners& c, glm::dvec2 a, glm::dvec2 b) {
     return !is_left && !is_right;
 }
 
+std::vector<std::uint32_t> find_crossed(const TileKernels& kernels, std::span<const CrossedTriangle> triangles, std::vector<std::uint32_t> listed,
+                                        const ScreenLine& line) {
+    constexpr std::size_t kMore = 15;
+    constexpr std::uint32_t kNoTriangle = 1u << 30;  // is not to be looked at
+    const std::size_t count = listed.size();
+    listed.resize(count + kMore, kNoTriangle);
+    std::vector<std::uint32_t> found(count + kMore);
+    found.resize(kernels.find_crossed(triangles.data(), listed.data(), count, line, found.data()));
+    return found;
+}
+
 TEST(TriangleIndex, TrianglesCrossedByALineAreFound) {
     Random random(16);
     int exact = 0, exact_at_corner = 0, inside = 0, beside = 0;
@@ -178,8 +190,7 @@ TEST(TriangleIndex, TrianglesCrossedByALineAreFound) {
         const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y), 0.25f, is_exact, reach};
         std::vector<std::uint32_t> found;
         for (const TileKernels* kernels : all_kernels()) {
-            std::vector<std::uint32_t> own_found(kCount);
-            own_found.resize(kernels->find_crossed(triangles.data(), listed.data(), listed.size(), line, own_found.data()));
+            const std::vector<std::uint32_t> own_found = find_crossed(*kernels, triangles, listed, line);
             if (kernels == all_kernels()[0]) found = own_found;
             EXPECT_EQ(own_found, found) << kernels->name << " round " << round;
         }
@@ -256,9 +267,7 @@ TEST(TriangleIndex, LinesJustInsideLargeTrianglesAreFound) {
         const CrossedTriangle triangle = c.as_seen(1.0f, 0);
         const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y), 0.5f};
         for (const TileKernels* kernels : all_kernels()) {
-            const std::uint32_t listed = 0;
-            std::uint32_t found = 0;
-            ASSERT_EQ(kernels->find_crossed(&triangle, &listed, 1, line, &found), 1u) << kernels->name << " round " << round;
+            ASSERT_EQ(find_crossed(*kernels, {&triangle, 1}, {0}, line).size(), 1u) << kernels->name << " round " << round;
         }
     }
     EXPECT_GT(inside, 30000);

@@ -91,9 +91,10 @@ void LayerCells::make_indices() {
     }
     if (count > 1) looked_at_by_.assign(count_, 0);
     lines_looked_at_ = 0;
-    if (found_.size() < largest) {
-        found_.resize(largest);
-        listed_.resize(largest);
+    constexpr std::size_t kMore = 15;  // that kernels read and write
+    if (found_.size() < largest + kMore) {
+        found_.resize(largest + kMore);
+        listed_.resize(largest + kMore);
     }
 }
 
