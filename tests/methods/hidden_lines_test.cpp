@@ -95,6 +95,45 @@ TEST(HiddenLines, TwoTrianglesPassThroughEachOtherBehindAThird) {
     EXPECT_NEAR(layers.hidden_px(1), glm::distance(ends[0], ends[1]), 0.1);
 }
 
+/// Behind one plate or two, a line looks the same.
+TEST(HiddenLines, AreOneStrokeBehindHoweverManyLayers) {
+    const auto plate = [](double x0, double x1, double y, double z) {
+        return soup_of({{x0, -y, z}, {x1, -y, z}, {x1, y, z}, {x0, y, z}}, {{0, 1, 2, 3}});
+    };
+    Scene scene = scene_of({plate(-1.7, 1.7, 0.3, 0), plate(-1.5, 0.2, 0.5, 0.5), plate(-0.3, 0.6, 0.7, 1), plate(0.9, 1.3, 0.5, 0.5), plate(1.1, 1.5, 0.7, 1)});
+    scene.lines.style.hidden.style = HiddenStyle::solid;
+    const Layers layers(scene, ortho_camera({0, 0, 10}, 4), 1);
+    const double length = layers.all_hidden_px();
+    EXPECT_GT(layers.hidden_px(1), 100);
+    EXPECT_GT(layers.hidden_px(2), 50);
+    LayerPass pass(layers.frame, layers.screen, best_kernels(), 1);
+    const TileRows rows = LayerPass::tiles_of(layers.frame).rows();
+    pass.find_lines(rows);
+    pass.sort(rows);
+    pass.find_pieces();
+    const std::vector<LayerSegment> segments = pass.take_segments();
+    const auto is_at_tile = [](glm::dvec2 p) {
+        const auto is_border = [](double v) { return std::abs(v - 32 * std::round(v / 32)) < 1e-6; };
+        return is_border(p.x) || is_border(p.y);
+    };
+    double sum = 0;
+    int ends_within = 0, met_within = 0;
+    for (const LayerSegment& s : segments) {
+        EXPECT_TRUE(s.is_hidden);
+        sum += glm::distance(s.from, s.to);
+        if (is_at_tile(s.to)) continue;
+        ++ends_within;
+        for (const LayerSegment& other : segments) {
+            const glm::dvec2 own = s.to - s.from, next = other.to - other.from;
+            const bool goes_on = glm::dot(own, next) > 0.99 * glm::length(own) * glm::length(next);
+            met_within += goes_on && glm::distance(s.to, other.from) < 1e-6 ? 1 : 0;
+        }
+    }
+    EXPECT_NEAR(sum, length, 1e-6);
+    EXPECT_GT(ends_within, 4);
+    EXPECT_EQ(met_within, 0);
+}
+
 TEST(HiddenLines, ACubeInACube) {
     const Scene scene = scene_of({make_box({2, 2, 2}), make_box({1, 1, 1})});
     for (const Camera& camera : {ortho_camera({4, 3, 5}, 5), perspective_camera({5, 4, 7}, {0, 0, 0})}) {
