@@ -12,7 +12,7 @@
 
 namespace burin {
 
-MappedFile::MappedFile(const std::string& path) {
+MappedFile::MappedFile(const std::string& path) : path_(path) {
     // O_NONBLOCK: a named pipe must give an error below instead of waiting for a writer.
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (fd < 0) {
@@ -30,15 +30,31 @@ MappedFile::MappedFile(const std::string& path) {
         throw InputError(path + ": the file is empty; was it written completely?");
     }
     void* address = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, fd, 0);
-    const int error = errno;
-    ::close(fd);
     if (address == MAP_FAILED) {
+        const int error = errno;
+        ::close(fd);
         throw InputError(path + ": cannot read: " + std::strerror(error));
     }
     ::madvise(address, size_, MADV_SEQUENTIAL);
     data_ = static_cast<const char*>(address);
+    fd_ = fd;
 }
 
-MappedFile::~MappedFile() { ::munmap(const_cast<char*>(data_), size_); }
+MappedFile::~MappedFile() {
+    ::munmap(const_cast<char*>(data_), size_);
+    ::close(fd_);
+}
+
+void MappedFile::copy(std::size_t place, std::span<char> to) const {
+    while (!to.empty()) {
+        const ssize_t count = ::pread(fd_, to.data(), to.size(), static_cast<off_t>(place));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) {
+            throw InputError(path_ + ": cannot read: " + (count < 0 ? std::strerror(errno) : "the file has become shorter"));
+        }
+        place += static_cast<std::size_t>(count);
+        to = to.subspan(static_cast<std::size_t>(count));
+    }
+}
 
 }  // namespace burin

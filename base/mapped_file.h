@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -17,7 +18,13 @@ class MappedFile {
 
     std::string_view bytes() const { return {data_, size_}; }
 
+    /// Copies what stands in bytes() from `place` on. The first look at each page of bytes() is an interrupt, which takes
+    /// longer than copying the page on some machines. Throws InputError when it cannot be read (any more).
+    void copy(std::size_t place, std::span<char> to) const;
+
   private:
+    std::string path_;
+    int fd_ = -1;
     const char* data_ = nullptr;
     std::size_t size_ = 0;
 };

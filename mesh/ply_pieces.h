@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
@@ -63,58 +65,53 @@ inline std::size_t read_position_rows(AsciiValues& values, std::span<const int> 
 /// Reads rows, up to `rows` of them, in pieces of the text on all threads, each piece taken
 /// to have a row per line: read(values, first row, count, largest) reads a piece's and returns how
 /// many it could. Ends with the first piece that has anything else, and leaves `values` there.
-/// Returns how many rows were read. `cutter` cuts the text that `values` is in.
+/// Returns how many rows were read. `copy` copies what stands from a place in the rest of `values` on.
 template <typename ReadPiece>
-std::uint64_t read_in_pieces(AsciiValues& values, LineCutter& cutter,
+std::uint64_t read_in_pieces(AsciiValues& values, const LineCutter::Copy& copy, std::size_t piece_size,
                              std::uint64_t rows, int threads, LargestIndex& largest,
                              const ReadPiece& read) {
-    values.at_end();  // goes to the first row
     const std::string_view text = values.rest();
-    const std::size_t first_line = values.line();
     struct Piece {
-        AsciiValues values;
         std::uint64_t first_row, row_count;
-        const char* begin = nullptr;  // of its first row
+        std::size_t end_place = 0, end_line = 0;  // behind what was read
+        bool is_whole = false;
         std::uint64_t read = 0;
         LargestIndex largest{};
     };
     std::deque<Piece> pieces;
     std::mutex taking;
-    const auto take = [&]() -> Piece* {
+    LineCutter cutter(text.size(), values.line(), piece_size, copy);
+    std::uint64_t next_row = 0;
+    const auto take = [&](std::vector<char>& buffer, TextPiece& taken) -> Piece* {
         const std::lock_guard lock(taking);
-        if (pieces.empty()) {
-            pieces.push_back({values, 0, rows});
-            while (cutter.next() != nullptr && cutter.next()->line <= first_line) cutter.take();
-        } else {
-            const TextPiece* const next = cutter.next();
-            if (next == nullptr || next->line - first_line >= rows) return nullptr;
-            const std::string_view from_here = text.substr(static_cast<std::size_t>(next->begin - text.data()));
-            const std::uint64_t row = next->line - first_line;
-            pieces.push_back({AsciiValues(from_here, next->line), row, rows - row});
-            cutter.take();
-        }
-        Piece& piece = pieces.back();
-        if (cutter.next() != nullptr) piece.row_count = std::min<std::uint64_t>(cutter.next()->line - first_line, rows) - piece.first_row;
-        return &piece;
+        if (next_row >= rows) return nullptr;
+        const std::optional<TextPiece> next = cutter.take(buffer);
+        if (!next) return nullptr;
+        taken = *next;
+        const std::uint64_t most = rows - next_row;
+        pieces.push_back({next_row, cutter.at_end() ? most : std::min<std::uint64_t>(taken.feeds, most)});
+        next_row += pieces.back().row_count;
+        return &pieces.back();
     };
-    parallel_for(cutter.most_left() + 1, threads, [&](std::size_t, int) {
-        Piece* const taken = take();
-        if (taken == nullptr) return;
-        Piece& p = *taken;
-        p.values.at_end();  // goes to the first row
-        p.begin = p.values.rest().data();
-        p.read = read(p.values, p.first_row, p.row_count, p.largest);
-        p.values.at_end();
+    const int workers = resolve_thread_count(threads);
+    parallel_for(static_cast<std::size_t>(workers), workers, [&](std::size_t, int) {
+        std::vector<char> buffer;
+        TextPiece taken;
+        while (Piece* const p = take(buffer, taken)) {
+            throw_if_interrupted();
+            AsciiValues own(taken.text, taken.line, TextPiece::kMargin);
+            p->read = read(own, p->first_row, p->row_count, p->largest);
+            p->is_whole = p->read == p->row_count && own.at_end();
+            p->end_place = taken.place + taken.text.size() - own.rest().size();
+            p->end_line = own.line();
+        }
     });
     std::uint64_t count = 0;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const Piece& p = pieces[i];
+    for (const Piece& p : pieces) {
         count += p.read;
         if (p.largest.index > largest.index) largest = p.largest;
-        values = p.values;
-        // The place tells, not the line: a row may have ended in the middle of one.
-        const bool leads_on = i + 1 < pieces.size() && p.read == p.row_count && p.values.rest().data() == pieces[i + 1].begin;
-        if (!leads_on) break;
+        values = AsciiValues(text.substr(p.end_place), p.end_line);
+        if (!p.is_whole) break;
     }
     return count;
 }

@@ -34,8 +34,9 @@ inline bool is_coordinate(const glm::dvec3& p) {
 /// readers everywhere take any white space, so this does too.
 class AsciiValues {
   public:
-    AsciiValues(std::string_view body, std::size_t first_line)
-        : begin_(body.data()), p_(begin_), end_(begin_ + body.size()), line_(first_line) {}
+    /// So many line feeds as `margin` may be looked at in front of the body and behind it.
+    AsciiValues(std::string_view body, std::size_t first_line, std::size_t margin = 0)
+        : p_(body.data()), end_(p_ + body.size()), readable_begin_(p_ - margin), readable_end_(end_ + margin), line_(first_line) {}
 
     bool number(PlyType, double& value) {
         skip_space();
@@ -50,7 +51,7 @@ class AsciiValues {
             return next != nullptr && to_integer(number_value, value) && accept(next);
         }
         skip_space();
-        if (end_ - p_ >= kScanReach) {
+        if (has_scan_reach(p_)) {
             std::uint32_t plain = 0;
             if (const char* const next = scan_plain_integer(p_, plain)) {
                 value = plain;
@@ -96,7 +97,7 @@ class AsciiValues {
             }
             for (; column < axis_of.size(); ++column) {
                 p = skip_blanks(p);
-                if (end_ - p < kScanReach) return kNotPlain;
+                if (!has_scan_reach(p)) return kNotPlain;
                 if (const int axis = axis_of[column]; axis >= 0) {
                     p = scan_plain_decimal(p, rows[row][axis]);
                     if (p == nullptr || !is_space(*p)) return kNotPlain;
@@ -131,12 +132,12 @@ class AsciiValues {
             return count;
         };
         return plain_rows(max_count, read_some, [&](const char* p, std::size_t row, std::size_t line) {
-            if (end_ - p < kScanReach || p[0] != '3' || !is_blank(p[1])) return kNotPlain;
+            if (!has_scan_reach(p) || p[0] != '3' || !is_blank(p[1])) return kNotPlain;
             rows.lines[row] = line;
             ++p;
             for (std::size_t k = 0; k < 3; ++k) {
                 p = skip_blanks(p);
-                if (end_ - p < kScanReach) return kNotPlain;
+                if (!has_scan_reach(p)) return kNotPlain;
                 p = scan_plain_integer(p, rows.corners[3 * row + k]);
                 if (p == nullptr || !is_space(*p)) return kNotPlain;
             }
@@ -152,7 +153,7 @@ class AsciiValues {
     std::size_t read_lines(std::size_t (*read)(const char*&, const char*, std::size_t, Value*), std::size_t max_count, Value* values) {
         skip_space();
         if (!has_reach(p_) || max_count == 0) return 0;
-        const std::size_t count = read(p_, end_ - kRowReach, max_count, values);
+        const std::size_t count = read(p_, std::min(end_, readable_end_ - kRowReach), max_count, values);
         line_ += count > 0 ? count - 1 : 0;
         return count;
     }
@@ -180,7 +181,8 @@ class AsciiValues {
         }
         return max_count;
     }
-    bool has_reach(const char* p) const { return p - begin_ >= kRowReachBack && end_ - p >= kRowReach; }
+    bool has_reach(const char* p) const { return p - readable_begin_ >= kRowReachBack && readable_end_ - p >= kRowReach; }
+    bool has_scan_reach(const char* p) const { return readable_end_ - p >= kScanReach; }
     const char* skip_blanks(const char* p) const {
         while (p < end_ && is_blank(*p)) ++p;
         return p;
@@ -198,9 +200,10 @@ class AsciiValues {
     }
 
     const RowKernels* kernels_ = &best_row_kernels();
-    const char* begin_;
     const char* p_;
     const char* end_;
+    const char* readable_begin_;
+    const char* readable_end_;
     std::size_t line_;
 };
 

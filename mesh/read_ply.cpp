@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -22,8 +21,8 @@ namespace {
 template <typename Values>
 class BodyReader {
   public:
-    BodyReader(const std::string& path, const PlyHeader& header, Values values, int threads)
-        : path_(path), header_(header), values_(values), threads_(threads) {}
+    BodyReader(const std::string& path, const MappedFile& file, const PlyHeader& header, Values values, int threads)
+        : path_(path), file_(file), header_(header), values_(values), threads_(threads) {}
 
     PolygonSoup read() {
         for (const PlyElement& element : header_.elements) {
@@ -157,11 +156,11 @@ class BodyReader {
     void read_plain_positions(const PlyElement& element, std::span<const int> axis_of) {
         if constexpr (kHasPlainRows) {
             if (element.has_lists()) return;
-            if (item_ == 0 && goes_parallel()) {
+            if (item_ == 0 && is_large()) {
                 const std::size_t before = soup_.positions.size();
                 soup_.positions.resize(before + element.count);
-                item_ = read_in_pieces(
-                    values_, cutter(), element.count, threads_, largest_,
+                item_ = read_large(
+                    element.count,
                     [&](AsciiValues& values, std::uint64_t first, std::uint64_t count,
                         LargestIndex&) {
                         return read_position_rows(
@@ -186,15 +185,11 @@ class BodyReader {
             const std::size_t before = soup_.corners.size();
             const std::uint64_t most =
                 std::min(element.count - item_, (PolygonSoup::kMaxCorners - before) / 3);
-            if (item_ == 0 && goes_parallel()) {
+            if (item_ == 0 && is_large()) {
                 soup_.corners.resize(before + 3 * most);
-                item_ = read_in_pieces(values_, cutter(), most, threads_, largest_,
-                                       [&](AsciiValues& values, std::uint64_t first,
-                                           std::uint64_t count, LargestIndex& largest) {
-                                           return read_triangle_rows(
-                                               values, first, count,
-                                               &soup_.corners[before + 3 * first], largest);
-                                       });
+                item_ = read_large(most, [&](AsciiValues& values, std::uint64_t first, std::uint64_t count, LargestIndex& largest) {
+                    return read_triangle_rows(values, first, count, &soup_.corners[before + 3 * first], largest);
+                });
                 soup_.corners.resize(before + 3 * item_);
             }
             std::array<std::uint32_t, 3 * AsciiValues::PlainTriangles::kMax> corners;
@@ -212,11 +207,16 @@ class BodyReader {
         }
     }
 
-    /// Threads pay for themselves where there is enough to read.
-    bool goes_parallel() const { return threads_ != 1 && values_.rest().size() > 65536; }
-    LineCutter& cutter() {
-        if (!cutter_) cutter_.emplace(values_.rest(), values_.line(), LineCutter::size_for(values_.rest().size(), threads_));
-        return *cutter_;
+    /// Pieces pay for themselves where there is enough to read.
+    bool is_large() const { return values_.rest().size() > 65536; }
+    /// Reads up to `rows` rows in pieces, and returns how many.
+    template <typename ReadPiece>
+    std::uint64_t read_large(std::uint64_t rows, const ReadPiece& read) {
+        values_.at_end();  // goes to the first row
+        const std::string_view rest = values_.rest();
+        const auto begin = static_cast<std::size_t>(rest.data() - file_.bytes().data());
+        const auto copy = [this, begin](std::size_t place, std::span<char> to) { file_.copy(begin + place, to); };
+        return read_in_pieces(values_, copy, LineCutter::size_for(rest.size(), threads_), rows, threads_, largest_, read);
     }
 
     /// One value of a vertex number list. Faces may stand before the vertices, so the upper bound
@@ -362,6 +362,7 @@ class BodyReader {
     static constexpr bool kHasPlainRows = std::is_same_v<Values, AsciiValues>;
 
     const std::string& path_;
+    const MappedFile& file_;
     const PlyHeader& header_;
     Values values_;
     PolygonSoup soup_;
@@ -369,7 +370,6 @@ class BodyReader {
     std::uint64_t item_ = 0;
     LargestIndex largest_;
     int threads_;
-    std::optional<LineCutter> cutter_;  // of the body, once asked for
 };
 
 }  // namespace
@@ -380,10 +380,10 @@ PolygonSoup read_ply(const std::string& path, int threads) {
     const std::string_view body = file.bytes().substr(header.size);
     PolygonSoup soup;
     if (header.encoding == PlyEncoding::ascii) {
-        soup = BodyReader(path, header, AsciiValues(body, header.lines + 1), threads).read();
+        soup = BodyReader(path, file, header, AsciiValues(body, header.lines + 1), threads).read();
     } else {
         const bool big_endian = header.encoding == PlyEncoding::big_endian;
-        soup = BodyReader(path, header, BinaryValues(body, big_endian), threads).read();
+        soup = BodyReader(path, file, header, BinaryValues(body, big_endian), threads).read();
     }
     soup.object_names = {std::filesystem::path(path).stem().string()};
     soup.materials = {Material{}};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
+#include <utility>
 
 #include "base/parallel.h"
 
@@ -30,21 +30,30 @@ std::size_t count_feeds(std::string_view text) {
 
 }  // namespace
 
-LineCutter::LineCutter(std::string_view text, std::size_t first_line, std::size_t size)
-    : text_(text), size_(size), line_(first_line), next_{text.data(), first_line} {}
+LineCutter::LineCutter(std::size_t text_size, std::size_t first_line, std::size_t piece_size, Copy copy)
+    : text_size_(text_size), piece_size_(piece_size), line_(first_line), copy_(std::move(copy)) {}
 
 std::size_t LineCutter::size_for(std::size_t text_size, int threads) {
     return std::clamp<std::size_t>(text_size / (8 * static_cast<std::size_t>(resolve_thread_count(threads))), 4096, 1 << 18);
 }
 
-void LineCutter::take() {
-    // Cuts are looked for from multiples of the size on.
-    const std::size_t begin = static_cast<std::size_t>(next_.begin - text_.data());
-    const std::size_t end = std::min((begin / size_ + 1) * size_, text_.size());
-    line_ += count_feeds(text_.substr(place_, end - place_));
-    place_ = end;
-    const std::size_t feed = text_.find('\n', place_);
-    next_ = feed == std::string_view::npos ? TextPiece{} : TextPiece{text_.data() + feed + 1, line_ + 1};
+std::optional<TextPiece> LineCutter::take(std::vector<char>& buffer) {
+    if (at_end()) return std::nullopt;
+    constexpr std::size_t kMargin = TextPiece::kMargin;
+    std::string_view text;
+    for (std::size_t wanted = piece_size_; text.empty(); wanted *= 2) {
+        const std::size_t size = std::min(wanted, text_size_ - place_);
+        if (buffer.size() < size + 2 * kMargin) buffer.resize(size + 2 * kMargin);
+        copy_(place_, std::span(buffer).subspan(kMargin, size));
+        text = {buffer.data() + kMargin, size};
+        if (place_ + size < text_size_) text = text.substr(0, text.rfind('\n') + 1);  // none without a feed
+    }
+    std::fill_n(buffer.begin(), kMargin, '\n');
+    std::fill_n(buffer.begin() + static_cast<std::ptrdiff_t>(kMargin + text.size()), kMargin, '\n');
+    const TextPiece piece{text, place_, line_, count_feeds(text)};
+    place_ += text.size();
+    line_ += piece.feeds;
+    return piece;
 }
 
 }  // namespace burin

@@ -1,38 +1,43 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 namespace burin {
 
-/// Where a part of a text begins: at the start of a line.
+/// Whole lines of a text, copied. kMargin line feeds stand in front of and behind them.
 struct TextPiece {
-    const char* begin = nullptr;
-    std::size_t line = 0;  ///< its number
+    static constexpr std::size_t kMargin = 128;
+    std::string_view text;
+    std::size_t place = 0;  ///< where they begin in the text that was cut
+    std::size_t line = 0;   ///< the number of the first one
+    std::size_t feeds = 0;  ///< how many line feeds are in them
 };
 
-/// Cuts a text, whose first line has the number `first_line`, into pieces of about `size` bytes. Lines are counted when a
-/// piece is taken: whoever reads it then finds it in the caches.
+/// Cuts a text, whose first line has the number `first_line`, into pieces of about `piece_size` bytes, but a line at least.
+/// Each is copied, and its lines are counted, when it is taken: whoever reads it then finds it in the caches.
 class LineCutter {
   public:
-    LineCutter(std::string_view text, std::size_t first_line, std::size_t size);
+    /// Copies what stands in the text from a place on.
+    using Copy = std::function<void(std::size_t place, std::span<char> to)>;
+
+    LineCutter(std::size_t text_size, std::size_t first_line, std::size_t piece_size, Copy copy);
 
     /// Of a size that leaves something to do for each of so many threads, and fits into their caches.
     static std::size_t size_for(std::size_t text_size, int threads);
 
-    /// The next piece, the first of which begins where the text does; nullptr behind the last one.
-    const TextPiece* next() const { return next_.begin == nullptr ? nullptr : &next_; }
-    void take();
-    /// How many are left at most.
-    std::size_t most_left() const { return (text_.size() - place_) / size_ + 1; }
+    /// The next piece, which is put into `buffer`; nothing behind the last one.
+    std::optional<TextPiece> take(std::vector<char>& buffer);
+    bool at_end() const { return place_ == text_size_; }
 
   private:
-    std::string_view text_;
-    std::size_t size_;
-    std::size_t place_ = 0;  // from here on lines are not counted
-    std::size_t line_;       // of this place
-    TextPiece next_;
+    std::size_t text_size_, piece_size_;
+    std::size_t place_ = 0, line_;  // of the next piece
+    Copy copy_;
 };
 
 }  // namespace burin

@@ -20,7 +20,7 @@ namespace {
 
 using test::Random;
 
-constexpr int kVertices = 1500, kFaces = 2500;  // more than a block
+constexpr int kVertices = 3000, kFaces = 6000;  // more than a piece, and more than a block
 constexpr int kFirstVertexLine = 11;
 
 /// The lines of the body of a file: vertices with a colour between y and z, then triangles.
@@ -111,14 +111,14 @@ TEST_P(PlainPly, ErrorsNameTheLine) {
         const std::string place = ":" + std::to_string(kFirstVertexLine + row) + ":";
         return refuses(rows, {place, what});
     };
-    for (const int row : {0, 1, 500, 1023, 1024, 1025, kVertices - 1}) {
+    for (const int row : {0, 1, 500, 1023, 1024, 1025, 2500, kVertices - 1}) {
         EXPECT_TRUE(refused(row, "0 x 255 0", "no number")) << row;
         EXPECT_TRUE(refused(row, "0 1e31 255 0", "beyond 1e30")) << row;
     }
-    for (const int row : {0, 1, 1023, 1024, 1025, kFaces - 1}) {
+    for (const int row : {0, 1, 1023, 1024, 1025, 5000, kFaces - 1}) {
         EXPECT_TRUE(refused(kVertices + row, "3 0 1.5 2", "no number")) << row;
         EXPECT_TRUE(refused(kVertices + row, "3 0 -1 2", "vertex -1 does not exist")) << row;
-        EXPECT_TRUE(refused(kVertices + row, "3 0 1500 2", "vertex 1500 does not exist")) << row;
+        EXPECT_TRUE(refused(kVertices + row, "3 0 3000 2", "vertex 3000 does not exist")) << row;
         EXPECT_TRUE(refused(kVertices + row, "3 0 99999999 2", "vertex 99999999 does not exist")) << row;
     }
 }
@@ -138,6 +138,10 @@ TEST_P(PlainPly, AFileThatEndsTooEarlyIsRefused) {
     EXPECT_TRUE(refuses(rows, {"ends in the middle"}));
 }
 
+LineCutter::Copy copy_of(const std::string& text) {
+    return [&text](std::size_t place, std::span<char> to) { text.copy(to.data(), to.size(), place); };
+}
+
 /// No piece's rows are read a second time by one thread.
 TEST(PlyPieces, AllAreUsed) {
     std::string text;
@@ -146,43 +150,80 @@ TEST(PlyPieces, AllAreUsed) {
         expected.emplace_back(0.5 * i, -0.25 * i, 1e-3);
         text += std::to_string(0.5 * i) + " " + std::to_string(-0.25 * i) + (i % 7 == 0 ? " 1e-3\n" : " 0.001\n");
     }
-    AsciiValues values(text, 1);
-    LineCutter cutter(values.rest(), values.line(), text.size() / 10);
-    std::atomic<int> pieces = 0;
-    std::vector<glm::dvec3> positions(expected.size());
-    LargestIndex largest;
-    const auto read_piece = [&](AsciiValues& piece, std::uint64_t first, std::uint64_t count, LargestIndex&) {
-        ++pieces;
-        return read_position_rows(piece, std::array{0, 1, 2}, std::span(positions).subspan(first, count));
-    };
-    EXPECT_EQ(read_in_pieces(values, cutter, expected.size(), 4, largest, read_piece), expected.size());
-    EXPECT_TRUE(values.at_end());
-    EXPECT_EQ(positions, expected);
-    EXPECT_GE(pieces, 10);
+    for (const int threads : {1, 4}) {
+        AsciiValues values(text, 1);
+        std::atomic<int> pieces = 0;
+        std::vector<glm::dvec3> positions(expected.size());
+        LargestIndex largest;
+        const auto read_piece = [&](AsciiValues& piece, std::uint64_t first, std::uint64_t count, LargestIndex&) {
+            ++pieces;
+            return read_position_rows(piece, std::array{0, 1, 2}, std::span(positions).subspan(first, count));
+        };
+        EXPECT_EQ(read_in_pieces(values, copy_of(text), text.size() / 10, expected.size(), threads, largest, read_piece), expected.size());
+        EXPECT_TRUE(values.at_end());
+        EXPECT_EQ(positions, expected);
+        EXPECT_GE(pieces, 10);
+    }
 }
 
-TEST(LineCutter, PiecesBeginWithLinesAndKnowThem) {
+/// Wherever the text is cut, and whatever rows are where it is.
+TEST(PlyPieces, CutsDoNotShow) {
+    const std::array axis_of{0, 1, 2};
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        std::string text;
+        std::size_t rows = 0;
+        for (; rows < 60; ++rows) {
+            static constexpr std::array<const char*, 8> kRows = {"1.5 2.5 -3.5\n", "1.5 2.5 -3.5 \n", "1.25 1e1 2\r\n", "\n4.0 5.0\n 6.0\n",
+                                                                 "1.0 2.0 0.1234567\n", "-1.0 -2.0 -0.0\n", "7 8 9 ", "1.0 x 2.0\n"};
+            text += kRows[static_cast<std::size_t>(random.integer(0, seed % 3 == 0 ? 7 : 1 + static_cast<int>(seed % 6)))];
+        }
+        if (random.integer(0, 1) == 0) text.pop_back();
+        std::vector<glm::dvec3> expected(rows), positions(rows);
+        AsciiValues whole(text, 5);
+        const std::size_t expected_count = read_position_rows(whole, axis_of, expected);
+        AsciiValues values(text, 5);
+        LargestIndex largest;
+        const auto read_piece = [&](AsciiValues& piece, std::uint64_t first, std::uint64_t count, LargestIndex&) {
+            return read_position_rows(piece, axis_of, std::span(positions).subspan(first, count));
+        };
+        std::size_t count = read_in_pieces(values, copy_of(text), static_cast<std::size_t>(random.integer(1, 300)), rows, random.integer(1, 3), largest, read_piece);
+        EXPECT_LE(count, expected_count);
+        count += read_position_rows(values, axis_of, std::span(positions).subspan(count));
+        ASSERT_EQ(count, expected_count);
+        EXPECT_EQ(values.at_end(), whole.at_end());
+        EXPECT_EQ(values.line(), whole.line());
+        EXPECT_EQ(values.rest().size(), whole.rest().size());
+        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(positions[i], expected[i]);
+    }
+}
+
+TEST(LineCutter, PiecesAreWholeLinesAndKnowThem) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         std::string text;
         for (int i = random.integer(0, 400); i > 0; --i) text += random.integer(0, 1 + static_cast<int>(seed) % 9) == 0 ? '\n' : 'x';
         const std::size_t size = static_cast<std::size_t>(random.integer(1, 50));
-        LineCutter cutter(text, 7, size);
-        const std::size_t most = cutter.most_left();
-        std::size_t count = 0;
-        const char* behind = text.data();  // the piece before begins in front of it
-        for (; cutter.next() != nullptr; cutter.take(), ++count) {
-            const TextPiece piece = *cutter.next();
-            const auto place = static_cast<std::size_t>(piece.begin - text.data());
-            EXPECT_GE(piece.begin, behind);
-            behind = piece.begin + 1;
-            EXPECT_TRUE(place == 0 || text[place - 1] == '\n');
-            EXPECT_EQ(piece.line, 7u + static_cast<std::size_t>(std::count(text.data(), text.data() + place, '\n')));
-            EXPECT_TRUE(count > 0 || place == 0);
+        LineCutter cutter(text.size(), 7, size, copy_of(text));
+        std::vector<char> buffer;
+        std::size_t place = 0, line = 7;
+        while (const std::optional<TextPiece> piece = cutter.take(buffer)) {
+            EXPECT_EQ(piece->place, place);
+            EXPECT_EQ(piece->line, line);
+            ASSERT_FALSE(piece->text.empty());
+            EXPECT_EQ(piece->text, std::string_view(text).substr(place, piece->text.size()));
+            EXPECT_EQ(piece->feeds, static_cast<std::size_t>(std::count(piece->text.begin(), piece->text.end(), '\n')));
+            const std::string margin(TextPiece::kMargin, '\n');
+            EXPECT_EQ(std::string_view(piece->text.data() - margin.size(), margin.size()), margin);
+            EXPECT_EQ(std::string_view(piece->text.data() + piece->text.size(), margin.size()), margin);
+            place += piece->text.size();
+            line += piece->feeds;
+            EXPECT_TRUE(piece->text.back() == '\n' || place == text.size());
+            EXPECT_EQ(cutter.at_end(), place == text.size());
         }
-        EXPECT_LE(count, most);
-        EXPECT_GE(count, 1u);
+        EXPECT_EQ(place, text.size());
     }
 }
 
