@@ -23,6 +23,8 @@ struct RowKernels {
 const RowKernels& baseline_row_kernels();
 /// nullptr where compiler or machine lack AVX2 and BMI2.
 const RowKernels* avx2_row_kernels();
+/// nullptr where compiler or machine lack AVX-512 with VBMI2.
+const RowKernels* avx512_row_kernels();
 const RowKernels& best_row_kernels();
 
 }  // namespace burin

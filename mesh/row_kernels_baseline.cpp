@@ -1,3 +1,5 @@
+#include <initializer_list>
+
 #include "mesh/row_kernels.h"
 #include "mesh/row_scan.h"
 
@@ -37,8 +39,10 @@ const RowKernels& baseline_row_kernels() {
 }
 
 const RowKernels& best_row_kernels() {
-    const RowKernels* const fast = avx2_row_kernels();
-    return fast != nullptr ? *fast : baseline_row_kernels();
+    for (const RowKernels* const fast : {avx512_row_kernels(), avx2_row_kernels()}) {
+        if (fast != nullptr) return *fast;
+    }
+    return baseline_row_kernels();
 }
 
 }  // namespace burin

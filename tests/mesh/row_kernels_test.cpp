@@ -20,7 +20,9 @@ using test::Random;
 
 std::vector<const RowKernels*> all_kernels() {
     std::vector<const RowKernels*> kernels{&baseline_row_kernels()};
-    if (avx2_row_kernels() != nullptr) kernels.push_back(avx2_row_kernels());
+    for (const RowKernels* const fast : {avx2_row_kernels(), avx512_row_kernels()}) {
+        if (fast != nullptr) kernels.push_back(fast);
+    }
     return kernels;
 }
 
