@@ -119,26 +119,17 @@ class AsciiValues {
         return true;
     }
 
-    /// Triangles, each of them a row of the number 3 and three vertex numbers on one line.
-    struct PlainTriangles {
-        static constexpr std::size_t kMax = 1024;
-        std::array<std::uint32_t, 3 * kMax + 1> corners;  // and what scan_three_integers() overwrites
-        std::array<std::size_t, kMax> lines;
-    };
-    std::size_t plain_triangles(std::size_t max_count, PlainTriangles& rows) {
-        const auto read_some = [&](std::size_t row) {
-            const std::size_t count = read_lines(kernels_->triangles, max_count - row, &rows.corners[3 * row]);
-            for (std::size_t i = 0; i < count; ++i) rows.lines[row + i] = line_ - (count - 1) + i;
-            return count;
-        };
-        return plain_rows(max_count, read_some, [&](const char* p, std::size_t row, std::size_t line) {
+    /// The same for triangles, each of them a row of the number 3 and three vertex numbers on one line.
+    std::size_t plain_triangles(std::span<std::uint32_t> corners) {
+        const std::size_t max_count = corners.size() / 3;
+        const auto read_some = [&](std::size_t row) { return read_lines(kernels_->triangles, max_count - row, corners.data() + 3 * row); };
+        return plain_rows(max_count, read_some, [&](const char* p, std::size_t row, std::size_t) {
             if (!has_scan_reach(p) || p[0] != '3' || !is_blank(p[1])) return kNotPlain;
-            rows.lines[row] = line;
             ++p;
             for (std::size_t k = 0; k < 3; ++k) {
                 p = skip_blanks(p);
                 if (!has_scan_reach(p)) return kNotPlain;
-                p = scan_plain_integer(p, rows.corners[3 * row + k]);
+                p = scan_plain_integer(p, corners[3 * row + k]);
                 if (p == nullptr || !is_space(*p)) return kNotPlain;
             }
             return p;

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <atomic>
 #include <filesystem>
 #include <span>
 #include <type_traits>
@@ -21,8 +21,8 @@ namespace {
 template <typename Values>
 class BodyReader {
   public:
-    BodyReader(const std::string& path, const MappedFile& file, const PlyHeader& header, Values values, int threads)
-        : path_(path), file_(file), header_(header), values_(values), threads_(threads) {}
+    BodyReader(const std::string& path, const MappedFile& file, const PlyHeader& header, Values values, int threads, bool by_value = false)
+        : path_(path), file_(file), header_(header), first_values_(values), values_(values), threads_(threads), by_value_(by_value) {}
 
     PolygonSoup read() {
         for (const PlyElement& element : header_.elements) {
@@ -49,6 +49,7 @@ class BodyReader {
             throw InputError(path_ +
                              ": the file has no polygons; burin draws the lines of surfaces");
         }
+        if (largest_plain_ >= soup_.positions.size()) return BodyReader(path_, file_, header_, first_values_, threads_, true).read();
         check_references();
         return std::move(soup_);
     }
@@ -155,68 +156,60 @@ class BodyReader {
     /// Reads items in the usual form; the rest of this class reads any form, one item at a time.
     void read_plain_positions(const PlyElement& element, std::span<const int> axis_of) {
         if constexpr (kHasPlainRows) {
-            if (element.has_lists()) return;
+            if (by_value_ || element.has_lists()) return;
             if (item_ == 0 && is_large()) {
-                const std::size_t before = soup_.positions.size();
-                soup_.positions.resize(before + element.count);
-                item_ = read_large(
-                    element.count,
-                    [&](AsciiValues& values, std::uint64_t first, std::uint64_t count,
-                        LargestIndex&) {
-                        return read_position_rows(
-                            values, axis_of, std::span(soup_.positions).subspan(before + first, count));
-                    });
-                soup_.positions.resize(before + item_);
+                item_ = read_large(element.count, 1, soup_.positions,
+                                   [&](AsciiValues& values, std::span<glm::dvec3> rows) { return read_position_rows(values, axis_of, rows); });
             }
-            std::array<glm::dvec3, 1024> rows;
-            for (std::size_t count = rows.size(); count == rows.size(); item_ += count) {
-                throw_if_interrupted();
-                const std::uint64_t left = element.count - item_;
-                count = values_.plain_positions(
-                    axis_of, std::span(rows).first(std::min<std::uint64_t>(left, rows.size())));
-                soup_.positions.insert(soup_.positions.end(), rows.begin(),
-                                       rows.begin() + static_cast<std::ptrdiff_t>(count));
-            }
+            read_blocks(element.count, 1, soup_.positions, [&](std::span<glm::dvec3> rows) { return values_.plain_positions(axis_of, rows); });
         }
     }
     void read_plain_triangles(const PlyElement& element) {
         if constexpr (kHasPlainRows) {
-            if (element.properties.size() != 1) return;
-            const std::size_t before = soup_.corners.size();
-            const std::uint64_t most =
-                std::min(element.count - item_, (PolygonSoup::kMaxCorners - before) / 3);
+            if (by_value_ || element.properties.size() != 1) return;
+            const auto read_triangles = [this](AsciiValues& values, std::span<std::uint32_t> corners) {
+                const std::size_t count = values.plain_triangles(corners);
+                std::uint32_t largest = 0;
+                for (const std::uint32_t v : corners.first(3 * count)) largest = std::max(largest, v);
+                note_plain_index(largest);
+                return count;
+            };
             if (item_ == 0 && is_large()) {
-                soup_.corners.resize(before + 3 * most);
-                item_ = read_large(most, [&](AsciiValues& values, std::uint64_t first, std::uint64_t count, LargestIndex& largest) {
-                    return read_triangle_rows(values, first, count, &soup_.corners[before + 3 * first], largest);
-                });
-                soup_.corners.resize(before + 3 * item_);
+                const std::uint64_t most = std::min(element.count, (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
+                item_ = read_large(most, 3, soup_.corners, read_triangles);
             }
-            std::array<std::uint32_t, 3 * AsciiValues::PlainTriangles::kMax> corners;
-            for (std::size_t count = AsciiValues::PlainTriangles::kMax;
-                 count == AsciiValues::PlainTriangles::kMax; item_ += count) {
-                const std::uint64_t left = std::min(
-                    element.count - item_, (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
-                count = read_triangle_rows(
-                    values_, item_,
-                    std::min<std::uint64_t>(left, AsciiValues::PlainTriangles::kMax),
-                    corners.data(), largest_);
-                soup_.corners.insert(soup_.corners.end(), corners.begin(),
-                                     corners.begin() + static_cast<std::ptrdiff_t>(3 * count));
-            }
+            const std::uint64_t most = std::min(element.count, item_ + (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
+            read_blocks(most, 3, soup_.corners, [&](std::span<std::uint32_t> corners) { return read_triangles(values_, corners); });
         }
     }
 
     /// Pieces pay for themselves where there is enough to read.
     bool is_large() const { return values_.rest().size() > 65536; }
     /// Reads up to `rows` rows in pieces, and returns how many.
-    template <typename ReadPiece>
-    std::uint64_t read_large(std::uint64_t rows, const ReadPiece& read) {
+    template <typename Value, typename ReadPiece>
+    std::uint64_t read_large(std::uint64_t rows, std::size_t per_row, std::vector<Value>& all, const ReadPiece& read) {
         values_.at_end();  // goes to the first row
         const std::string_view rest = values_.rest();
         const auto begin = static_cast<std::size_t>(rest.data() - file_.bytes().data());
         const auto copy = [this, begin](std::size_t place, std::span<char> to) { file_.copy(begin + place, to); };
-        return read_in_pieces(values_, copy, LineCutter::size_for(rest.size(), threads_), rows, threads_, largest_, read);
+        return read_in_pieces(values_, copy, LineCutter::size_for(rest.size(), threads_), threads_, rows, per_row, all, read);
+    }
+    /// Reads rows from item_ on, up to the one in front of `end`, as long as read(place for the values of some) can.
+    template <typename Value, typename ReadBlock>
+    void read_blocks(std::uint64_t end, std::size_t per_row, std::vector<Value>& all, const ReadBlock& read) {
+        for (bool goes_on = true; goes_on;) {
+            throw_if_interrupted();
+            const std::size_t before = all.size(), most = per_row * std::min<std::uint64_t>(end - item_, 1024);
+            all.resize(before + most);
+            const std::size_t count = most > 0 ? read(std::span(all).subspan(before)) : 0;
+            all.resize(before + per_row * count);
+            item_ += count;
+            goes_on = most > 0 && per_row * count == most;
+        }
+    }
+    /// Where a number in plain rows is too large for the vertices, all is read again, value by value, to see where it stands.
+    void note_plain_index(std::uint32_t index) {
+        for (std::uint32_t known = largest_plain_; known < index && !largest_plain_.compare_exchange_weak(known, index);) {}
     }
 
     /// One value of a vertex number list. Faces may stand before the vertices, so the upper bound
@@ -364,12 +357,20 @@ class BodyReader {
     const std::string& path_;
     const MappedFile& file_;
     const PlyHeader& header_;
+    const Values first_values_;
     Values values_;
     PolygonSoup soup_;
     const PlyElement* element_ = nullptr;
     std::uint64_t item_ = 0;
-    LargestIndex largest_;
+    /// The largest vertex number of rows that are not plain, and where it stands first.
+    struct {
+        std::int64_t index = -1;
+        std::size_t line = 0;
+        std::uint64_t item = 0;
+    } largest_;
+    std::atomic<std::uint32_t> largest_plain_ = 0;
     int threads_;
+    bool by_value_;  // no row is taken to be plain
 };
 
 }  // namespace

@@ -11,12 +11,11 @@ namespace burin {
 /// They read from `p` on, as many rows as `max_rows`, and none that begins at `limit` or behind it; they end in front
 /// of the first row that is no such line, and return how many they read. A line may end in one space. `p` becomes the
 /// place behind the last number that was read. kRowReachBack bytes in front of `p` and kRowReach behind `limit` must be
-/// there to be looked at.
+/// there to be looked at. What lies behind the values of `max_rows` stays as it is.
 struct RowKernels {
-    /// Rows "3 A B C" as scan_three_integers() reads them: `values` has one place more than three per row, which is
-    /// overwritten.
+    /// Rows "3 A B C" as scan_three_integers() reads them.
     std::size_t (*triangles)(const char*& p, const char* limit, std::size_t max_rows, std::uint32_t* values);
-    /// Rows "X Y Z" as scan_three_decimals() reads them. What lies behind the values of `max_rows` stays as it is.
+    /// Rows "X Y Z" as scan_three_decimals() reads them.
     std::size_t (*positions)(const char*& p, const char* limit, std::size_t max_rows, double* values);
 };
 

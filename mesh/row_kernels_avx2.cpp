@@ -55,8 +55,8 @@ std::size_t triangles(const char*& p, const char* limit, std::size_t max_rows, s
         const __m256i digits = _mm256_subs_epu8(_mm256_set_m128i(third, two), _mm256_set1_epi8('0'));
         const __m256i fours = _mm256_madd_epi16(_mm256_maddubs_epi16(digits, tens), hundreds);
         const __m256i eights = _mm256_madd_epi16(_mm256_packus_epi32(fours, fours), ten_thousands);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(values),
-                         _mm_unpacklo_epi64(_mm256_castsi256_si128(eights), _mm256_extracti128_si256(eights, 1)));
+        _mm_storeu_si64(values, _mm256_castsi256_si128(eights));
+        _mm_storeu_si32(values + 2, _mm256_extracti128_si256(eights, 1));
         p = q + end_2;
         row = q + feed + 1;
     }

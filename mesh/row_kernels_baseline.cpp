@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <initializer_list>
 
 #include "mesh/row_kernels.h"
@@ -21,8 +23,12 @@ std::size_t read_rows(const char*& p, const char* limit, std::size_t max_rows, c
 }
 
 std::size_t triangles(const char*& p, const char* limit, std::size_t max_rows, std::uint32_t* values) {
-    return read_rows(p, limit, max_rows, [&](const char* row, std::size_t i) {
-        return row[0] == '3' && row[1] == ' ' ? scan_three_integers(row + 2, values + 3 * i) : nullptr;
+    return read_rows(p, limit, max_rows, [&](const char* row, std::size_t i) -> const char* {
+        if (row[0] != '3' || row[1] != ' ') return nullptr;
+        std::array<std::uint32_t, 4> corners{};
+        const char* const next = scan_three_integers(row + 2, corners.data());
+        std::copy_n(corners.begin(), 3, values + 3 * i);
+        return next;
     });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "base/parallel.h"
@@ -11,18 +12,20 @@ namespace burin {
 namespace {
 
 std::size_t count_feeds(std::string_view text) {
+    using Bytes = std::uint8_t __attribute__((vector_size(16)));
     constexpr std::size_t kLanes = 64, kRounds = 255;  // until a byte is full
     std::size_t count = 0;
     while (text.size() >= kLanes) {
-        std::array<std::uint8_t, kLanes> feeds{};
+        std::array<Bytes, kLanes / sizeof(Bytes)> feeds{};
         const std::size_t rounds = std::min(kRounds, text.size() / kLanes);
         for (std::size_t round = 0; round < rounds; ++round) {
-            const char* const p = text.data() + kLanes * round;
-            for (std::size_t i = 0; i < kLanes; ++i) {
-                feeds[i] = static_cast<std::uint8_t>(feeds[i] + (p[i] == '\n' ? 1 : 0));
-            }
+            std::array<Bytes, kLanes / sizeof(Bytes)> bytes;
+            std::memcpy(&bytes, text.data() + kLanes * round, kLanes);
+            for (std::size_t i = 0; i < feeds.size(); ++i) feeds[i] += (bytes[i] == '\n') & 1;
         }
-        for (const std::uint8_t n : feeds) count += n;
+        for (const Bytes& some : feeds) {
+            for (std::size_t i = 0; i < sizeof(Bytes); ++i) count += some[i];
+        }
         text.remove_prefix(kLanes * rounds);
     }
     return count + static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));

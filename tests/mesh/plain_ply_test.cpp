@@ -153,13 +153,12 @@ TEST(PlyPieces, AllAreUsed) {
     for (const int threads : {1, 4}) {
         AsciiValues values(text, 1);
         std::atomic<int> pieces = 0;
-        std::vector<glm::dvec3> positions(expected.size());
-        LargestIndex largest;
-        const auto read_piece = [&](AsciiValues& piece, std::uint64_t first, std::uint64_t count, LargestIndex&) {
+        std::vector<glm::dvec3> positions;
+        const auto read_piece = [&](AsciiValues& piece, std::span<glm::dvec3> rows) {
             ++pieces;
-            return read_position_rows(piece, std::array{0, 1, 2}, std::span(positions).subspan(first, count));
+            return read_position_rows(piece, std::array{0, 1, 2}, rows);
         };
-        EXPECT_EQ(read_in_pieces(values, copy_of(text), text.size() / 10, expected.size(), threads, largest, read_piece), expected.size());
+        EXPECT_EQ(read_in_pieces(values, copy_of(text), text.size() / 10, threads, expected.size(), 1, positions, read_piece), expected.size());
         EXPECT_TRUE(values.at_end());
         EXPECT_EQ(positions, expected);
         EXPECT_GE(pieces, 10);
@@ -180,16 +179,16 @@ TEST(PlyPieces, CutsDoNotShow) {
             text += kRows[static_cast<std::size_t>(random.integer(0, seed % 3 == 0 ? 7 : 1 + static_cast<int>(seed % 6)))];
         }
         if (random.integer(0, 1) == 0) text.pop_back();
-        std::vector<glm::dvec3> expected(rows), positions(rows);
+        std::vector<glm::dvec3> expected(rows), positions;
         AsciiValues whole(text, 5);
         const std::size_t expected_count = read_position_rows(whole, axis_of, expected);
         AsciiValues values(text, 5);
-        LargestIndex largest;
-        const auto read_piece = [&](AsciiValues& piece, std::uint64_t first, std::uint64_t count, LargestIndex&) {
-            return read_position_rows(piece, axis_of, std::span(positions).subspan(first, count));
-        };
-        std::size_t count = read_in_pieces(values, copy_of(text), static_cast<std::size_t>(random.integer(1, 300)), rows, random.integer(1, 3), largest, read_piece);
+        const auto read_piece = [&](AsciiValues& piece, std::span<glm::dvec3> place) { return read_position_rows(piece, axis_of, place); };
+        const std::size_t size = static_cast<std::size_t>(random.integer(1, 300));
+        std::size_t count = read_in_pieces(values, copy_of(text), size, random.integer(1, 3), rows, 1, positions, read_piece);
         EXPECT_LE(count, expected_count);
+        ASSERT_EQ(count, positions.size());
+        positions.resize(rows);
         count += read_position_rows(values, axis_of, std::span(positions).subspan(count));
         ASSERT_EQ(count, expected_count);
         EXPECT_EQ(values.at_end(), whole.at_end());
