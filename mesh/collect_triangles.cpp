@@ -16,7 +16,7 @@ namespace {
 /// Whether no vertices fall together.
 bool are_apart(const std::vector<std::uint32_t>& welded) {
     std::uint32_t differing = 0;
-    for (std::uint32_t v = 0; v < welded.size(); ++v) differing |= welded[v] ^ v;
+    for (std::size_t v = 0; v < welded.size(); ++v) differing |= welded[v] ^ static_cast<std::uint32_t>(v);
     return differing == 0;
 }
 
