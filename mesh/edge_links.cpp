@@ -6,124 +6,145 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
-#include <memory>
-#include <new>
-#include <numeric>
+#include <cstddef>
 #include <utility>
 
 #include "base/huge_pages.h"
 #include "base/interrupt.h"
+#include "base/unfilled_vector.h"
 
 namespace burin {
 namespace {
 
-/// Edges met so far, in buckets of a few that one cache line holds whole. An edge is known by its
-/// two vertices: the bucket is that of one, the other is the key.
-class EdgeTable {
-    static constexpr std::uint32_t kSlots = 4;
-    struct alignas(16) Bucket {
-        std::uint32_t keys[kSlots];              // the other vertex + 1; 0 = free, and so are all behind
-        std::uint32_t newest_half_edge[kSlots];  // + 1; 0 = none
-    };
-
-  public:
-    explicit EdgeTable(std::size_t vertex_count)
-        : buckets_(static_cast<Bucket*>(
-              std::calloc(std::max<std::size_t>(1, vertex_count), sizeof(Bucket)))) {
-        if (buckets_ == nullptr) throw std::bad_alloc();
-        advise_huge_pages(buckets_.get(), vertex_count * sizeof(Bucket));
-    }
-
-    /// Where the edge between two vertices is if there is place.
-    struct Home {
-        Bucket* bucket;
-        std::uint32_t key;
-    };
-    /// The choice is even, however vertices are numbered: a vertex of a closed surface has six edges on average, so
-    /// three are in its bucket. Asks for the bucket, too.
-    Home home_of(std::uint32_t u, std::uint32_t v) const {
-        const std::uint32_t v_owns = (u < v ? 1u : 0u) ^ ((u ^ v) & 1), differing = u ^ v;
-        const std::uint32_t owner = u ^ (differing & (0u - v_owns));
-        Bucket* const bucket = buckets_.get() + owner;
-        __builtin_prefetch(bucket, 1);
-        return {bucket, (owner ^ differing) + 1};
-    }
-
-    /// The newest half-edge so far + 1, or 0, of an edge. nullptr if there is no place: then there is none for any
-    /// half-edge of this edge.
-    std::uint32_t* newest(const Home& home) const {
-        std::uint32_t* const place = newest_in(*home.bucket, home.key);
-        // A bucket that is full stays full, so that the next half-edge will come to the other one, too.
-        return __builtin_expect(place == nullptr, 0) ? newest_in_other(home) : place;
-    }
-    /// The two vertices of an edge, the smaller one first.
-    std::pair<std::uint32_t, std::uint32_t> vertices_of(const Home& home) const {
-        return std::minmax({static_cast<std::uint32_t>(home.bucket - buckets_.get()), home.key - 1});
-    }
-
-  private:
-    [[gnu::noinline]] std::uint32_t* newest_in_other(const Home& home) const {
-        return newest_in(buckets_.get()[home.key - 1], static_cast<std::uint32_t>(home.bucket - buckets_.get()) + 1);
-    }
-    /// Without branches, which would guess wrong half of the time.
-    static std::uint32_t* newest_in(Bucket& bucket, std::uint32_t key) {
-        const std::uint32_t slots = slots_for(bucket.keys, key);
-        if (slots == 0) return nullptr;
-        const auto slot = static_cast<std::size_t>(std::countr_zero(slots));
-        put_key(bucket.keys, slot, key);
-        return &bucket.newest_half_edge[slot];
-    }
-    /// Bit i: keys[i] is `key` or free. The first of them is the place of the key.
-    static std::uint32_t slots_for(const std::uint32_t (&keys)[kSlots], std::uint32_t key) {
-#ifdef __SSE2__
-        const __m128i all = _mm_load_si128(reinterpret_cast<const __m128i*>(keys));
-        const __m128i is_free = _mm_cmpeq_epi32(all, _mm_setzero_si128());
-        const __m128i is_key = _mm_cmpeq_epi32(all, _mm_set1_epi32(static_cast<int>(key)));
-        return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(_mm_or_si128(is_free, is_key))));
-#else
-        std::uint32_t slots = 0;
-        for (std::uint32_t i = 0; i < kSlots; ++i) slots |= (keys[i] == key || keys[i] == 0 ? 1u : 0u) << i;
-        return slots;
-#endif
-    }
-    /// keys[slot] = key where there is 0 or the same. All are written, for what is soon read at once would
-    /// wait for one that was written alone.
-    static void put_key(std::uint32_t (&keys)[kSlots], std::size_t slot, std::uint32_t key) {
-#ifdef __SSE2__
-        auto* const all = reinterpret_cast<__m128i*>(keys);
-        alignas(16) static constexpr std::uint32_t kAt[kSlots][4] = {{~0u}, {0, ~0u}, {0, 0, ~0u}, {0, 0, 0, ~0u}};
-        const __m128i at = _mm_load_si128(reinterpret_cast<const __m128i*>(kAt[slot]));
-        const __m128i put = _mm_and_si128(at, _mm_set1_epi32(static_cast<int>(key)));
-        _mm_store_si128(all, _mm_or_si128(_mm_load_si128(all), put));
-#else
-        keys[slot] = key;
-#endif
-    }
-    struct Free {
-        void operator()(Bucket* p) const { std::free(p); }
-    };
-    std::unique_ptr<Bucket, Free> buckets_;  // from calloc: fresh pages are zero without being written
+/// Half-edges whose edges have the same owner, in lists: the newest one of each owner leads to the one before, and so on. The owner of
+/// an edge is one of its vertices; the other one is its key.
+struct EdgeLists {
+    HalfEdge none;                       // the number behind the last half-edge ends the lists, and leads to itself
+    std::vector<HalfEdge> newest;        // per vertex
+    UnfilledVector<std::uint32_t> keys;  // per half-edge
+    std::vector<HalfEdge> before;        // per half-edge; once its list is linked, the next one on its edge
 };
 
-/// A half-edge that found no place in the table.
-struct LeftOver {
-    std::uint32_t smaller_vertex, larger_vertex;
-    HalfEdge half_edge;
-    auto operator<=>(const LeftOver&) const = default;
-};
-
-void link_by_sorting(std::vector<LeftOver>& left_over, std::vector<HalfEdge>& next_on_edge) {
-    std::sort(left_over.begin(), left_over.end());
-    for (std::size_t i = 0, first = 0; i < left_over.size(); ++i) {
-        const LeftOver& here = left_over[i];
-        if (here.smaller_vertex != left_over[first].smaller_vertex ||
-            here.larger_vertex != left_over[first].larger_vertex) {
-            first = i;
+EdgeLists list_edges(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count) {
+    const std::size_t count = 3 * triangles.size();
+    EdgeLists lists{static_cast<HalfEdge>(count), {}, {}, {}};
+    lists.newest = large_vector(vertex_count, lists.none);
+    reserve_large(lists.keys, count + 1);
+    lists.keys.resize(count + 1);
+    lists.keys[count] = 0xFFFFFFFFu;
+    reserve_large(lists.before, count + 1);
+    constexpr std::size_t kBlock = 64;
+    std::array<std::uint32_t, 3 * kBlock> to, owners;
+    for (std::size_t first = 0; first < triangles.size(); first += kBlock) {
+        if (first % (1024 * kBlock) == 0) throw_if_interrupted();
+        const std::size_t size = 3 * (std::min(triangles.size(), first + kBlock) - first);
+        const std::uint32_t* const from = triangles[first].data();
+        std::uint32_t* const keys = &lists.keys[3 * first];
+        for (std::size_t i = 0; i < size; i += 3) {
+            to[i] = from[i + 1];
+            to[i + 1] = from[i + 2];
+            to[i + 2] = from[i];
         }
-        if (i > first) next_on_edge[left_over[i - 1].half_edge] = here.half_edge;
-        next_on_edge[here.half_edge] = left_over[first].half_edge;
+        for (std::size_t i = 0; i < size; ++i) {
+            // An even choice, however vertices are numbered: a vertex of a closed surface has six edges on average, and owns three.
+            const std::uint32_t u = from[i], v = to[i], differing = u ^ v, v_owns = (u < v ? 1u : 0u) ^ (differing & 1);
+            owners[i] = u ^ (differing & (0u - v_owns));
+            keys[i] = owners[i] ^ differing;
+        }
+        lists.before.resize(3 * first + size);
+        for (std::size_t i = 0; i < size; ++i) {
+            HalfEdge& newest = lists.newest[owners[i]];
+            lists.before[3 * first + i] = newest;
+            newest = static_cast<HalfEdge>(3 * first + i);
+        }
     }
+    lists.before.push_back(lists.none);
+    return lists;
+}
+
+/// The first ones of a list, with nothing behind the last one.
+template <std::size_t kSize>
+struct Start {
+    alignas(16) std::array<std::uint32_t, kSize> keys;
+    alignas(16) std::array<HalfEdge, kSize> half_edges;
+    HalfEdge rest;  // what follows
+
+    void read(const EdgeLists& lists, HalfEdge h) {
+        for (std::size_t i = 0; i < kSize; ++i) {
+            half_edges[i] = h;
+            keys[i] = lists.keys[h];
+            h = lists.before[h];
+        }
+        rest = h;
+    }
+};
+
+/// Bit i: numbers[i] is `number`.
+template <std::size_t kSize>
+std::uint32_t find_equal(const std::array<std::uint32_t, kSize>& numbers, std::uint32_t number) {
+    std::uint32_t equal = 0;
+#ifdef __SSE2__
+    const auto four = [&](std::size_t i) {
+        return _mm_cmpeq_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(&numbers[i])), _mm_set1_epi32(static_cast<int>(number)));
+    };
+    for (std::size_t i = 0; i < kSize; i += 8) {
+        const __m128i eight = _mm_packs_epi16(_mm_packs_epi32(four(i), four(i + 4)), _mm_setzero_si128());
+        equal |= static_cast<std::uint32_t>(_mm_movemask_epi8(eight)) << i;
+    }
+#else
+    for (std::size_t i = 0; i < kSize; ++i) equal |= (numbers[i] == number ? 1u : 0u) << i;
+#endif
+    return equal;
+}
+
+/// Links half-edges two by two, without branches. Returns whether there are more than two on an edge.
+template <std::size_t kSize>
+bool link_pairs(const Start<kSize>& start, EdgeLists& lists) {
+    HalfEdge* const next = lists.before.data();
+    const std::uint32_t used = ~find_equal(start.half_edges, lists.none);
+    std::uint32_t more = 0;
+    for (std::size_t i = 0; i < kSize; ++i) {
+        const std::uint32_t own = 1u << i, others = find_equal(start.keys, start.keys[i]) ^ own;
+        next[start.half_edges[i]] = start.half_edges[static_cast<std::size_t>(std::countr_zero(others != 0 ? others : own))];
+        more |= others & (others - 1) & used;
+    }
+    return more != 0;
+}
+
+/// Keys and half-edges of a list.
+using KeyedList = std::vector<std::pair<std::uint32_t, HalfEdge>>;
+
+/// Links all of a list. Notes half-edges of edges that have more than two.
+void link_by_sorting(KeyedList list, EdgeLists& lists, std::vector<HalfEdge>& crowded) {
+    std::sort(list.begin(), list.end());
+    for (std::size_t i = 0, first = 0; i < list.size(); ++i) {
+        if (list[i].first != list[first].first) first = i;
+        if (i > first) lists.before[list[i - 1].second] = list[i].second;
+        lists.before[list[i].second] = list[first].second;
+        if (i == first + 2) crowded.insert(crowded.end(), {list[first].second, list[first + 1].second});
+        if (i > first + 1) crowded.push_back(list[i].second);
+    }
+}
+
+/// Links a list if `start` is all of it; whether it is.
+template <std::size_t kSize>
+bool link_start(const Start<kSize>& start, EdgeLists& lists, std::vector<HalfEdge>& crowded) {
+    if (start.rest != lists.none) return false;
+    if (link_pairs(start, lists)) {
+        KeyedList list;
+        for (std::size_t i = 0; i < kSize && start.half_edges[i] != lists.none; ++i) list.emplace_back(start.keys[i], start.half_edges[i]);
+        link_by_sorting(std::move(list), lists, crowded);
+    }
+    return true;
+}
+
+void link_list(HalfEdge newest, EdgeLists& lists, std::vector<HalfEdge>& crowded) {
+    Start<16> start;
+    start.read(lists, newest);
+    if (link_start(start, lists, crowded)) return;
+    KeyedList list;
+    for (HalfEdge h = newest; h != lists.none; h = lists.before[h]) list.emplace_back(lists.keys[h], h);
+    link_by_sorting(std::move(list), lists, crowded);
 }
 
 /// Equal for two triangles on one edge if and only if they have the same third vertex.
@@ -145,65 +166,33 @@ bool has_twin(std::span<const std::array<std::uint32_t, 3>> triangles,
 
 std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
                                  std::size_t vertex_count, bool* has_twins) {
-    std::vector<HalfEdge> next_on_edge;
-    reserve_large(next_on_edge, 3 * triangles.size());
-    EdgeTable table(vertex_count);
-    std::vector<LeftOver> left_over;
-    bool twins = false;
-    // Table and links are far larger than the nearest caches: three steps over some triangles at a time, each of which
-    // asks for what the next one needs.
-    constexpr std::size_t kBlock = 64;
-    std::array<EdgeTable::Home, 3 * kBlock> homes;
-    std::array<HalfEdge, 3 * kBlock> before;
-    for (std::size_t first = 0; first < triangles.size(); first += kBlock) {
-        if (first % (1024 * kBlock) == 0) throw_if_interrupted();
-        const std::size_t end = std::min(triangles.size(), first + kBlock), count = 3 * (end - first);
-        const auto first_half_edge = static_cast<HalfEdge>(3 * first);
-        next_on_edge.resize(3 * end);
-        HalfEdge* const next = next_on_edge.data();
-        std::iota(next + 3 * first, next + 3 * end, first_half_edge);
-        for (std::size_t t = first, i = 0; t < end; ++t, i += 3) {
-            const auto& [a, b, c] = triangles[t];
-            homes[i] = table.home_of(a, b);
-            homes[i + 1] = table.home_of(b, c);
-            homes[i + 2] = table.home_of(c, a);
+    EdgeLists lists = list_edges(triangles, vertex_count);
+    std::vector<HalfEdge> crowded;
+    constexpr std::size_t kBatch = 32;  // some are read before the first is linked: what was just written is slow to read as vectors
+    std::array<Start<8>, kBatch> starts;
+    for (std::size_t first = 0; first < vertex_count; first += kBatch) {
+        if (first % (4096 * kBatch) == 0) throw_if_interrupted();
+        const std::size_t count = std::min(kBatch, vertex_count - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const HalfEdge soon = lists.newest[std::min(first + i + kBatch, vertex_count - 1)];
+            __builtin_prefetch(&lists.before[soon], 1);
+            __builtin_prefetch(&lists.keys[soon]);
+            starts[i].read(lists, lists.newest[first + i]);
         }
         for (std::size_t i = 0; i < count; ++i) {
-            const HalfEdge h = first_half_edge + static_cast<HalfEdge>(i);
-            std::uint32_t* const newest = table.newest(homes[i]);
-            if (newest == nullptr) {
-                const auto [smaller, larger] = table.vertices_of(homes[i]);
-                left_over.push_back({smaller, larger, h});
-                before[i] = h;
-                continue;
-            }
-            before[i] = std::min(*newest - 1, h);  // none becomes the greatest number, and others are smaller than h
-            *newest = h + 1;
-            __builtin_prefetch(next + before[i], 1);
-        }
-        for (std::size_t i = 0; i < count; i += 3) {
-            const auto h = first_half_edge + static_cast<HalfEdge>(i);
-            HalfEdge is_long = 0;
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                // The newest one of a ring leads back to the oldest.
-                const HalfEdge oldest = next[before[i + k]];
-                next[h + k] = oldest;
-                next[before[i + k]] = h + k;
-                is_long |= before[i + k] ^ oldest;
-            }
-            // Twins share all three edges: where no more than two triangles meet, the next one on two edges is the same.
-            const bool is_twin = (next[h] != h) & (next[h] / 3 == next[h + 1] / 3);
-            if (is_twin) twins = true;
-            if (is_long != 0) {
-                const bool knows_all = next[h] != h && next[h + 1] != h + 1 && next[h + 2] != h + 2;
-                if (knows_all) twins = twins || has_twin(triangles, next_on_edge, h);
-            }
+            if (!link_start(starts[i], lists, crowded)) link_list(lists.newest[first + i], lists, crowded);
         }
     }
-    link_by_sorting(left_over, next_on_edge);
-    for (const LeftOver& l : left_over) twins = twins || has_twin(triangles, next_on_edge, l.half_edge);
+    std::vector<HalfEdge> next = std::move(lists.before);
+    next.pop_back();
+    // Twins share all edges: where no more than two triangles meet, the next one on two edges is the same.
+    bool twins = false;
+    for (HalfEdge h = 0; h < next.size(); h += 3) {
+        if (next[h] / 3 == next[h + 1] / 3 && next[h] != h) twins = true;
+    }
+    for (const HalfEdge h : crowded) twins = twins || has_twin(triangles, next, h);
     if (has_twins != nullptr) *has_twins = twins;
-    return next_on_edge;
+    return next;
 }
 
 BorderIndex index_borders(const Mesh& mesh) {
