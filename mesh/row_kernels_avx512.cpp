@@ -92,15 +92,15 @@ std::size_t positions(const char*& p, const char* limit, std::size_t max_rows, d
     std::size_t count = 0;
     for (; count < max_rows && row < limit; ++count, values += 3) {
         const __m512i text = _mm512_loadu_si512(row), characters = _mm512_sub_epi8(text, all_bytes<'0'>());
-        const std::uint64_t feeds = _mm512_cmpeq_epi8_mask(text, all_bytes<'\n'>()), own = _blsmsk_u64(feeds);
-        const std::uint64_t minus = _mm512_cmpeq_epi8_mask(text, all_bytes<'-'>()) & own;
-        const std::uint64_t others = find_others(characters) & own & ~minus;
+        const std::uint64_t feeds = _mm512_cmpeq_epi8_mask(text, all_bytes<'\n'>()), minus = _mm512_cmpeq_epi8_mask(text, all_bytes<'-'>());
+        const std::uint64_t others = find_others(characters) & ~minus;
         // A point in each number and a gap behind it, and perhaps a space in front of the feed.
         const std::uint64_t begins = _pdep_u64(0b101010, others) << 1 | 1;
         const auto other = static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm512_castsi512_si128(_mm512_maskz_compress_epi8(others, text))));
         constexpr std::uint64_t kWithSpace = 0x0A202E202E202E, kWithout = 0x0A2E202E202E;  // ". . . \n" and ". . .\n"
-        const bool has_space = (others << 1 & feeds & own) != 0;
-        if (other != (has_space ? kWithSpace : kWithout) || (minus & ~begins) != 0) break;
+        const bool has_space = (others << 1 & feeds & _blsmsk_u64(feeds)) != 0;
+        if (_bzhi_u64(other, has_space ? 56 : 48) != (has_space ? kWithSpace : kWithout)) break;
+        if ((minus & ~begins & _blsmsk_u64(feeds)) != 0) break;
         const auto negative = static_cast<__mmask8>(_pext_u64(minus, begins));
         const __m512i places = places_of(others);
         // Of each number, in 64 bits.
