@@ -161,7 +161,7 @@ class BodyReader {
                 item_ = read_large(element.count, 1, soup_.positions,
                                    [&](AsciiValues& values, std::span<glm::dvec3> rows) { return read_position_rows(values, axis_of, rows); });
             }
-            read_blocks(element.count, 1, soup_.positions, [&](std::span<glm::dvec3> rows) { return values_.plain_positions(axis_of, rows); });
+            read_blocks<1>(element.count, soup_.positions, [&](std::span<glm::dvec3> rows) { return values_.plain_positions(axis_of, rows); });
         }
     }
     void read_plain_triangles(const PlyElement& element) {
@@ -179,7 +179,7 @@ class BodyReader {
                 item_ = read_large(most, 3, soup_.corners, read_triangles);
             }
             const std::uint64_t most = std::min(element.count, item_ + (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
-            read_blocks(most, 3, soup_.corners, [&](std::span<std::uint32_t> corners) { return read_triangles(values_, corners); });
+            read_blocks<3>(most, soup_.corners, [&](std::span<std::uint32_t> corners) { return read_triangles(values_, corners); });
         }
     }
 
@@ -195,16 +195,16 @@ class BodyReader {
         return read_in_pieces(values_, copy, LineCutter::size_for(rest.size(), threads_), threads_, rows, per_row, all, read);
     }
     /// Reads rows from item_ on, up to the one in front of `end`, as long as read(place for the values of some) can.
-    template <typename Value, typename ReadBlock>
-    void read_blocks(std::uint64_t end, std::size_t per_row, std::vector<Value>& all, const ReadBlock& read) {
+    template <std::size_t kPerRow, typename Value, typename ReadBlock>
+    void read_blocks(std::uint64_t end, std::vector<Value>& all, const ReadBlock& read) {
+        std::array<Value, kPerRow * 1024> block;
         for (bool goes_on = true; goes_on;) {
             throw_if_interrupted();
-            const std::size_t before = all.size(), most = per_row * std::min<std::uint64_t>(end - item_, 1024);
-            all.resize(before + most);
-            const std::size_t count = most > 0 ? read(std::span(all).subspan(before)) : 0;
-            all.resize(before + per_row * count);
+            const std::size_t most = std::min<std::uint64_t>(end - item_, 1024);
+            const std::size_t count = read(std::span(block).first(kPerRow * most));
+            all.insert(all.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(kPerRow * count));
             item_ += count;
-            goes_on = most > 0 && per_row * count == most;
+            goes_on = count > 0 && count == most;
         }
     }
     /// Where a number in plain rows is too large for the vertices, all is read again, value by value, to see where it stands.
