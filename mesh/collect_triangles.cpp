@@ -85,7 +85,11 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
             const auto corners_ahead = [&](std::size_t ahead) { return corners + 3 * std::size_t{order[std::min(k + ahead, count - 1)]}; };
             __builtin_prefetch(corners_ahead(24));
             const std::uint32_t* const soon = corners_ahead(8);
-            for (int corner = 0; corner < 3; ++corner) __builtin_prefetch(places + soon[corner]);
+            for (int corner = 0; corner < 3; ++corner) {
+                __builtin_prefetch(places + soon[corner]);
+                __builtin_prefetch(&welded[soon[corner]]);
+                __builtin_prefetch(&local[soon[corner]], 1);
+            }
             const std::uint32_t i = order[k];
             order[mesh.triangles.size()] = i;
             if (!take(i)) dropped.push_back(i);
