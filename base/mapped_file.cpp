@@ -12,7 +12,7 @@
 
 namespace burin {
 
-MappedFile::MappedFile(const std::string& path) : path_(path) {
+MappedFile::MappedFile(const std::string& path, bool stays_open) : path_(path) {
     // O_NONBLOCK: a named pipe must give an error below instead of waiting for a writer.
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (fd < 0) {
@@ -37,12 +37,16 @@ MappedFile::MappedFile(const std::string& path) : path_(path) {
     }
     ::madvise(address, size_, MADV_SEQUENTIAL);
     data_ = static_cast<const char*>(address);
-    fd_ = fd;
+    if (stays_open) {
+        fd_ = fd;
+    } else {
+        ::close(fd);
+    }
 }
 
 MappedFile::~MappedFile() {
     ::munmap(const_cast<char*>(data_), size_);
-    ::close(fd_);
+    if (fd_ >= 0) ::close(fd_);
 }
 
 void MappedFile::copy(std::size_t place, std::span<char> to) const {

@@ -34,7 +34,7 @@ inline bool is_coordinate(const glm::dvec3& p) {
 /// readers everywhere take any white space, so this does too.
 class AsciiValues {
   public:
-    /// So many line feeds as `margin` may be looked at in front of the body and behind it.
+    /// `margin`: so many line feeds stand in front of the body and behind it, and may be read.
     AsciiValues(std::string_view body, std::size_t first_line, std::size_t margin = 0)
         : p_(body.data()), end_(p_ + body.size()), readable_begin_(p_ - margin), readable_end_(end_ + margin), line_(first_line) {}
 
@@ -102,6 +102,7 @@ class AsciiValues {
                     p = scan_plain_decimal(p, rows[row][axis]);
                     if (p == nullptr || !is_space(*p)) return kNotPlain;
                 } else {
+                    if (p >= end_ || is_space(*p)) return kNotPlain;  // it stands on the next line
                     while (p < end_ && !is_space(*p)) ++p;
                 }
             }

@@ -49,7 +49,10 @@ class BodyReader {
             throw InputError(path_ +
                              ": the file has no polygons; burin draws the lines of surfaces");
         }
-        if (largest_plain_ >= soup_.positions.size()) return BodyReader(path_, file_, header_, first_values_, threads_, true).read();
+        if (largest_plain_ >= soup_.positions.size()) {
+            soup_ = {};
+            return BodyReader(path_, file_, header_, first_values_, threads_, true).read();
+        }
         check_references();
         return std::move(soup_);
     }
@@ -207,7 +210,8 @@ class BodyReader {
             goes_on = count > 0 && count == most;
         }
     }
-    /// Where a number in plain rows is too large for the vertices, all is read again, value by value, to see where it stands.
+    /// Where a number in plain rows is too large for the vertices, all is read again, value by value, to see where it stands. Rows of
+    /// pieces that are not used in the end count, too: then there may be no such number, and all is well.
     void note_plain_index(std::uint32_t index) {
         for (std::uint32_t known = largest_plain_; known < index && !largest_plain_.compare_exchange_weak(known, index);) {}
     }
@@ -368,7 +372,7 @@ class BodyReader {
         std::size_t line = 0;
         std::uint64_t item = 0;
     } largest_;
-    std::atomic<std::uint32_t> largest_plain_ = 0;
+    std::atomic<std::uint32_t> largest_plain_ = 0;  // of plain rows; there is a vertex 0
     int threads_;
     bool by_value_;  // no row is taken to be plain
 };
@@ -376,7 +380,7 @@ class BodyReader {
 }  // namespace
 
 PolygonSoup read_ply(const std::string& path, int threads) {
-    const MappedFile file(path);
+    const MappedFile file(path, true);
     const PlyHeader header = read_ply_header(path, file.bytes());
     const std::string_view body = file.bytes().substr(header.size);
     PolygonSoup soup;

@@ -58,7 +58,7 @@ std::size_t read_on(std::size_t (*read)(const char*&, const char*, std::size_t, 
 }
 
 std::size_t triangles(const char*& p, const char* limit, std::size_t max_rows, std::uint32_t* values) {
-    constexpr std::ptrdiff_t kLongestRow = 27;  // two are among 64 characters
+    constexpr std::ptrdiff_t kLongestRow = 2 + 8 + 8 + 7 + 2;  // "3 A B C " and a feed, seven digits each; two are among 64 characters
     const char* row = p;
     std::size_t count = 0;
     for (; count + 2 <= max_rows && limit - row > kLongestRow; count += 2, values += 6) {

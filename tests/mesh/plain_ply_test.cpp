@@ -138,6 +138,26 @@ TEST_P(PlainPly, AFileThatEndsTooEarlyIsRefused) {
     EXPECT_TRUE(refuses(rows, {"ends in the middle"}));
 }
 
+/// Values of a row are told by white space of any kind, also those that are skipped.
+TEST_P(PlainPly, SkippedColumnsMayStandOnTheNextLine) {
+    constexpr int kRows = 6000;
+    Random random(2);
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kRows) +
+                       "\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\nelement face 1\n"
+                       "property list uchar int vertex_indices\nend_header\n";
+    std::vector<glm::dvec3> expected;
+    for (int i = 0; i < kRows; ++i) {
+        expected.emplace_back(0.5 * i, -0.25 * i, 0.125 * random.integer(0, 100));
+        const glm::dvec3& p = expected.back();
+        text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
+        text += (i == 0 || i == 10 || random.integer(0, 999) == 0 ? "\n" : " ") + std::to_string(i % 9) + "\n";
+    }
+    const std::string path = folder_.write("split.ply", text + "3 0 1 " + std::to_string(kRows - 1) + "\n");
+    const PolygonSoup soup = read_ply(path, GetParam());
+    EXPECT_EQ(soup.positions, expected);
+    EXPECT_EQ(soup.corners, (std::vector<std::uint32_t>{0, 1, kRows - 1}));
+}
+
 LineCutter::Copy copy_of(const std::string& text) {
     return [&text](std::size_t place, std::span<char> to) { text.copy(to.data(), to.size(), place); };
 }
