@@ -32,6 +32,18 @@ class SmallSet {
     std::vector<std::uint64_t> words_;
 };
 
+/// Whether vertices are mostly equal to others, as where each triangle has its own: as far as the first ones tell.
+bool have_many_again(std::span<const std::uint32_t> hashes) {
+    const std::span tried = hashes.first(std::min<std::size_t>(hashes.size(), 1 << 14));
+    SmallSet met(tried.size());
+    std::size_t again = 0;
+    for (const std::uint32_t h : tried) {
+        again += met.has(h) ? 1 : 0;
+        met.add(h);
+    }
+    return 4 * again > tried.size();
+}
+
 /// first[v] for vertices in ascending order, as weld_vertices() has it: there are no equal ones but among these.
 void weld(std::span<const glm::vec3> positions, std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> hashes,
           std::vector<std::uint32_t>& first) {
@@ -57,18 +69,22 @@ std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> positions) {
     reserve_large(first, count);
     first.resize(count);
     std::iota(first.begin(), first.end(), 0u);
-    // Most have a hash of their own, and need not be looked for. Which have not is told by sets that the caches hold.
+    // Where most have a hash of their own, these need not be looked for. Which have not is told by sets that the caches hold.
     UnfilledVector<std::uint32_t> hashes;
     reserve_large(hashes, count);
     hashes.resize(count);
-    SmallSet met(count), met_again(count);
-    for (std::size_t v = 0; v < count; ++v) {
-        const std::uint32_t h = hashes[v] = hash(positions[v]);
-        if (met.has(h)) met_again.add(h);
-        met.add(h);
-    }
-    for (std::size_t v = 0; v < count; ++v) {
-        if (met_again.has(hashes[v])) doubtful.push_back(static_cast<std::uint32_t>(v));
+    for (std::size_t v = 0; v < count; ++v) hashes[v] = hash(positions[v]);
+    if (have_many_again(hashes)) {
+        doubtful = first;
+    } else {
+        SmallSet met(count), met_again(count);
+        for (const std::uint32_t h : hashes) {
+            if (met.has(h)) met_again.add(h);
+            met.add(h);
+        }
+        for (std::size_t v = 0; v < count; ++v) {
+            if (met_again.has(hashes[v])) doubtful.push_back(static_cast<std::uint32_t>(v));
+        }
     }
     weld(positions, doubtful, hashes, first);
     return first;
