@@ -112,7 +112,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     for (const PicturePiece& piece : plan.visible) {
         show(piece.instances);
         const PixelRect rows = tiles.only(piece.rows).rect();
-        surfaces.draw(rows, tile_samples, waits ? nullptr : &finisher, segments, film, stats);
+        StrokePass::Lists unfinished = surfaces.draw(rows, tile_samples, waits ? nullptr : &finisher, segments, film, stats);
         const bool is_last = &piece == &plan.visible.back();
         if (waits && !is_last) continue;
         watch.lap();
@@ -123,10 +123,11 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
                 add_features(frame, screen, stats.threads, features);
             }
             segments = dashed(segments, *lines.style.dash_px, lines.style.width_px, features, frame.surfaces);
+            unfinished = segments;
         }
         if (!has_layers) {
             const PixelRect part = is_last ? finisher.take_rest() : finisher.take(rows.y1);
-            finisher.draw(part, segments);
+            finisher.draw(part, unfinished);
             hand_on(part);
             if (has_cap) drop_above(finisher.taken_y() - finisher.reach_px(), segments);
         }

@@ -88,7 +88,7 @@ void PieceCosts::add(ScreenSurfaces& screen) {
     const auto row_of = [](const PixelTiles& tiles, std::uint32_t tile) {
         return tile / static_cast<std::uint32_t>(tiles.columns());
     };
-    parallel_for(chunks.size(), threads_, [&](std::size_t c, int worker) {
+    parallel_for_parts(chunks.size(), threads_, [&](std::size_t c, int worker) {
         Tally& tally = tallies[static_cast<std::size_t>(worker)];
         if (tally.visible_bytes.empty()) {
             tally.visible_bytes.assign(counts_.visible_bytes.size(), 0);
@@ -145,7 +145,7 @@ void PieceCosts::add(ScreenSurfaces& screen) {
 }
 
 void PieceCosts::find_edges(ScreenSurfaces& screen, const std::vector<TriangleChunk>& chunks) const {
-    parallel_for(chunks.size(), threads_, [&](std::size_t c, int) {
+    parallel_for_parts(chunks.size(), threads_, [&](std::size_t c, int) {
         for (std::uint32_t t = chunks[c].begin; t < chunks[c].end; ++t) {
             const SurfaceId s{chunks[c].instance, t};
             const auto [p, q, r] = screen.triangle(s).corners;
@@ -154,7 +154,7 @@ void PieceCosts::find_edges(ScreenSurfaces& screen, const std::vector<TriangleCh
             screen.set_facing(screen.number_of(s), is_off ? off_screen : area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
         }
     });
-    parallel_for(chunks.size(), threads_, [&](std::size_t c, int) { screen.find_line_edges(chunks[c]); });
+    parallel_for_parts(chunks.size(), threads_, [&](std::size_t c, int) { screen.find_line_edges(chunks[c]); });
 }
 
 RowCosts PieceCosts::visible() const {

@@ -69,7 +69,7 @@ class CompleteRows {
 
 }  // namespace
 
-void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher,
+StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher,
                        std::vector<std::vector<LineSegment>>& segments, Film& film, RenderStats& stats) {
     Stopwatch watch;
     const int per_pixel = samples_per_pixel_of(*frame_.scene);
@@ -92,16 +92,19 @@ void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher
     const std::size_t before = segments.size();
     segments.resize(before + bins.tile_count());
     CompleteRows rows(grid);
+    // The first list with lines whose strokes reach rows from `y` on.
+    const auto first_reaching = [&](int y) {
+        const double first_y = y - finisher->reach_px() - region.y0;
+        const auto row = static_cast<std::size_t>(std::max(first_y, 0.0)) / static_cast<std::size_t>(grid.tile_px());
+        return row == 0 ? 0 : before + row * static_cast<std::size_t>(grid.columns());
+    };
     // After a tile. The last rows are left to all threads together.
     const auto finish_rows = [&](std::size_t tile, int worker) {
         const std::size_t columns = static_cast<std::size_t>(grid.columns()), complete = rows.add(tile);
         if (finisher == nullptr || complete == 0 || complete * columns == grid.count()) return 0.0;
         const PixelRect part = finisher->take(grid.tile((complete - 1) * columns).y1, kMostBandsAtOnce);
         if (part.height() == 0) return 0.0;
-        const double first_y = part.y0 - finisher->reach_px() - region.y0;
-        const auto first_row = static_cast<std::size_t>(std::max(first_y, 0.0)) / static_cast<std::size_t>(grid.tile_px());
-        const std::size_t first = first_row == 0 ? 0 : before + first_row * columns;
-        return finisher->finish_as(worker, part, StrokePass::Lists(segments).subspan(first, before + complete * columns - first));
+        return finisher->finish_as(worker, part, StrokePass::Lists(segments).first(before + complete * columns).subspan(first_reaching(part.y0)));
     };
     const bool has_limit = finisher != nullptr && finisher->hands_on();
     const auto draw_tile = [&](std::size_t index, int worker) {
@@ -164,6 +167,7 @@ void SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
     stats.write_s += sum.write * scale;
+    return StrokePass::Lists(segments).subspan(finisher == nullptr ? 0 : std::min(first_reaching(finisher->taken_y()), segments.size()));
 }
 
 }  // namespace burin

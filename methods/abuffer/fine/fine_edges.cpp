@@ -34,7 +34,7 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PossibleLines& possible
     const int pitch_shift = std::countr_zero(static_cast<unsigned>(2 * blocks.half_pitch));
     const int tile_shift = std::countr_zero(static_cast<unsigned>(tiles.tile_px() * kSubpixelsPerPixel));
     const int columns = tiles.columns();
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+    parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int) {
         const ScreenMesh mesh = screen.mesh(chunks[c].instance);
         // First all edges, then their vertices, which take longer to come from memory.
         std::vector<EdgeEnds> edges;

@@ -80,7 +80,7 @@ LayerBins::LayerBins(const ScreenSurfaces& screen, const TileKernels& kernels, c
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     std::vector<std::vector<Record>> records(chunks.size());
     std::vector<Scratch> scratch(static_cast<std::size_t>(threads));
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int worker) {
+    parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int worker) {
         if (lines != nullptr) {
             bin_in_front(screen, kernels, grid, *lines, chunks[c], scratch[static_cast<std::size_t>(worker)], records[c]);
         } else {

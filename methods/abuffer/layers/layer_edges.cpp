@@ -92,7 +92,7 @@ std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin
 }  // namespace
 
 PossibleLines::PossibleLines(const ScreenSurfaces& screen, int threads) : chunks(screen.chunks_of_triangles(kChunkTriangles)), edges(chunks.size()) {
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int) {
+    parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int) {
         edges[c] = possible_lines(screen.mesh(chunks[c].instance), chunks[c].begin, chunks[c].end);
     });
 }

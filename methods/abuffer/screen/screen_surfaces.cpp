@@ -14,7 +14,7 @@ constexpr std::size_t kChunk = 1 << 14;
 
 template <typename Work>
 void for_chunks(std::size_t count, int threads, const Work& work) {
-    parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+    parallel_for_parts((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
         work(chunk * kChunk, std::min(count, (chunk + 1) * kChunk));
     });
 }

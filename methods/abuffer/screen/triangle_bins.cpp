@@ -336,10 +336,10 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
     std::vector<Records> records(chunks.size());
     std::vector<Scratch> scratch(static_cast<std::size_t>(threads));
     const Binner binner(surfaces, grid, kernels);
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int worker) {
+    parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int worker) {
         binner.bin(chunks[c], scratch[static_cast<std::size_t>(worker)], records[c]);
     });
-    parallel_for(chunks.size(), threads, [&](std::size_t c, int) { surfaces.find_line_edges(chunks[c]); });
+    parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int) { surfaces.find_line_edges(chunks[c]); });
 
     // Stable, chunk after chunk: the same for any number of threads.
     std::vector<std::vector<TileLists<TriangleRun>::Record>> runs(chunks.size()), thin_runs(chunks.size());
