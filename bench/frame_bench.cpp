@@ -4,6 +4,7 @@
 //
 // The camera fits the model to 95 % of the frame, at a vertical field of view of 35 degrees. With
 // "scaling" also a frame of four times the pixels, and one of four times the triangles.
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -184,6 +185,40 @@ std::function<void()> drawing(View& view, Film& film, std::optional<int> samples
     };
 }
 
+/// The first two cores that this process may run on; none where there are fewer.
+std::vector<cpu_set_t> two_cores() {
+    std::vector<cpu_set_t> cores;
+    cpu_set_t all;
+    if (::sched_getaffinity(0, sizeof all, &all) != 0) return cores;
+    for (int i = 0; i < CPU_SETSIZE && cores.size() < 2; ++i) {
+        if (!CPU_ISSET(i, &all)) continue;
+        CPU_ZERO(&cores.emplace_back());
+        CPU_SET(i, &cores.back());
+    }
+    if (cores.size() < 2) cores.clear();
+    return cores;
+}
+
+/// Does work on one core.
+std::function<void()> on_core(const cpu_set_t& core, std::function<void()> work) {
+    return [core, work = std::move(work)] {
+        cpu_set_t all;
+        if (::sched_getaffinity(0, sizeof all, &all) != 0 || ::sched_setaffinity(0, sizeof core, &core) != 0)
+            throw std::runtime_error("cannot choose a core");
+        work();
+        ::sched_setaffinity(0, sizeof all, &all);
+    };
+}
+
+/// Of what two cores together could do, whether they are equally fast or not, the share that two threads reach: 1 where the
+/// wall time is 1 / (1 / a + 1 / b), with the times of one thread on each of them. On equal cores the
+/// speed-up is twice that.
+void write_share_of_cores(JsonWriter& json, const std::string& name, const Samples& a, const Samples& b, const Samples& two) {
+    Samples shares;
+    for (std::size_t run = 0; run < two.size(); ++run) shares.add(1 / (1 / a[run] + 1 / b[run]) / two[run]);
+    write_samples(json, name, shares);
+}
+
 std::string measure_frames(const std::string& model, int width, int height, int runs,
                            bool has_scaling) {
     JsonWriter json;
@@ -207,6 +242,13 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     add("default_all_layers", drawing(view, layers, kDefault));
     add("samples_2_two_threads", drawing(view, picture, 2, 2));
     add("default_two_threads", drawing(view, picture, kDefault, 2));
+    const std::vector<cpu_set_t> cores = two_cores();
+    if (!cores.empty()) {
+        add("samples_2_first_core", on_core(cores[0], drawing(view, picture, 2)));
+        add("samples_2_second_core", on_core(cores[1], drawing(view, picture, 2)));
+        add("default_first_core", on_core(cores[0], drawing(view, picture, kDefault)));
+        add("default_second_core", on_core(cores[1], drawing(view, picture, kDefault)));
+    }
     // Once per scene, then any number of frames; "searched" is a frame without it.
     add("prepare_hidden", [&view] {
         view.scene.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1);
@@ -253,6 +295,11 @@ std::string measure_frames(const std::string& model, int width, int height, int 
           named("samples_2_two_threads").wall);
     ratio("one_thread_per_two_wall_default", named("default").wall,
           named("default_two_threads").wall);
+    for (const std::string what : {"samples_2", "default"}) {
+        if (cores.empty()) break;
+        write_share_of_cores(json, "two_threads_share_of_cores_" + what, named(what + "_first_core").wall,
+                             named(what + "_second_core").wall, named(what + "_two_threads").wall);
+    }
     if (has_scaling) {
         ratio("pixels_x4_per_one", named("pixels_x4").cpu, named("default").cpu);
         ratio("triangles_x4_per_one", named("triangles_x4").cpu, named("default").cpu);
