@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "base/unfilled_vector.h"
 #include "methods/abuffer/layers/border_parts.h"
 #include "methods/abuffer/layers/edge_sides.h"
 #include "methods/abuffer/screen/edge_on_screen.h"
@@ -32,12 +33,12 @@ constexpr unsigned rank_of_side(std::uint8_t facing) {
 }
 
 /// The sides of edges of some triangles that may be lines in this view: that are sharp, or whose triangles do not face one
-/// way. Of a contour, one side may be missing. The facing of all triangles must be known.
-std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
+/// way. Of a contour, one side may be missing. The facing of all triangles must be known. Returns how many there are, the first ones of
+/// `sides`.
+std::size_t find_sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, UnfilledVector<HalfEdge>& sides) {
     constexpr std::uint32_t kGroup = 64, kWord = 8;
     constexpr std::uint64_t kFirstEdges = 0x0101010101010101u, kToOneByte = 0x0102040810204080u;
     static_assert(std::endian::native == std::endian::little);
-    std::vector<HalfEdge> sides;
     std::size_t count = 0;
     const bool has_sharp = mesh.sharp != nullptr;
     const std::uint8_t* const sharp = has_sharp ? mesh.sharp : mesh.line_edges;
@@ -63,37 +64,36 @@ std::vector<HalfEdge> sides_of_possible_lines(const ScreenMesh& mesh, std::uint3
             }
         }
     }
-    sides.resize(count);
-    return sides;
+    return count;
 }
 
-std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end) {
-    const std::vector<HalfEdge> sides = sides_of_possible_lines(mesh, begin, end);
-    std::vector<HalfEdge> edges(sides.size());
+/// `sides`: used for each call.
+std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, UnfilledVector<HalfEdge>& sides) {
+    const std::size_t side_count = find_sides_of_possible_lines(mesh, begin, end, sides);
     std::size_t count = 0;
     // What is on the other side of an edge may lie anywhere in memory.
     constexpr std::size_t kAhead = 16;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        if (i + 2 * kAhead < sides.size()) __builtin_prefetch(mesh.partners + sides[i + 2 * kAhead]);
-        if (i + kAhead < sides.size() && !is_surely_pair(mesh, sides[i + kAhead])) {
+    for (std::size_t i = 0; i < side_count; ++i) {
+        if (i + 2 * kAhead < side_count) __builtin_prefetch(mesh.partners + sides[i + 2 * kAhead]);
+        if (i + kAhead < side_count && !is_surely_pair(mesh, sides[i + kAhead])) {
             __builtin_prefetch(mesh.partners + mesh.partners[sides[i + kAhead]]);
         }
         const HalfEdge h = sides[i], g = mesh.partners[h];
         const bool is_pair = is_surely_pair(mesh, h) || (g != h && mesh.partners[g] == h);
         const unsigned own = rank_of_side(mesh.facing[h / 3]), other = rank_of_side(mesh.facing[g / 3]);
         const bool is_found_from_other = is_pair & ((own > other) | ((own == other) & (g < h)));  // a branch would be a guess
-        edges[count] = is_pair ? std::min(h, g) : h;
+        sides[count] = is_pair ? std::min(h, g) : h;  // no side that is still to be looked at
         count += is_found_from_other ? 0 : 1;
     }
-    edges.resize(count);
-    return edges;
+    return {sides.data(), sides.data() + count};
 }
 
 }  // namespace
 
 PossibleLines::PossibleLines(const ScreenSurfaces& screen, int threads) : chunks(screen.chunks_of_triangles(kChunkTriangles)), edges(chunks.size()) {
-    parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int) {
-        edges[c] = possible_lines(screen.mesh(chunks[c].instance), chunks[c].begin, chunks[c].end);
+    std::vector<UnfilledVector<HalfEdge>> sides(static_cast<std::size_t>(resolve_thread_count(threads)));
+    parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int worker) {
+        edges[c] = possible_lines(screen.mesh(chunks[c].instance), chunks[c].begin, chunks[c].end, sides[static_cast<std::size_t>(worker)]);
     });
 }
 
