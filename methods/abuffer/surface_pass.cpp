@@ -88,6 +88,7 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
     std::vector<FineParts> fine_parts(workers, FineParts(screen_, kernels_, completes_lines(*frame_.scene)));
     std::vector<std::vector<FinePart>> parts(workers);
     std::vector<std::unique_ptr<FineLines>> fine_lines(workers);
+    std::vector<std::vector<LineSegment>> lines_of(workers);  // of a tile: a list of its own would grow in memory that all share
     std::vector<WorkerTimes> times(workers);
     const std::size_t before = segments.size();
     segments.resize(before + bins.tile_count());
@@ -115,7 +116,8 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
         }
         if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame_, screen_, kernels_);
         if (has_fine && !fine_lines[w]) fine_lines[w] = std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region);
-        std::vector<LineSegment>& lines = segments[before + index];
+        std::vector<LineSegment>& lines = lines_of[w];
+        lines.clear();
         const auto add_fine_lines = [&] {
             parts[w].clear();
             fine_parts[w].find(tiles[w]->samples(), fine_edges->in(index), lines, parts[w]);
@@ -137,6 +139,7 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
             fillers[w]->fill(*tiles[w], film);
         }
         if (contours_ != nullptr) contours_->move(lines);
+        segments[before + index].assign(lines.begin(), lines.end());
         times[w].shade += lap.lap();
         const double write_s = finish_rows(index, worker);
         times[w].write += write_s;
