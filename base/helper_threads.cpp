@@ -56,7 +56,7 @@ class HelperThread {
         }
     }
     void change_to(int state) {
-        state_.store(state, std::memory_order_release);
+        state_.store(state);  // in one order with what notify_one() asks: whether the other one sleeps
         state_.notify_one();
     }
 
