@@ -4,9 +4,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <mutex>
-#include <system_error>
 #include <thread>
 
 namespace burin {
@@ -89,8 +89,8 @@ class IdleHelpers {
         for (; taken.size() < count && !idle_.empty(); idle_.pop_back()) taken.push_back(idle_.back());
         try {
             for (; taken.size() < count; ++made_) taken.push_back(std::make_unique<HelperThread>().release());
-        } catch (const std::system_error&) {
-            // The system has no more threads.
+        } catch (const std::exception&) {
+            // The system has no more threads, or no memory for them.
         }
         return taken;
     }

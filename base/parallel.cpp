@@ -18,8 +18,8 @@ std::size_t count_workers(std::size_t count, int threads) {
     return std::min(count, static_cast<std::size_t>(resolve_thread_count(threads)));
 }
 
-/// Calls work(worker, should_stop) once on each of so many threads, one of them this one. The first exception makes the others
-/// stop and is rethrown.
+/// Calls work(worker, stop) once on each of so many threads, or fewer, one of them this one. The first exception sets `stop` and
+/// is rethrown.
 template <typename Work>
 void on_workers(std::size_t workers, const Work& work) {
     std::atomic<bool> stop{false};
@@ -74,11 +74,11 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     on_workers(workers, [&](int worker, const std::atomic<bool>& stop) {
         for (;;) {
             // Neighbours write to the same cache lines and read much alike, but the last ones are to end at about the same time.
-            constexpr std::size_t kMost = 8, kShares = 8;
+            constexpr std::size_t kShares = 8;
             std::size_t index = next.load(std::memory_order_relaxed), some;
             do {
                 if (index >= count) return;
-                some = std::clamp<std::size_t>((count - index) / (kShares * workers), 1, kMost);
+                some = std::clamp<std::size_t>((count - index) / (kShares * workers), 1, kMostInARow);
             } while (!next.compare_exchange_weak(index, index + some, std::memory_order_relaxed));
             for (const std::size_t end = index + some; index < end; ++index) {
                 if (stop.load(std::memory_order_relaxed)) return;

@@ -199,14 +199,25 @@ std::vector<cpu_set_t> two_cores() {
     return cores;
 }
 
-/// Does work on one core.
+/// Keeps this thread on one core for as long as it lives.
+class OnCore {
+  public:
+    explicit OnCore(const cpu_set_t& core) {
+        if (::sched_getaffinity(0, sizeof before_, &before_) != 0 || ::sched_setaffinity(0, sizeof core, &core) != 0)
+            throw std::runtime_error("cannot choose a core");
+    }
+    ~OnCore() { ::sched_setaffinity(0, sizeof before_, &before_); }
+    OnCore(const OnCore&) = delete;
+    OnCore& operator=(const OnCore&) = delete;
+
+  private:
+    cpu_set_t before_;
+};
+
 std::function<void()> on_core(const cpu_set_t& core, std::function<void()> work) {
     return [core, work = std::move(work)] {
-        cpu_set_t all;
-        if (::sched_getaffinity(0, sizeof all, &all) != 0 || ::sched_setaffinity(0, sizeof core, &core) != 0)
-            throw std::runtime_error("cannot choose a core");
+        const OnCore here(core);
         work();
-        ::sched_setaffinity(0, sizeof all, &all);
     };
 }
 

@@ -24,8 +24,8 @@ struct WorkerTimes {
 
 /// So many bands are finished by one thread before it goes on with tiles.
 constexpr int kMostBandsAtOnce = 8;
-/// Where bands are handed on, so many rows of tiles may be begun below one that is not complete, and two more for each
-/// thread: their bands are there.
+/// Where bands are handed on, so many rows of tiles may be begun below one that is not complete, and for each thread two more and
+/// what it takes in a row: their bands are there.
 constexpr std::size_t kRowsAhead = 4;
 
 /// Counts the rows of tiles that are complete, from the top.
@@ -70,7 +70,7 @@ class CompleteRows {
 }  // namespace
 
 StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher,
-                       std::vector<std::vector<LineSegment>>& segments, Film& film, RenderStats& stats) {
+                                    std::vector<std::vector<LineSegment>>& segments, Film& film, RenderStats& stats) {
     Stopwatch watch;
     const int per_pixel = samples_per_pixel_of(*frame_.scene);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
@@ -107,6 +107,7 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
         if (part.height() == 0) return 0.0;
         return finisher->finish_as(worker, part, StrokePass::Lists(segments).first(before + complete * columns).subspan(first_reaching(part.y0)));
     };
+    const std::size_t most_rows = kRowsAhead + 2 * workers + kMostInARow * workers / static_cast<std::size_t>(grid.columns());
     const bool has_limit = finisher != nullptr && finisher->hands_on();
     const auto draw_tile = [&](std::size_t index, int worker) {
         const auto w = static_cast<std::size_t>(worker);
@@ -147,7 +148,7 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
         if (progress_ != nullptr) progress_->advance();
     };
     parallel_for(bins.tile_count(), threads_, [&](std::size_t index, int worker) {
-        if (has_limit) rows.wait_for_turn(index, kRowsAhead + 2 * workers);
+        if (has_limit) rows.wait_for_turn(index, most_rows);
         try {
             draw_tile(index, worker);
         } catch (...) {

@@ -1,12 +1,15 @@
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -14,30 +17,63 @@
 namespace burin {
 namespace {
 
+constexpr auto kBoth = {&parallel_for, &parallel_for_parts};
+
+/// Waits until it is true, but not for ever. Returns whether it is.
+template <typename Condition>
+bool becomes_true(const Condition& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        std::this_thread::yield();
+    }
+    return true;
+}
+
+/// Has so many workers wait for each other, and returns which threads they are.
+std::set<std::thread::id> meet(int workers) {
+    std::set<std::thread::id> threads;
+    std::mutex noting;
+    std::atomic<int> here{0};
+    parallel_for(static_cast<std::size_t>(workers), workers, [&](std::size_t, int) {
+        {
+            const std::lock_guard lock(noting);
+            threads.insert(std::this_thread::get_id());
+        }
+        ++here;
+        EXPECT_TRUE(becomes_true([&] { return here == workers; }));
+    });
+    return threads;
+}
+
 TEST(ParallelFor, VisitsEveryIndexOnce) {
-    for (const int threads : {1, 2, 3, 8}) {
-        std::vector<std::atomic<int>> visits(1000);
-        parallel_for(visits.size(), threads, [&](std::size_t i, int worker) {
-            EXPECT_GE(worker, 0);
-            EXPECT_LT(worker, threads);
-            ++visits[i];
-        });
-        for (const auto& v : visits) EXPECT_EQ(v, 1);
+    for (const auto& parallel : kBoth) {
+        for (const std::size_t count : {0, 1, 7, 8, 1000}) {
+            for (const int threads : {1, 2, 3, 8}) {
+                std::vector<std::atomic<int>> visits(count);
+                parallel(count, threads, [&](std::size_t i, int worker) {
+                    EXPECT_GE(worker, 0);
+                    EXPECT_LT(worker, threads);
+                    ++visits.at(i);
+                });
+                for (const auto& v : visits) ASSERT_EQ(v, 1) << count << " indices, " << threads << " threads";
+            }
+        }
     }
 }
 
-TEST(ParallelFor, PassesTheFirstExceptionOn) {
-    std::atomic<int> calls{0};
-    EXPECT_THROW(parallel_for(100000, 4, [&](std::size_t i, int) {
-                     ++calls;
-                     if (i == 10) throw std::runtime_error("stop");
-                 }),
-                 std::runtime_error);
-    EXPECT_LT(calls, 100000);
-}
-
-TEST(ParallelFor, NothingToDo) {
-    parallel_for(0, 4, [](std::size_t, int) { FAIL(); });
+TEST(ParallelFor, TheFirstExceptionIsPassedOnAndStopsTheOthers) {
+    for (const auto& parallel : kBoth) {
+        constexpr std::size_t kCount = 2000;
+        std::atomic<std::size_t> calls{0};
+        const auto work = [&](std::size_t i, int) {
+            ++calls;
+            if (i == 0) throw std::runtime_error("stop");
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        };
+        EXPECT_THROW(parallel(kCount, 4, work), std::runtime_error);
+        EXPECT_LT(calls, kCount / 2);
+    }
 }
 
 TEST(ParallelFor, EachWorkerIsCalledInIncreasingOrder) {
@@ -48,13 +84,49 @@ TEST(ParallelFor, EachWorkerIsCalledInIncreasingOrder) {
     }
 }
 
-TEST(ParallelFor, WorkersRunAtTheSameTime) {
-    std::atomic<int> here{0};
-    parallel_for(4, 4, [&](std::size_t, int) {
-        ++here;
-        while (here < 4) std::this_thread::yield();
+TEST(ParallelFor, AWorkerKeepsNoMoreIndicesThanItSays) {
+    std::atomic<std::size_t> others{0};
+    parallel_for(1000, 2, [&](std::size_t i, int) {
+        if (i >= kMostInARow) ++others;
+        EXPECT_TRUE(i != 0 || becomes_true([&] { return others == 1000 - kMostInARow; }));
     });
-    EXPECT_EQ(here, 4);
+}
+
+TEST(ParallelFor, WorkersRunAtTheSameTime) { EXPECT_EQ(meet(4).size(), 4u); }
+
+TEST(ParallelFor, HelpersThatSleepAreWoken) {
+    for (int again = 0; again < 5; ++again) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        EXPECT_EQ(meet(3).size(), 3u);
+    }
+}
+
+TEST(ParallelFor, HelpersAreUsedAgain) {
+    const std::set<std::thread::id> first = meet(3);
+    for (int again = 0; again < 20; ++again) EXPECT_EQ(meet(3), first);
+}
+
+TEST(ParallelFor, FewerThreadsDoTheSameWhereThereAreNoMore) {
+    pthread_attr_t before, large;
+    ASSERT_EQ(pthread_getattr_default_np(&before), 0);
+    ASSERT_EQ(pthread_getattr_default_np(&large), 0);
+    ASSERT_EQ(pthread_attr_setstacksize(&large, std::size_t{1} << 50), 0);  // more than can be addressed: none can be started
+    ASSERT_EQ(pthread_setattr_default_np(&large), 0);
+    constexpr int kThreads = 200;
+    for (const auto& parallel : kBoth) {
+        std::atomic<int> calls{0};
+        std::vector<std::atomic<int>> calls_of(kThreads);
+        EXPECT_NO_THROW(parallel(kThreads, kThreads, [&](std::size_t, int worker) {
+            ++calls;
+            ++calls_of[static_cast<std::size_t>(worker)];
+        }));
+        EXPECT_EQ(calls, kThreads);
+        EXPECT_EQ(calls_of.back(), 0);
+    }
+    EXPECT_EQ(pthread_setattr_default_np(&before), 0);
+    pthread_attr_destroy(&before);
+    pthread_attr_destroy(&large);
+    EXPECT_EQ(meet(4).size(), 4u);
 }
 
 TEST(ParallelFor, IsCalledWithinItselfAndFromSeveralThreads) {
@@ -73,18 +145,6 @@ TEST(ParallelFor, IsCalledWithinItselfAndFromSeveralThreads) {
     EXPECT_EQ(calls, 3 * 20 * 5 * 7);
 }
 
-TEST(ParallelFor, HelpersThatSleepAreWoken) {
-    for (int again = 0; again < 5; ++again) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        std::atomic<int> here{0};
-        parallel_for(3, 3, [&](std::size_t, int) {
-            ++here;
-            while (here < 3) std::this_thread::yield();
-        });
-        EXPECT_EQ(here, 3);
-    }
-}
-
 TEST(ParallelFor, WorksInAForkedProcess) {
     parallel_for(4, 4, [](std::size_t, int) {});  // whose helpers a copy of the process has not
     const pid_t child = fork();
@@ -100,37 +160,17 @@ TEST(ParallelFor, WorksInAForkedProcess) {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
-TEST(ParallelForParts, VisitsEveryIndexOnce) {
-    for (const std::size_t count : {0, 1, 7, 8, 1000}) {
-        for (const int threads : {1, 2, 3, 8}) {
-            std::vector<std::atomic<int>> visits(count);
-            parallel_for_parts(count, threads, [&](std::size_t i, int worker) {
-                EXPECT_GE(worker, 0);
-                EXPECT_LT(worker, threads);
-                ++visits.at(i);
-            });
-            for (const auto& v : visits) ASSERT_EQ(v, 1) << count << " indices, " << threads << " threads";
-        }
-    }
-}
-
-TEST(ParallelForParts, OthersHelpAWorkerThatIsSlow) {
-    std::atomic<int> others{0};
-    parallel_for_parts(100, 2, [&](std::size_t i, int) {
+TEST(ParallelForParts, OthersHelpAWorkerThatIsSlowFromItsEnd) {
+    constexpr std::size_t kCount = 100;
+    std::atomic<std::size_t> others{0};
+    std::vector<std::size_t> taken_over;
+    parallel_for_parts(kCount, 2, [&](std::size_t i, int worker) {
+        if (worker == 1 && i < kCount / 2) taken_over.push_back(i);
         if (i != 0) ++others;
-        while (i == 0 && others < 99) std::this_thread::yield();  // ends only if its part is taken over
+        EXPECT_TRUE(i != 0 || becomes_true([&] { return others == kCount - 1; }));
     });
-    EXPECT_EQ(others, 99);
-}
-
-TEST(ParallelForParts, PassesTheFirstExceptionOn) {
-    std::atomic<int> calls{0};
-    EXPECT_THROW(parallel_for_parts(100000, 4, [&](std::size_t i, int) {
-                     ++calls;
-                     if (i % 25000 == 10) throw std::runtime_error("stop");
-                 }),
-                 std::runtime_error);
-    EXPECT_LT(calls, 100000);
+    EXPECT_FALSE(taken_over.empty());
+    EXPECT_TRUE(std::is_sorted(taken_over.rbegin(), taken_over.rend()));
 }
 
 TEST(ParallelForEach, VisitsEveryIndexOnce) {
