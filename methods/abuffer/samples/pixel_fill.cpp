@@ -164,7 +164,13 @@ void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& fil
         }
         return rect.width();
     };
+    constexpr int kAhead = 4;
+    const auto prefetch = [&](int y) {
+        if (y < rect.y1) film.prefetch_color(rect.x0, rect.x1, y);
+    };
+    for (int y = rect.y0; y < rect.y0 + kAhead; ++y) prefetch(y);
     for (int y = rect.y0; y < rect.y1; ++y) {
+        prefetch(y + kAhead);
         const std::size_t first = samples.index(rect.x0 * s, y * s);
         kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
         for (int begin = 0, end; begin < rect.width(); begin = end) {  // a few runs of equal counts
