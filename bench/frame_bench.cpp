@@ -263,6 +263,15 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     add("default_all_layers", drawing(view, layers, kDefault));
     add("samples_2_two_threads", drawing(view, picture, 2, 2), false);
     add("default_two_threads", drawing(view, picture, kDefault, 2), false);
+    // As in a sequence, where what the frame before left in the caches is still there.
+    constexpr int kInARow = 10;
+    const auto in_a_row = [](const std::function<void()>& work) {
+        return [work] {
+            for (int i = 0; i < kInARow; ++i) work();
+        };
+    };
+    add("samples_2_in_a_row", in_a_row(drawing(view, picture, 2, 2)), false);
+    add("default_in_a_row", in_a_row(drawing(view, picture, kDefault, 2)), false);
     // Once per scene, then any number of frames; "searched" is a frame without it.
     add("prepare_hidden", [&view] {
         view.scene.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1);
@@ -319,6 +328,10 @@ std::string measure_frames(const std::string& model, int width, int height, int 
         const Samples& one = named(what).wall;
         write_speed_up(json, "one_thread_per_two_wall_" + what, cores.empty() ? one : named(what + "_first_core").wall,
                        cores.empty() ? one : named(what + "_second_core").wall, named(what + "_two_threads").wall);
+        Samples per_s;
+        const Samples& in_a_row_s = named(what + "_in_a_row").wall;
+        for (std::size_t run = 0; run < in_a_row_s.size(); ++run) per_s.add(kInARow / in_a_row_s[run]);
+        write_samples(json, "two_threads_frames_per_s_" + what, per_s);
     }
     if (has_scaling) {
         ratio("pixels_x4_per_one", named("pixels_x4").cpu, named("default").cpu);
