@@ -7,7 +7,6 @@
 //
 // Cores of a shared machine are often not equally fast. In each run, one thread draws on each of two first; what else takes
 // one thread, E too, is then measured on the faster one.
-#include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,6 +27,7 @@
 #include "base/heap.h"
 #include "base/json_writer.h"
 #include "base/stopwatch.h"
+#include "bench/cores.h"
 #include "bench/embree_view.h"
 #include "bench/statistics.h"
 #include "mesh/build_meshes.h"
@@ -188,35 +188,6 @@ std::function<void()> drawing(View& view, Film& film, std::optional<int> samples
         render_abuffer(view.frame, options, film);
     };
 }
-
-/// The first two cores that this process may run on; none where there are fewer.
-std::vector<cpu_set_t> two_cores() {
-    std::vector<cpu_set_t> cores;
-    cpu_set_t all;
-    if (::sched_getaffinity(0, sizeof all, &all) != 0) return cores;
-    for (int i = 0; i < CPU_SETSIZE && cores.size() < 2; ++i) {
-        if (!CPU_ISSET(i, &all)) continue;
-        CPU_ZERO(&cores.emplace_back());
-        CPU_SET(i, &cores.back());
-    }
-    if (cores.size() < 2) cores.clear();
-    return cores;
-}
-
-/// Keeps this thread on one core for as long as it lives.
-class OnCore {
-  public:
-    explicit OnCore(const cpu_set_t& core) {
-        if (::sched_getaffinity(0, sizeof before_, &before_) != 0 || ::sched_setaffinity(0, sizeof core, &core) != 0)
-            throw std::runtime_error("cannot choose a core");
-    }
-    ~OnCore() { ::sched_setaffinity(0, sizeof before_, &before_); }
-    OnCore(const OnCore&) = delete;
-    OnCore& operator=(const OnCore&) = delete;
-
-  private:
-    cpu_set_t before_;
-};
 
 std::function<void()> on_core(const cpu_set_t& core, std::function<void()> work) {
     return [core, work = std::move(work)] {
