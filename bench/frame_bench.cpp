@@ -6,7 +6,7 @@
 // "scaling" also a frame of four times the pixels, and one of four times the triangles.
 //
 // Cores of a shared machine are often not equally fast. In each run, one thread draws on each of two first; what else takes
-// one thread, E too, is then measured on the faster one.
+// one thread, E too, is then measured on the faster one ("stages" excepted, which have a process of their own).
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -196,8 +196,9 @@ std::function<void()> on_core(const cpu_set_t& core, std::function<void()> work)
     };
 }
 
-/// How often as fast two threads are as one is on average, whether the cores are equally fast or not: with the wall times of
-/// one thread on each of them, what both together could do takes 1 / (1 / a + 1 / b).
+/// How often as fast two threads are as one is on average, where there are just two cores, equally fast or not: with the times of
+/// one thread on each of them, what both together could do takes 1 / (1 / a + 1 / b). CPU times, for a thread that may not leave
+/// its core waits where something else runs there.
 void write_speed_up(JsonWriter& json, const std::string& name, const Samples& a, const Samples& b, const Samples& two) {
     Samples speed_ups;
     for (std::size_t run = 0; run < two.size(); ++run) speed_ups.add(2 / (1 / a[run] + 1 / b[run]) / two[run]);
@@ -241,8 +242,8 @@ std::string measure_frames(const std::string& model, int width, int height, int 
             for (int i = 0; i < kInARow; ++i) work();
         };
     };
-    add("samples_2_in_a_row", in_a_row(drawing(view, picture, 2, 2)), false);
-    add("default_in_a_row", in_a_row(drawing(view, picture, kDefault, 2)), false);
+    add("samples_2_ten_in_a_row", in_a_row(drawing(view, picture, 2, 2)), false);
+    add("default_ten_in_a_row", in_a_row(drawing(view, picture, kDefault, 2)), false);
     // Once per scene, then any number of frames; "searched" is a frame without it.
     add("prepare_hidden", [&view] {
         view.scene.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1);
@@ -297,10 +298,11 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     };
     for (const std::string what : {"samples_2", "default"}) {
         const Samples& one = named(what).wall;
-        write_speed_up(json, "one_thread_per_two_wall_" + what, cores.empty() ? one : named(what + "_first_core").wall,
-                       cores.empty() ? one : named(what + "_second_core").wall, named(what + "_two_threads").wall);
+        write_speed_up(json, "one_thread_per_two_wall_" + what, cores.empty() ? one : named(what + "_first_core").cpu,
+                       cores.empty() ? one : named(what + "_second_core").cpu, named(what + "_two_threads").wall);
+        write_ratio(json, "faster_core_per_two_wall_" + what, one, named(what + "_two_threads").wall);
         Samples per_s;
-        const Samples& in_a_row_s = named(what + "_in_a_row").wall;
+        const Samples& in_a_row_s = named(what + "_ten_in_a_row").wall;
         for (std::size_t run = 0; run < in_a_row_s.size(); ++run) per_s.add(kInARow / in_a_row_s[run]);
         write_samples(json, "two_threads_frames_per_s_" + what, per_s);
     }

@@ -31,7 +31,10 @@ std::string measure_loading(const std::string& path, int runs) {
     const std::vector<cpu_set_t> cores = two_cores();
     for (int run = -1; run < runs; ++run) {  // run -1 warms the page cache
         std::optional<OnCore> here;
-        if (!cores.empty()) here.emplace(load_s(path, cores[1]) < load_s(path, cores[0]) ? cores[1] : cores[0]);
+        if (!cores.empty()) {
+            const double first_s = load_s(path, cores[0]), second_s = load_s(path, cores[1]);
+            here.emplace(second_s < first_s ? cores[1] : cores[0]);
+        }
         const double start = thread_cpu_s();
         PolygonSoup soup = read_ply(path);
         const double middle = thread_cpu_s();

@@ -64,7 +64,7 @@ void fill_run(std::uint16_t* to, std::size_t count, std::uint16_t value) {
 }
 
 /// Has a cache line fetched to be written, so that no other core has it any more. Of a general x86-64, g++ 12 makes a
-/// fetch to read even of __builtin_prefetch(at, 1); where this instruction is not known, it does nothing.
+/// fetch to read even of __builtin_prefetch(at, 1); processors that do not know this instruction skip it, but for the first Pentium 4 with 64 bits.
 inline void prefetch_to_write(const void* at) {
 #ifdef __x86_64__
     asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(at)));
@@ -286,7 +286,7 @@ void Film::prefetch_color(int x0, int x1, int y) const {
         for (std::size_t i = first; i < last; i += kPerLine) prefetch_to_write(plane + i);
         prefetch_to_write(plane + last);
     };
-    for (std::size_t c = 0; c < 4; ++c) {  // of the layers that are kept unless they are not wanted
+    for (std::size_t c = 0; c < 4; ++c) {  // the others are rarely wanted
         ask(planes.beauty[c]);
         ask(planes.lines[c]);
     }

@@ -122,9 +122,10 @@ class Film {
     bool has_geometry() const;
     /// Puts the colours of pixels [x0, x1) of a row without lines, one for all or one for each, channel by channel.
     void put_color(int x0, int x1, int y, const HalfColor& color);
-    /// Has the memory fetched that put_color() will write for pixels of one block, which other cores may have.
-    void prefetch_color(int x0, int x1, int y) const;
     void put_colors(int x0, int x1, int y, const std::array<const std::uint16_t*, 4>& colors);
+    /// Has the memory of beauty and lines fetched that either will write: another core may have it. The pixels lie in one block;
+    /// where that is not made yet, nothing happens.
+    void prefetch_color(int x0, int x1, int y) const;
     /// Puts their depth, normals and ids, if has_geometry(). Before other threads read these, finish_stream_stores() is due.
     void put_geometry(int x0, int x1, int y, const GeometryRow& row);
     /// Of a film in blocks: where put_geometry() would copy a row to that begins with a pixel and lies in one block, so that it
