@@ -272,7 +272,7 @@ std::string measure_frames(const std::string& model, int width, int height, int 
         throw std::logic_error(name);
     };
     const auto faster_core = [&](std::size_t run) {
-        const auto time = [&](const char* name) { return named(name).wall[run]; };
+        const auto time = [&](const char* name) { return named(name).cpu[run]; };
         const bool is_second = time("samples_2_second_core") + time("default_second_core") <
                                time("samples_2_first_core") + time("default_first_core");
         return cores[is_second ? 1 : 0];

@@ -63,8 +63,17 @@ void fill_run(std::uint16_t* to, std::size_t count, std::uint16_t value) {
     std::memcpy(to + count - kEight, &eight, sizeof eight);
 }
 
-/// Has a cache line fetched to be written, so that no other core has it any more. Of a general x86-64, g++ 12 makes a
-/// fetch to read even of __builtin_prefetch(at, 1); processors that do not know this instruction skip it, but for the first Pentium 4 with 64 bits.
+/// Not each x86-64 knows the instruction below, those with AVX2 do.
+inline bool can_prefetch_to_write() {
+#ifdef __x86_64__
+    return __builtin_cpu_supports("avx2") != 0;
+#else
+    return true;
+#endif
+}
+
+/// Has a cache line fetched to be written, so that no other core has it any more. For a general x86-64, g++ 12 makes a
+/// fetch to read even of __builtin_prefetch(at, 1).
 inline void prefetch_to_write(const void* at) {
 #ifdef __x86_64__
     asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(at)));
@@ -278,7 +287,7 @@ void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
 }
 
 void Film::prefetch_color(int x0, int x1, int y) const {
-    if (x0 >= x1 || block_of(number_of(x0, y)) == nullptr) return;
+    if (x0 >= x1 || block_of(number_of(x0, y)) == nullptr || !can_prefetch_to_write()) return;
     const auto [planes, begin] = const_cast<Film*>(this)->place_of(x0, y);
     const auto ask = [first = begin, last = begin + static_cast<std::size_t>(x1 - x0) - 1](const std::uint16_t* plane) {
         constexpr std::size_t kPerLine = 64 / sizeof *plane;
