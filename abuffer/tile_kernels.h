@@ -218,7 +218,7 @@ const TileKernels& baseline_kernels();
 /// nullptr where this build or this machine has none.
 const TileKernels* avx2_kernels();
 const TileKernels* avx512_kernels();
-/// The fastest ones.
+/// The fastest ones that this machine has and allowed_instruction_set() permits.
 const TileKernels& best_kernels();
 
 }  // namespace burin

@@ -1,6 +1,7 @@
 #include "abuffer/level_reach.h"
 #include "abuffer/mesh_walks.h"
 #include "abuffer/tile_kernels.h"
+#include "base/instruction_set.h"
 
 #include "abuffer/tile_kernels.inc"
 
@@ -12,10 +13,12 @@ const TileKernels& baseline_kernels() {
 }
 
 const TileKernels& best_kernels() {
-    for (const TileKernels* const fast : {avx512_kernels(), avx2_kernels()}) {
-        if (fast != nullptr) return *fast;
-    }
-    return baseline_kernels();
+    const InstructionSet allowed = allowed_instruction_set();
+    const TileKernels* const avx512 =
+        allowed >= InstructionSet::avx512 ? avx512_kernels() : nullptr;
+    if (avx512 != nullptr) return *avx512;
+    const TileKernels* const avx2 = allowed >= InstructionSet::avx2 ? avx2_kernels() : nullptr;
+    return avx2 != nullptr ? *avx2 : baseline_kernels();
 }
 
 }  // namespace burin

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/heap.h"
+#include "base/instruction_set.h"
 #include "base/interrupt.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     burin::install_interrupt_handlers();
     try {
+        burin::check_instruction_set();
         if (const auto arguments = burin::parse_arguments(argc, argv)) run(*arguments);
         check_standard_output();
         return kDone;

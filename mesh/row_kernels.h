@@ -24,6 +24,7 @@ const RowKernels& baseline_row_kernels();
 const RowKernels* avx2_row_kernels();
 /// nullptr where compiler or machine lack AVX-512 with VBMI2.
 const RowKernels* avx512_row_kernels();
+/// The fastest ones that this machine has and allowed_instruction_set() permits.
 const RowKernels& best_row_kernels();
 
 }  // namespace burin

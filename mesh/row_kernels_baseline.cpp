@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 
+#include "base/instruction_set.h"
 #include "mesh/row_kernels.h"
 #include "mesh/row_scan.h"
 
@@ -45,10 +45,12 @@ const RowKernels& baseline_row_kernels() {
 }
 
 const RowKernels& best_row_kernels() {
-    for (const RowKernels* const fast : {avx512_row_kernels(), avx2_row_kernels()}) {
-        if (fast != nullptr) return *fast;
-    }
-    return baseline_row_kernels();
+    const InstructionSet allowed = allowed_instruction_set();
+    const RowKernels* const avx512 =
+        allowed >= InstructionSet::avx512 ? avx512_row_kernels() : nullptr;
+    if (avx512 != nullptr) return *avx512;
+    const RowKernels* const avx2 = allowed >= InstructionSet::avx2 ? avx2_row_kernels() : nullptr;
+    return avx2 != nullptr ? *avx2 : baseline_row_kernels();
 }
 
 }  // namespace burin

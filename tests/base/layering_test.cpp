@@ -16,14 +16,17 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"base", {}},
     {"image", {"base"}},
     {"mesh", {"base"}},
-    {"abuffer", {}},
+    {"abuffer", {"base"}},
     {"lines", {"abuffer", "mesh", "base"}},
     {"shading", {"lines", "abuffer", "mesh"}},
     {"scene", {"shading", "lines", "abuffer", "mesh", "image", "base"}},
     {"render", {"scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
     {"methods", {"render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
-    {"compare", {"methods", "render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
-    {"cli", {"compare", "methods", "render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
+    {"compare",
+     {"methods", "render", "scene", "shading", "lines", "abuffer", "mesh", "image", "base"}},
+    {"cli",
+     {"compare", "methods", "render", "scene", "shading", "lines", "abuffer", "mesh", "image",
+      "base"}},
 };
 
 // docs/methods/abuffer.md: the same within the method.
