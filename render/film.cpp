@@ -398,7 +398,7 @@ void Film::draw_hidden(int x, int y, const HiddenInk& lines) {
 void Film::add_lines(int x, int y, const LinePixel& lines) {
     note_drawn(x, y);
     const auto [planes, i] = place_of(x, y);
-    const auto add = [i](std::uint16_t* plane, float value) {
+    const auto add = [i = i](std::uint16_t* plane, float value) {
         if (plane != nullptr) plane[i] = to_half(float_from_half(plane[i]) + value);
     };
     for (std::size_t c = 0; c < 4; ++c) add(planes.lines[c], lines.color[static_cast<int>(c)]);

@@ -16,6 +16,9 @@ constexpr int kBeyondSubpixels = 4;
 /// A part of an edge that is a line if it is visible. The part's begin and end are shares of `line`, which may be a part
 /// of the edge itself.
 struct FineCandidate {
+    FineCandidate() = default;
+    FineCandidate(const FinePart& on_line, const LayerLine& whole) : part(on_line), line(whole) {}
+
     FinePart part;
     LayerLine line;
 };

@@ -275,7 +275,7 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
     const auto sees = [&](std::uint32_t n) {
         return numbers[0] == n || numbers[1] == n || numbers[2] == n || numbers[3] == n;
     };
-    const auto [a, b] = owners.numbers;
+    const std::uint32_t a = owners.numbers[0], b = owners.numbers[1];
     const double nearness = edge.nearness_at(t), clearly = level(nearness);
     if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) {
         if (!takes_rests_) return false;

@@ -21,7 +21,7 @@ class LayerSweep {
     void add(std::uint32_t triangle, double begin, double end, double transmission) {
         ++count_;
         if (!joins_parts_) return add_opaque(begin, end);
-        intervals_.emplace_back(triangle, begin, end, transmission);
+        intervals_.push_back({triangle, begin, end, transmission});
         has_transparent_ = has_transparent_ || transmission > 0;
     }
     /// Adds the pieces of the part that something is in front of.

@@ -226,7 +226,9 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
                 continue;
             } else if (const auto feature = on_mesh.find(s)) {
                 const auto& [first, last] = positions[*feature];
-                const auto at = [&](glm::dvec2 place) { return glm::mix(first, last, Features::share_of(features[*feature], place)); };
+                const auto at = [&, &first = first, &last = last](glm::dvec2 place) {
+                    return glm::mix(first, last, Features::share_of(features[*feature], place));
+                };
                 pen.draw(s, at(s.from), at(s.to));
             } else {
                 others.push_back(&s);

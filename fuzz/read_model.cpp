@@ -1,0 +1,25 @@
+// Reads its input as a model of the format BURIN_FUZZ_KIND. Anything must end in a model or in an
+// InputError. An input of kind "mtl" is the material file of a small OBJ.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "fuzz/scratch_folder.h"
+#include "mesh/model.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static constexpr std::string_view kKind = BURIN_FUZZ_KIND;
+    static const burin::fuzz::ScratchFolder folder;
+    std::string path = folder.write("input." + std::string(kKind), {data, size});
+    if (kKind == "mtl")
+        path = folder.write("model.obj",
+                            "mtllib input.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    try {
+        burin::read_model(path, {});
+    } catch (const burin::InputError&) {
+    }
+    return 0;
+}
