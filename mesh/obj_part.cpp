@@ -52,7 +52,8 @@ class ObjParser {
         if (p - text_.data() < kRowReachBack || rest.size() < 2 + kRowReach || p[1] != ' ') return false;
         const auto pass = [&](const char* q) {
             const char* const end = p + rest.size();
-            while (q < end && is_blank(*q)) ++q;
+            while (q < end && (*q == ' ' || *q == '\t')) ++q;
+            if (q < end && *q == '\r') ++q;  // alone it ends a line, too: not here
             if (q == end || *q != '\n') return false;
             lines_.pass(q);
             return true;
@@ -95,6 +96,16 @@ class ObjParser {
     void parse_line(std::string_view line) {
         LineScanner scan(line);
         const std::string_view keyword = scan.word();
+        if (parse_statement(keyword, scan)) return;
+        // Some programs write all in capitals. No keyword means another thing in the other case.
+        if (std::any_of(keyword.begin(), keyword.end(),
+                        [](char c) { return c >= 'A' && c <= 'Z'; })) {
+            parse_statement(lower_case(keyword), scan);
+        }
+    }
+
+    /// False for a keyword that is not known, or says nothing about the surface.
+    bool parse_statement(std::string_view keyword, LineScanner& scan) {
         if (keyword == "v") {
             parse_vertex(scan);
         } else if (keyword == "f" || keyword == "fo") {
@@ -109,7 +120,10 @@ class ObjParser {
             part_.materials.use(scan.rest(), soup_.polygon_ends.size());
         } else if (keyword == "mtllib") {
             part_.material_files.emplace_back(scan.rest());
+        } else {
+            return false;
         }
+        return true;
     }
 
     void parse_vertex(LineScanner& scan) {
@@ -161,7 +175,7 @@ class ObjParser {
             if (corner.front() == '#') break;
             corners_.push_back(parse_corner(corner));
         }
-        if (corners_.size() < 3 && lines_.rest().empty() && !text_.ends_with('\n')) {
+        if (corners_.size() < 3 && lines_.rest().empty() && !is_line_end(text_.back())) {
             fail("the file ends in the middle of a face; was it written completely?");
         }
         if (soup_.corners.size() + corners_.size() > PolygonSoup::kMaxCorners) {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "mesh/digit_scan.h"
+#include "mesh/line_ends.h"
 
 namespace burin {
 
@@ -126,19 +127,26 @@ class LineScanner {
     const char* end_;
 };
 
+/// A word as ASCII small letters: many formats have keywords in either case.
+inline std::string lower_case(std::string_view word) {
+    std::string result(word);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
 /// Goes through a text line by line and counts the lines.
 class LineReader {
   public:
     explicit LineReader(std::string_view text) : p_(text.data()), end_(text.data() + text.size()) {}
 
-    /// Fetches the next line without its line feed; false at the end of the text.
+    /// Fetches the next line without its line end; false at the end of the text.
     bool next(std::string_view& line) {
         if (p_ == end_) return false;
-        const std::size_t left = static_cast<std::size_t>(end_ - p_);
-        const char* feed = static_cast<const char*>(std::memchr(p_, '\n', left));
-        if (feed == nullptr) feed = end_;
-        line = {p_, static_cast<std::size_t>(feed - p_)};
-        p_ = feed == end_ ? end_ : feed + 1;
+        const char* const line_end = find_line_end(p_, end_);
+        line = {p_, static_cast<std::size_t>(line_end - p_)};
+        p_ = behind_line_end(line_end, end_);
         ++line_number_;
         return true;
     }

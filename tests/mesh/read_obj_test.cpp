@@ -154,6 +154,17 @@ TEST_F(ReadObj, LineEndsCommentsAndUnknownWordsDoNotMatter) {
     EXPECT_EQ(polygons_of(read(crlf)), expected);
 }
 
+TEST_F(ReadObj, KeywordsMayBeInCapitals) {
+    folder_.write("Colours.mtl", "newmtl Red\nKd 1 0 0\n");
+    const PolygonSoup soup = read(
+        "MTLLIB Colours.mtl\nV 0 0 0\nV 1 0 0\nV 0 1 0\nVT 0 0\nVN 0 0 1\nO Left\nUSEMTL Red\nF "
+        "1/1/1 2/1/1 3/1/1\nL 1 2\nG x\nUseMtl Red\nFo 3 2 1\n");
+    EXPECT_EQ(polygons_of(soup), (Polygons{{0, 1, 2}, {2, 1, 0}}));
+    EXPECT_EQ(soup.object_names, (std::vector<std::string>{"part", "Left"}));
+    EXPECT_EQ(soup.materials[soup.polygon_material[1]].color, glm::vec3(1, 0, 0));
+    EXPECT_EQ(soup.marked_edges.size(), 1u);
+}
+
 TEST_F(ReadObj, AByteOrderMarkIsNoPartOfTheFirstWord) {
     EXPECT_EQ(read("\xEF\xBB\xBF" + kSquare + "f 1 2 3\n").positions.size(), 4u);
 }
