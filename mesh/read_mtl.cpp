@@ -1,8 +1,15 @@
 #include "mesh/read_mtl.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <utility>
 
+#include "base/interrupt.h"
 #include "base/mapped_file.h"
 #include "mesh/model_path.h"
 #include "mesh/text_scan.h"
@@ -16,54 +23,122 @@ void read_material_file(const std::string& path, MaterialLibrary& library) {
     const MappedFile file(path);
     LineReader lines(without_byte_order_mark(file.bytes()));
     Material* current = nullptr;
+    bool has_dissolve = false;
     std::string_view line;
     while (lines.next(line)) {
+        if ((lines.line_number() & 0xFFFF) == 0) throw_if_interrupted();
         LineScanner scan(line);
-        const std::string_view keyword = scan.word();
+        const std::string keyword = lower_case(scan.word());
         if (keyword == "newmtl") {
             const std::string name(scan.rest());
             current = &library[name];
             current->name = name;
+            has_dissolve = false;
         } else if (current == nullptr) {
             continue;
-        } else if (keyword == "Kd") {
+        } else if (keyword == "kd") {
             glm::dvec3 color;
             if (scan.number(color.r) && scan.number(color.g) && scan.number(color.b)) {
                 color = glm::clamp(color, 0.0, 1.0);
                 if (!glm::any(glm::isnan(color))) current->color = glm::vec3(color);
             }
-        } else if (keyword == "d" || keyword == "Tr") {
+        } else if (keyword == "d" || keyword == "tr") {
+            // "d -halo 0.5" depends on the direction of view; it is no opacity of a surface.
             double value = 1;
-            if (scan.number(value) && !std::isnan(value)) {
-                const double opacity = std::clamp(keyword == "d" ? value : 1 - value, 0.0, 1.0);
-                current->opacity = static_cast<float>(opacity);
-            }
+            const bool is_dissolve = keyword == "d";
+            if (!scan.number(value) || std::isnan(value) || (has_dissolve && !is_dissolve))
+                continue;
+            has_dissolve = is_dissolve;
+            const double opacity = is_dissolve ? value : value < 1 ? 1 - value : 1;
+            current->opacity = static_cast<float>(std::clamp(opacity, 0.0, 1.0));
         }
     }
 }
 
-}  // namespace
+/// Reads the material files of an OBJ, each once, by whatever names it is called.
+class MaterialFiles {
+  public:
+    explicit MaterialFiles(const std::string& obj_path) : obj_path_(obj_path) {
+        folder_ = std::filesystem::path(obj_path).parent_path().string();
+        if (folder_.empty()) folder_ = ".";
+        if (const auto obj = file_at(obj_path)) outcomes_[*obj] = false;
+    }
 
-MaterialLibrary read_material_files(const std::string& obj_path,
-                                    const std::vector<std::string>& file_names) {
-    MaterialLibrary library;
-    const auto read = [&](std::string_view name) {
-        const std::string path = path_inside_model_folder(obj_path, name);
+    /// False if there is no such file, or it is none to be read.
+    bool read(std::string_view name) {
+        if ((++tries_ & 0xFF) == 0) throw_if_interrupted();
+        if (const auto known = names_.find(name); known != names_.end()) return known->second;
+        return names_.emplace(std::string(name), read_new(std::string(name))).first->second;
+    }
+    MaterialLibrary take() { return std::move(library_); }
+
+  private:
+    using FileNumber = std::pair<dev_t, ino_t>;
+
+    static std::optional<FileNumber> file_at(const std::string& path) {
+        struct stat info {};
+        if (::stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return std::nullopt;
+        return FileNumber(info.st_dev, info.st_ino);
+    }
+
+    bool read_new(const std::string& name) {
+        if (name.find('\0') != std::string::npos || !may_exist(name)) return false;
+        const auto file = file_at(folder_ + "/" + name);  // first, as the other steps take longer
+        if (!file) {
+            ++missing_;
+            return false;
+        }
+        const auto [outcome, is_new] = outcomes_.try_emplace(*file, false);
+        if (is_new) outcome->second = read_file(path_inside_model_folder(obj_path_, name));
+        return outcome->second;
+    }
+    /// Where very many files are missing, their names are looked for in a list of what the folder
+    /// holds: asking the system for each takes seconds.
+    bool may_exist(const std::string& name) {
+        constexpr std::size_t kManyMissing = 256;
+        if (missing_ < kManyMissing) return true;
+        if (entries_.empty()) {
+            std::error_code error;
+            for (std::filesystem::directory_iterator it(folder_, error), end; !error && it != end;
+                 it.increment(error)) {
+                entries_.insert(it->path().filename().string());
+            }
+            entries_.insert({"", ".", ".."});
+        }
+        return entries_.contains(name.substr(0, name.find('/')));
+    }
+    bool read_file(const std::string& path) {
         if (path.empty()) return false;
         try {
-            read_material_file(path, library);
+            read_material_file(path, library_);
             return true;
         } catch (const InputError&) {
             // A missing material file is so common that it must not stop the drawing.
             return false;
         }
-    };
-    for (const std::string& names : file_names) {
-        if (read(names)) continue;  // one name, perhaps with blanks in it
-        LineScanner scan(names);
-        for (std::string_view name = scan.word(); !name.empty(); name = scan.word()) read(name);
     }
-    return library;
+
+    const std::string& obj_path_;
+    std::string folder_;
+    MaterialLibrary library_;
+    std::map<std::string, bool, std::less<>> names_;  // whether it names a file that was read
+    std::map<FileNumber, bool> outcomes_;
+    std::set<std::string> entries_;  // of the folder; empty: not looked at
+    std::size_t tries_ = 0, missing_ = 0;
+};
+
+}  // namespace
+
+MaterialLibrary read_material_files(const std::string& obj_path,
+                                    const std::vector<std::string>& file_names) {
+    MaterialFiles files(obj_path);
+    for (const std::string& names : file_names) {
+        if (files.read(names)) continue;  // one name, perhaps with blanks in it
+        LineScanner scan(names);
+        for (std::string_view name = scan.word(); !name.empty(); name = scan.word())
+            files.read(name);
+    }
+    return files.take();
 }
 
 }  // namespace burin

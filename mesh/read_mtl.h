@@ -8,11 +8,14 @@
 
 namespace burin {
 
-/// Colours (`Kd`) and opacities (`d`, `Tr`) from the MTL files that an OBJ names.
+/// Colours (`Kd`) and opacities (`d`, `Tr`) from the MTL files that an OBJ names. Where `d` and
+/// `Tr` differ, `d` counts; `Tr 1` alone is opaque: it stands in files whose writers take it for
+/// the opacity, and nobody exports what cannot be seen.
 ///
 /// `file_names` is what stands behind each `mtllib`: a name, perhaps with blanks in it, or several.
-/// Only files in the OBJ's own folder or below are read. A file that is missing or broken is left
-/// out: materials then keep the default colour, and the lines are the same.
+/// Only files in the OBJ's own folder or below are read, each once, and not the OBJ itself. A file
+/// that is missing or broken is left out: materials then keep the default colour, and the lines are
+/// the same.
 std::map<std::string, Material, std::less<>> read_material_files(
     const std::string& obj_path, const std::vector<std::string>& file_names);
 
