@@ -15,6 +15,7 @@
 #include "mesh/duplicate_polygons.h"
 #include "mesh/edge_links.h"
 #include "mesh/object_collector.h"
+#include "mesh/repeated_edges.h"
 #include "mesh/spatial_order.h"
 #include "mesh/triangulate.h"
 #include "mesh/vertex_welder.h"
@@ -193,6 +194,14 @@ Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
     return mesh;
 }
 
+/// Pieces of polygons that were cut were counted one by one; in the input they are one polygon.
+void note_cut_polygons(const CutPolygons& cut, MeshRepairs& repairs) {
+    repairs.cut_polygons = cut.polygons;
+    repairs.cut_pieces = cut.pieces;
+    repairs.input_polygons -= cut.pieces - cut.polygons;
+    repairs.input_triangles += cut.triangles - cut.piece_triangles;
+}
+
 /// Whether the order of an object's polygons shows in nothing but their numbers: where some coincide, the first one is seen.
 bool may_be_put_in_order(const PolygonSoup& soup, std::span<const std::uint32_t> polygons) {
     if (polygons.size() < kWorthSpatialOrder || !soup.marked_edges.empty()) return false;
@@ -234,6 +243,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         meshes.push_back(finish_triangles(options, std::move(mesh)));
         return meshes;
     }
+    const std::vector<CutPolygons> cut = cut_at_repeated_edges(soup, welded);
     PolygonsByObject groups = group_by_object(soup);
     if (groups.order.empty() && soup.polygon_count() >= kWorthSpatialOrder && !is_subdivided) {
         groups.order.resize(soup.polygon_count());
@@ -256,6 +266,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         std::vector<std::uint32_t> dropped;
         PolygonMesh polygons = collector.collect(groups, begin, end, mesh.repairs, dropped);
         mesh.input_order.drop(dropped);
+        if (!cut.empty()) note_cut_polygons(cut[object], mesh.repairs);
         meshes.push_back(finish_mesh(std::move(polygons), options, std::move(mesh)));
         begin = end;
     }

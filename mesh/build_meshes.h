@@ -12,6 +12,7 @@ struct MeshOptions {
     int subdivision_levels = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
     int threads = 1;  ///< for reading a file; 0 = all cores. Changes no result.
+    bool strict = false;  ///< for reading a file: refuses what a reader would leave out with a note
 };
 
 /// Turns the polygons of a file into one Mesh per object that has polygons left.
@@ -19,6 +20,7 @@ struct MeshOptions {
 /// In this order: coordinates are rounded to single precision (relative to a common origin where
 /// the model lies far from 0), vertices with equal coordinates of one object are welded, repeated
 /// corners in a row and spikes (from a corner and straight back to it) collapse, polygons without three distinct corners or without area are dropped,
+/// polygons that pass an edge twice in one direction are cut (`mesh/repeated_edges.h`),
 /// duplicates of an earlier polygon (the same edges, in any direction) are dropped, the rest is
 /// subdivided if asked for, triangulated, and linked along its edges. Large objects of one
 /// material without marks are put in spatial order (`mesh/spatial_order.h`), if not subdivided. Everything else is kept:

@@ -20,6 +20,8 @@ struct MeshRepairs {
     std::uint64_t input_triangles = 0;  ///< a polygon of n corners counts as n - 2
     std::uint64_t degenerate_polygons = 0;  ///< dropped: under 3 distinct corners, or no area
     std::uint64_t duplicate_polygons = 0;   ///< dropped: the same edges as an earlier polygon
+    std::uint64_t cut_polygons = 0;         ///< cut into pieces: they passed an edge twice in one direction
+    std::uint64_t cut_pieces = 0;           ///< which are polygons of the mesh, or degenerate or duplicate ones
     std::uint64_t welded_vertices = 0;      ///< vertices merged into one with equal coordinates
 };
 

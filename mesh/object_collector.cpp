@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "mesh/repeated_edges.h"
 
 namespace burin {
 namespace {
@@ -103,28 +104,9 @@ void ObjectCollector::collapse(std::span<const std::uint32_t> corners, MeshRepai
             welded_corners_seen_ += !is_welded_corner_[v];
             is_welded_corner_[v] = true;
         }
-        const std::size_t n = corners_.size();
-        if (n > 0 && corners_[n - 1] == v) continue;
-        if (n > 1 && corners_[n - 2] == v) {
-            corners_.pop_back();  // there and back: a spike
-        } else {
-            corners_.push_back(v);
-        }
+        corners_.push_back(v);
     }
-    // The same where the end meets the start.
-    std::size_t first = 0, end = corners_.size();
-    while (end - first > 1) {
-        if (corners_[first] == corners_[end - 1] || corners_[first + 1] == corners_[end - 1]) {
-            first += corners_[first] != corners_[end - 1];
-            --end;
-        } else if (corners_[first] == corners_[end - 2]) {
-            --end;
-        } else {
-            break;
-        }
-    }
-    corners_.resize(end);
-    corners_.erase(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(first));
+    remove_spikes(corners_);
 }
 
 /// The marks between vertices of the object.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -149,6 +150,34 @@ TEST(BuildMeshes, DuplicatesAfterWeldingAreFoundAmongMany) {
     EXPECT_EQ(count_edges(mesh).edges, 201u);
 }
 
+std::vector<int> without_spikes(std::vector<int> corners) {
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t i = 0; i < corners.size() && corners.size() > 1 && !changed; ++i) {
+            const std::size_t next = (i + 1) % corners.size(), after = (i + 2) % corners.size();
+            changed = corners[i] == corners[next] || corners[i] == corners[after];
+            if (changed) corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(next));
+        }
+    }
+    return corners;
+}
+
+/// What lies between two passes of an edge in the same direction.
+std::optional<std::vector<int>> cut_off_piece(std::vector<int>& corners) {
+    for (std::size_t j = 0; j < corners.size(); ++j) {
+        for (std::size_t i = 0; i < j; ++i) {
+            if (corners[i] != corners[j] || corners[i + 1] != corners[(j + 1) % corners.size()])
+                continue;
+            const auto begin = corners.begin() + static_cast<std::ptrdiff_t>(i),
+                       end = corners.begin() + static_cast<std::ptrdiff_t>(j);
+            const std::vector<int> piece(begin, end);
+            corners.erase(begin, end);
+            return piece;
+        }
+    }
+    return std::nullopt;
+}
+
 /// Twins of the library's decisions, made in the most obvious way.
 TEST(BuildMeshes, AgreesWithObviousRepairsOnRandomPolygons) {
     for (std::uint64_t seed = 0; seed < 1500; ++seed) {
@@ -164,20 +193,21 @@ TEST(BuildMeshes, AgreesWithObviousRepairsOnRandomPolygons) {
         const Mesh mesh = build_one(soup_of(positions, polygons));
 
         std::uint64_t degenerate = 0, duplicate = 0;
+        std::vector<std::vector<int>> pieces;
         std::vector<std::multiset<std::pair<int, int>>> kept;
         for (const auto& polygon : polygons) {
             std::vector<int> corners;  // numbers of the first vertex at the place
             for (const std::uint32_t v : polygon) {
                 corners.push_back(static_cast<int>(std::find(positions.begin(), positions.end(), positions[v]) - positions.begin()));
             }
-            for (bool changed = true; changed;) {
-                changed = false;
-                for (std::size_t i = 0; i < corners.size() && corners.size() > 1 && !changed; ++i) {
-                    const std::size_t next = (i + 1) % corners.size(), after = (i + 2) % corners.size();
-                    changed = corners[i] == corners[next] || corners[i] == corners[after];
-                    if (changed) corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(next));
-                }
-            }
+            pieces.push_back(without_spikes(corners));
+        }
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            while (const auto piece = cut_off_piece(pieces[i]))
+                pieces.push_back(without_spikes(*piece));
+            pieces[i] = without_spikes(pieces[i]);
+        }
+        for (const std::vector<int>& corners : pieces) {
             bool has_area = false;
             for (const int a : corners) {
                 for (const int b : corners) {

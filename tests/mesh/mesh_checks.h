@@ -101,7 +101,7 @@ inline void expect_consistent(const Mesh& mesh, const std::string& what) {
     }
     ASSERT_TRUE(mesh.polygon_material.empty() || mesh.polygon_material.size() == mesh.polygon_count) << what;
     const MeshRepairs& r = mesh.repairs;
-    ASSERT_EQ(r.input_polygons - r.degenerate_polygons - r.duplicate_polygons, mesh.polygon_count) << what;
+    ASSERT_EQ(r.input_polygons - r.cut_polygons + r.cut_pieces - r.degenerate_polygons - r.duplicate_polygons, mesh.polygon_count) << what;
     std::vector<HalfEdge> borders;
     for (HalfEdge h = 0; h < half_edges; ++h) {
         if (mesh.next_on_edge[h] == h) borders.push_back(h);
