@@ -17,16 +17,12 @@ class OffParser {
         : path_(path), lines_(text), bytes_(text.size()) {}
 
     PolygonSoup parse() {
-        LineScanner header = next_line("the word OFF");
-        const std::string_view word = header.word();
-        if (!word.ends_with("OFF") || word.find_first_not_of("STCNOF") != std::string_view::npos) {
-            fail(word.ends_with("OFF") ? "OFF files with more or fewer than three dimensions are not read"
-                                       : "this is no OFF file (it does not start with 'OFF')");
-        }
-        if (header.word() == "BINARY") fail("binary OFF is not read; save it as text");
-        LineScanner counts = header_rest(word);
+        LineScanner counts = behind_keyword(next_line("the word OFF"));
         const std::uint64_t vertices = count(counts, "vertices");
+        if (counts.at_end()) counts = line_of_polygon_count();
         const std::uint64_t polygons = count(counts, "polygons");
+        // The number of edges says nothing, and is left out here and there.
+        if (counts.at_end()) skip_edge_count();
         read_vertices(vertices);
         read_polygons(polygons);
         soup_.object_names = {std::filesystem::path(path_).stem().string()};
@@ -53,12 +49,64 @@ class OffParser {
         fail(std::string("the file ends where ") + expected + " should be; was it written completely?");
     }
 
-    /// The counts, which stand on the line of the word OFF or on the next one.
-    LineScanner header_rest(std::string_view word) {
-        const char* const behind = word.data() + word.size();
-        LineScanner same_line(
-            {behind, static_cast<std::size_t>(current_.data() + current_.size() - behind)});
-        return same_line.at_end() ? next_line("the counts") : same_line;
+    /// What stands behind the word OFF, or on the next line. The counts may follow it without a
+    /// blank, as in the ModelNet data sets.
+    LineScanner behind_keyword(LineScanner first_line) {
+        const std::string_view word = first_line.word();
+        const std::size_t off = lower_case(word).find("off");
+        std::string_view keyword = word.substr(0, off == std::string_view::npos ? off : off + 3);
+        if (keyword.size() < word.size() &&
+            std::string_view("+-.0123456789").find(word[keyword.size()]) == std::string_view::npos)
+            keyword = word;
+        check_keyword(keyword);
+        LineScanner rest(
+            {word.data() + keyword.size(),
+             static_cast<std::size_t>(current_.data() + current_.size() - word.data()) -
+                 keyword.size()});
+        if (rest.at_end()) return next_line("the counts");
+        if (LineScanner ahead = rest; lower_case(ahead.word()) == "binary")
+            fail("binary OFF is not read; save it as text");
+        return rest;
+    }
+
+    void check_keyword(std::string_view keyword) const {
+        const std::string small = lower_case(keyword);
+        std::string_view prefix = small;
+        if (!prefix.ends_with("off") ||
+            prefix.find_first_not_of("stcn4of") != std::string_view::npos) {
+            fail("this is no OFF file (it does not start with 'OFF')");
+        }
+        prefix.remove_suffix(3);
+        // In capitals, N is for normals; a small n before OFF in capitals is for the number of
+        // dimensions.
+        const bool in_small_letters = small == keyword;
+        if (in_small_letters && prefix.ends_with('n')) {
+            fail("'" + printable(keyword) +
+                 "' may mean normals (NOFF) or dimensions (nOFF); write it so");
+        }
+        if (prefix.find('4') != std::string_view::npos ||
+            keyword.find('n') != std::string_view::npos) {
+            fail("OFF files with more or fewer than three dimensions are not read");
+        }
+    }
+
+    /// The next line, with one count or two behind that of the vertices. A vertex has three
+    /// numbers.
+    LineScanner line_of_polygon_count() {
+        const std::size_t line_number = lines_.line_number();
+        const LineScanner next = next_line("the number of polygons");
+        LineScanner ahead = next;
+        for (int words = 0; words < 2; ++words) ahead.word();
+        if (ahead.at_end()) return next;
+        throw InputError(
+            {path_, line_number},
+            "the number of polygons is missing behind that of the vertices; repair the file");
+    }
+    void skip_edge_count() {
+        const LineReader before = lines_;
+        LineScanner line = next_line("a vertex");
+        std::int64_t edges = 0;
+        if (!line.integer(edges) || !line.at_end()) lines_ = before;
     }
 
     std::uint64_t count(LineScanner& scan, const char* what) {
@@ -130,7 +178,7 @@ class OffParser {
 
 PolygonSoup read_off(const std::string& path) {
     const MappedFile file(path);
-    return OffParser(path, file.bytes()).parse();
+    return OffParser(path, without_byte_order_mark(file.bytes())).parse();
 }
 
 }  // namespace burin
