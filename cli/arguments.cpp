@@ -156,8 +156,12 @@ struct Texts {
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
-    bool quiet = false, json = false;
+    bool quiet = false, json = false, strict = false;
 };
+
+void add_strict_option(CLI::App& app, Texts& t) {
+    app.add_flag("--strict", t.strict, "refuse a model of which a part would be left out with a note");
+}
 
 void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("INPUT", t.input, "a scene .toml, or a model .obj .ply .stl .off .gltf .glb")->required();
@@ -187,6 +191,7 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--set", t.sets, "override a value of the scene, KEY=VALUE; may be repeated")
         ->expected(1)->take_all()->allow_extra_args(false);
     app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
+    add_strict_option(app, t);
     app.add_flag("-v", t.verbose, "say more");
     app.add_flag("-q", t.quiet, "say nothing but errors");
 }
@@ -410,6 +415,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
     info->add_option("INPUT", t.input, "a scene .toml or a model")->required();
     info->add_flag("--json", t.json, "as JSON");
+    add_strict_option(*info, t);
     CLI::App* const explain = app.add_subcommand("explain", "show how one pixel was decided");
     add_scene_options(*explain, t);
     add_method_option(*explain, t);
@@ -454,6 +460,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
 
     Arguments a;
     a.json = t.json;
+    a.strict = t.strict;
     if (*list) {
         a.command = Command::methods;
     } else if (*info) {

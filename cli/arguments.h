@@ -48,6 +48,7 @@ struct Arguments {
     int frames = 0;                    ///< compare: how many the camera moves through
     std::string stats;
     bool json = false;
+    bool strict = false;  ///< refuse what a reader would leave out of a model with a note
     bool verbose = false;
     bool quiet = false;
     bool alf_progress = false;

@@ -212,6 +212,8 @@ Totals count(const Scene& scene) {
         totals.edges.marked += edges.marked;
         totals.repairs.degenerate_polygons += mesh.repairs.degenerate_polygons;
         totals.repairs.duplicate_polygons += mesh.repairs.duplicate_polygons;
+        totals.repairs.cut_polygons += mesh.repairs.cut_polygons;
+        totals.repairs.cut_pieces += mesh.repairs.cut_pieces;
         totals.repairs.welded_vertices += mesh.repairs.welded_vertices;
     }
     for (const SceneObject& object : scene.objects) {
@@ -247,9 +249,15 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
     json.key("repairs").begin_object();
     json.key("degenerate_polygons").value(t.repairs.degenerate_polygons);
     json.key("duplicate_polygons").value(t.repairs.duplicate_polygons);
+    json.key("non_finite_polygons").value(scene.non_finite_polygons);
+    json.key("cut_polygons").value(t.repairs.cut_polygons);
+    json.key("cut_pieces").value(t.repairs.cut_pieces);
     json.key("welded_vertices").value(t.repairs.welded_vertices);
     json.key("skipped_primitives").value(scene.skipped_primitives);
     json.end_object();
+    json.key("notes").begin_array();
+    for (const std::string& note : scene.notes) json.value(note);
+    json.end_array();
     json.key("edges").begin_object();
     json.key("total").value(t.edges.edges);
     json.key("border").value(t.edges.border);
@@ -305,9 +313,14 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
     std::printf("  dropped    %llu degenerate and %llu duplicate polygons; %llu vertices welded\n",
                 number(t.repairs.degenerate_polygons), number(t.repairs.duplicate_polygons),
                 number(t.repairs.welded_vertices));
+    if (t.repairs.cut_polygons > 0) {
+        std::printf("  cut        %llu polygons that pass an edge twice in one direction, into %llu\n", number(t.repairs.cut_polygons),
+                    number(t.repairs.cut_pieces));
+    }
     if (scene.skipped_primitives > 0) {
         std::printf("  skipped    %llu primitives of points or lines\n", number(scene.skipped_primitives));
     }
+    for (const std::string& note : scene.notes) std::printf("  note       %s\n", printable(note, 4000).c_str());
     std::printf("  materials  %zu:", scene.materials.size());
     for (const Material& m : scene.materials) {
         std::printf(" %s", m.name.empty() ? "(unnamed)" : printable(m.name, 200).c_str());

@@ -1,6 +1,7 @@
 #include "cli/job.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "base/error.h"
 #include "base/lower_extension.h"
@@ -74,7 +75,10 @@ PixelRect crop_of(const Arguments& a, int width, int height) {
 }  // namespace
 
 Scene load_input(const Arguments& a) {
-    Scene scene = load_scene(describe_input(a), a.threads);
+    Scene scene = load_scene(describe_input(a), a.threads, a.strict);
+    if (!a.quiet && a.command != Command::info) {  // which prints them with the rest
+        for (const std::string& note : scene.notes) std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
+    }
     if (a.size) {
         scene.picture.width = (*a.size)[0];
         scene.picture.height = (*a.size)[1];

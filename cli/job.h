@@ -9,7 +9,7 @@
 
 namespace burin {
 
-/// A scene with the command line's wishes worked in. Throws InputError and UsageError.
+/// A scene with the command line's wishes worked in. Prints what its models' readers noted, but for `info`. Throws InputError and UsageError.
 Scene load_input(const Arguments& arguments);
 
 /// The camera that the arguments ask for. Throws InputError and UsageError.

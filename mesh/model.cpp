@@ -25,6 +25,8 @@ std::vector<Mesh> build_meshes_of(const std::string& path, PolygonSoup soup,
 Model model_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     Model model;
     model.materials = std::move(soup.materials);
+    model.non_finite_polygons = soup.non_finite_polygons;
+    for (const std::string& note : soup.notes) model.notes.push_back(path + ": " + note);
     model.meshes = build_meshes_of(path, std::move(soup), options);
     for (std::uint32_t i = 0; i < model.meshes.size(); ++i) {
         model.objects.push_back({model.meshes[i].name, i, glm::dmat4(1.0)});
@@ -57,8 +59,8 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
 Model read_by_extension(const std::string& path, const MeshOptions& options) {
     const std::string extension = lower_extension(path);
     if (extension == ".obj") return model_of(path, read_obj(path, options.threads), options);
-    if (extension == ".ply") return model_of(path, read_ply(path, options.threads), options);
-    if (extension == ".stl") return model_of(path, read_stl(path), options);
+    if (extension == ".ply") return model_of(path, read_ply(path, options.threads, options.strict), options);
+    if (extension == ".stl") return model_of(path, read_stl(path, options.strict), options);
     if (extension == ".off") return model_of(path, read_off(path), options);
     if (extension == ".gltf" || extension == ".glb") {
         return model_of(path, read_gltf(path), options);

@@ -34,13 +34,16 @@ struct Model {
     std::vector<ModelObject> objects;
     std::vector<ModelCamera> cameras;
     std::uint64_t skipped_primitives = 0;  ///< points and lines of a glTF
+    std::uint64_t non_finite_polygons = 0;  ///< left out, of an STL
+    std::vector<std::string> notes;  ///< what the user should know of how the file was read: "path: what", a line each
 };
 
 /// True if the extension names a format that read_model can read.
 bool is_model_file(const std::string& path);
 
 /// Reads .obj, .ply, .stl, .off, .gltf or .glb, whichever the extension says (in any case).
-/// Throws InputError when the file cannot be read or no polygon with an area is in it.
+/// Throws InputError when the file cannot be read or no polygon with an area is in it; if `options` are strict, also
+/// where there would be a note.
 Model read_model(const std::string& path, const MeshOptions& options);
 
 }  // namespace burin

@@ -8,10 +8,10 @@
 namespace burin {
 
 enum class PlyEncoding : std::uint8_t { ascii, little_endian, big_endian };
-enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 constexpr std::size_t size_of(PlyType type) {
-    constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+    constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     return kSizes[static_cast<std::size_t>(type)];
 }
 
@@ -27,7 +27,7 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// Index of the first property with one of these names, or -1.
+    /// Index of the first property with one of these names (in capitals only if there is none in small letters), or -1.
     int find(std::string_view name_a, std::string_view name_b = {}) const;
     bool has_lists() const;
     /// Bytes of one item in a binary file, or the fewest possible if it has lists.
@@ -37,7 +37,7 @@ struct PlyElement {
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::ascii;
     std::vector<PlyElement> elements;
-    std::size_t size = 0;   ///< bytes of the header, with its last line feed
+    std::size_t size = 0;   ///< bytes of the header, with its last line end
     std::size_t lines = 0;  ///< lines of the header
 };
 

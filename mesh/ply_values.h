@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -42,6 +43,13 @@ class AsciiValues {
         skip_space();
         const char* const next = scan_number(p_, end_, value);
         return accept(next);
+    }
+    /// Goes to the end of this line. Returns whether anything but blanks stood there.
+    bool skip_rest_of_line() {
+        p_ = skip_blanks(p_);
+        if (p_ == end_ || is_line_end(*p_)) return false;
+        p_ = find_line_end(p_, end_);
+        return true;
     }
     bool integer(PlyType type, std::int64_t& value) {
         if (type >= PlyType::float32) {
@@ -176,13 +184,15 @@ class AsciiValues {
     bool has_reach(const char* p) const { return p - readable_begin_ >= kRowReachBack && readable_end_ - p >= kRowReach; }
     bool has_scan_reach(const char* p) const { return readable_end_ - p >= kScanReach; }
     const char* skip_blanks(const char* p) const {
-        while (p < end_ && is_blank(*p)) ++p;
+        while (p < end_ && (*p == ' ' || *p == '\t')) ++p;
         return p;
     }
     static bool is_space(char c) { return is_blank(c) || c == '\n'; }
     void skip_space() { p_ = behind_space(p_, line_); }
     const char* behind_space(const char* p, std::size_t& line) const {
-        for (; p < end_ && static_cast<unsigned char>(*p) <= ' ' && is_space(*p); ++p) line += *p == '\n' ? 1 : 0;
+        for (; p < end_ && static_cast<unsigned char>(*p) <= ' ' && is_space(*p); ++p) {
+            line += *p == '\n' || is_lone_carriage_return(p, end_) ? 1 : 0;
+        }
         return p;
     }
     bool accept(const char* next) {
@@ -226,6 +236,12 @@ class BinaryValues {
             case PlyType::uint32:
                 value = load<std::uint32_t>();
                 break;
+            case PlyType::int64:
+                value = static_cast<double>(load<std::int64_t>());
+                break;
+            case PlyType::uint64:
+                value = static_cast<double>(load<std::uint64_t>());
+                break;
             case PlyType::float32:
                 value = static_cast<double>(load<float>());
                 break;
@@ -236,6 +252,13 @@ class BinaryValues {
         return true;
     }
     bool integer(PlyType type, std::int64_t& value) {
+        if (type == PlyType::int64 || type == PlyType::uint64) {
+            if (room_bytes() < size_of(type)) return reach_end();
+            value = load<std::int64_t>();
+            // Beyond the largest there is: no count and no number of a vertex either.
+            if (type == PlyType::uint64 && value < 0) value = std::numeric_limits<std::int64_t>::max();
+            return true;
+        }
         const char* const start = p_;
         double number_value = 0;  // 32-bit integers fit exactly
         if (!number(type, number_value)) return false;

@@ -30,6 +30,8 @@ struct PolygonSoup {
     std::vector<std::array<std::uint32_t, 2>> marked_edges;  ///< vertex numbers
     std::vector<std::string> object_names;                   ///< at least one
     std::vector<Material> materials;                         ///< at least one
+    std::uint64_t non_finite_polygons = 0;                   ///< left out: a coordinate is not finite or beyond 1e30
+    std::vector<std::string> notes;                          ///< what the reader left out or did not take as it stands, a line each
 
     /// Corner counts are stored in 32 bits.
     static constexpr std::size_t kMaxCorners = std::numeric_limits<std::uint32_t>::max();

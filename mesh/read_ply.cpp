@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -18,11 +19,37 @@
 namespace burin {
 namespace {
 
+/// How items are looked for in a text. (In a binary body there is but one way.)
+enum class ItemLayout : std::uint8_t {
+    plain_rows,  ///< a row of plain numbers each, where there are such rows; value by value where
+                 ///< not
+    values,      ///< value by value, whatever lines they stand on
+    lines,       ///< each begins a line; what follows its last value on that line is nothing
+};
+
 template <typename Values>
 class BodyReader {
   public:
-    BodyReader(const std::string& path, const MappedFile& file, const PlyHeader& header, Values values, int threads, bool by_value = false)
-        : path_(path), file_(file), header_(header), first_values_(values), values_(values), threads_(threads), by_value_(by_value) {}
+    BodyReader(const std::string& path, const MappedFile& file, const PlyHeader& header,
+               Values values, int threads, ItemLayout layout = ItemLayout::plain_rows)
+        : path_(path),
+          file_(file),
+          header_(header),
+          first_values_(values),
+          values_(values),
+          threads_(threads),
+          layout_(layout) {}
+
+    /// Whether anything stands behind what was read.
+    bool has_rest() { return !values_.at_end(); }
+
+    /// Lines with more values than the header declares, of the layout `lines`.
+    struct SurplusLines {
+        std::uint64_t count = 0;
+        std::size_t first = 0;                ///< line number
+        const PlyElement* element = nullptr;  ///< of the first one
+    };
+    const SurplusLines& surplus_lines() const { return surplus_; }
 
     PolygonSoup read() {
         for (const PlyElement& element : header_.elements) {
@@ -38,7 +65,10 @@ class BodyReader {
                        element.find("vertex2") >= 0) {
                 read_edges(element);
             } else {
-                for (item_ = 0; item_ < element.count; ++item_) skip_properties(element, 0);
+                for (item_ = 0; item_ < element.count; ++item_) {
+                    skip_properties(element, 0);
+                    end_item();
+                }
             }
         }
         if (soup_.positions.empty()) {
@@ -51,7 +81,10 @@ class BodyReader {
         }
         if (largest_plain_ >= soup_.positions.size()) {
             soup_ = {};
-            return BodyReader(path_, file_, header_, first_values_, threads_, true).read();
+            BodyReader by_value(path_, file_, header_, first_values_, threads_, ItemLayout::values);
+            soup_ = by_value.read();
+            values_ = by_value.values_;
+            return std::move(soup_);
         }
         check_references();
         return std::move(soup_);
@@ -90,6 +123,13 @@ class BodyReader {
         }
         if (element.name == "vertex" && element.count > 0xFFFFFFFFu) {
             throw InputError(path_ + ": more than 4 billion vertices; split the model");
+        }
+    }
+
+    void end_item() {
+        if constexpr (kIsText) {
+            if (layout_ != ItemLayout::lines || !values_.skip_rest_of_line()) return;
+            if (surplus_.count++ == 0) surplus_ = {1, values_.line(), element_};
         }
     }
 
@@ -153,13 +193,14 @@ class BodyReader {
                 fail("a coordinate is not finite or beyond 1e30; repair or re-export the file");
             }
             soup_.positions.push_back(position);
+            end_item();
         }
     }
 
     /// Reads items in the usual form; the rest of this class reads any form, one item at a time.
     void read_plain_positions(const PlyElement& element, std::span<const int> axis_of) {
-        if constexpr (kHasPlainRows) {
-            if (by_value_ || element.has_lists()) return;
+        if constexpr (kIsText) {
+            if (layout_ != ItemLayout::plain_rows || element.has_lists()) return;
             if (item_ == 0 && is_large()) {
                 item_ = read_large(element.count, 1, soup_.positions,
                                    [&](AsciiValues& values, std::span<glm::dvec3> rows) { return read_position_rows(values, axis_of, rows); });
@@ -168,8 +209,8 @@ class BodyReader {
         }
     }
     void read_plain_triangles(const PlyElement& element) {
-        if constexpr (kHasPlainRows) {
-            if (by_value_ || element.properties.size() != 1) return;
+        if constexpr (kIsText) {
+            if (layout_ != ItemLayout::plain_rows || element.properties.size() != 1) return;
             const auto read_triangles = [this](AsciiValues& values, std::span<std::uint32_t> corners) {
                 const std::size_t count = values.plain_triangles(corners);
                 std::uint32_t largest = 0;
@@ -265,6 +306,7 @@ class BodyReader {
                     soup_.polygon_ends.push_back(static_cast<std::uint32_t>(soup_.corners.size()));
                 }
             }
+            end_item();
         }
     }
 
@@ -283,6 +325,7 @@ class BodyReader {
                     skip_property(element.properties[i]);
                 }
             }
+            end_item();
         }
     }
 
@@ -332,6 +375,7 @@ class BodyReader {
                 }
             }
             soup_.marked_edges.push_back(edge);
+            end_item();
         }
     }
 
@@ -356,7 +400,7 @@ class BodyReader {
                              ", counted from 0); repair or re-export the file");
     }
 
-    static constexpr bool kHasPlainRows = std::is_same_v<Values, AsciiValues>;
+    static constexpr bool kIsText = std::is_same_v<Values, AsciiValues>;
 
     const std::string& path_;
     const MappedFile& file_;
@@ -374,18 +418,60 @@ class BodyReader {
     } largest_;
     std::atomic<std::uint32_t> largest_plain_ = 0;  // of plain rows; there is a vertex 0
     int threads_;
-    bool by_value_;  // no row is taken to be plain
+    ItemLayout layout_;
+    SurplusLines surplus_;
 };
+
+/// The values of an item stand on a line of their own by convention, but files exist that have them
+/// on several lines, or all on one; and others have lines with more values than the header
+/// declares, which programs that go line by line never see. So a text is read value by value; if
+/// that fails, or something is left over, line by line.
+PolygonSoup read_text(const std::string& path, const MappedFile& file, const PlyHeader& header,
+                      const AsciiValues& values, int threads, bool strict) {
+    BodyReader by_value(path, file, header, values, threads);
+    std::optional<InputError> error;
+    PolygonSoup soup;
+    try {
+        soup = by_value.read();
+        if (!by_value.has_rest()) return soup;
+    } catch (const InputError& e) {
+        error = e;
+    }
+    BodyReader by_line(path, file, header, values, threads, ItemLayout::lines);
+    const auto& surplus = by_line.surplus_lines();
+    try {
+        PolygonSoup lines = by_line.read();
+        if (error || surplus.count > 0) soup = std::move(lines);
+    } catch (const InputError&) {
+        // Where the first items have lines of their own, it is lines that count, and what is wrong
+        // is wrong in them.
+        if (error && surplus.count > 0 && surplus.element != &header.elements.front()) throw;
+        if (error) throw *error;
+        return soup;
+    }
+    if (surplus.count == 0) return soup;
+    if (strict) {
+        throw InputError({path, surplus.first},
+                         "the line has more values than the header declares; re-export the file, "
+                         "or leave out --strict");
+    }
+    soup.notes.push_back((surplus.count == 1
+                              ? "line " + std::to_string(surplus.first) + " has"
+                              : std::to_string(surplus.count) + " lines, the first one is line " +
+                                    std::to_string(surplus.first) + ", have") +
+                         " more values than the header declares; the rest of the line is left out");
+    return soup;
+}
 
 }  // namespace
 
-PolygonSoup read_ply(const std::string& path, int threads) {
+PolygonSoup read_ply(const std::string& path, int threads, bool strict) {
     const MappedFile file(path, true);
     const PlyHeader header = read_ply_header(path, file.bytes());
     const std::string_view body = file.bytes().substr(header.size);
     PolygonSoup soup;
     if (header.encoding == PlyEncoding::ascii) {
-        soup = BodyReader(path, file, header, AsciiValues(body, header.lines + 1), threads).read();
+        soup = read_text(path, file, header, AsciiValues(body, header.lines + 1), threads, strict);
     } else {
         const bool big_endian = header.encoding == PlyEncoding::big_endian;
         soup = BodyReader(path, file, header, BinaryValues(body, big_endian), threads).read();

@@ -1,9 +1,11 @@
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
@@ -41,50 +43,107 @@ void add_corner(PolygonSoup& soup, const glm::dvec3& position) {
     soup.positions.push_back(position);
 }
 
-PolygonSoup read_binary(const std::string& path, std::string_view bytes) {
-    const std::uint64_t count = little_endian_u32(bytes.data() + kBinaryHeader);
-    const std::uint64_t room = (bytes.size() - kBinaryHeader - 4) / kBinaryTriangle;
-    if (count > room) {
-        throw InputError(path + ": the header promises " + std::to_string(count) +
-                         " triangles, the file has room for " + std::to_string(room) +
-                         "; was it written completely?");
+constexpr const char* kNotFinite = "a coordinate is not finite or beyond 1e30";
+
+/// What is left when triangles without finite coordinates are left out.
+void note_non_finite(const std::string& path, PolygonSoup& soup, const std::string& first) {
+    if (soup.non_finite_polygons == 0) return;
+    if (soup.corners.empty())
+        throw InputError(path + ": no triangle has finite coordinates" + kRepair);
+    soup.notes.push_back("triangles left out: " + std::to_string(soup.non_finite_polygons) +
+                         "; the first one " + first + ": " + kNotFinite);
+}
+
+/// Text of any kind that is no STL. Triangles have zero bytes, nearly always.
+bool is_plain_text(std::string_view bytes) {
+    return std::all_of(
+        bytes.begin(),
+        bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 4096)),
+        [](char c) { return static_cast<unsigned char>(c) >= 0x20 || (c >= '\t' && c <= '\r'); });
+}
+
+/// The number of triangles, which `count` should be. Where it is not and the file holds whole
+/// triangles behind the header, it is their number that counts: some exporters do not go back to
+/// write it.
+std::uint64_t triangle_count(const std::string& path, std::uint64_t count,
+                             std::string_view triangles, bool strict, PolygonSoup& soup) {
+    const std::uint64_t room = triangles.size() / kBinaryTriangle;
+    const bool is_whole =
+        triangles.size() % kBinaryTriangle == 0 && room > 0 && !is_plain_text(triangles);
+    if (count == room || (count < room && !is_whole))
+        return count;  // what follows the triangles is ignored
+    const std::string found =
+        "the header promises " + std::to_string(count) + " triangles, the file has ";
+    if (!is_whole || strict) {
+        throw InputError(path + ": " + found + (count > room ? "room for " : "") +
+                         std::to_string(room) + "; was it written completely?");
     }
+    soup.notes.push_back(found + std::to_string(room) + ", which are read" +
+                         (count > room ? "; was it written completely?" : ""));
+    return room;
+}
+
+PolygonSoup read_binary(const std::string& path, std::string_view bytes, bool strict) {
+    PolygonSoup soup;
+    const std::uint64_t count =
+        triangle_count(path, little_endian_u32(bytes.data() + kBinaryHeader),
+                       bytes.substr(kBinaryHeader + 4), strict, soup);
     if (3 * count > PolygonSoup::kMaxCorners) {
         throw InputError(path + ": more than 4 billion polygon corners; split the model");
     }
-    PolygonSoup soup;
     soup.positions.reserve(3 * count);
     soup.corners.reserve(3 * count);
+    std::uint64_t first_non_finite = 0;
     const char* p = bytes.data() + kBinaryHeader + 4;
     for (std::uint64_t t = 0; t < count; ++t, p += kBinaryTriangle) {
         if ((t & 0xFFFF) == 0) throw_if_interrupted();
-        for (int corner = 0; corner < 3; ++corner) {
+        std::array<glm::dvec3, 3> corners;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
             const char* const q = p + 12 + 12 * corner;
-            const glm::dvec3 position(little_endian_float(q), little_endian_float(q + 4),
-                                      little_endian_float(q + 8));
-            if (!is_usable(position)) {
-                throw InputError(path + ": triangle " + std::to_string(t) +
-                                 ": a coordinate is not finite or beyond 1e30" + kRepair);
-            }
-            add_corner(soup, position);
+            corners[corner] = glm::dvec3(little_endian_float(q), little_endian_float(q + 4),
+                                         little_endian_float(q + 8));
         }
+        if (!is_usable(corners[0]) || !is_usable(corners[1]) || !is_usable(corners[2])) {
+            if (strict)
+                throw InputError(path + ": triangle " + std::to_string(t) + ": " + kNotFinite +
+                                 kRepair);
+            if (soup.non_finite_polygons++ == 0) first_non_finite = t;
+            continue;
+        }
+        for (const glm::dvec3& corner : corners) add_corner(soup, corner);
     }
     soup.object_names = {std::filesystem::path(path).stem().string()};
+    note_non_finite(path, soup, "is triangle " + std::to_string(first_non_finite));
     return soup;
+}
+
+/// Reads a number, or as NaN what stands for none: nan, -nan(ind), inf, infinity, 1.#QNAN, -1.#IND
+/// and their like.
+bool read_coordinate(LineScanner& scan, double& value) {
+    if (scan.number(value)) return true;
+    LineScanner ahead = scan;
+    std::string word = lower_case(ahead.word());
+    word.erase(0, word.find_first_not_of("+-"));
+    if (!word.starts_with("nan") && !word.starts_with("inf") && !word.starts_with("1.#") &&
+        !word.starts_with("1#"))
+        return false;
+    value = std::numeric_limits<double>::quiet_NaN();
+    scan = ahead;
+    return true;
 }
 
 class AsciiParser {
   public:
-    AsciiParser(const std::string& path, std::string_view text) : path_(path), lines_(text) {}
+    AsciiParser(const std::string& path, std::string_view text, bool strict)
+        : path_(path), lines_(text), strict_(strict) {}
 
     PolygonSoup parse() {
         std::string_view line;
         while (lines_.next(line)) {
             if ((lines_.line_number() & 0xFFFF) == 0) throw_if_interrupted();
             LineScanner scan(line);
-            std::string keyword(scan.word());  // some programs write them in upper case
-            std::transform(keyword.begin(), keyword.end(), keyword.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+            std::string keyword = lower_case(scan.word());
+            if (keyword == "end") keyword += lower_case(scan.word());  // some write "end loop"
             if (keyword == "vertex") {
                 add_vertex(scan);
             } else if (keyword == "endloop") {
@@ -104,6 +163,7 @@ class AsciiParser {
         if (in_solid_) {
             fail("the file ends in the middle of a solid; was it written completely?");
         }
+        note_non_finite(path_, soup_, "ends on line " + std::to_string(first_non_finite_line_));
         return std::move(soup_);
     }
 
@@ -126,33 +186,48 @@ class AsciiParser {
     void add_vertex(LineScanner& scan) {
         if (!in_solid_) fail("a vertex stands outside of any solid" + std::string(kRepair));
         glm::dvec3 p;
-        if (!scan.number(p.x) || !scan.number(p.y) || !scan.number(p.z)) {
+        if (!read_coordinate(scan, p.x) || !read_coordinate(scan, p.y) ||
+            !read_coordinate(scan, p.z)) {
             fail("a vertex needs three numbers" + std::string(kRepair));
         }
-        if (!is_usable(p)) fail("a coordinate is not finite or beyond 1e30" + std::string(kRepair));
+        in_loop_ = true;
+        if (!is_usable(p)) {
+            if (strict_) fail(kNotFinite + std::string(kRepair));
+            is_finite_ = false;
+            return;
+        }
         if (soup_.corners.size() == PolygonSoup::kMaxCorners) {
             fail("more than 4 billion polygon corners; split the model");
         }
         add_corner(soup_, p);
-        in_loop_ = true;
     }
 
     void end_loop() {
+        in_loop_ = false;
+        if (!std::exchange(is_finite_, true)) {
+            if (soup_.non_finite_polygons++ == 0) first_non_finite_line_ = lines_.line_number();
+            const std::size_t begin = soup_.polygon_ends.empty() ? 0 : soup_.polygon_ends.back();
+            soup_.corners.resize(begin);
+            soup_.positions.resize(begin);  // each corner has its own
+            return;
+        }
         soup_.polygon_ends.push_back(static_cast<std::uint32_t>(soup_.corners.size()));
         soup_.polygon_object.push_back(static_cast<std::uint32_t>(soup_.object_names.size() - 1));
-        in_loop_ = false;
     }
 
     std::string path_;
     LineReader lines_;
     PolygonSoup soup_;
+    bool strict_;
     bool in_solid_ = false;
     bool in_loop_ = false;
+    bool is_finite_ = true;  // the loop so far
+    std::size_t first_non_finite_line_ = 0;
 };
 
 }  // namespace
 
-PolygonSoup read_stl(const std::string& path) {
+PolygonSoup read_stl(const std::string& path, bool strict) {
     const MappedFile file(path);
     const std::string_view bytes = file.bytes();
     const bool has_binary_header = bytes.size() >= kBinaryHeader + 4;
@@ -161,17 +236,17 @@ PolygonSoup read_stl(const std::string& path) {
                                                     little_endian_u32(bytes.data() + kBinaryHeader)
                           : 0;
     // Binary files may start with "solid" as well; their size gives them away.
-    const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-    const std::string_view word = bytes.substr(first, 5);
-    const bool starts_as_text = word == "solid" || word == "SOLID";
+    const std::string_view text = without_byte_order_mark(bytes);
+    const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    const bool starts_as_text = lower_case(text.substr(first, 5)) == "solid";
     const bool has_zero_bytes = std::memchr(bytes.data(), 0, std::min<std::size_t>(bytes.size(), 512)) != nullptr;
     const bool is_text = starts_as_text && binary_size != bytes.size() && !has_zero_bytes;
 
     PolygonSoup soup;
     if (is_text) {
-        soup = AsciiParser(path, bytes).parse();
+        soup = AsciiParser(path, text, strict).parse();
     } else if (has_binary_header) {
-        soup = read_binary(path, bytes);
+        soup = read_binary(path, bytes, strict);
     } else {
         throw InputError(path + ": neither text that starts with 'solid' nor a binary STL of 84 " +
                          "bytes or more; was it written completely?");

@@ -14,6 +14,9 @@ namespace burin {
 /// as the file has room for it. They throw InputError ("file:line: what; what to do") for text that
 /// does not parse, vertex numbers out of range, and coordinates that are not finite or beyond 1e30.
 /// Polygons with fewer than three corners are passed on, to be counted and dropped by build_meshes.
+/// What a reader leaves out, or does not take as it stands, is in the soup's notes; `strict` ones throw instead.
+///
+/// Lines of text end in LF, CRLF or CR alone. Keywords may be in capitals.
 
 /// Wavefront OBJ. `o` names start objects (`g` names, in a file without any `o`), `usemtl` sets the
 /// material, `l` marks edges. Texture coordinates, normals, free-form surfaces, points are skipped.
@@ -26,13 +29,16 @@ PolygonSoup read_obj_text(const std::string& path, std::string_view text, int th
 
 /// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
 /// `element edge` marks edges; other elements and properties are skipped. Plain ASCII is read on `threads`
-/// threads (0 = all cores), which changes nothing else.
-PolygonSoup read_ply(const std::string& path, int threads = 1);
+/// threads (0 = all cores), which changes nothing else. Values of an ASCII file may stand on any lines; where that fails
+/// each item begins a line, and what follows its last value there is left out.
+PolygonSoup read_ply(const std::string& path, int threads = 1, bool strict = false);
 
-/// STL, ASCII and binary. Each `solid` of an ASCII file is an object.
-PolygonSoup read_stl(const std::string& path);
+/// STL, ASCII and binary. Each `solid` of an ASCII file is an object. Triangles whose coordinates are not finite or beyond
+/// 1e30 are left out. A binary file of whole triangles is read to its end, whatever its count says.
+PolygonSoup read_stl(const std::string& path, bool strict = false);
 
-/// OFF as text, with or without the prefixes for colours, normals and texture coordinates.
+/// OFF as text, with or without the prefixes for colours, normals and texture coordinates. The counts may follow the word
+/// OFF without a blank, or stand on several lines, and that of the edges may be missing.
 PolygonSoup read_off(const std::string& path);
 
 }  // namespace burin

@@ -47,7 +47,8 @@ struct LoadedModel {
 
 class SceneLoader {
   public:
-    SceneLoader(SceneDescription description, int threads) : from_(std::move(description)), threads_(threads) {
+    SceneLoader(SceneDescription description, int threads, bool strict)
+        : from_(std::move(description)), threads_(threads), strict_(strict) {
         scene_.materials = from_.materials;
         scene_.cameras = from_.cameras;
         scene_.picture = from_.picture;
@@ -93,7 +94,7 @@ class SceneLoader {
     }
 
     const LoadedModel& load_model(ObjectDescription& object) {
-        const MeshOptions options{object.subdivide, object.scheme, threads_};
+        const MeshOptions options{object.subdivide, object.scheme, threads_, strict_};
         if (object.file.empty()) {
             Model model;
             model.materials = std::move(object.shape.materials);
@@ -128,6 +129,11 @@ class SceneLoader {
         for (Material& material : model.materials) scene_.materials.push_back(std::move(material));
         loaded.objects = std::move(model.objects);
         scene_.skipped_primitives += model.skipped_primitives;
+        scene_.non_finite_polygons += model.non_finite_polygons;
+        for (std::string& note : model.notes) {
+            // A file that is read twice, with and without subdivision, says the same twice.
+            if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end()) scene_.notes.push_back(std::move(note));
+        }
         return loaded;
     }
 
@@ -167,6 +173,7 @@ class SceneLoader {
 
     SceneDescription from_;
     int threads_;
+    bool strict_;
     Scene scene_;
     std::map<std::tuple<std::string, int, SubdivisionScheme>, LoadedModel> files_;
     std::vector<LoadedModel> shapes_;
@@ -175,8 +182,8 @@ class SceneLoader {
 
 }  // namespace
 
-Scene load_scene(SceneDescription description, int threads) {
-    return SceneLoader(std::move(description), threads).load();
+Scene load_scene(SceneDescription description, int threads, bool strict) {
+    return SceneLoader(std::move(description), threads, strict).load();
 }
 
 bool is_named(const SceneObject& object, const std::string& name) {

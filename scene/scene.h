@@ -81,6 +81,8 @@ struct Scene {
     ZBufferSettings zbuffer;
     WireSettings wire;
     std::uint64_t skipped_primitives = 0;
+    std::uint64_t non_finite_polygons = 0;
+    std::vector<std::string> notes;  ///< of the models' readers, "path: what", each once
 };
 
 /// Whether some surface of the scene lets light through.

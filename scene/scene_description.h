@@ -55,7 +55,7 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
 SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides);
 
 /// Loads the models that a description names, each file once, on `threads` threads (0 = all cores). Throws
-/// InputError.
-Scene load_scene(SceneDescription description, int threads = 1);
+/// InputError; if `strict`, also where a reader would leave something out with a note.
+Scene load_scene(SceneDescription description, int threads = 1, bool strict = false);
 
 }  // namespace burin

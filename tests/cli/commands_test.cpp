@@ -57,6 +57,7 @@ TEST(Commands, HelpNamesCommandsAndOptions) {
                                "--repeat",
                                "--progress",
                                "--bits",
+                               "--strict",
                                "--background",
                                "-v",
                                "-q",

@@ -35,7 +35,8 @@ class ReadStl : public testing::Test {
     PolygonSoup read(std::string_view text) { return read_stl(folder_.write("part.stl", text)); }
     testing::AssertionResult refuses(std::string_view text,
                                      std::initializer_list<std::string_view> parts) {
-        return test::refuses(read_stl, folder_.write("part.stl", text), parts);
+        return test::refuses([](const std::string& path) { return read_stl(path); },
+                             folder_.write("part.stl", text), parts);
     }
     test::TemporaryFolder folder_;
 };
@@ -73,12 +74,15 @@ TEST_F(ReadStl, ReadsBinary) {
     EXPECT_EQ(soup.positions[2], glm::dvec3(1, 1.5, 0));
     EXPECT_EQ(soup.positions[5], glm::dvec3(0, 1, 0));
     EXPECT_EQ(soup.object_names, std::vector<std::string>{"part"});
-    EXPECT_EQ(read(binary_square("", 1)).polygon_count(), 1u) << "what follows the triangles is ignored";
+    EXPECT_EQ(read(binary_square("", 1) + "x").polygon_count(), 1u)
+        << "what follows the triangles is ignored";
+    EXPECT_TRUE(soup.notes.empty());
 }
 
 TEST_F(ReadStl, BinaryFilesMayStartWithSolid) {
     EXPECT_EQ(read(binary_square("solid and so on", 2)).polygon_count(), 2u);
-    EXPECT_EQ(read(binary_square("solid", 1)).polygon_count(), 1u) << "the size does not fit, but no text has zero bytes";
+    EXPECT_EQ(read(binary_square("solid", 1) + "x").polygon_count(), 1u)
+        << "the size does not fit, but no text has zero bytes";
     EXPECT_TRUE(refuses(binary_square("solid", 2).substr(0, 150), {"the header promises 2 triangles, the file has room for 1"}));
 }
 
@@ -94,12 +98,15 @@ TEST_F(ReadStl, CornersWithEqualCoordinatesAreWelded) {
 TEST_F(ReadStl, TruncatedBinaryFilesAreRefused) {
     const std::string whole = binary_square("x", 2);
     for (std::size_t size = 1; size < whole.size(); ++size) {
+        if (size == 84 + 50) continue;  // a file of one triangle, but for its count
         EXPECT_TRUE(refuses(whole.substr(0, size), {"was it written completely?"})) << "after " << size;
     }
     for (const std::uint32_t count : {3u, 4000000000u, 0xFFFFFFFFu}) {
-        EXPECT_TRUE(refuses(binary_square("x", count), {"the header promises " + std::to_string(count) + " triangles, the file has room for 2"}));
+        EXPECT_TRUE(refuses(binary_square("x", count) + "x",
+                            {"the header promises " + std::to_string(count) +
+                             " triangles, the file has room for 2"}));
     }
-    EXPECT_TRUE(refuses(binary_square("x", 0), {"no triangles"}));
+    EXPECT_TRUE(refuses(binary_square("x", 0).substr(0, 84), {"no triangles"}));
     EXPECT_TRUE(refuses("", {"empty"}));
 }
 
@@ -114,9 +121,6 @@ TEST_F(ReadStl, TruncatedTextIsRefused) {
 
 TEST_F(ReadStl, BrokenTextIsRefused) {
     const std::string good = facet("0 0 0", "1 0 0", "1 1 0");
-    for (const char* bad : {"nan 0 0", "0 inf 0", "0 0 1e31"}) {
-        EXPECT_TRUE(refuses("solid a\n" + facet("0 0 0", bad, "1 1 0") + "endsolid\n", {":5: a coordinate is not finite or beyond 1e30"}));
-    }
     for (const char* bad : {"1 2", "", "x 0 0", "0 0 1e"}) {
         EXPECT_TRUE(refuses("solid a\n" + facet("0 0 0", bad, "1 1 0") + "endsolid\n", {":5: a vertex needs three numbers"}));
     }
@@ -131,16 +135,11 @@ TEST_F(ReadStl, BrokenTextIsRefused) {
     EXPECT_TRUE(refuses("solid a\n" + open + "solid b\n" + good + "endsolid\n", {":7: "}));
 }
 
-TEST_F(ReadStl, BinaryCoordinatesMustBeFinite) {
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.1e30f}) {
-        ByteWriter w;
-        w.add<std::uint32_t>({2}).add<float>({0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0}).add<std::uint16_t>({0});
-        w.add<float>({0, 0, 1, 0, 0, 0, bad, 0, 0, 1, 1, 0}).add<std::uint16_t>({0});
-        EXPECT_TRUE(refuses(std::string(80, 'x') + w.bytes(), {"triangle 1: a coordinate is not finite or beyond 1e30"}));
-    }
-    ByteWriter w;  // nobody reads the normals
+TEST_F(ReadStl, NobodyReadsNormals) {
+    ByteWriter w;
     w.add<std::uint32_t>({1}).add<float>({std::numeric_limits<float>::quiet_NaN(), 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0}).add<std::uint16_t>({0});
     EXPECT_EQ(read(std::string(80, 'x') + w.bytes()).polygon_count(), 1u);
+    EXPECT_EQ(read(std::string(80, 'x') + w.bytes()).non_finite_polygons, 0u);
 }
 
 }  // namespace

@@ -1,0 +1,121 @@
+// What readers leave out of a model is said once, counted by info, and refused with --strict.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/models.h"
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin::test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string stl_with_a_nan(std::uint32_t count) {
+    std::string stl(80, ' ');
+    stl += bytes_of(count);
+    for (const float x : {0.0f, std::numeric_limits<float>::quiet_NaN(), 1.0f}) {
+        stl += bytes_of(0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, x, 1.0f, 0.0f,
+                        std::uint16_t{0});
+    }
+    return stl;
+}
+
+TEST(Notes, AreOneLineEachUnlessQuiet) {
+    const TemporaryFolder folder;
+    folder.write("a.stl", stl_with_a_nan(3));
+    folder.write("scene.toml",
+                 "[[object]]\nfile = \"a.stl\"\n[[object]]\nfile = \"a.stl\"\nsubdivide = 1\n");
+    for (const char* input : {"a.stl", "scene.toml"}) {
+        const std::vector<std::string> render{"render",  input,   "-r",    "16x12",    "-o",
+                                              "out.png", "--eye", "0,0,3", "--target", "0,0,0"};
+        const ProgramResult result = run_burin(folder.path(), render);
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_TRUE(is_one_line(result.err)) << result.err;
+        EXPECT_NE(result.err.find("a.stl: triangles left out: 1; the first one is triangle 1: a "
+                                  "coordinate is not finite"),
+                  std::string::npos)
+            << result.err;
+        std::vector<std::string> quiet = render;
+        quiet.push_back("-q");
+        EXPECT_EQ(run_burin(folder.path(), quiet).err, "");
+    }
+    const ProgramResult explain =
+        run_burin(folder.path(), {"explain", "a.stl", "-r", "16x12", "--pixel", "3,3"});
+    EXPECT_EQ(explain.status, 0);
+    EXPECT_TRUE(is_one_line(explain.err)) << explain.err;
+}
+
+TEST(Notes, StandInInfo) {
+    const TemporaryFolder folder;
+    folder.write("a.stl", stl_with_a_nan(0));
+    const ProgramResult info = run_burin(folder.path(), {"info", "a.stl"});
+    EXPECT_EQ(info.status, 0);
+    EXPECT_EQ(info.err, "");
+    EXPECT_NE(
+        info.out.find(
+            "note       a.stl: the header promises 0 triangles, the file has 3, which are read\n"),
+        std::string::npos)
+        << info.out;
+    EXPECT_NE(info.out.find("note       a.stl: triangles left out: 1;"), std::string::npos)
+        << info.out;
+    const ProgramResult result = run_burin(folder.path(), {"info", "a.stl", "--json"});
+    EXPECT_EQ(result.err, "");
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json["repairs"]["non_finite_polygons"], 1);
+    EXPECT_EQ(json["notes"].size(), 2u);
+    EXPECT_EQ(json["triangles"], 2);
+}
+
+TEST(Notes, StrictRefusesInstead) {
+    const TemporaryFolder folder;
+    folder.write("nan.stl", stl_with_a_nan(3));
+    folder.write("count.stl", stl_with_a_nan(7));
+    folder.write("good.obj", kCubeObj);
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"info"},
+                                                    {"render", "-r", "16x12", "-o", "out.png"},
+                                                    {"explain", "--pixel", "1,1"},
+                                                    {"compare", "-o", "compared", "-r", "16x12"}}) {
+        const auto run = [&](const std::string& input) {
+            std::vector<std::string> arguments = command;
+            arguments.insert(arguments.end(), {input, "--strict"});
+            return run_burin(folder.path(), arguments);
+        };
+        const ProgramResult not_finite = run("nan.stl"), count = run("count.stl");
+        EXPECT_EQ(not_finite.status, 1);
+        EXPECT_EQ(not_finite.err,
+                  "nan.stl: triangle 1: a coordinate is not finite or beyond 1e30; repair or "
+                  "re-export the file\n");
+        EXPECT_EQ(count.status, 1);
+        EXPECT_EQ(count.err,
+                  "count.stl: the header promises 7 triangles, the file has room for 3; was it "
+                  "written completely?\n");
+        if (command[0] != "compare") {
+            EXPECT_EQ(run("good.obj").status, 0) << command[0];
+        }
+    }
+}
+
+TEST(Notes, PolygonsThatWereCutAreCounted) {
+    const TemporaryFolder folder;
+    folder.write(
+        "a.obj",
+        "v 0 0 0\nv 1 0 0\nv 0.5 1 0\nv 0.5 1.5 0\nv 0.5 2 0\nf 1 2 3 1 2 4 1 2 5\nf 3 4 1\n");
+    const Json json = Json::parse(run_burin(folder.path(), {"info", "a.obj", "--json"}).out);
+    EXPECT_EQ(json["repairs"]["cut_polygons"], 1);
+    EXPECT_EQ(json["repairs"]["cut_pieces"], 3);
+    EXPECT_EQ(json["polygons"], 2);
+    const std::string info = run_burin(folder.path(), {"info", "a.obj"}).out;
+    EXPECT_NE(
+        info.find("  cut        1 polygons that pass an edge twice in one direction, into 3\n"),
+        std::string::npos)
+        << info;
+    folder.write("b.obj", kCubeObj);
+    EXPECT_EQ(run_burin(folder.path(), {"info", "b.obj"}).out.find("  cut "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace burin::test
