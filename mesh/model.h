@@ -34,6 +34,7 @@ struct Model {
     std::vector<ModelObject> objects;
     std::vector<ModelCamera> cameras;
     std::uint64_t skipped_primitives = 0;  ///< points and lines of a glTF
+    std::vector<std::string> other_files;  ///< that were read beside the model's own: materials, buffers
 };
 
 /// True if the extension names a format that read_model can read.

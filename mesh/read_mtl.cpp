@@ -45,13 +45,14 @@ void read_material_file(const std::string& path, MaterialLibrary& library) {
 }  // namespace
 
 MaterialLibrary read_material_files(const std::string& obj_path,
-                                    const std::vector<std::string>& file_names) {
+                                    const std::vector<std::string>& file_names, std::vector<std::string>* files_read) {
     MaterialLibrary library;
     const auto read = [&](std::string_view name) {
         const std::string path = path_inside_model_folder(obj_path, name);
         if (path.empty()) return false;
         try {
             read_material_file(path, library);
+            if (files_read != nullptr) files_read->push_back(path);
             return true;
         } catch (const InputError&) {
             // A missing material file is so common that it must not stop the drawing.

@@ -56,7 +56,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         instance.object_id = i + 1;
         instance.first_polygon_id = static_cast<std::uint32_t>(next_polygon_id);
         next_polygon_id += mesh.polygon_count;
-        for (const std::uint32_t m : object.materials) instance.material_ids.push_back(m + 1);
+        instance.materials = object.materials;
         mesh_boxes[object.mesh].for_each_corner([&](const glm::dvec3& corner) {
             if (!mesh.positions.empty()) {
                 view_box.add(glm::dvec3(instance.to_view * glm::dvec4(corner, 1.0)));

@@ -190,7 +190,8 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
 
 std::optional<std::string> TomlReader::misspelled(std::string_view key) const {
     for (const auto& [other, node] : *table_) {
-        if (edit_distance(other.str(), key) == 1) return std::string(other.str());
+        const bool is_as_long = other.str().size() <= key.size() + 1 && key.size() <= other.str().size() + 1;
+        if (is_as_long && edit_distance(other.str(), key) == 1) return std::string(other.str());
     }
     return std::nullopt;
 }
