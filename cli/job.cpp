@@ -73,8 +73,17 @@ PixelRect crop_of(const Arguments& a, int width, int height) {
 
 }  // namespace
 
-Scene load_input(const Arguments& a) {
-    Scene scene = load_scene(describe_input(a), a.threads);
+Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
+    refuse_to_overwrite(outputs, {a.input});
+    SceneDescription description = describe_input(a);
+    std::vector<std::string> files;
+    for (const ObjectDescription& object : description.objects) {
+        if (!object.file.empty()) files.push_back(object.file);
+    }
+    refuse_to_overwrite(outputs, files);
+    files.clear();
+    Scene scene = load_scene(std::move(description), a.threads, a.model_budget, &files);
+    refuse_to_overwrite(outputs, files);
     if (a.size) {
         scene.picture.width = (*a.size)[0];
         scene.picture.height = (*a.size)[1];

@@ -85,7 +85,7 @@ Program::Program(const std::string& folder, const std::vector<std::string>& argu
             ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
             ::prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
         }
-        for (const int signal_number : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ})
+        for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGPIPE, SIGXFSZ})
             ::signal(signal_number, SIG_DFL);
         ::execv(argv[0], argv.data());
         ::_exit(127);
