@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/atomic_file.h"
+#include "base/interrupt.h"
 #include "base/json_writer.h"
 #include "base/lower_extension.h"
 #include "base/parallel.h"
@@ -268,6 +269,7 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
     json.end_object();
     json.key("object_list").begin_array();
     for (const SceneObject& object : scene.objects) {
+        throw_if_interrupted();
         const Mesh& mesh = scene.meshes[object.mesh];
         json.begin_object();
         json.key("name").value(object.name);

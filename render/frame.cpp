@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "mesh/box.h"
 #include "mesh/text_scan.h"
 
@@ -42,6 +43,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     Box view_box;
     std::uint64_t next_polygon_id = 1;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        throw_if_interrupted();
         const SceneObject& object = scene.objects[i];
         const Mesh& mesh = scene.meshes[object.mesh];
         SurfaceInstance instance;

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
+#include <istream>
 #include <optional>
+#include <streambuf>
 #include <unordered_set>
 
 #include "base/interrupt.h"
@@ -475,6 +477,39 @@ void apply_override(toml::table& root, const Override& o) {
     fail_override(o, "the key has too many parts");
 }
 
+/// A text as a stream that ends where the user asks the program to stop.
+class StoppableText : public std::streambuf {
+  public:
+    explicit StoppableText(std::string_view text) : rest_(text) {}
+
+  protected:
+    int_type underflow() override {
+        constexpr std::size_t kPiece = 1 << 16;
+        const std::string_view piece = rest_.substr(0, interrupt_requested() ? 0 : kPiece);
+        if (piece.empty()) return traits_type::eof();
+        rest_.remove_prefix(piece.size());
+        char* const begin = const_cast<char*>(piece.data());  // nothing is put back into it
+        setg(begin, begin, begin + piece.size());
+        return traits_type::to_int_type(*begin);
+    }
+
+  private:
+    std::string_view rest_;
+};
+
+toml::table parse_stoppable(std::string_view text, const std::string& path) {
+    try {
+        StoppableText buffer(text);
+        std::istream stream(&buffer);
+        toml::table tables = toml::parse(stream, path);
+        throw_if_interrupted();
+        return tables;
+    } catch (const toml::parse_error&) {
+        throw_if_interrupted();  // it ended too early
+        throw;
+    }
+}
+
 SceneDescription read_tables(const std::string& path, toml::table root,
                              const std::vector<Override>& overrides) {
     for (const Override& o : overrides) apply_override(root, o);
@@ -490,7 +525,7 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
     }
     if (const auto line = line_nested_too_deep(file.bytes())) throw InputError({path, *line}, kTooDeep);
     try {
-        return read_tables(path, toml::parse(file.bytes(), path), overrides);
+        return read_tables(path, parse_stoppable(file.bytes(), path), overrides);
     } catch (const toml::parse_error& error) {
         const toml::source_position at = error.source().begin;
         std::string message(error.description());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/interrupt.h"
 #include "base/suggestion.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
@@ -182,6 +183,7 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     const toml::array* const array = node->as_array();
     if (array == nullptr) fail(key, "must be a list of tables, " + name);
     for (const toml::node& element : *array) {
+        throw_if_interrupted();
         if (!element.is_table()) fail(key, "must be a list of tables, " + name);
         result.emplace_back(*element.as_table(), name, file_);
     }

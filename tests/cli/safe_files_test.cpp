@@ -2,12 +2,17 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <thread>
+#include <tuple>
+#include <utility>
 
 #include "tests/cli/models.h"
 #include "tests/cli/program.h"
@@ -137,6 +142,26 @@ TEST_F(SafeFiles, NamesThatAreTooLongFailBeforeTheWork) {
         run({"render", "cube.obj", "-r", "20x20", "-o", std::string(251, 'n') + ".png"}).status, 0);
 }
 
+/// The program without the module that it needs for TIFF.
+TEST_F(SafeFiles, AMissingModuleIsToldBeforeTheWork) {
+    fs::copy_file(BURIN_PROGRAM, folder_.file("burin"));
+    const auto run_copy = [&](const std::string& arguments) {
+        const int status = std::system(("cd '" + folder_.path() + "' && ./burin " + arguments + " 2>err").c_str());
+        return std::pair(WEXITSTATUS(status), read_file(folder_.file("err")));
+    };
+    auto [status, message] = run_copy("render missing.obj -o a.tif");
+    EXPECT_EQ(status, 1);
+    EXPECT_EQ(message.find("a.tif: cannot load burin_oiio.so"), 0u) << message;
+    EXPECT_TRUE(is_one_line(message)) << message;
+    // One that is there and cannot be used is what the message is about.
+    folder_.write("burin_oiio.so", "no module");
+    std::tie(status, message) = run_copy("render missing.obj -o a.tif");
+    EXPECT_EQ(status, 1);
+    EXPECT_EQ(message.find("No such file"), std::string::npos) << message;
+    EXPECT_NE(message.find(folder_.path() + "/burin_oiio.so"), std::string::npos) << message;
+    EXPECT_EQ(run_copy("render cube.obj -r 20x20 -o a.png").first, 0);
+}
+
 TEST_F(SafeFiles, ASingleNumberSignIsALetter) {
     for (const char* name : {"a#1.png", "#.png", "a#b#.png", "x%01y.png", "100%.png", "%0.png",
                              "$F.png", "a%04.png"}) {
@@ -262,7 +287,7 @@ TEST_F(SafeFiles, NothingIsLeftByAnySignal) {
             program.send(signal_number);
             const ProgramResult result = program.wait();
             EXPECT_EQ(result.status, signal_number == SIGKILL ? 128 + SIGKILL : 130) << result.err;
-            if (signal_number != SIGKILL) EXPECT_TRUE(is_one_line(result.err)) << result.err;
+            EXPECT_EQ(is_one_line(result.err), signal_number != SIGKILL) << result.err;
         }
         // What a killed process leaves where files must have names goes when the same output is
         // written again.
