@@ -480,21 +480,36 @@ void apply_override(toml::table& root, const Override& o) {
 /// A text as a stream that ends where the user asks the program to stop.
 class StoppableText : public std::streambuf {
   public:
-    explicit StoppableText(std::string_view text) : rest_(text) {}
+    explicit StoppableText(std::string_view text) : text_(text) { go_to(0); }
 
   protected:
     int_type underflow() override {
-        constexpr std::size_t kPiece = 1 << 16;
-        const std::string_view piece = rest_.substr(0, interrupt_requested() ? 0 : kPiece);
-        if (piece.empty()) return traits_type::eof();
-        rest_.remove_prefix(piece.size());
-        char* const begin = const_cast<char*>(piece.data());  // nothing is put back into it
-        setg(begin, begin, begin + piece.size());
-        return traits_type::to_int_type(*begin);
+        if (interrupt_requested()) return traits_type::eof();
+        go_to(static_cast<std::size_t>(egptr() - text_.data()));
+        return gptr() == egptr() ? traits_type::eof() : traits_type::to_int_type(*gptr());
+    }
+    // toml++ goes back to the beginning if there is no byte order mark.
+    pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+        const off_type start = from == std::ios_base::beg   ? 0
+                               : from == std::ios_base::cur ? static_cast<off_type>(gptr() - text_.data())
+                                                            : static_cast<off_type>(text_.size());
+        return seekpos(start + offset, std::ios_base::in);
+    }
+    pos_type seekpos(pos_type position, std::ios_base::openmode) override {
+        const off_type place = position;
+        if (place < 0 || place > static_cast<off_type>(text_.size())) return pos_type(off_type(-1));
+        go_to(static_cast<std::size_t>(place));
+        return position;
     }
 
   private:
-    std::string_view rest_;
+    void go_to(std::size_t place) {
+        constexpr std::size_t kPiece = 1 << 16;
+        char* const begin = const_cast<char*>(text_.data()) + place;  // nothing is put back into it
+        setg(begin, begin, begin + std::min(kPiece, text_.size() - place));
+    }
+
+    std::string_view text_;
 };
 
 toml::table parse_stoppable(std::string_view text, const std::string& path) {
