@@ -31,7 +31,7 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The user pressed Ctrl-C (or the process got SIGTERM): exit status 130.
+/// The user pressed Ctrl-C, or the process got another signal that asks it to stop: exit status 130.
 class Interrupted : public std::runtime_error {
   public:
     Interrupted() : std::runtime_error("interrupted; no file was written") {}

@@ -1,6 +1,7 @@
 #include "base/suggestion.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace burin {
 
@@ -20,11 +21,18 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> closest_word(std::string_view word, const std::vector<std::string>& known, std::size_t farthest) {
-    const auto closest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-        return edit_distance(a, word) < edit_distance(b, word);
-    });
-    if (closest == known.end() || edit_distance(*closest, word) > farthest) return std::nullopt;
-    return *closest;
+    std::optional<std::string> closest;
+    std::size_t least = farthest + 1;
+    for (const std::string& other : known) {
+        // No fewer letters are put in or taken out than the lengths differ by; words of any length may come from a file.
+        const std::size_t longer = std::max(other.size(), word.size()), shorter = std::min(other.size(), word.size());
+        if (longer - shorter >= least) continue;
+        const std::size_t distance = edit_distance(other, word);
+        if (distance >= least) continue;
+        least = distance;
+        closest = other;
+    }
+    return closest;
 }
 
 }  // namespace burin

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "base/suggestion.h"
 #include "mesh/text_scan.h"
@@ -152,7 +153,7 @@ GBufferOperatorSet gbuffer_operators(std::string_view text) {
 /// Options as they were typed.
 struct Texts {
     std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators, supersample;
-    std::string width, crease, hidden, style, layers, frames, crop, threads, memory, stats, bits;
+    std::string width, crease, hidden, style, layers, frames, crop, threads, memory, model_memory, stats, bits;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -163,8 +164,14 @@ void add_strict_option(CLI::App& app, Texts& t) {
     app.add_flag("--strict", t.strict, "refuse a model of which a part would be left out with a note");
 }
 
-void add_scene_options(CLI::App& app, Texts& t) {
+void add_input_options(CLI::App& app, Texts& t) {
     app.add_option("INPUT", t.input, "a scene .toml, or a model .obj .ply .stl .off .gltf .glb")->required();
+    app.add_option("--memory-model", t.model_memory, "what models may take beyond the size of their files: shapes, subdivision, "
+                   "instances, e.g. 500M, 8G (default 2G); what needs more is refused before it is made");
+}
+
+void add_scene_options(CLI::App& app, Texts& t) {
+    add_input_options(app, t);
     app.add_option("-r,--size", t.size, "image size in pixels, WxH (default 1920x1080)");
     app.add_option("--eye", t.eye, "position of the camera, X,Y,Z");
     app.add_option("--target", t.target, "what the camera looks at, X,Y,Z");
@@ -247,16 +254,30 @@ std::vector<std::string> join_vectors(int argc, char** argv) {
     return arguments;
 }
 
+bool is_command(const CLI::App& app, const std::string& argument) {
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    return std::any_of(commands.begin(), commands.end(), [&](const CLI::App* c) { return c->get_name() == argument; });
+}
+
+/// What stands behind "--" is the input, whatever it begins with. In its place comes a word that is no option.
+std::optional<std::string> take_input_behind_dashes(const CLI::App& app, std::vector<std::string>& arguments) {
+    auto at = std::find(arguments.begin(), arguments.end(), "--");
+    if (at == arguments.end()) return std::nullopt;
+    at = arguments.erase(at);
+    const auto names_command = [&](const std::string& a) { return is_command(app, a); };
+    if (std::none_of(arguments.begin(), at, names_command)) {
+        if (at == arguments.end() || !names_command(*at)) return std::nullopt;
+        ++at;
+    }
+    if (at == arguments.end()) return std::nullopt;
+    return std::exchange(*at, "INPUT");
+}
+
 /// Brings the command to the front: options may stand before it.
 void put_command_first(const CLI::App& app, std::vector<std::string>& arguments) {
     const std::string& first = arguments.front();
     if (first == "-h" || first == "--help" || first == "--version") return;
-    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-    const auto command =
-        std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) {
-            return std::any_of(commands.begin(), commands.end(),
-                               [&](const CLI::App* c) { return c->get_name() == a; });
-        });
+    const auto command = std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) { return is_command(app, a); });
     if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
         throw UsageError("'" + printable(first) +
                          "' is no command; commands are render, compare, info, explain and methods");
@@ -281,8 +302,13 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
     throw UsageError("unknown option '" + printable(name) + "'" + (closest ? "; did you mean '" + *closest + "'?" : help));
 }
 
-void fill_scene_options(const Texts& t, Arguments& a) {
+void fill_input_options(const Texts& t, Arguments& a) {
     a.input = t.input;
+    if (!t.model_memory.empty()) a.model_budget = ModelBudget(byte_count("--memory-model", t.model_memory));
+}
+
+void fill_scene_options(const Texts& t, Arguments& a) {
+    fill_input_options(t, a);
     if (!t.size.empty()) {
         a.size = integers<2>("--size", t.size, 'x', "WIDTHxHEIGHT in pixels");
         for (const int side : *a.size) {
@@ -413,7 +439,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_method_option(*render, t);
     add_render_options(*render, t);
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
-    info->add_option("INPUT", t.input, "a scene .toml or a model")->required();
+    add_input_options(*info, t);
     info->add_flag("--json", t.json, "as JSON");
     add_strict_option(*info, t);
     CLI::App* const explain = app.add_subcommand("explain", "show how one pixel was decided");
@@ -435,6 +461,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         std::fputs(app.help().c_str(), stderr);
         throw UsageError("give a command, for example: burin render model.obj -o lines.png");
     }
+    const std::optional<std::string> input = take_input_behind_dashes(app, arguments);
+    if (arguments.empty()) throw UsageError("give a command, for example: burin render model.obj -o lines.png");
     put_command_first(app, arguments);
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
@@ -457,6 +485,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     }
 
     for (const CLI::App* used : app.get_subcommands()) check_values(*used);
+    if (input) t.input = *input;
 
     Arguments a;
     a.json = t.json;
@@ -465,7 +494,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         a.command = Command::methods;
     } else if (*info) {
         a.command = Command::info;
-        a.input = t.input;
+        fill_input_options(t, a);
     } else {
         a.command = *render ? Command::render : *compare ? Command::compare : Command::explain;
         fill_scene_options(t, a);

@@ -9,11 +9,13 @@
 #include <optional>
 
 #include "base/atomic_file.h"
+#include "base/interrupt.h"
 #include "base/json_writer.h"
 #include "base/lower_extension.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "cli/job.h"
+#include "image/image_io.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer/abuffer.h"
 #include "methods/explain.h"
@@ -26,6 +28,22 @@ namespace burin {
 namespace {
 
 // ---- render ----
+
+/// "##", "%04d" or "$F4" stands for a frame's number. A single # is a letter like others.
+bool has_frame_pattern(const std::string& name) {
+    if (name.find("##") != std::string::npos) return true;
+    const auto is_digit = [&](std::size_t i) { return i < name.size() && name[i] >= '0' && name[i] <= '9'; };
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        if (name.compare(i, 2, "$F") == 0 && is_digit(i + 2)) return true;
+        if (name[i] != '%' || !is_digit(i + 1)) continue;
+        std::size_t end = i + 1;
+        while (is_digit(end)) ++end;
+        if (end < name.size() && name[end] == 'd') return true;
+    }
+    return false;
+}
+
+bool writes_stats_file(const Arguments& a) { return !a.stats.empty() && a.stats != "-"; }
 
 OutputOptions output_options(const Arguments& a) {
     OutputOptions options;
@@ -46,16 +64,11 @@ OutputOptions output_options(const Arguments& a) {
         throw UsageError("--output: " + (extension.empty() ? "the name has no suffix" : "unknown kind of image '" + extension + "'") +
                          "; burin writes .exr .png .tif");
     }
-    const std::string name = std::filesystem::path(a.output).filename().string();
-    if (name.find('#') != std::string::npos || name.find("%0") != std::string::npos) {
+    if (has_frame_pattern(std::filesystem::path(a.output).filename().string())) {
         throw UsageError("--output: a pattern for frames needs --frames, which is not in this version");
     }
-    std::error_code ignored;
-    for (const std::string& other : {a.input, options.path}) {
-        if (a.stats.empty() || a.stats == "-") break;
-        if (a.stats == other || std::filesystem::equivalent(a.stats, other, ignored)) {
-            throw UsageError("--stats: would overwrite " + other + "; give another name");
-        }
+    if (writes_stats_file(a) && is_one_file(a.stats, options.path)) {
+        throw UsageError("--stats: would overwrite " + options.path + "; give another name");
     }
     options.bits = a.bits;
     options.threads = resolve_thread_count(a.threads);
@@ -196,7 +209,7 @@ struct Totals {
     std::uint64_t meshes = 0, objects = 0, triangles = 0, polygons = 0, vertices = 0;
     MeshRepairs repairs;  // of the distinct meshes
     EdgeCounts edges;     // of the distinct meshes
-    glm::dvec3 low{INFINITY}, high{-INFINITY};
+    Box bounds;
 };
 
 Totals count(const Scene& scene) {
@@ -222,10 +235,7 @@ Totals count(const Scene& scene) {
         totals.polygons += mesh.repairs.input_polygons;
         totals.vertices += mesh.positions.size();
     }
-    for_each_point(scene_points(scene), [&](const glm::dvec3& p) {
-        totals.low = glm::min(totals.low, p);
-        totals.high = glm::max(totals.high, p);
-    });
+    totals.bounds = box_of(scene_points(scene));
     return totals;
 }
 
@@ -243,8 +253,8 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
     json.key("polygons").value(t.polygons);
     json.key("vertices").value(t.vertices);
     json.key("bounds").begin_object();
-    write_vector(json, "min", t.low);
-    write_vector(json, "max", t.high);
+    write_vector(json, "min", t.bounds.low);
+    write_vector(json, "max", t.bounds.high);
     json.end_object();
     json.key("repairs").begin_object();
     json.key("degenerate_polygons").value(t.repairs.degenerate_polygons);
@@ -267,6 +277,7 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
     json.end_object();
     json.key("object_list").begin_array();
     for (const SceneObject& object : scene.objects) {
+        throw_if_interrupted();
         const Mesh& mesh = scene.meshes[object.mesh];
         json.begin_object();
         json.key("name").value(object.name);
@@ -305,8 +316,8 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
     std::printf("  objects    %llu, of %llu meshes\n", number(t.objects), number(t.meshes));
     std::printf("  triangles  %llu, as %llu polygons with %llu vertices\n", number(t.triangles),
                 number(t.polygons), number(t.vertices));
-    std::printf("  bounds     %.6g %.6g %.6g  to  %.6g %.6g %.6g\n", t.low.x, t.low.y, t.low.z,
-                t.high.x, t.high.y, t.high.z);
+    std::printf("  bounds     %.6g %.6g %.6g  to  %.6g %.6g %.6g\n", t.bounds.low.x, t.bounds.low.y, t.bounds.low.z,
+                t.bounds.high.x, t.bounds.high.y, t.bounds.high.z);
     std::printf("  edges      %llu: %llu border (%llu along a seam), %llu non-manifold, %llu marked\n",
                 number(t.edges.edges), number(t.edges.border), number(t.edges.seam),
                 number(t.edges.non_manifold), number(t.edges.marked));
@@ -359,8 +370,11 @@ Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const 
 
 void run_render(const Arguments& a) {
     const OutputOptions output = output_options(a);
-    { const AtomicFile writable(output.path); }  // fail before the work, not after it
-    if (!a.stats.empty() && a.stats != "-") { const AtomicFile writable(a.stats); }
+    std::vector<OutputFile> outputs = {{"--output", output.path}};
+    if (writes_stats_file(a)) outputs.push_back({"--stats", a.stats});
+    refuse_to_overwrite(outputs, {a.input});
+    for (const OutputFile& file : outputs) check_output_file(file.path);
+    if (output.format != OutputFormat::exr) check_display_writer(output.path);
     const Method& method = a.method.empty() ? methods().front() : *find_method(a.method);
 
     if (a.memory_bytes > 0 && method.name != "abuffer") {
@@ -372,7 +386,7 @@ void run_render(const Arguments& a) {
                                      : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     Stopwatch total, watch;
     StageTimes times;
-    Scene scene = load_input(a);
+    Scene scene = load_input(a, outputs);
     const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
     const Camera camera = camera_of(scene, a);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);

@@ -28,18 +28,23 @@ void make_folder(const std::string& folder) {
     }
 }
 
+/// All files that a comparison writes.
+std::vector<OutputFile> files_in(const std::string& folder) {
+    std::vector<OutputFile> files;
+    const auto add = [&](const std::string& name) { files.push_back({"--output", (std::filesystem::path(folder) / name).string()}); };
+    for (const Method& method : methods()) {
+        add(std::string(method.name) + ".png");
+        add(std::string(method.name) + "_diff.png");
+    }
+    for (const char* name : {"truth.png", "report.html", "metrics.csv", "metrics.json"}) add(name);
+    return files;
+}
+
 /// What an earlier comparison left in the folder would pass for results of this one.
 void remove_earlier_results(const std::string& folder) {
-    const std::filesystem::path path(folder);
-    if (!std::filesystem::exists(path / "metrics.json")) return;
+    if (!std::filesystem::exists(std::filesystem::path(folder) / "metrics.json")) return;
     std::error_code ignored;
-    for (const Method& method : methods()) {
-        const std::string name(method.name);
-        std::filesystem::remove(path / (name + ".png"), ignored);
-        std::filesystem::remove(path / (name + "_diff.png"), ignored);
-    }
-    for (const char* name : {"truth.png", "report.html", "metrics.csv", "metrics.json"})
-        std::filesystem::remove(path / name, ignored);
+    for (const OutputFile& file : files_in(folder)) std::filesystem::remove(file.path, ignored);
 }
 
 /// All methods but the truth itself, unless they are named.
@@ -92,7 +97,7 @@ void run_compare(const Arguments& a) {
     Progress progress(a.alf_progress ? ProgressStyle::alf
                                      : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     const Stopwatch total;
-    Scene scene = load_input(a);
+    Scene scene = load_input(a, files_in(a.output));
     draw_what_all_can(scene, a.quiet);
     View view;
     {

@@ -74,8 +74,17 @@ PixelRect crop_of(const Arguments& a, int width, int height) {
 
 }  // namespace
 
-Scene load_input(const Arguments& a) {
-    Scene scene = load_scene(describe_input(a), a.threads, a.strict);
+Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
+    refuse_to_overwrite(outputs, {a.input});
+    SceneDescription description = describe_input(a);
+    std::vector<std::string> files;
+    for (const ObjectDescription& object : description.objects) {
+        if (!object.file.empty()) files.push_back(object.file);
+    }
+    refuse_to_overwrite(outputs, files);
+    files.clear();
+    Scene scene = load_scene(std::move(description), {.threads = a.threads, .strict = a.strict, .budget = a.model_budget}, &files);
+    refuse_to_overwrite(outputs, files);
     if (!a.quiet && a.command != Command::info) {  // which prints them with the rest
         for (const std::string& note : scene.notes) std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
     }

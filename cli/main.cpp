@@ -1,3 +1,4 @@
+#include <cxxabi.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -5,12 +6,17 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <cstdlib>
 #include <new>
+#include <string_view>
+#include <typeinfo>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/heap.h"
 #include "base/instruction_set.h"
 #include "base/interrupt.h"
+#include "base/mapped_file.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "mesh/text_scan.h"
@@ -18,6 +24,17 @@
 namespace {
 
 enum ExitStatus { kDone = 0, kFailed = 1, kWrongUsage = 2, kInterrupted = 130 };
+
+constexpr std::string_view kOutOfMemory = "burin: out of memory; use a smaller --size, fewer --layers or a smaller model\n";
+
+/// Destructors of libraries take memory: where there is none, they end the program.
+[[noreturn]] void end_without_memory() {
+    const std::type_info* const type = abi::__cxa_current_exception_type();
+    if (type == nullptr || *type != typeid(std::bad_alloc)) std::abort();
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kOutOfMemory.data(), kOutOfMemory.size());
+    burin::remove_temporary_files();
+    ::_exit(kFailed);
+}
 
 /// A file must not get the number of a standard stream that is closed: messages would end up in it.
 void open_missing_standard_streams() {
@@ -62,6 +79,8 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     burin::install_interrupt_handlers();
+    burin::MappedFile::end_process_where_files_are_cut();
+    std::set_terminate(end_without_memory);
     try {
         burin::check_instruction_set();
         if (const auto arguments = burin::parse_arguments(argc, argv)) run(*arguments);
@@ -77,7 +96,7 @@ int main(int argc, char** argv) {
         print_error("", error.what());
         return kFailed;
     } catch (const std::bad_alloc&) {
-        std::fputs("burin: out of memory; use a smaller --size, fewer --layers or a smaller model\n", stderr);
+        std::fputs(kOutOfMemory.data(), stderr);
         return kFailed;
     } catch (const std::exception& error) {
         print_error("burin: unexpected failure, please report it: ", error.what());

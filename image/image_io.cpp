@@ -1,6 +1,7 @@
 #include "image/image_io.h"
 
 #include <dlfcn.h>
+#include <sys/auxv.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,34 +21,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the module can be: beside the program, or where it was installed.
-std::vector<fs::path> module_candidates() {
-    const char* const name = "burin_oiio.so";
+/// The program's own path. Without /proc the one that it was started by.
+fs::path program_path() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    std::vector<fs::path> candidates;
-    if (!error) {
-        candidates.push_back(program.parent_path() / name);
-        candidates.push_back(program.parent_path().parent_path() / "lib" / "burin" / name);
-    }
-    candidates.emplace_back(name);  // the loader's own search path
-    return candidates;
+    if (!error) return program;
+    const auto* const started_by = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
+    return started_by != nullptr ? fs::canonical(started_by, error) : fs::path();
 }
+
+constexpr const char* kModule = "burin_oiio.so";
+
+/// The module and, if it cannot be loaded, why. It is beside the program, or where it was installed.
+struct OiioModule {
+    void* handle = nullptr;
+    std::string failure;
+
+    OiioModule() {
+        const fs::path folder = program_path().parent_path();
+        const fs::path installed = folder.parent_path() / "lib" / "burin" / kModule;
+        std::error_code ignored;
+        for (const fs::path& candidate : {folder / kModule, installed}) {
+            if (handle == nullptr && fs::exists(candidate, ignored)) load(candidate.string());
+        }
+        if (handle == nullptr && failure.empty()) load(kModule);  // the loader's own search path
+    }
+    void load(const std::string& path) {
+        handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+        if (handle == nullptr) failure = ::dlerror();
+    }
+};
 
 template <typename Function>
 Function* module_function(const char* name) {
-    static void* const module = [] {
-        void* handle = nullptr;
-        for (const fs::path& candidate : module_candidates()) {
-            if (handle == nullptr) handle = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
-        }
-        return handle;
-    }();
-    void* const symbol = module != nullptr ? dlsym(module, name) : nullptr;
+    static const OiioModule module;
+    void* const symbol = module.handle != nullptr ? ::dlsym(module.handle, name) : nullptr;
     if (symbol == nullptr) {
-        const char* const reason = dlerror();
-        throw InputError(std::string("cannot load burin_oiio.so, which writes TIFF: ") +
-                         (reason != nullptr ? reason : "not found") +
+        throw InputError("cannot load burin_oiio.so, which writes TIFF: " +
+                         (module.failure.empty() ? std::string("it lacks a function") : module.failure) +
                          "; keep it beside the burin program, or write EXR or PNG");
     }
     return reinterpret_cast<Function*>(symbol);
@@ -164,6 +175,15 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
     return result;
 }
 
+void check_display_writer(const std::string& path) {
+    if (lower_extension(path) == ".png") return;
+    try {
+        module_function<decltype(burin_oiio_write)>("burin_oiio_write");
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + error.what());
+    }
+}
+
 void write_display_image(const std::string& path, const DisplayImage& image, int bits) {
     if (lower_extension(path) == ".png") {
         AtomicFile file(path);
@@ -182,7 +202,7 @@ void write_display_image(const std::string& path, const DisplayImage& image, int
     AtomicFile file(path);
     DisplaySink target{file, nullptr};
     const BurinOiioSink sink{&target, DisplaySink::write, DisplaySink::go_on};
-    const char* const failure = write(file.temporary_path().c_str(), image.width, image.height,
+    const char* const failure = write(path.c_str(), image.width, image.height,
                                       image.channels, bits, image.pixels.data(), &sink);
     if (target.stopped) std::rethrow_exception(target.stopped);
     if (failure != nullptr) throw InputError(path + ": cannot write: " + one_line(failure));

@@ -10,6 +10,7 @@
 #include "abuffer/projection.h"
 #include "abuffer/screen_polygon.h"
 #include "mesh/body_sides.h"
+#include "mesh/material_list.h"
 #include "mesh/mesh.h"
 
 namespace burin {
@@ -41,7 +42,7 @@ struct SurfaceInstance {
     std::shared_ptr<const BodySides> body_sides;  ///< of the mesh
     std::uint32_t object_id = 0;    ///< from 1
     std::uint32_t first_polygon_id = 0;        ///< id of the mesh's polygon 0; ids start from 1
-    std::vector<std::uint32_t> material_ids;   ///< id per material number of the mesh, from 1
+    MaterialList materials;                    ///< per material number of the mesh: scene's material, from 0
 };
 
 /// All surfaces of a frame as the camera sees them: the one source of geometry for visibility and
@@ -119,7 +120,7 @@ struct SurfaceSet {
         return a == b || (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(a).polygon_of(b.triangle));
     }
     std::uint32_t material_id(SurfaceId s) const {
-        return s.is_background() ? 0 : instance_of(s).material_ids[mesh_of(s).material_of(s.triangle)];
+        return s.is_background() ? 0 : 1 + instance_of(s).materials[mesh_of(s).material_of(s.triangle)];
     }
     std::uint64_t triangle_count() const {
         std::uint64_t count = 0;

@@ -162,7 +162,7 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh) {
         mesh.input_order.drop(duplicates);
     }
     if (is_subdivided) {
-        polygons = subdivide(polygons, options.scheme, options.subdivision_levels, mesh.name);
+        polygons = subdivide(polygons, options.scheme, options.subdivision_levels, mesh.name, options.budget);
     }
     if (!duplicates.empty() || is_subdivided) triangulate_and_link(polygons, mesh);
     mark_edges(polygons, mesh);

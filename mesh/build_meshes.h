@@ -11,6 +11,7 @@ namespace burin {
 struct MeshOptions {
     int subdivision_levels = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
+    ModelBudget* budget = nullptr;  ///< counts what subdivision makes; nullptr: nothing is counted
     int threads = 1;  ///< for reading a file; 0 = all cores. Changes no result.
     bool strict = false;  ///< for reading a file: refuses what a reader would leave out with a note
 };

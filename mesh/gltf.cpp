@@ -45,6 +45,8 @@ class GltfReader {
         if (scene_.objects.empty()) {
             throw InputError(path_ + ": no node shows a mesh; burin draws the lines of surfaces");
         }
+        buffers_->check_are_whole();
+        scene_.buffer_files = buffers_->files();
         return std::move(scene_);
     }
 

@@ -34,6 +34,7 @@ struct GltfScene {
     std::vector<GltfObject> objects;
     std::vector<GltfCamera> cameras;
     std::uint64_t skipped_primitives = 0;  ///< points and lines
+    std::vector<std::string> buffer_files; ///< paths of the buffers that are files
 };
 
 /// Reads `.gltf` and `.glb`. Skins and morph targets stay in their rest pose; textures are not

@@ -141,6 +141,16 @@ std::string_view GltfBuffers::load_uri(const JsonPlace& place) {
     return external_.back()->bytes();
 }
 
+std::vector<std::string> GltfBuffers::files() const {
+    std::vector<std::string> paths;
+    for (const auto& file : external_) paths.push_back(file->path());
+    return paths;
+}
+
+void GltfBuffers::check_are_whole() const {
+    for (const auto& file : external_) file->check_is_whole();
+}
+
 /// The bytes [offset, offset + size) of a view, checked.
 const char* GltfBuffers::view_bytes(const JsonPlace& place, std::uint64_t offset, std::uint64_t size,
                        std::uint64_t* stride) const {

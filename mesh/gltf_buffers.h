@@ -30,6 +30,11 @@ class GltfBuffers {
     /// `root` is the whole JSON, `binary` the GLB's chunk; both must outlive this.
     GltfBuffers(const std::string& path, const JsonPlace& root, std::string_view binary);
 
+    /// The paths of the files among the buffers.
+    std::vector<std::string> files() const;
+    /// Throws InputError if one of them has become shorter since it was opened.
+    void check_are_whole() const;
+
     /// The accessor that `reference` names. 1 component: SCALAR; 3: VEC3.
     GltfAccessor accessor(const JsonPlace& reference, int components);
 

@@ -1,5 +1,7 @@
 #include "mesh/mesh.h"
 
+#include "base/interrupt.h"
+
 namespace burin {
 
 glm::dvec3 Mesh::polygon_area_vector(std::uint32_t triangle) const {
@@ -13,6 +15,7 @@ EdgeCounts count_edges(const Mesh& mesh) {
     EdgeCounts counts;
     const auto half_edges = static_cast<HalfEdge>(mesh.next_on_edge.size());
     for (HalfEdge h = 0; h < half_edges; ++h) {
+        if ((h & 0xFFFFF) == 0) throw_if_interrupted();
         if (mesh.next_on_edge[h] > h) continue;  // rings are in order: only the last one turns back
         std::uint64_t ring = 1;
         for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) ++ring;
@@ -25,6 +28,7 @@ EdgeCounts count_edges(const Mesh& mesh) {
         counts.non_manifold += ring > 2;
     }
     for (const BorderIndex::Segment& s : mesh.borders.segments()) {
+        throw_if_interrupted();
         const glm::dvec3 middle = 0.5 * (glm::dvec3(s.a) + glm::dvec3(s.b));
         counts.seam += mesh.borders.seam_partner(s.half_edge, middle).has_value();
     }

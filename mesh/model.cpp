@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/lower_extension.h"
+#include "base/mapped_file.h"
 #include "mesh/gltf.h"
 #include "mesh/readers.h"
 
@@ -53,12 +54,18 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     }
     model.materials = std::move(scene.materials);
     model.skipped_primitives = scene.skipped_primitives;
+    model.other_files = std::move(scene.buffer_files);
     return model;
 }
 
 Model read_by_extension(const std::string& path, const MeshOptions& options) {
     const std::string extension = lower_extension(path);
-    if (extension == ".obj") return model_of(path, read_obj(path, options.threads), options);
+    if (extension == ".obj") {
+        std::vector<std::string> material_files;
+        Model model = model_of(path, read_obj(path, options.threads, &material_files), options);
+        model.other_files = std::move(material_files);
+        return model;
+    }
     if (extension == ".ply") return model_of(path, read_ply(path, options.threads, options.strict), options);
     if (extension == ".stl") return model_of(path, read_stl(path, options.strict), options);
     if (extension == ".off") return model_of(path, read_off(path), options);
@@ -79,7 +86,15 @@ bool is_model_file(const std::string& path) {
 }
 
 Model read_model(const std::string& path, const MeshOptions& options) {
-    Model model = read_by_extension(path, options);
+    const FileLength given(path);
+    Model model;
+    try {
+        model = read_by_extension(path, options);
+    } catch (const InputError&) {
+        given.check();  // what was wrong may be the zeros where the file ends now
+        throw;
+    }
+    given.check();
     const bool has_triangles = std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
         return !model.meshes[o.mesh].triangles.empty();
     });

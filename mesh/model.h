@@ -36,6 +36,7 @@ struct Model {
     std::uint64_t skipped_primitives = 0;  ///< points and lines of a glTF
     std::uint64_t non_finite_polygons = 0;  ///< left out, of an STL
     std::vector<std::string> notes;  ///< what the user should know of how the file was read: "path: what", a line each
+    std::vector<std::string> other_files;  ///< that were read beside the model's own: materials, buffers
 };
 
 /// True if the extension names a format that read_model can read.

@@ -58,7 +58,7 @@ void read_material_file(const std::string& path, MaterialLibrary& library) {
 /// Reads the material files of an OBJ, each once, by whatever names it is called.
 class MaterialFiles {
   public:
-    explicit MaterialFiles(const std::string& obj_path) : obj_path_(obj_path) {
+    MaterialFiles(const std::string& obj_path, std::vector<std::string>* files_read) : obj_path_(obj_path), files_read_(files_read) {
         folder_ = std::filesystem::path(obj_path).parent_path().string();
         if (folder_.empty()) folder_ = ".";
         if (const auto obj = file_at(obj_path)) outcomes_[*obj] = false;
@@ -111,6 +111,7 @@ class MaterialFiles {
         if (path.empty()) return false;
         try {
             read_material_file(path, library_);
+            if (files_read_ != nullptr) files_read_->push_back(path);
             return true;
         } catch (const InputError&) {
             // A missing material file is so common that it must not stop the drawing.
@@ -119,6 +120,7 @@ class MaterialFiles {
     }
 
     const std::string& obj_path_;
+    std::vector<std::string>* files_read_;
     std::string folder_;
     MaterialLibrary library_;
     std::map<std::string, bool, std::less<>> names_;  // whether it names a file that was read
@@ -130,8 +132,8 @@ class MaterialFiles {
 }  // namespace
 
 MaterialLibrary read_material_files(const std::string& obj_path,
-                                    const std::vector<std::string>& file_names) {
-    MaterialFiles files(obj_path);
+                                    const std::vector<std::string>& file_names, std::vector<std::string>* files_read) {
+    MaterialFiles files(obj_path, files_read);
     for (const std::string& names : file_names) {
         if (files.read(names)) continue;  // one name, perhaps with blanks in it
         LineScanner scan(names);

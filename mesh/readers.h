@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesh/polygon_soup.h"
 
@@ -21,11 +22,11 @@ namespace burin {
 /// Wavefront OBJ. `o` names start objects (`g` names, in a file without any `o`), `usemtl` sets the
 /// material, `l` marks edges. Texture coordinates, normals, free-form surfaces, points are skipped.
 /// Colours and opacities come from the `mtllib` files that lie in the model's folder or below.
-/// Read on `threads` threads (0 = all cores), which changes nothing else.
-PolygonSoup read_obj(const std::string& path, int threads = 1);
+/// Read on `threads` threads (0 = all cores), which changes nothing else. `material_files`: gets the paths of those that were read.
+PolygonSoup read_obj(const std::string& path, int threads = 1, std::vector<std::string>* material_files = nullptr);
 /// The same for the text of the file, in pieces of at least `piece_size` bytes, which changes nothing either.
-PolygonSoup read_obj_text(const std::string& path, std::string_view text, int threads,
-                          std::size_t piece_size);
+PolygonSoup read_obj_text(const std::string& path, std::string_view text, int threads, std::size_t piece_size,
+                          std::vector<std::string>* material_files = nullptr);
 
 /// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
 /// `element edge` marks edges; other elements and properties are skipped. Plain ASCII is read on `threads`

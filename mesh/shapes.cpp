@@ -4,6 +4,8 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "base/interrupt.h"
+
 namespace burin {
 namespace {
 
@@ -46,12 +48,14 @@ PolygonSoup make_box(glm::dvec3 size) {
 PolygonSoup make_plane(double size_x, double size_z, int columns, int rows) {
     PolygonSoup soup = empty_soup("plane");
     for (int r = 0; r <= rows; ++r) {
+        throw_if_interrupted();
         for (int c = 0; c <= columns; ++c) {
             soup.positions.emplace_back(size_x * (static_cast<double>(c) / columns - 0.5), 0.0,
                                         size_z * (static_cast<double>(r) / rows - 0.5));
         }
     }
     for (int r = 0; r < rows; ++r) {
+        throw_if_interrupted();
         for (int c = 0; c < columns; ++c) {
             const int a = r * (columns + 1) + c;
             const int b = a + columns + 1;
@@ -65,6 +69,7 @@ PolygonSoup make_sphere(double radius, int segments, int rings) {
     PolygonSoup soup = empty_soup("sphere");
     soup.positions.emplace_back(0.0, radius, 0.0);
     for (int r = 1; r < rings; ++r) {
+        throw_if_interrupted();
         const double polar = std::numbers::pi * r / rings;
         for (int s = 0; s < segments; ++s) {
             const glm::dvec2 c = on_circle(s, segments) * (radius * std::sin(polar));
@@ -75,6 +80,7 @@ PolygonSoup make_sphere(double radius, int segments, int rings) {
     const int south = 1 + (rings - 1) * segments;
     const auto at = [&](int ring, int s) { return 1 + (ring - 1) * segments + s % segments; };
     for (int s = 0; s < segments; ++s) {
+        throw_if_interrupted();
         add(soup, {0, at(1, s + 1), at(1, s)});
         for (int r = 1; r + 1 < rings; ++r) {
             add(soup, {at(r, s), at(r, s + 1), at(r + 1, s + 1), at(r + 1, s)});
@@ -120,6 +126,7 @@ PolygonSoup make_cylinder(double bottom_radius, double top_radius, double height
 PolygonSoup make_torus(double radius, double tube_radius, int segments, int tube_segments) {
     PolygonSoup soup = empty_soup("torus");
     for (int s = 0; s < segments; ++s) {
+        throw_if_interrupted();
         const glm::dvec2 around = on_circle(s, segments);
         for (int t = 0; t < tube_segments; ++t) {
             const glm::dvec2 tube = on_circle(t, tube_segments) * tube_radius;
@@ -131,6 +138,7 @@ PolygonSoup make_torus(double radius, double tube_radius, int segments, int tube
         return (s % segments) * tube_segments + t % tube_segments;
     };
     for (int s = 0; s < segments; ++s) {
+        throw_if_interrupted();
         for (int t = 0; t < tube_segments; ++t) {
             add(soup, {at(s, t), at(s, t + 1), at(s + 1, t + 1), at(s + 1, t)});
         }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
+#include <string>
 
 #include "mesh/polygon_soup.h"
 
@@ -26,5 +28,14 @@ PolygonSoup make_torus(double radius, double tube_radius, int segments, int tube
 /// tessellation x tessellation quadrilaterals. It stands on the XZ plane, 3.15 units high, with its
 /// spout towards +X.
 PolygonSoup make_teapot(int tessellation);
+
+/// A shape that is not made yet, and how large it will be.
+struct Shape {
+    std::string name;
+    std::uint64_t polygons = 0;
+    std::uint64_t corners = 0;  ///< of all polygons
+    std::string settings;       ///< that make it so large, for messages: "segments 64, rings 32"
+    std::function<PolygonSoup()> make;
+};
 
 }  // namespace burin

@@ -6,6 +6,7 @@
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
 #include <algorithm>
+#include <cstdio>
 #include <mutex>
 #include <span>
 #include <type_traits>
@@ -147,25 +148,32 @@ PolygonMesh subdivide_as(const PolygonMesh& cage, int levels, const std::string&
     return result;
 }
 
-/// Refuses results that are too large before any work is done on them.
-void check_size(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
-                const std::string& object_name) {
-    // The first step of Catmull-Clark makes a polygon of each corner, all others make four of each.
-    std::uint64_t polygons = mesh.polygon_count();
+}  // namespace
+
+PolygonCounts count_subdivided(PolygonCounts mesh, SubdivisionScheme scheme, int levels, const std::string& object_name) {
+    const bool all_triangles = mesh.corners == 3 * mesh.polygons;
+    const bool is_loop = scheme == SubdivisionScheme::loop || (scheme == SubdivisionScheme::automatic && all_triangles);
     for (int level = 0; level < levels; ++level) {
-        const bool by_corners = level == 0 && scheme == SubdivisionScheme::catmull_clark;
-        polygons = by_corners ? mesh.corners.size() : 4 * polygons;
-        if (polygons > kMaxPolygons) {
+        // The first step of Catmull-Clark makes a polygon of each corner, all others make four of each.
+        mesh.polygons = level == 0 && !is_loop ? mesh.corners : 4 * mesh.polygons;
+        if (mesh.polygons > kMaxPolygons) {
             throw InputError("object '" + object_name + "': " + std::to_string(levels) +
                              " subdivisions give more than 268 million polygons; use fewer");
         }
+        mesh.corners = (is_loop ? 3 : 4) * mesh.polygons;
     }
+    return mesh;
 }
 
-}  // namespace
+void count_mesh(ModelBudget& budget, PolygonCounts mesh, const std::string& object, const std::string& settings) {
+    constexpr std::uint64_t kBytesPerCorner = 60;  // while it is built; measured
+    char million[32];
+    std::snprintf(million, sizeof million, "%.1f", 1e-6 * static_cast<double>(mesh.polygons));
+    budget.add(saturating_product(kBytesPerCorner, mesh.corners), object + " of " + million + " million polygons (" + settings + ")");
+}
 
-PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
-                      const std::string& object_name) {
+PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels, const std::string& object_name,
+                      ModelBudget* budget) {
     static std::once_flag silenced;  // OpenMesh reports every refused face on standard error
     std::call_once(silenced, [] { omerr().disable(); });
 
@@ -176,7 +184,8 @@ PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int lev
     if (scheme == SubdivisionScheme::automatic) {
         scheme = all_triangles ? SubdivisionScheme::loop : SubdivisionScheme::catmull_clark;
     }
-    check_size(mesh, scheme, levels, object_name);
+    const PolygonCounts counts = count_subdivided({mesh.polygon_count(), mesh.corners.size()}, scheme, levels, object_name);
+    if (budget != nullptr) count_mesh(*budget, counts, "object '" + object_name + "'", "subdivide " + std::to_string(levels));
     if (scheme == SubdivisionScheme::catmull_clark) {
         return subdivide_as<PolyMesh>(mesh, levels, object_name);
     }

@@ -18,7 +18,10 @@ struct EmbreeScene::Handles {
     RTCScene scene = nullptr;
 
     Handles() {
-        if (device == nullptr) throw InputError("Embree cannot start on this machine");
+        if (device == nullptr) {
+            if (rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw InputError("not enough memory for rays");
+            throw InputError("Embree cannot start on this machine");
+        }
         scene = rtcNewScene(device);
         rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));

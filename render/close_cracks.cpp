@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/interrupt.h"
+#include "mesh/box.h"
 #include "mesh/stitch_cracks.h"
 
 namespace burin {
@@ -18,6 +21,12 @@ struct Placing {
     glm::dvec3 per_position;  // of the distance
     double distance;          // at 0
     double scale;             // at least that of any direction
+
+    auto operator<=>(const Placing& other) const {
+        const auto numbers = [](const Placing& p) { return std::tuple(p.per_position.x, p.per_position.y, p.per_position.z, p.distance, p.scale); };
+        return numbers(*this) <=> numbers(other);
+    }
+    bool operator==(const Placing& other) const { return (*this <=> other) == 0; }
 };
 
 Placing placing_of(const glm::dmat4& to_view, const glm::dvec3& origin) {
@@ -31,11 +40,36 @@ Placing placing_of(const glm::dmat4& to_view, const glm::dvec3& origin) {
     return {-row, -(glm::dot(row, origin) + to_view[3].z), scale};
 }
 
-/// Whether anything of it is.
-bool is_before_the_eye(const Placing& placing, const Mesh& mesh) {
+/// Around the distances of all places within a box, in whatever way they are rounded.
+struct Distances {
+    double low, high;
+};
+Distances distances_of(const Placing& placing, const Box& box) {
+    const glm::dvec3 a = placing.per_position * box.low, b = placing.per_position * box.high;
+    const glm::dvec3 low = glm::min(a, b), high = glm::max(a, b), size = glm::max(glm::abs(a), glm::abs(b));
+    const double rounding = 1e-12 * (size.x + size.y + size.z + std::abs(placing.distance));
+    return {low.x + low.y + low.z + placing.distance - rounding, high.x + high.y + high.z + placing.distance + rounding};
+}
+
+/// Whether anything of it is. `box` is around the mesh.
+bool is_before_the_eye(const Placing& placing, const Mesh& mesh, const Box& box) {
+    if (distances_of(placing, box).high < 0) return false;
     return std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) {
         return glm::dot(placing.per_position, glm::dvec3(p)) + placing.distance > 0;
     });
+}
+
+/// Leaves the placings that matter where the mesh is: the size of a pixel is the least of all.
+void drop_far_ones(std::vector<Placing>& placings, const Box& box, const Projection& projection) {
+    std::sort(placings.begin(), placings.end());
+    placings.erase(std::unique(placings.begin(), placings.end()), placings.end());
+    const auto pixel = [&](const Placing& p, double distance) {
+        return projection.orthographic || distance > 0 ? projection.pixel_size(distance) / p.scale : 0;
+    };
+    constexpr double kRounding = 1e-9;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Placing& p : placings) least = std::min(least, pixel(p, distances_of(p, box).high) * (1 + kRounding));
+    std::erase_if(placings, [&](const Placing& p) { return pixel(p, distances_of(p, box).low) > least; });
 }
 
 }  // namespace
@@ -44,15 +78,21 @@ void close_cracks(Scene& scene, const Camera& camera, int width, int height) {
     const Projection projection = camera.projection(width, height, 0);
     const glm::dmat4 world_to_view = camera.to_view();
     std::vector<std::vector<Placing>> placings(scene.meshes.size());
+    std::vector<Box> boxes(scene.meshes.size());
     for (const SceneObject& object : scene.objects) {
+        throw_if_interrupted();
         const Mesh& mesh = scene.meshes[object.mesh];
         if (mesh.borders.segments().size() < 2) continue;
+        Box& box = boxes[object.mesh];
+        if (box.is_empty()) box = box_of(mesh);
         const Placing placing = placing_of(world_to_view * object.to_world, mesh.origin);
-        if (projection.orthographic || is_before_the_eye(placing, mesh)) placings[object.mesh].push_back(placing);
+        if (projection.orthographic || is_before_the_eye(placing, mesh, box)) placings[object.mesh].push_back(placing);
     }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         if (placings[i].empty()) continue;
+        drop_far_ones(placings[i], boxes[i], projection);
         const auto reach = [&](const glm::dvec3& position) {
+            throw_if_interrupted();
             double least = std::numeric_limits<double>::max();
             for (const Placing& p : placings[i]) {
                 const double distance = glm::dot(p.per_position, position) + p.distance;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "mesh/box.h"
 #include "mesh/text_scan.h"
 
@@ -42,6 +43,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     Box view_box;
     std::uint64_t next_polygon_id = 1;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        throw_if_interrupted();
         const SceneObject& object = scene.objects[i];
         const Mesh& mesh = scene.meshes[object.mesh];
         SurfaceInstance instance;
@@ -56,7 +58,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         instance.object_id = i + 1;
         instance.first_polygon_id = static_cast<std::uint32_t>(next_polygon_id);
         next_polygon_id += mesh.polygon_count;
-        for (const std::uint32_t m : object.materials) instance.material_ids.push_back(m + 1);
+        instance.materials = object.materials;
         mesh_boxes[object.mesh].for_each_corner([&](const glm::dvec3& corner) {
             if (!mesh.positions.empty()) {
                 view_box.add(glm::dvec3(instance.to_view * glm::dvec4(corner, 1.0)));

@@ -16,29 +16,18 @@ bool is_reasonable(const glm::dvec3& v) {
     return std::abs(v.x) <= kHuge && std::abs(v.y) <= kHuge && std::abs(v.z) <= kHuge;
 }
 
-struct Bounds {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-    bool is_empty() const { return low.x > high.x; }
-    glm::dvec3 center() const { return is_empty() ? glm::dvec3(0.0) : 0.5 * (low + high); }
-    double radius() const { return is_empty() ? 0.0 : 0.5 * glm::distance(low, high); }
-};
+glm::dvec3 center_of(const Box& box) { return box.is_empty() ? glm::dvec3(0.0) : 0.5 * (box.low + box.high); }
+double radius_of(const Box& box) { return box.is_empty() ? 0.0 : 0.5 * glm::distance(box.low, box.high); }
 
-Bounds bounds_of(const PointSource& points) {
-    Bounds bounds;
-    const auto add = [&](const glm::dvec3& low, const glm::dvec3& high) {
-        bounds.low = glm::min(bounds.low, low);
-        bounds.high = glm::max(bounds.high, high);
-    };
-    points({[&](const Box& box) {  // tells all there is to know
-                add(box.low, box.high);
-                return false;
-            },
-            [&](std::span<const glm::dvec3> some) {
-                for (const glm::dvec3& p : some) add(p, p);
-            }});
-    return bounds;
+/// The farthest that a point of a box can be along an axis. Neither this nor the point is rounded here.
+double farthest_along(const glm::dvec3& axis, const Box& box) {
+    const glm::dvec3 reach = glm::max(axis * box.low, axis * box.high);
+    return reach.x + reach.y + reach.z;
 }
+/// The largest coordinates within a box, without sign.
+glm::dvec3 largest_in(const Box& box) { return glm::max(glm::abs(box.low), glm::abs(box.high)); }
+/// What rounding may add to sums of so large products.
+constexpr double kRounding = 1e-12;
 
 /// Where the front of a model usually is: +Z if it stands along Y, -Y if it stands along Z.
 glm::dvec3 front_of(const glm::dvec3& up) {
@@ -72,13 +61,10 @@ glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double 
     most.fill(-std::numeric_limits<double>::infinity());
     const glm::dvec3 x = axes[0], y = axes[1], z = axes[2];
     const std::array<glm::dvec3, 5> along = {x + kx * z, -x + kx * z, y + ky * z, -y + ky * z, z};
-    const auto needs = [&](const Box& box) {
-        const glm::dvec3 size = glm::max(glm::abs(box.low), glm::abs(box.high));
+    const auto needs = [&](const Box& box, bool) {
+        const double slack = kRounding * glm::dot(glm::abs(x) + glm::abs(y) + (1 + kx + ky) * glm::abs(z), largest_in(box));
         for (std::size_t i = 0; i < most.size(); ++i) {
-            const glm::dvec3& a = along[i];
-            const glm::dvec3 reach = glm::max(a * box.low, a * box.high);
-            const double slack = 1e-12 * glm::dot(glm::abs(x) + glm::abs(y) + (1 + kx + ky) * glm::abs(z), size);  // of rounding
-            if (!(reach.x + reach.y + reach.z + slack <= most[i])) return true;
+            if (!(farthest_along(along[i], box) + slack <= most[i])) return true;
         }
         return false;
     };
@@ -101,12 +87,22 @@ glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double 
 double fitted_distance(const PointSource& points, const glm::dvec3& target, const glm::dmat3& axes,
                        double kx, double ky, double nearest) {
     const glm::dmat3 to_axes = glm::transpose(axes);
+    const glm::dvec3 x = axes[0] / kx, y = axes[1] / ky, z = axes[2];
     double distance = 0;
-    for_each_point(points, [&](const glm::dvec3& p) {
-        const glm::dvec3 q = to_axes * (p - target);
-        distance =
-            std::max({distance, std::abs(q.x) / kx + q.z, std::abs(q.y) / ky + q.z, q.z + nearest});
-    });
+    const auto needs = [&](const Box& box, bool) {
+        const Box seen{box.low - target, box.high - target};
+        const glm::dvec3 size = largest_in(box) + glm::abs(target);
+        const double slack = kRounding * (glm::dot(glm::abs(x) + glm::abs(y) + glm::abs(z), size) + nearest);
+        const double most = std::max({farthest_along(x + z, seen), farthest_along(z - x, seen), farthest_along(y + z, seen),
+                                      farthest_along(z - y, seen), farthest_along(z, seen) + nearest});
+        return !(most + slack <= distance);
+    };
+    points({needs, [&](std::span<const glm::dvec3> some) {
+                for (const glm::dvec3& p : some) {
+                    const glm::dvec3 q = to_axes * (p - target);
+                    distance = std::max({distance, std::abs(q.x) / kx + q.z, std::abs(q.y) / ky + q.z, q.z + nearest});
+                }
+            }});
     return distance;
 }
 
@@ -176,18 +172,35 @@ Projection Camera::projection(int width, int height_px, double near_distance) co
     return p;
 }
 
+Box box_of(const PointSource& points) {
+    Box all;
+    points({[&](const Box& box, bool is_smallest) {
+                if (!is_smallest) {
+                    return !(glm::all(glm::lessThanEqual(all.low, box.low)) && glm::all(glm::lessThanEqual(box.high, all.high)));
+                }
+                all.add(box.low);
+                all.add(box.high);
+                return false;
+            },
+            [&](std::span<const glm::dvec3> some) {
+                for (const glm::dvec3& p : some) all.add(p);
+            }});
+    return all;
+}
+
 Camera resolve_camera(const CameraSettings& settings, const PointSource& points, double aspect) {
     check(settings);
     if (settings.to_world) return from_matrix(settings);
 
     const bool fits = !settings.eye || (settings.orthographic && !settings.height);
     const bool needs_bounds = fits || !settings.target;
-    const Bounds bounds = needs_bounds ? bounds_of(points) : Bounds{};
-    if (!(bounds.radius() <= kHuge)) {
+    const Box bounds = needs_bounds ? box_of(points) : Box{};
+    const double radius = radius_of(bounds);
+    if (!(radius <= kHuge)) {
         throw InputError("the scene is larger than 1e30 units; scale it down");
     }
     const glm::dvec3 up = glm::normalize(settings.up.value_or(glm::dvec3(0, 1, 0)));
-    const glm::dvec3 target = settings.target.value_or(bounds.center());
+    const glm::dvec3 target = settings.target.value_or(center_of(bounds));
 
     glm::dvec3 back = settings.direction ? *settings.direction : default_direction(up);
     if (settings.eye) {
@@ -201,7 +214,7 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
         throw InputError("the camera's up vector points along the view; choose another one");
     }
     const glm::dmat3 axes = orientation(back, up);
-    if (fits && !(bounds.radius() > 0)) {
+    if (fits && !(radius > 0)) {
         throw InputError("the scene has no extent that a camera could be fitted to; "
                          "give eye and target");
     }
@@ -209,23 +222,33 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     Camera camera;
     camera.orthographic = settings.orthographic;
     camera.fov_deg = settings.fov_deg;
-    const double nearest = 0.05 * bounds.radius();
+    const double nearest = 0.05 * radius;
     const double half_y = settings.fit * std::tan(glm::radians(settings.fov_deg) / 2);
     if (settings.orthographic) {
         const glm::dmat3 to_axes = glm::transpose(axes);
         glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
         if (!settings.height || !settings.eye) {
-            for_each_point(points, [&](const glm::dvec3& p) {
-                low = glm::min(low, glm::dvec2(to_axes * p));
-                high = glm::max(high, glm::dvec2(to_axes * p));
-            });
+            const auto needs = [&](const Box& box, bool) {
+                for (int k = 0; k < 2; ++k) {
+                    const double slack = kRounding * glm::dot(glm::abs(axes[k]), largest_in(box));
+                    if (!(farthest_along(axes[k], box) + slack <= high[k])) return true;
+                    if (!(-farthest_along(-axes[k], box) - slack >= low[k])) return true;
+                }
+                return false;
+            };
+            points({needs, [&](std::span<const glm::dvec3> some) {
+                        for (const glm::dvec3& p : some) {
+                            low = glm::min(low, glm::dvec2(to_axes * p));
+                            high = glm::max(high, glm::dvec2(to_axes * p));
+                        }
+                    }});
         }
         const glm::dvec2 center = settings.target || settings.eye
                                       ? glm::dvec2(to_axes * settings.eye.value_or(target))
                                       : 0.5 * (low + high);
         const glm::dvec2 reach = glm::max(high - center, center - low);
         camera.height = settings.height.value_or(2 * std::max(reach.y, reach.x / aspect) / settings.fit);
-        const double depth = (to_axes * bounds.center()).z + 2 * bounds.radius();
+        const double depth = (to_axes * center_of(bounds)).z + 2 * radius;
         const glm::dvec3 eye = settings.eye.value_or(axes * glm::dvec3(center, depth));
         camera.to_world = rigid(axes, eye);
     } else if (settings.eye) {

@@ -44,8 +44,9 @@ struct Camera {
 
 /// Is called with points, some at a time.
 struct PointVisitor {
-    /// May be asked before, with the smallest box around them: false where they need not come.
-    std::function<bool(const Box&)> needs;
+    /// Is asked before, with a box around points to come: false where they need not come. `is_smallest`: around these points
+    /// there is no smaller box, so that it tells how far they reach.
+    std::function<bool(const Box&, bool is_smallest)> needs;
     std::function<void(std::span<const glm::dvec3>)> visit;
 
     void operator()(std::span<const glm::dvec3> some) const { visit(some); }
@@ -56,10 +57,13 @@ using PointSource = std::function<void(const PointVisitor&)>;
 
 template <typename Visit>
 void for_each_point(const PointSource& points, const Visit& visit) {
-    points({[](const Box&) { return true; }, [&](std::span<const glm::dvec3> some) {
+    points({[](const Box&, bool) { return true; }, [&](std::span<const glm::dvec3> some) {
                 for (const glm::dvec3& p : some) visit(p);
             }});
 }
+
+/// The smallest box around all points.
+Box box_of(const PointSource& points);
 
 /// Fills in what the settings leave open. `aspect` is width / height of the picture.
 ///

@@ -1,14 +1,18 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
+#include "scene/object_names.h"
 #include "scene/scene_description.h"
 
 namespace burin {
@@ -23,32 +27,20 @@ bool is_finite(const glm::dmat4& m) {
     return true;
 }
 
-constexpr std::size_t kPointBlock = 512;
-
-/// Around the blocks of a mesh's positions.
-std::vector<Box> block_boxes(const Mesh& mesh) {
-    std::vector<Box> boxes;
-    for (std::size_t first = 0; first < mesh.positions.size(); first += kPointBlock) {
-        Box box = box_of(std::span(mesh.positions).subspan(first, std::min(kPointBlock, mesh.positions.size() - first)));
-        box.low += mesh.origin;  // rounds as points do
-        box.high += mesh.origin;
-        boxes.push_back(box);
-    }
-    return boxes;
-}
-
-/// A model as it arrived in the scene: where its meshes and materials start.
+/// A model as it arrived in the scene: where its meshes start, and the scene's materials for its own.
 struct LoadedModel {
     std::vector<ModelObject> objects;
     std::uint32_t first_mesh = 0;
-    std::uint32_t first_material = 0;
-    std::uint32_t material_count = 0;
+    MaterialList materials;
+    std::uint64_t polygons = 0;    // of all objects
+    std::uint64_t name_bytes = 0;  // of all objects
+    bool is_placed = false;        // at least once
 };
 
 class SceneLoader {
   public:
-    SceneLoader(SceneDescription description, int threads, bool strict)
-        : from_(std::move(description)), threads_(threads), strict_(strict) {
+    SceneLoader(SceneDescription description, const LoadOptions& options, std::vector<std::string>* files)
+        : from_(std::move(description)), threads_(options.threads), strict_(options.strict), budget_(options.budget), files_read_(files) {
         scene_.materials = from_.materials;
         scene_.cameras = from_.cameras;
         scene_.picture = from_.picture;
@@ -60,10 +52,28 @@ class SceneLoader {
         scene_.gbuffer = from_.gbuffer;
         scene_.zbuffer = from_.zbuffer;
         scene_.wire = from_.wire;
+        for (std::uint32_t i = 0; i < from_.materials.size(); ++i) material_numbers_.emplace(from_.materials[i].name, i);
     }
 
     Scene load() {
-        for (ObjectDescription& object : from_.objects) place(object, model_of(object));
+        for (const ObjectDescription& object : from_.objects) {
+            if (object.file.empty()) at_place_of(object, [&] { count_shape(object); });
+        }
+        for (const ObjectDescription& object : from_.objects) {
+            throw_if_interrupted();
+            at_place_of(object, [&] {
+                if (object.file.empty()) {
+                    place(object, make_shape(object));
+                } else {
+                    LoadedModel& model = model_of(object);
+                    // The file itself spells out what it takes to show it once.
+                    const std::size_t more = object.instances.size() - (std::exchange(model.is_placed, true) ? 0 : 1);
+                    count_instances(object, more, model.objects.size(), model.name_bytes);
+                    count_polygons(object.instances.size(), model.polygons);
+                    place(object, model);
+                }
+            });
+        }
         if (scene_.cameras.empty()) scene_.cameras = std::move(file_cameras_);
         scene_.camera_is_default = scene_.cameras.empty();
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
@@ -73,10 +83,13 @@ class SceneLoader {
 
   private:
     void check_highlights() const {
+        const ObjectNames names(scene_.zbuffer.highlight_objects);
+        std::set<std::string_view> found;
+        for (const SceneObject& object : scene_.objects) {
+            names.for_each_of(object.name, [&](const std::string& name) { found.insert(name); });
+        }
         for (const std::string& name : scene_.zbuffer.highlight_objects) {
-            const bool exists = std::any_of(scene_.objects.begin(), scene_.objects.end(),
-                                            [&](const SceneObject& o) { return is_named(o, name); });
-            if (!exists) {
+            if (!found.contains(name)) {
                 throw InputError("[zbuffer] highlight: '" + printable(name) + "' is neither a line class (" +
                                  to_string(LineClassSet::all()) + ") nor an object");
             }
@@ -84,29 +97,77 @@ class SceneLoader {
     }
 
     /// What is wrong with a model of a scene file is told with the place that names it.
-    const LoadedModel& model_of(ObjectDescription& object) {
-        if (object.where.line == 0) return load_model(object);
+    template <typename Work>
+    static void at_place_of(const ObjectDescription& object, const Work& work) {
+        if (object.where.line == 0) return work();
         try {
-            return load_model(object);
+            work();
         } catch (const InputError& error) {
             throw InputError(object.where, error.what());
         }
     }
 
-    const LoadedModel& load_model(ObjectDescription& object) {
-        const MeshOptions options{object.subdivide, object.scheme, threads_, strict_};
-        if (object.file.empty()) {
-            Model model;
-            model.materials = std::move(object.shape.materials);
-            model.meshes = build_meshes(std::move(object.shape), options);
-            model.objects.push_back({object.name, 0, glm::dmat4(1.0)});
-            shapes_.push_back(adopt(std::move(model)));
-            return shapes_.back();
+    void count_shape(const ObjectDescription& object) {
+        const Shape& shape = object.shape;
+        std::string settings = shape.settings;
+        if (object.subdivide > 0) settings += (settings.empty() ? "" : ", ") + ("subdivide " + std::to_string(object.subdivide));
+        const PolygonCounts counts =
+            count_subdivided({shape.polygons, shape.corners}, object.scheme, object.subdivide, shape.name);
+        count_mesh(budget_, counts, quoted(object), settings);
+        count_instances(object, object.instances.size(), 1, 0);
+        count_polygons(object.instances.size(), counts.polygons);
+    }
+
+    /// Counts what instances of an object take that has so many parts.
+    void count_instances(const ObjectDescription& object, std::uint64_t instances, std::uint64_t parts, std::uint64_t name_bytes) {
+        constexpr std::uint64_t kBytesPerPart = 600;  // here and in a frame; measured
+        const std::uint64_t bytes = parts * (kBytesPerPart + object.name.size()) + name_bytes;
+        budget_.add(saturating_product(instances, bytes),
+                    quoted(object) + " of " + std::to_string(object.instances.size()) + " instances with " +
+                        std::to_string(parts) + (parts == 1 ? " part each" : " parts each"));
+    }
+    void count_polygons(std::uint64_t instances, std::uint64_t polygons) {
+        polygons_ += std::min(saturating_product(instances, polygons), kMostPolygons + 1);
+        if (polygons_ > kMostPolygons) throw InputError("the scene has more than 4 billion polygons; split it");
+    }
+    static std::string quoted(const ObjectDescription& object) {
+        return "object '" + printable(object.name.empty() ? object.file : object.name, 200) + "'";
+    }
+
+    LoadedModel make_shape(const ObjectDescription& object) {
+        PolygonSoup soup = object.shape.make();
+        Model model;
+        model.materials = std::move(soup.materials);
+        model.meshes = build_meshes(std::move(soup), {.subdivision_levels = object.subdivide, .scheme = object.scheme});
+        model.objects.push_back({object.name, 0, glm::dmat4(1.0)});
+        return adopt(std::move(model));
+    }
+
+    LoadedModel& model_of(const ObjectDescription& object) {
+        // Without subdivision the scheme changes nothing.
+        const SubdivisionScheme scheme = object.subdivide > 0 ? object.scheme : SubdivisionScheme::automatic;
+        std::shared_ptr<LoadedModel>& as_written = files_[{object.file, object.subdivide, scheme}];
+        if (as_written) return *as_written;
+        std::shared_ptr<LoadedModel>& model = files_[{spelled_one_way(object.file), object.subdivide, scheme}];
+        if (!model) model = std::make_shared<LoadedModel>(read(object, scheme));
+        as_written = model;
+        return *model;
+    }
+
+    /// A file that is named in several ways is read once.
+    static std::string spelled_one_way(const std::string& file) {
+        const std::filesystem::path path(file);
+        std::error_code error;
+        const std::filesystem::path folder = std::filesystem::canonical(path.has_parent_path() ? path.parent_path() : ".", error);
+        return error ? file : (folder / path.filename()).string();
+    }
+
+    LoadedModel read(const ObjectDescription& object, SubdivisionScheme scheme) {
+        Model model = read_model(object.file, {object.subdivide, scheme, &budget_, threads_, strict_});
+        if (files_read_ != nullptr) {
+            files_read_->push_back(object.file);
+            files_read_->insert(files_read_->end(), model.other_files.begin(), model.other_files.end());
         }
-        const auto key = std::tuple(object.file, object.subdivide, object.scheme);
-        const auto known = files_.find(key);
-        if (known != files_.end()) return known->second;
-        Model model = read_model(object.file, options);
         for (const ModelCamera& c : model.cameras) {
             CameraSettings camera;
             camera.name = c.name;
@@ -116,15 +177,20 @@ class SceneLoader {
             camera.to_world = object.to_world * object.instances.front() * c.to_world;
             file_cameras_.push_back(camera);
         }
-        return files_.emplace(key, adopt(std::move(model))).first->second;
+        return adopt(std::move(model));
     }
 
     /// Moves a model's meshes and materials into the scene.
     LoadedModel adopt(Model model) {
         LoadedModel loaded;
         loaded.first_mesh = static_cast<std::uint32_t>(scene_.meshes.size());
-        loaded.first_material = static_cast<std::uint32_t>(scene_.materials.size());
-        loaded.material_count = static_cast<std::uint32_t>(model.materials.size());
+        std::vector<std::uint32_t> materials(model.materials.size());
+        std::iota(materials.begin(), materials.end(), static_cast<std::uint32_t>(scene_.materials.size()));
+        loaded.materials = materials;
+        for (const ModelObject& object : model.objects) {
+            loaded.polygons += model.meshes[object.mesh].polygon_count;
+            loaded.name_bytes += object.name.size();
+        }
         for (Mesh& mesh : model.meshes) scene_.meshes.push_back(std::move(mesh));
         for (Material& material : model.materials) scene_.materials.push_back(std::move(material));
         loaded.objects = std::move(model.objects);
@@ -138,16 +204,12 @@ class SceneLoader {
     }
 
     void place(const ObjectDescription& object, const LoadedModel& model) {
-        std::vector<std::uint32_t> materials(model.material_count);
-        if (object.material.empty()) {
-            std::iota(materials.begin(), materials.end(), model.first_material);
-        } else {
-            const auto it = std::find_if(from_.materials.begin(), from_.materials.end(),
-                                         [&](const Material& m) { return m.name == object.material; });
-            std::fill(materials.begin(), materials.end(),
-                      static_cast<std::uint32_t>(it - from_.materials.begin()));
+        MaterialList materials = model.materials;
+        if (!object.material.empty()) {
+            materials = MaterialList::all_alike(materials.size(), material_numbers_.find(object.material)->second);
         }
         for (std::size_t i = 0; i < object.instances.size(); ++i) {
+            throw_if_interrupted();
             for (const ModelObject& part : model.objects) {
                 SceneObject placed;
                 placed.name = name_of(object, part, i);
@@ -155,8 +217,7 @@ class SceneLoader {
                 placed.to_world = object.to_world * object.instances[i] * part.to_world;
                 placed.materials = materials;
                 if (!is_finite(placed.to_world)) {
-                    throw InputError(object.where, "object '" + placed.name +
-                                                       "' has a transform that is not finite or far too large");
+                    throw InputError("object '" + placed.name + "' has a transform that is not finite or far too large");
                 }
                 scene_.objects.push_back(std::move(placed));
             }
@@ -171,59 +232,35 @@ class SceneLoader {
         return name;
     }
 
+    static constexpr std::uint64_t kMostPolygons = std::numeric_limits<std::uint32_t>::max() - 1;  // as make_frame() numbers them
+
     SceneDescription from_;
     int threads_;
     bool strict_;
+    ModelBudget budget_;
+    std::vector<std::string>* files_read_;  // nullptr: nobody asks
     Scene scene_;
-    std::map<std::tuple<std::string, int, SubdivisionScheme>, LoadedModel> files_;
-    std::vector<LoadedModel> shapes_;
+    std::map<std::string, std::uint32_t, std::less<>> material_numbers_;  // of those of the scene file
+    std::map<std::tuple<std::string, int, SubdivisionScheme>, std::shared_ptr<LoadedModel>> files_;
+    std::uint64_t polygons_ = 0;
     std::vector<CameraSettings> file_cameras_;
 };
 
 }  // namespace
 
-Scene load_scene(SceneDescription description, int threads, bool strict) {
-    return SceneLoader(std::move(description), threads, strict).load();
-}
-
-bool is_named(const SceneObject& object, const std::string& name) {
-    const std::string& own = object.name;
-    return own.starts_with(name) &&
-           (own.size() == name.size() || own[name.size()] == '/' || own[name.size()] == '#');
+Scene load_scene(SceneDescription description, const LoadOptions& options, std::vector<std::string>* files) {
+    return SceneLoader(std::move(description), options, files).load();
 }
 
 bool has_transparent_surfaces(const Scene& scene) {
-    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
-        return std::any_of(object.materials.begin(), object.materials.end(),
-                           [&](std::uint32_t m) { return scene.materials[m].opacity < 1; });
-    });
-}
-
-PointSource scene_points(const Scene& scene) {
-    // Of each mesh, once they are needed: a camera's fit runs twice over all points.
-    const auto boxes = std::make_shared<std::vector<std::vector<Box>>>(scene.meshes.size());
-    return [&scene, boxes](const PointVisitor& visit) {
-        std::array<glm::dvec3, kPointBlock> some;
-        const auto visit_all = [&](const Mesh& mesh, const Box* box, const auto& place) {
-            for (std::size_t first = 0; first < mesh.positions.size(); first += kPointBlock) {
-                if (box != nullptr && !visit.needs(*box++)) continue;
-                const std::size_t count = std::min(kPointBlock, mesh.positions.size() - first);
-                for (std::size_t i = 0; i < count; ++i) some[i] = place(mesh.position(static_cast<std::uint32_t>(first + i)));
-                visit(std::span(some).first(count));
-            }
-        };
-        for (const SceneObject& object : scene.objects) {
-            const Mesh& mesh = scene.meshes[object.mesh];
-            const glm::dmat4 to_world = object.to_world;
-            if (to_world == glm::dmat4(1.0)) {
-                std::vector<Box>& of_mesh = (*boxes)[object.mesh];
-                if (of_mesh.empty()) of_mesh = block_boxes(mesh);
-                visit_all(mesh, of_mesh.data(), [](const glm::dvec3& p) { return p; });
-            } else {
-                visit_all(mesh, nullptr, [&](const glm::dvec3& p) { return glm::dvec3(to_world * glm::dvec4(p, 1.0)); });
-            }
-        }
-    };
+    if (std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.opacity >= 1; })) return false;
+    std::set<const std::uint32_t*> seen;  // objects share lists
+    bool is_transparent = false;
+    for (const SceneObject& object : scene.objects) {
+        if (!seen.insert(object.materials.address()).second) continue;
+        object.materials.for_each([&](std::uint32_t m) { is_transparent = is_transparent || scene.materials[m].opacity < 1; });
+    }
+    return is_transparent;
 }
 
 }  // namespace burin

@@ -8,6 +8,7 @@
 
 #include "lines/crease_fade.h"
 #include "lines/surface_set.h"
+#include "mesh/material_list.h"
 #include "mesh/mesh.h"
 #include "mesh/subdivide.h"
 #include "scene/camera.h"
@@ -51,12 +52,8 @@ struct SceneObject {
     std::string name;
     std::uint32_t mesh = 0;
     glm::dmat4 to_world{1.0};
-    std::vector<std::uint32_t> materials;  ///< per material number of the mesh: scene's material
+    MaterialList materials;  ///< per material number of the mesh: scene's material
 };
-
-/// Whether the object is the one of this name, or one of its parts ("engine/piston") or instances
-/// ("tree#2").
-bool is_named(const SceneObject& object, const std::string& name);
 
 /// Everything that a picture is made of. Describes and computes nothing.
 struct Scene {

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/model_budget.h"
 #include "mesh/polygon_soup.h"
+#include "mesh/shapes.h"
 #include "scene/scene.h"
 
 namespace burin {
@@ -16,7 +18,7 @@ namespace burin {
 struct ObjectDescription {
     std::string name;
     std::string file;             ///< path, already relative to where the program runs; or empty
-    PolygonSoup shape;            ///< if there is no file
+    Shape shape;                  ///< if there is no file
     int subdivide = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
     std::string material;         ///< name; empty: the file's own materials
@@ -54,8 +56,16 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
 /// The scene of a bare model: that one object, everything else at its default.
 SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides);
 
-/// Loads the models that a description names, each file once, on `threads` threads (0 = all cores). Throws
-/// InputError; if `strict`, also where a reader would leave something out with a note.
-Scene load_scene(SceneDescription description, int threads = 1, bool strict = false);
+/// How to load a scene.
+struct LoadOptions {
+    int threads = 1;      ///< 0 = all cores. Changes no result.
+    bool strict = false;  ///< refuses a model of which a reader would leave a part out with a note
+    ModelBudget budget{};   ///< what shapes, subdivisions and instances may take
+};
+
+/// Loads the models that a description names, each file once, and makes its shapes, one after the other. Throws InputError;
+/// where shapes, subdivisions or instances take more memory than the budget allows, before they are made. `files`: gets the
+/// paths of all files that were read.
+Scene load_scene(SceneDescription description, const LoadOptions& options = {}, std::vector<std::string>* files = nullptr);
 
 }  // namespace burin

@@ -4,14 +4,19 @@
 #include <cstdio>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
+#include <istream>
 #include <optional>
+#include <streambuf>
+#include <unordered_set>
 
+#include "base/interrupt.h"
 #include "base/mapped_file.h"
-#include "mesh/shapes.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
 #include "scene/gbuffer_toml.h"
 #include "scene/scene_description.h"
+#include "scene/shape_toml.h"
+#include "scene/toml_depth.h"
 #include "scene/toml_reader.h"
 #include "scene/wire_settings_toml.h"
 
@@ -22,43 +27,6 @@ constexpr std::size_t kMaxSceneBytes = 64u << 20;
 constexpr double kHuge = 1e30;
 constexpr TomlReader::Range kAnyNumber{-kHuge, kHuge};
 constexpr TomlReader::Range kPositive{0, kHuge, true, false};
-
-// ---- built-in shapes ----
-
-PolygonSoup read_shape(TomlReader& t) {
-    static const std::vector<std::string_view> kShapes = {"box",  "plane", "sphere", "cylinder",
-                                                          "cone", "torus", "teapot"};
-    const auto positive = [&t](std::string_view key, double fallback) {
-        return t.number(key, kPositive).value_or(fallback);
-    };
-    const auto count = [&t](std::string_view key, int low, int fallback) {
-        return t.integer(key, low, 4096).value_or(fallback);
-    };
-    switch (*t.choice("shape", kShapes)) {
-        case 0: {
-            const glm::dvec3 size = t.vector("size").value_or(glm::dvec3(1.0));
-            if (!(size.x > 0 && size.y > 0 && size.z > 0)) t.fail("size", "must be positive");
-            return make_box(size);
-        }
-        case 1: {
-            const auto size = t.numbers("size", 2).value_or(std::vector<double>{1, 1});
-            if (!(size[0] > 0 && size[1] > 0)) t.fail("size", "must be positive");
-            return make_plane(size[0], size[1], count("columns", 1, 1), count("rows", 1, 1));
-        }
-        case 2:
-            return make_sphere(positive("radius", 0.5), count("segments", 3, 64), count("rings", 2, 32));
-        case 3:
-            return make_cylinder(positive("radius", 0.5), positive("top_radius", positive("radius", 0.5)),
-                                 positive("height", 1), count("segments", 3, 64));
-        case 4:
-            return make_cylinder(positive("radius", 0.5), 0, positive("height", 1),
-                                 count("segments", 3, 64));
-        case 5:
-            return make_torus(positive("radius", 0.5), positive("tube_radius", 0.2),
-                              count("segments", 3, 64), count("tube_segments", 3, 32));
-        default: return make_teapot(t.integer("tessellation", 1, 256).value_or(10));
-    }
-}
 
 // ---- transforms ----
 
@@ -124,12 +92,11 @@ class SceneReader {
   private:
     void read_cameras() {
         for (TomlReader& t : root_.tables("camera")) {
+            throw_if_interrupted();
             CameraSettings camera;
             camera.where = t.position();
             camera.name = t.text("name").value_or("");
-            for (const CameraSettings& other : scene_.cameras) {
-                if (other.name == camera.name) t.fail("name", "two cameras have this name; rename one");
-            }
+            if (!camera_names_.insert(camera.name).second) t.fail("name", "two cameras have this name; rename one");
             const auto projection = t.choice("projection", {"perspective", "orthographic"});
             camera.orthographic = projection == 1u;
             camera.eye = t.vector("eye");
@@ -150,12 +117,11 @@ class SceneReader {
     }
 
     void read_material(TomlReader& t) {
+        throw_if_interrupted();
         Material material;
         const auto name = t.text("name");
         if (!name || name->empty()) t.fail("needs a name");
-        for (const Material& other : scene_.materials) {
-            if (other.name == *name) t.fail("name", "two materials have this name; rename one");
-        }
+        if (!material_names_.insert(*name).second) t.fail("name", "two materials have this name; rename one");
         material.name = *name;
         material.color = t.color("color").value_or(material.color);
         material.opacity = static_cast<float>(t.number("opacity", {0, 1}).value_or(1));
@@ -164,6 +130,7 @@ class SceneReader {
     }
 
     void read_object(TomlReader& t) {
+        throw_if_interrupted();
         ObjectDescription object;
         object.where = t.position();
         const bool has_file = t.has("file");
@@ -183,9 +150,9 @@ class SceneReader {
         } else {
             object.shape = read_shape(t);
         }
-        object.name = t.text("name").value_or(has_file ? "" : object.shape.object_names[0]);
+        object.name = t.text("name").value_or(has_file ? "" : object.shape.name);
         object.material = t.text("material").value_or("");
-        if (!object.material.empty() && !has_material(object.material)) {
+        if (!object.material.empty() && !material_names_.contains(object.material)) {
             t.fail("material", "there is no [[material]] named '" + printable(object.material) +
                                    "'; add it or correct the name");
         }
@@ -195,6 +162,7 @@ class SceneReader {
         object.scheme = kSchemes[t.choice("scheme", {"automatic", "loop", "catmull-clark"}).value_or(0)];
         object.to_world = read_transform(t);
         for (TomlReader& instance : t.tables("instance")) {
+            throw_if_interrupted();
             object.instances.push_back(read_transform(instance));
             instance.finish();
         }
@@ -378,17 +346,16 @@ class SceneReader {
         t.finish();
     }
 
-    bool has_material(const std::string& name) const {
-        return std::any_of(scene_.materials.begin(), scene_.materials.end(),
-                           [&](const Material& m) { return m.name == name; });
-    }
-
     std::string path_;
     TomlReader root_;
     SceneDescription scene_;
+    std::unordered_set<std::string> camera_names_, material_names_;
 };
 
 // ---- overrides ----
+
+constexpr const char* kTooDeep = "tables and lists are nested more than 64 deep; scenes need six levels";
+static_assert(kMaxTomlDepth == 64);
 
 /// For messages about an override; TomlReader recognises it.
 std::string override_place(const Override& o) {
@@ -417,8 +384,10 @@ std::string quoted(const std::string& text) {
 
 /// A table whose only member is the value; nothing if the text is no single TOML value.
 std::optional<toml::table> parse_value(const Override& o, const std::string& text) {
+    const std::string line = "value = " + text;
+    if (line_nested_too_deep(line)) fail_override(o, kTooDeep);
     try {
-        toml::table table = toml::parse("value = " + text, override_place(o));
+        toml::table table = toml::parse(line, override_place(o));
         if (table.size() == 1) return table;
     } catch (const toml::parse_error&) {
     }
@@ -508,16 +477,51 @@ void apply_override(toml::table& root, const Override& o) {
     fail_override(o, "the key has too many parts");
 }
 
-/// toml++ reads dotted keys of any depth, and then overflows the stack when it frees their tables.
-void check_key_depth(const std::string& path, std::string_view text) {
-    constexpr int kMaxDots = 1000;
-    std::size_t line = 1;
-    int dots = 0;
-    for (const char c : text) {
-        if (c == '\n') ++line;
-        if (c == '.' && ++dots > kMaxDots)
-            throw InputError({path, line}, "a key has too many parts");
-        if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
+/// A text as a stream that ends where the user asks the program to stop.
+class StoppableText : public std::streambuf {
+  public:
+    explicit StoppableText(std::string_view text) : text_(text) { go_to(0); }
+
+  protected:
+    int_type underflow() override {
+        if (interrupt_requested()) return traits_type::eof();
+        go_to(static_cast<std::size_t>(egptr() - text_.data()));
+        return gptr() == egptr() ? traits_type::eof() : traits_type::to_int_type(*gptr());
+    }
+    // toml++ goes back to the beginning if there is no byte order mark.
+    pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+        const off_type start = from == std::ios_base::beg   ? 0
+                               : from == std::ios_base::cur ? static_cast<off_type>(gptr() - text_.data())
+                                                            : static_cast<off_type>(text_.size());
+        return seekpos(start + offset, std::ios_base::in);
+    }
+    pos_type seekpos(pos_type position, std::ios_base::openmode) override {
+        const off_type place = position;
+        if (place < 0 || place > static_cast<off_type>(text_.size())) return pos_type(off_type(-1));
+        go_to(static_cast<std::size_t>(place));
+        return position;
+    }
+
+  private:
+    void go_to(std::size_t place) {
+        constexpr std::size_t kPiece = 1 << 16;
+        char* const begin = const_cast<char*>(text_.data()) + place;  // nothing is put back into it
+        setg(begin, begin, begin + std::min(kPiece, text_.size() - place));
+    }
+
+    std::string_view text_;
+};
+
+toml::table parse_stoppable(std::string_view text, const std::string& path) {
+    try {
+        StoppableText buffer(text);
+        std::istream stream(&buffer);
+        toml::table tables = toml::parse(stream, path);
+        throw_if_interrupted();
+        return tables;
+    } catch (const toml::parse_error&) {
+        throw_if_interrupted();  // it ended too early
+        throw;
     }
 }
 
@@ -534,9 +538,9 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
     if (file.bytes().size() > kMaxSceneBytes) {
         throw InputError(path + ": a scene file of more than 64 MB; is it a model?");
     }
-    check_key_depth(path, file.bytes());
+    if (const auto line = line_nested_too_deep(file.bytes())) throw InputError({path, *line}, kTooDeep);
     try {
-        return read_tables(path, toml::parse(file.bytes(), path), overrides);
+        return read_tables(path, parse_stoppable(file.bytes(), path), overrides);
     } catch (const toml::parse_error& error) {
         const toml::source_position at = error.source().begin;
         std::string message(error.description());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/interrupt.h"
 #include "base/suggestion.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
@@ -182,6 +183,7 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     const toml::array* const array = node->as_array();
     if (array == nullptr) fail(key, "must be a list of tables, " + name);
     for (const toml::node& element : *array) {
+        throw_if_interrupted();
         if (!element.is_table()) fail(key, "must be a list of tables, " + name);
         result.emplace_back(*element.as_table(), name, file_);
     }
@@ -190,7 +192,8 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
 
 std::optional<std::string> TomlReader::misspelled(std::string_view key) const {
     for (const auto& [other, node] : *table_) {
-        if (edit_distance(other.str(), key) == 1) return std::string(other.str());
+        const bool is_as_long = other.str().size() <= key.size() + 1 && key.size() <= other.str().size() + 1;
+        if (is_as_long && edit_distance(other.str(), key) == 1) return std::string(other.str());
     }
     return std::nullopt;
 }

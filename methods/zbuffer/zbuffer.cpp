@@ -5,6 +5,7 @@
 
 #include "methods/zbuffer/fill_raster.h"
 #include "methods/zbuffer/vector_generator.h"
+#include "scene/object_names.h"
 
 namespace burin {
 namespace {
@@ -34,11 +35,8 @@ ZBuffer::ZBuffer(const Frame& frame)
       settings_(frame.scene->zbuffer),
       width_px_(aliased_width_px(frame.scene->lines.style.width_px)),
       steps_(settings_.depth_bits <= 24 ? std::exp2(settings_.depth_bits) - 1 : 0) {
-    for (const SceneObject& object : frame.scene->objects) {
-        const auto& names = settings_.highlight_objects;
-        highlighted_instances_.push_back(std::any_of(
-            names.begin(), names.end(), [&](const auto& name) { return is_named(object, name); }));
-    }
+    const ObjectNames highlighted(settings_.highlight_objects);
+    for (const SceneObject& object : frame.scene->objects) highlighted_instances_.push_back(highlighted.mean(object.name));
 }
 
 void ZBuffer::clear(PixelRect rect, bool bit) {

@@ -1,8 +1,13 @@
 #include "base/atomic_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 
@@ -80,6 +85,107 @@ TEST(AtomicFile, ASymbolicLinkKeepsPointing) {
     file.commit();
     EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link.txt")));
     EXPECT_EQ(read_file(folder.file("target.txt")), "new");
+}
+
+/// An output that may be written before what it points to exists.
+TEST(AtomicFile, ALinkToNothingLeadsToTheNewFile) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.file("shots"));
+    std::filesystem::create_symlink("shots/../shots/001.txt", folder.file("inner.txt"));
+    std::filesystem::create_symlink("inner.txt", folder.file("latest.txt"));
+    {
+        AtomicFile file(folder.file("latest.txt"));
+        file.write("new", 3);
+        EXPECT_FALSE(std::filesystem::exists(folder.file("shots/001.txt")));
+        file.commit();
+    }
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.file("latest.txt")));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.file("inner.txt")));
+    EXPECT_EQ(read_file(folder.file("shots/001.txt")), "new");
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"inner.txt", "latest.txt", "shots"}));
+}
+
+TEST(AtomicFile, ALinkThatLeadsNowhereIsRefusedAndStays) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("missing/001.txt", folder.file("far.txt"));
+    std::filesystem::create_symlink("round.txt", folder.file("round.txt"));
+    for (const char* name : {"far.txt", "round.txt"}) {
+        EXPECT_THROW(AtomicFile(folder.file(name)), InputError);
+        EXPECT_TRUE(std::filesystem::is_symlink(folder.file(name)));
+    }
+}
+
+TEST(AtomicFile, ANameThatIsTooLongIsRefusedAtOnce) {
+    const TemporaryFolder folder;
+    const std::string longest(255, 'n');
+    AtomicFile(folder.file(longest)).commit();
+    AtomicFile(folder.file(longest)).commit();  // replaced through a temporary name
+    EXPECT_EQ(folder.names(), std::vector<std::string>{longest});
+    const std::string long_suffix = "x." + std::string(253, 'y');
+    AtomicFile(folder.file(long_suffix)).commit();
+    AtomicFile(folder.file(long_suffix)).commit();
+    try {
+        AtomicFile(folder.file(longest + "n"));
+        FAIL() << "no error";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("the name is too long"), std::string::npos);
+    }
+}
+
+TEST(AtomicFile, AReplacedFileKeepsItsPermissions) {
+    const TemporaryFolder folder;
+    const auto mode = [&] { return static_cast<unsigned>(std::filesystem::status(folder.file("a")).permissions()); };
+    for (const unsigned kept : {0640u, 0600u, 0444u, 0755u}) {
+        std::filesystem::remove(folder.file("a"));
+        folder.write("a", "old");
+        std::filesystem::permissions(folder.file("a"), static_cast<std::filesystem::perms>(kept));
+        AtomicFile file(folder.file("a"));
+        file.write("new", 3);
+        file.commit();
+        EXPECT_EQ(mode(), kept);
+        EXPECT_EQ(read_file(folder.file("a")), "new");
+    }
+}
+
+/// The number of a process that has ended.
+int dead_process() {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    ::waitpid(child, nullptr, 0);
+    return child;
+}
+
+TEST(AtomicFile, WhatDeadProcessesLeftIsRemoved) {
+    const TemporaryFolder folder;
+    const std::string dead = std::to_string(dead_process()), alive = std::to_string(::getppid()), own = std::to_string(::getpid());
+    const std::vector<std::string> stale = {".o.burin-" + dead + "-0.exr", ".o.burin-" + dead + "-17.exr", ".o.burin-" + dead + "-1.png",
+                                            ".o.burin-" + own + "-3.exr"};
+    std::vector<std::string> others = {".o.burin-" + alive + "-0.exr", ".p.burin-" + dead + "-0.exr", ".o.burin-x", ".o.burin-" + dead,
+                                       "o.burin-" + dead + "-0.exr", ".o.burin--1-0.exr"};
+    for (const std::string& name : stale) folder.write(name, "x");
+    for (const std::string& name : others) folder.write(name, "x");
+    // Of a process on another machine that shares the folder.
+    const std::string locked = ".o.burin-" + dead + "-5.exr";
+    const int fd = ::open(folder.write(locked, "x").c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(::flock(fd, LOCK_EX), 0);
+    others.push_back(locked);
+    check_output_file(folder.file("o.exr"));
+    std::sort(others.begin(), others.end());
+    EXPECT_EQ(folder.names(), others);
+    ::close(fd);
+}
+
+/// Where the file system has files without names, nothing is there to be left behind.
+TEST(AtomicFile, HasNoNameBeforeItIsComplete) {
+    const TemporaryFolder folder;
+    const int fd = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    if (fd < 0 || ::access("/proc/self/fd", F_OK) != 0) GTEST_SKIP() << "no files without names here";
+    ::close(fd);
+    AtomicFile file(folder.file("a"));
+    file.write("new", 3);
+    EXPECT_TRUE(folder.names().empty());
+    file.commit();
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
 }
 
 }  // namespace

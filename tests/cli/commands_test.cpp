@@ -52,6 +52,7 @@ TEST(Commands, HelpNamesCommandsAndOptions) {
                                "--crop",
                                "--threads",
                                "--memory",
+                               "--memory-model",
                                "--stats",
                                "--set",
                                "--repeat",

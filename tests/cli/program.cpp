@@ -79,13 +79,13 @@ Program::Program(const std::string& folder, const std::vector<std::string>& argu
         ::dup2(err.write_end, STDERR_FILENO);
         for (const int stream : options.closed_streams) ::close(stream);
         limit(RLIMIT_CORE, 0);
-        if (!kSanitized) limit(RLIMIT_AS, kMemoryLimit);  // sanitizers reserve terabytes
+        if (!kSanitized) limit(RLIMIT_AS, options.memory_limit.value_or(kMemoryLimit));  // sanitizers reserve terabytes
         if (options.file_size_limit) limit(RLIMIT_FSIZE, *options.file_size_limit);
         if (options.obeys_permissions && ::geteuid() == 0) {
             ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
             ::prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
         }
-        for (const int signal_number : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ})
+        for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGPIPE, SIGXFSZ})
             ::signal(signal_number, SIG_DFL);
         ::execv(argv[0], argv.data());
         ::_exit(127);

@@ -18,6 +18,7 @@ constexpr bool kSanitized = false;
 struct ProgramOptions {
     int time_limit_s = kSanitized ? 60 : 10;
     std::optional<std::size_t> file_size_limit;  ///< bytes; what a full disk looks like
+    std::optional<std::size_t> memory_limit;     ///< bytes, less than what every run is limited to
     std::vector<int> closed_streams;             ///< standard streams that are closed: 0, 1, 2
     std::string stdout_file;                     ///< instead of a pipe
     bool stderr_is_terminal = false;

@@ -233,5 +233,58 @@ TEST(CameraFit, TheBoxesOfAMeshTellWhatItsPointsDo) {
     }
 }
 
+/// Neither do those of instances, whatever their matrices; and boxes are asked for before points.
+TEST(CameraFit, TheBoxesOfInstancesTellWhatTheirPointsDo) {
+    std::size_t looked_at = 0, in_all = 0;
+    for (std::uint64_t seed = 0; seed < 120; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        Scene scene;
+        for (int m = 0; m < 2; ++m) {
+            Mesh mesh;
+            if (seed % 3 == 0) mesh.origin = random.in_box(1000);
+            glm::dvec3 at(0.0);
+            for (int i = random.integer(3, 40000); i > 0; --i) {
+                at = seed % 2 == 0 ? random.in_box(2) : at + random.in_box(0.1);
+                mesh.positions.emplace_back(at);
+            }
+            scene.meshes.push_back(mesh);
+        }
+        for (int i = random.integer(1, 12); i > 0; --i) {
+            SceneObject object;
+            object.mesh = static_cast<std::uint32_t>(random.integer(0, 1));
+            for (int c = 0; c < 4 && i % 4 != 0; ++c) {
+                object.to_world[c] = glm::dvec4(random.in_box(c < 3 ? 2 : 50), c == 3 ? 1 : 0);
+            }
+            scene.objects.push_back(object);
+        }
+        const PointSource some = scene_points(scene);
+        const PointSource all = [&](const PointVisitor& visit) { for_each_point(some, [&](const glm::dvec3& p) { visit({&p, 1}); }); };
+        CameraSettings settings = random_settings(random, seed % 5 == 0);
+        if (seed % 7 == 0) settings.target = random.in_box(10);
+        const double aspect = random.real(0.3, 3);
+        const Camera camera = resolve_camera(settings, some, aspect), same = resolve_camera(settings, all, aspect);
+        EXPECT_EQ(camera.to_world, same.to_world);
+        EXPECT_EQ(camera.height, same.height);
+        const Box box = box_of(some), same_box = box_of(all);
+        EXPECT_EQ(box.low, same_box.low);
+        EXPECT_EQ(box.high, same_box.high);
+        if (seed % 2 != 0) continue;  // a path reaches anywhere
+        for (const SceneObject& object : scene.objects) in_all += scene.meshes[object.mesh].positions.size();
+        Box seen;
+        const auto is_outside = [&](const Box& b, bool) {
+            return b.low.x < seen.low.x || b.low.y < seen.low.y || b.low.z < seen.low.z || b.high.x > seen.high.x ||
+                   b.high.y > seen.high.y || b.high.z > seen.high.z;
+        };
+        some({is_outside, [&](std::span<const glm::dvec3> points) {
+                  looked_at += points.size();
+                  for (const glm::dvec3& p : points) seen.add(p);
+              }});
+        EXPECT_EQ(seen.low, same_box.low);
+        EXPECT_EQ(seen.high, same_box.high);
+    }
+    EXPECT_LT(looked_at, in_all);
+}
+
 }  // namespace
 }  // namespace burin
