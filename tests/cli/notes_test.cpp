@@ -18,7 +18,7 @@ std::string stl_with_a_nan(std::uint32_t count) {
     std::string stl(80, ' ');
     stl += bytes_of(count);
     for (const float x : {0.0f, std::numeric_limits<float>::quiet_NaN(), 1.0f}) {
-        stl += bytes_of(0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, x, 1.0f, 0.0f,
+        stl += bytes_of(0.0f, 0.0f, 1.0f, 0.0f, 0.0f, x, 1.0f, 0.0f, x, 0.0f, 1.0f, x,
                         std::uint16_t{0});
     }
     return stl;
