@@ -46,10 +46,10 @@ void add_corner(PolygonSoup& soup, const glm::dvec3& position) {
 constexpr const char* kNotFinite = "a coordinate is not finite or beyond 1e30";
 
 /// What is left when triangles without finite coordinates are left out.
-void note_non_finite(const std::string& path, PolygonSoup& soup, const std::string& first) {
+void note_non_finite(const SourcePosition& place, PolygonSoup& soup, const std::string& first) {
     if (soup.non_finite_polygons == 0) return;
     if (soup.corners.empty())
-        throw InputError(path + ": no triangle has finite coordinates" + kRepair);
+        throw InputError(place, std::string("no triangle has finite coordinates") + kRepair);
     soup.notes.push_back("triangles left out: " + std::to_string(soup.non_finite_polygons) +
                          "; the first one " + first + ": " + kNotFinite);
 }
@@ -113,7 +113,7 @@ PolygonSoup read_binary(const std::string& path, std::string_view bytes, bool st
         for (const glm::dvec3& corner : corners) add_corner(soup, corner);
     }
     soup.object_names = {std::filesystem::path(path).stem().string()};
-    note_non_finite(path, soup, "is triangle " + std::to_string(first_non_finite));
+    note_non_finite({path}, soup, "is triangle " + std::to_string(first_non_finite));
     return soup;
 }
 
@@ -163,7 +163,8 @@ class AsciiParser {
         if (in_solid_) {
             fail("the file ends in the middle of a solid; was it written completely?");
         }
-        note_non_finite(path_, soup_, "ends on line " + std::to_string(first_non_finite_line_));
+        note_non_finite({path_, first_non_finite_line_}, soup_,
+                        "is on line " + std::to_string(first_non_finite_line_));
         return std::move(soup_);
     }
 
@@ -194,6 +195,7 @@ class AsciiParser {
         if (!is_usable(p)) {
             if (strict_) fail(kNotFinite + std::string(kRepair));
             is_finite_ = false;
+            if (first_non_finite_line_ == 0) first_non_finite_line_ = lines_.line_number();
             return;
         }
         if (soup_.corners.size() == PolygonSoup::kMaxCorners) {
@@ -205,7 +207,7 @@ class AsciiParser {
     void end_loop() {
         in_loop_ = false;
         if (!std::exchange(is_finite_, true)) {
-            if (soup_.non_finite_polygons++ == 0) first_non_finite_line_ = lines_.line_number();
+            ++soup_.non_finite_polygons;
             const std::size_t begin = soup_.polygon_ends.empty() ? 0 : soup_.polygon_ends.back();
             soup_.corners.resize(begin);
             soup_.positions.resize(begin);  // each corner has its own

@@ -111,6 +111,13 @@ TEST(BadInput, TruncatedFiles) {
         for (std::size_t size = content.size() - 2; size > 0; size -= std::min(size, step)) {
             const std::string cut = "cut" + fs::path(name).extension().string();
             folder.write(cut, content.substr(0, size));
+            // Without its count, a binary STL of whole triangles is one: it is read with a note.
+            const bool is_noted = name == "binary.stl" && size > 84 && (size - 84) % 50 == 0;
+            if (is_noted) {
+                EXPECT_NE(render(folder, cut).err.find("was it written completely?"), std::string::npos) << size;
+                fs::remove(folder.file("out.exr"));
+                continue;
+            }
             if (!may_be_whole) {
                 expect_refused(folder, cut);
                 continue;
@@ -225,6 +232,9 @@ TEST(BadInput, CoordinatesThatAreNoNumbers) {
                     if (other == "tetra.gltf") folder.write(other, text);
                 }
                 expect_refused(folder, "tetra.gltf");
+            } else if (name == "binary.stl") {  // read without the triangles that have it
+                EXPECT_NE(render(folder, name).err.find("triangles left out: "), std::string::npos);
+                fs::remove(folder.file("out.exr"));
             } else {
                 expect_refused(folder, name);
             }

@@ -143,7 +143,7 @@ TEST_F(StlVariants, FacetsWithoutFiniteCoordinatesAreLeftOut) {
                                  facet(bad) + "endsolid a\n";
         const PolygonSoup soup = read_noted(
             text,
-            "triangles left out: 2; the first one ends on line 14: a coordinate is not finite");
+            "triangles left out: 2; the first one is on line 13: a coordinate is not finite");
         EXPECT_EQ(soup.non_finite_polygons, 2u) << bad;
         EXPECT_EQ(polygons_of(soup), (Polygons{{0, 1, 2}, {3, 4, 5}})) << bad;
         EXPECT_EQ(soup.positions.size(), 6u) << bad;
