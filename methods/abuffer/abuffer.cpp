@@ -13,6 +13,7 @@
 #include "methods/abuffer/picture_pieces.h"
 #include "methods/abuffer/row_finisher.h"
 #include "methods/abuffer/screen/sampling.h"
+#include "methods/abuffer/strokes/line_dashes.h"
 #include "methods/abuffer/strokes/smooth_contours.h"
 #include "methods/abuffer/strokes/visible_dashes.h"
 #include "methods/abuffer/surface_pass.h"
@@ -122,7 +123,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
                 show(group);
                 add_features(frame, screen, stats.threads, features);
             }
-            segments = dashed(segments, *lines.style.dash_px, lines.style.width_px, features, frame.surfaces);
+            segments = dashed(segments, *lines.style.dash_px, lines.style.width_px, {0, 0, frame.width, frame.height}, features, frame.surfaces);
             unfinished = segments;
         }
         if (!has_layers) {

@@ -61,13 +61,13 @@ class LayerPass {
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
+    class Dashes;
     std::vector<LayerSegment> make_segments() const;
     void join_results();
     /// Whether intersections are found from the scene's pairs.
     bool knows_pairs() const;
     void add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const;
-    void add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
-                    std::vector<LayerSegment>& segments) const;
+    void add_dashes(const LayerPiece& piece, const Dashes& dashes, std::vector<LayerSegment>& segments) const;
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
