@@ -31,7 +31,7 @@ PixelRect region_of(const Frame& frame) { return with_margin(frame, rect_with_li
 
 /// Where lines are looked for. Dashes are laid out along chains, which a crop must not cut.
 PixelRect region_of_lines(const Frame& frame) {
-    const bool is_dashed = frame.scene->lines.style.hidden.style == HiddenStyle::dashed;
+    const bool is_dashed = hidden_dashes(frame.scene->lines.style).dash_px.has_value();
     return is_dashed ? with_margin(frame, {0, 0, frame.width, frame.height}) : region_of(frame);
 }
 
@@ -106,7 +106,7 @@ PixelTiles LayerPass::tiles_of(const Frame& frame) {
 }
 
 bool LayerPass::needs_all_lines(const Frame& frame) {
-    return frame.scene->lines.style.hidden.style == HiddenStyle::dashed || needs_all_visible_lines(frame);
+    return hidden_dashes(frame.scene->lines.style).dash_px || needs_all_visible_lines(frame);
 }
 
 LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
@@ -125,7 +125,8 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
 bool LayerPass::knows_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
 
 void LayerPass::find_lines(TileRows rows, const PossibleLines* possible) {
-    const bool is_dashed = frame_.scene->lines.style.hidden.style == HiddenStyle::dashed || frame_.scene->lines.style.dash_px;
+    const LineStyle& style = frame_.scene->lines.style;
+    const bool is_dashed = hidden_dashes(style).dash_px || visible_dashes(style).dash_px;
     const PixelRect region = is_dashed                 ? anywhere_on_screen()
                              : needs_all_lines(frame_) ? region_of_lines(frame_)
                                                        : all_tiles_.only(rows).rect();
@@ -187,6 +188,8 @@ void LayerPass::find_pieces() {
         if (tile) fragment_count_ += tile->fragment_count();
     }
 }
+
+void LayerPass::leave_out_dashes_along(CourseIndex& visible) { visible_courses_ = &visible; }
 
 void LayerPass::find() {
     lines_.clear();
@@ -262,8 +265,8 @@ void LayerPass::add_dashes(const LayerPiece& piece, const Dashes& dashes, std::v
     segment.drawn_as = line.drawn_as;
     segment.is_hidden = piece.invisibility > 0;
     segment.transmission = line.opacity_behind(piece.transmission);
-    dashes.for_parts(piece.line, [&](const DashPart& part) {
-        const double begin = std::max(piece.begin, part.begin), end = std::min(piece.end, part.end);
+    const auto add_part = [&](const DashPart& part, double from, double to) {
+        const double begin = std::max(from, part.begin), end = std::min(to, part.end);
         if (!(begin < end)) return;
         const double share = part.end - part.begin, length = part.at_end - part.at_begin;
         const auto at = [&](double of_line) { return part.at_begin + length * ((of_line - part.begin) / share); };
@@ -273,15 +276,23 @@ void LayerPass::add_dashes(const LayerPiece& piece, const Dashes& dashes, std::v
             segment.to = place(last);
             add(line, segment, segments);
         });
-    });
+    };
+    const auto add_between = [&](double from, double to) {
+        dashes.for_parts(piece.line, [&](const DashPart& part) { add_part(part, from, to); });
+    };
+    if (!segment.is_hidden || visible_courses_ == nullptr) return add_between(piece.begin, piece.end);
+    const auto covers = visible_courses_->find(line.at(piece.begin) / 256.0, line.at(piece.end) / 256.0);
+    const double length = piece.end - piece.begin;
+    for_uncovered(covers, [&](double from, double to) { add_between(piece.begin + length * from, piece.begin + length * to); });
 }
 
 std::vector<LayerSegment> LayerPass::make_segments() const {
     const LineStyle& look = frame_.scene->lines.style;
     const HiddenStyle style = look.hidden.style;
-    std::optional<Dashes> hidden_dashes, visible_dashes;
-    if (style == HiddenStyle::dashed) hidden_dashes.emplace(lines_, frame_, look.hidden_dash_px(), look.hidden_width_px());
-    if (look.dash_px) visible_dashes.emplace(lines_, frame_, *look.dash_px, look.width_px);
+    std::optional<Dashes> of_hidden, seen_through;
+    if (const auto dash_px = hidden_dashes(look).dash_px) of_hidden.emplace(lines_, frame_, *dash_px, look.hidden_width_px());
+    const auto visible_px = visible_dashes(look).dash_px;
+    if (visible_px && has_transparent_surfaces(*frame_.scene)) seen_through.emplace(lines_, frame_, *visible_px, look.width_px);
     std::vector<LayerSegment> segments;
     segments.reserve(pieces_.size());
     for (std::size_t i = 0; i < pieces_.size();) {
@@ -295,7 +306,7 @@ std::vector<LayerSegment> LayerPass::make_segments() const {
         while (++i < pieces_.size() && goes_on_alike(piece, pieces_[i])) piece.end = pieces_[i].end;
         const bool is_hidden = piece.invisibility > 0;
         if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
-        const auto& dashes = is_hidden ? hidden_dashes : visible_dashes;
+        const auto& dashes = is_hidden ? of_hidden : seen_through;
         if (dashes) {
             add_dashes(piece, *dashes, segments);
             continue;

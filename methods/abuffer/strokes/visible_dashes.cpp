@@ -268,4 +268,15 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
     return result;
 }
 
+CourseIndex courses_of(const std::vector<std::vector<LineSegment>>& segments, PixelRect picture, double reach_px) {
+    CourseIndex courses(picture, reach_px);
+    for (const auto& list : segments) {
+        for (const LineSegment& s : list) {
+            const bool is_solid = s.is_drawn && s.opacity == 255;  // hidden lines shine through what fades
+            if (is_solid && glm::distance(s.from, s.to) >= courses.shortest_px()) courses.add(s.from, s.to);
+        }
+    }
+    return courses;
+}
+
 }  // namespace burin

@@ -8,6 +8,7 @@
 #include "lines/line_segment.h"
 #include "lines/surface_set.h"
 #include "methods/abuffer/layers/layer_line.h"
+#include "methods/abuffer/strokes/course_index.h"
 
 namespace burin {
 
@@ -30,5 +31,8 @@ namespace burin {
 std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
                                              std::array<double, 2> dash_px, double width_px, PixelRect picture,
                                              std::span<const LayerLine> features, const SurfaceSet& surfaces);
+
+/// Where solid lines would be drawn whose dashes hidden ones must leave alone, in a picture of this size.
+CourseIndex courses_of(const std::vector<std::vector<LineSegment>>& segments, PixelRect picture, double reach_px);
 
 }  // namespace burin

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shading/dash_style.h"
+
 namespace burin {
 
 VisibleStrokes::VisibleStrokes(const Frame& frame, const TileKernels& kernels)
     : projection_(frame.surfaces.projection),
       side_(frame.scene->lines.style.side),
-      pen_(frame.scene->lines.style.width_px, side_),
+      pen_(frame.scene->lines.style.width_px, side_, visible_dashes(frame.scene->lines.style).opacity),
       faded_(kernels),
       clipper_(kernels) {
     for (StrokeCanvas& canvas : canvases_) canvas = StrokeCanvas(kernels);
