@@ -64,10 +64,12 @@ TEST(StrokeClipper, HangsOnNoRectangle) {
         whole.reset(0, 0, kSize, kSize);
         on_whole.reset(0, 0, kSize, kSize);
         part.reset(x0, y0, width, height);
+        whole.set_boundaries(boundaries);
+        part.set_boundaries(boundaries);
         on_part.reset(x0, y0, width, height);
         for (const ClipPiece& p : pieces) {
-            whole.draw(p, radius_px, side, boundaries, on_whole);
-            part.draw(p, radius_px, side, boundaries, on_part);
+            whole.draw(p, radius_px, side, on_whole);
+            part.draw(p, radius_px, side, on_part);
         }
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
@@ -89,13 +91,14 @@ TEST(StrokeClipper, ManyStrokesAreTheUnionOfEach) {
         const StrokeSide side = random_side(random);
         StrokeClipper clipper;
         clipper.reset(0, 0, kSize, kSize);
+        clipper.set_boundaries(boundaries);
         StrokeCanvas all, expected, one;
         all.reset(0, 0, kSize, kSize);
         expected.reset(0, 0, kSize, kSize);
         for (const ClipPiece& p : pieces) {
-            clipper.draw(p, radius_px, side, boundaries, all);
+            clipper.draw(p, radius_px, side, all);
             one.reset(0, 0, kSize, kSize);
-            clipper.draw(p, radius_px, side, boundaries, one);
+            clipper.draw(p, radius_px, side, one);
             for (int y = 0; y < kSize; ++y) {
                 for (int x = 0; x < kSize; ++x) {
                     if (one.is_touched(x, y)) expected.add(x, y, one.at(x, y));
@@ -134,8 +137,9 @@ TEST(StrokeClipper, ADotIsCutOffAsAVeryShortStroke) {
             StrokeClipper clipper;
             StrokeCanvas canvas;
             clipper.reset(0, 0, kSize, kSize);
+            clipper.set_boundaries(boundaries);
             canvas.reset(0, 0, kSize, kSize);
-            clipper.draw(*p, 5, StrokeSide::both, boundaries, canvas);
+            clipper.draw(*p, 5, StrokeSide::both, canvas);
             for (int y = 0; y < kSize; ++y) {
                 for (int x = 0; x < kSize; ++x) bits[p == &stroke] += count(canvas.at(x, y));
             }

@@ -62,12 +62,12 @@ void VisibleStrokes::draw_clipped(std::span<const LineSegment* const> segments) 
         find_boundaries(segments, c);
         for (std::size_t i = 0; i < segments.size(); ++i) {
             if (!segments[i]->is_drawn || segments[i]->opacity < 255 || segments[i]->drawn_as != c) continue;
-            clipper_.draw(pieces_[i], pen_.radius_px, side_, boundaries_, canvas_of(c));
+            clipper_.draw(pieces_[i], pen_.radius_px, side_, canvas_of(c));
         }
     }
     find_boundaries(segments, LineClass::crease);
     faded_.draw(segments, rect_, [&](std::size_t i, StrokeCanvas& canvas) {
-        clipper_.draw(pieces_[i], pen_.radius_px, side_, boundaries_, canvas);
+        clipper_.draw(pieces_[i], pen_.radius_px, side_, canvas);
     });
 }
 
@@ -80,6 +80,7 @@ void VisibleStrokes::find_boundaries(std::span<const LineSegment* const> segment
             boundaries_.push_back(&pieces_[i]);
         }
     }
+    clipper_.set_boundaries(boundaries_);
 }
 
 /// In pixels' widths at that distance: a difference of 1 is a pixel's width.
