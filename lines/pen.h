@@ -20,13 +20,13 @@ struct Pen {
     float strength;
 
     /// For a stroke on one side, the half of the width that is drawn counts.
-    explicit Pen(double width_px, StrokeSide side = StrokeSide::both) {
+    explicit Pen(double width_px, StrokeSide side = StrokeSide::both, double opacity = 1) {
         const double share = side == StrokeSide::both ? 1.0 : 0.5;
         const double wanted = share * width_px;
         const double drawn =
             wanted < 1 ? std::max(std::ceil(wanted * kStepsPerPx) / kStepsPerPx, kFinestWidthPx) : wanted;
         radius_px = 0.5 * drawn / share;
-        strength = static_cast<float>(wanted / drawn);
+        strength = static_cast<float>(opacity * (wanted / drawn));
     }
 };
 

@@ -225,26 +225,102 @@ void StrokeClipper::apply(const Shadow& shadow, bool blocks_outside) {
     });
 }
 
-bool StrokeClipper::cut_to_open(const StrokeCanvas& onto) {
-    int low_x = width_, low_y = height_, high_x = -1, high_y = -1;
-    for (int y = first_row_ / StrokeMask::kRows; y <= (end_row_ - 1) / StrokeMask::kRows; ++y) {
-        for (int x = first_column_ / StrokeMask::kColumns; x <= (end_column_ - 1) / StrokeMask::kColumns; ++x) {
-            if (onto.is_full(x, y)) continue;
-            low_x = std::min(low_x, x);
-            high_x = std::max(high_x, x);
-            low_y = std::min(low_y, y);
-            high_y = std::max(high_y, y);
-        }
-    }
-    first_row_ = std::max(first_row_, low_y * StrokeMask::kRows);
-    end_row_ = std::min(end_row_, (high_y + 1) * StrokeMask::kRows);
-    first_column_ = std::max(first_column_, low_x * StrokeMask::kColumns);
-    end_column_ = std::min(end_column_, (high_x + 1) * StrokeMask::kColumns);
-    return high_x >= 0;
+StrokeCanvas::Box StrokeClipper::pixels() const {
+    const auto up = [](int samples, int per_px) { return (samples + per_px - 1) / per_px; };
+    return {first_column_ / StrokeMask::kColumns, first_row_ / StrokeMask::kRows, up(end_column_, StrokeMask::kColumns), up(end_row_, StrokeMask::kRows)};
 }
 
-void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide side,
-                         std::span<const ClipPiece* const> boundaries, StrokeCanvas& onto) {
+bool StrokeClipper::cut_to(const StrokeCanvas::Box& box) {
+    first_row_ = std::max(first_row_, box.y0 * StrokeMask::kRows);
+    end_row_ = std::min(end_row_, box.y1 * StrokeMask::kRows);
+    first_column_ = std::max(first_column_, box.x0 * StrokeMask::kColumns);
+    end_column_ = std::min(end_column_, box.x1 * StrokeMask::kColumns);
+    return first_row_ < end_row_ && first_column_ < end_column_;
+}
+
+StrokeCanvas::Box StrokeClipper::pixels_to_add(const StrokeCanvas& onto, bool knows_behind) const {
+    const StrokeCanvas::Box box = pixels();
+    StrokeCanvas::Box found{box.x1, box.y1, box.x0, box.y0};
+    for (int y = box.y0; y < box.y1; ++y) {
+        for (int x = box.x0; x < box.x1; ++x) {
+            const bool is_known = y < found.y1 && x >= found.x0 && x < found.x1;  // to change nothing
+            if (is_known || !canvas_.is_touched(x, y)) continue;
+            const StrokeMask &own = canvas_.at(x, y), &other = onto.at(x, y);
+            const auto& behind = behind_[static_cast<std::size_t>(y * width_ + x)];
+            std::uint32_t any = 0;
+            for (std::size_t r = 0; r < own.rows.size(); ++r) any |= own.rows[r] & ~other.rows[r] & ~(knows_behind ? behind[r].off : 0u);
+            if (any != 0) found = {std::min(found.x0, x), std::min(found.y0, y), std::max(found.x1, x + 1), std::max(found.y1, y + 1)};
+        }
+    }
+    return found;
+}
+
+void StrokeClipper::set_boundaries(std::span<const ClipPiece* const> boundaries) {
+    boundaries_ = boundaries;
+    ends_.clear();
+    for (const ClipPiece* b : boundaries) ends_.push_back({b->from, b->to});
+    cells_.set(ends_, glm::dvec2(x0_, y0_) + 0.5 * glm::dvec2(width_, height_));
+    asked_.assign(boundaries.size(), 0);
+    stroke_count_ = 0;
+}
+
+/// Whether a boundary may lie on a straight way from the nearest point of a piece to the stroke's rows and columns.
+bool StrokeClipper::is_between(const ClipPiece& boundary, const Frame& frame) const {
+    constexpr double kBesidePx = 1;  // samples are shifted, and ways begin a little before the end of a piece
+    const StrokeCanvas::Box box = pixels();
+    const glm::dvec2 low(x0_ + box.x0, y0_ + box.y0), high(x0_ + box.x1, y0_ + box.y1);
+    glm::dvec2 first = frame.to_local(low), last = first;
+    for (const glm::dvec2 corner : {glm::dvec2(high.x, low.y), glm::dvec2(low.x, high.y), high}) {
+        first = glm::min(first, frame.to_local(corner));
+        last = glm::max(last, frame.to_local(corner));
+    }
+    first = glm::min(first, glm::dvec2(std::clamp(first.x, 0.0, frame.length), 0.0)) - kBesidePx;
+    last = glm::max(last, glm::dvec2(std::clamp(last.x, 0.0, frame.length), 0.0)) + kBesidePx;
+    const glm::dvec2 p = frame.to_local(boundary.from), q = frame.to_local(boundary.to);
+    const glm::dvec2 b_low = glm::min(p, q), b_high = glm::max(p, q);
+    return b_low.x <= last.x && b_low.y <= last.y && b_high.x >= first.x && b_high.y >= first.y;
+}
+
+/// Adds the shadows of the boundaries that are so many cells away.
+void StrokeClipper::find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side) {
+    cells_.for_ring(cells_.cells_of({piece.from, piece.to}), ring, [&](std::uint32_t i) {
+        if (asked_[i] == stroke_count_) return;
+        asked_[i] = stroke_count_;
+        ++comparison_count_;
+        const ClipPiece& boundary = *boundaries_[i];
+        if (!may_hide(boundary, piece, radius_px, side)) return;
+        if (!cells_.is_one() && !is_between(boundary, frame)) return;
+        add_shadows(boundary, piece, frame, radius_px, side);
+    });
+}
+
+/// Passes the boundaries on the ways from a piece, the nearest ones first, until nothing of the stroke is left: then it is false.
+bool StrokeClipper::pass_boundaries(const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side, const StrokeCanvas& onto) {
+    // Beyond its own surface a stroke on the inside is cut off for good, mostly by the first boundaries.
+    constexpr std::size_t kLookEvery = 6;
+    const bool is_inside = side == StrokeSide::inside;
+    const auto is_nearer = [](const Shadow& a, const Shadow& b) {
+        return a.distance_px != b.distance_px ? a.distance_px < b.distance_px : a.enters > b.enters;
+    };
+    const BoundaryCells::Box middle = cells_.cells_of({piece.from, piece.to});
+    bool is_behind = is_inside;  // before that, there is nothing to come out from
+    std::size_t passed = 0;
+    for (int ring = 0;; ++ring) {
+        if (ring > 0 || !cells_.is_one()) find_shadows(ring, piece, frame, radius_px, side);
+        // Those that are not found yet are not nearer than this. A way may begin a little before the end of the piece.
+        const double known_px = BoundaryCells::distance_px(ring) - 2 * kOvershootPx;
+        const bool is_last = known_px > radius_px || cells_.is_beyond(middle, ring + 1);
+        std::sort(shadows_.begin() + static_cast<std::ptrdiff_t>(passed), shadows_.end(), is_nearer);
+        for (; passed < shadows_.size() && (is_last || shadows_[passed].distance_px < known_px); ++passed) {
+            is_behind = is_behind || shadows_[passed].enters;
+            if (is_behind) apply(shadows_[passed], is_inside);
+            if (is_inside && passed % kLookEvery == kLookEvery - 1 && !cut_to(pixels_to_add(onto, true))) return false;
+        }
+        if (is_last) return true;
+    }
+}
+
+void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto) {
     if (!piece.occludes) side = StrokeSide::both;  // it has no front
     const auto to_samples = [](double px, int per_px, int size_px) {
         return std::clamp(px * per_px, 0.0, static_cast<double>(size_px) * per_px);
@@ -256,30 +332,27 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     end_row_ = static_cast<int>(std::ceil(to_samples(high.y, StrokeMask::kRows, height_)));
     first_column_ = static_cast<int>(std::floor(to_samples(low.x, StrokeMask::kColumns, width_)));
     end_column_ = static_cast<int>(std::ceil(to_samples(high.x, StrokeMask::kColumns, width_)));
-    if (first_row_ >= end_row_ || first_column_ >= end_column_ || !cut_to_open(onto)) return;
+    if (first_row_ >= end_row_ || first_column_ >= end_column_ || !cut_to(onto.open_part(pixels()))) return;
 
     if (side != StrokeSide::both && glm::distance(piece.from, piece.to) < kShortestPx) return;
     const Frame frame(piece);
     shadows_.clear();
-    for (const ClipPiece* boundary : boundaries) {
-        if (may_hide(*boundary, piece, radius_px, side)) {
-            add_shadows(*boundary, piece, frame, radius_px, side);
+    ++stroke_count_;
+    if (cells_.is_one()) {
+        find_shadows(0, piece, frame, radius_px, side);
+        if (shadows_.empty() && side == StrokeSide::both) {
+            onto.draw(piece.from, piece.to, radius_px);
+            return;
         }
     }
-    if (shadows_.empty() && side == StrokeSide::both) {
-        onto.draw(piece.from, piece.to, radius_px);
-        return;
-    }
+    canvas_.reset(x0_, y0_, width_, height_);
+    canvas_.draw(piece.from, piece.to, radius_px);
+    if (!cut_to(pixels_to_add(onto, false))) return;
     // All that cuts a stroke is sampled as it is itself: what else lies around it hangs on the crop.
     in_sets_ = is_level(piece.to.x - piece.from.x, piece.to.y - piece.from.y);
-    std::sort(shadows_.begin(), shadows_.end(), [](const Shadow& a, const Shadow& b) {
-        return a.distance_px != b.distance_px ? a.distance_px < b.distance_px : a.enters > b.enters;
-    });
-    const int first_y = first_row_ / StrokeMask::kRows, end_y = (end_row_ + StrokeMask::kRows - 1) / StrokeMask::kRows;
-    const int first_x = first_column_ / StrokeMask::kColumns;
-    const int end_x = (end_column_ + StrokeMask::kColumns - 1) / StrokeMask::kColumns;
-    for (int y = first_y; y < end_y; ++y) {
-        std::fill_n(behind_.begin() + y * width_ + first_x, end_x - first_x, std::array<Behind, StrokeMask::kRows>{});
+    const StrokeCanvas::Box box = pixels();
+    for (int y = box.y0; y < box.y1; ++y) {
+        std::fill_n(behind_.begin() + y * width_ + box.x0, box.x1 - box.x0, std::array<Behind, StrokeMask::kRows>{});
     }
     if (side != StrokeSide::both) {
         const double drawn = piece.front_on_left == (side == StrokeSide::inside) ? 1 : -1;
@@ -287,17 +360,13 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
         for_spans(std::span(&other, 1), [&](int pixel, std::size_t row, std::uint32_t bits) {
             behind_[static_cast<std::size_t>(pixel)][row].off |= bits;
         });
+        if (!cut_to(pixels_to_add(onto, true))) return;
     }
-    bool is_behind = side == StrokeSide::inside;  // before that, there is nothing to come out from
-    for (const Shadow& shadow : shadows_) {
-        is_behind = is_behind || shadow.enters;
-        if (is_behind) apply(shadow, side == StrokeSide::inside);
-    }
+    if (!pass_boundaries(piece, frame, radius_px, side, onto)) return;
 
-    canvas_.reset(x0_, y0_, width_, height_);
-    canvas_.draw(piece.from, piece.to, radius_px);
-    for (int y = first_y; y < end_y; ++y) {
-        for (int x = first_x; x < end_x; ++x) {
+    const StrokeCanvas::Box left = pixels();
+    for (int y = left.y0; y < left.y1; ++y) {
+        for (int x = left.x0; x < left.x1; ++x) {
             if (!canvas_.is_touched(x, y)) continue;
             StrokeMask mask = canvas_.at(x, y);
             const auto& behind = behind_[static_cast<std::size_t>(y * width_ + x)];

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "lines/boundary_cells.h"
 #include "lines/mask_stroke.h"
 #include "lines/stroke_mask.h"
 
@@ -30,11 +31,15 @@ class StrokeClipper {
   public:
     explicit StrokeClipper(const TileKernels& kernels = best_kernels()) : canvas_(kernels) {}
     void reset(int x0, int y0, int width, int height);
+    /// What may hide strokes from now on, in the rectangle of the last reset(). They must stay.
+    void set_boundaries(std::span<const ClipPiece* const> boundaries);
 
-    /// Adds the stroke along `piece` to a canvas of the same rectangle. Pieces of `boundaries` that are
-    /// farther away than the radius, or `piece` itself, change nothing.
-    void draw(const ClipPiece& piece, double radius_px, StrokeSide side,
-              std::span<const ClipPiece* const> boundaries, StrokeCanvas& onto);
+    /// Adds the stroke along `piece` to a canvas of the same rectangle. Boundaries that are farther away than
+    /// the radius, or `piece` itself, change nothing.
+    void draw(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto);
+
+    /// How many times a boundary was compared with a stroke.
+    std::uint64_t comparison_count() const { return comparison_count_; }
 
     /// Whether a boundary hides anything of a stroke along `piece`.
     static bool may_hide(const ClipPiece& boundary, const ClipPiece& piece, double radius_px, StrokeSide side);
@@ -64,8 +69,15 @@ class StrokeClipper {
     template <typename Visit>
     void for_spans_of(std::span<const HalfPlane> sides, double down, std::uint32_t columns, const Visit& visit) const;
     void apply(const Shadow& shadow, bool blocks_outside);
-    /// Cuts the stroke's rows and columns to pixels of the canvas that are not full yet. False if all are.
-    bool cut_to_open(const StrokeCanvas& onto);
+    /// The pixels of the stroke's rows and columns.
+    StrokeCanvas::Box pixels() const;
+    /// Cuts the stroke's rows and columns to a box of pixels. False if nothing is left.
+    bool cut_to(const StrokeCanvas::Box& box);
+    /// The smallest box of pixels in which the stroke has anything to add that is not cut off for good.
+    StrokeCanvas::Box pixels_to_add(const StrokeCanvas& onto, bool knows_behind) const;
+    bool is_between(const ClipPiece& boundary, const Frame& frame) const;
+    void find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side);
+    bool pass_boundaries(const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side, const StrokeCanvas& onto);
 
     StrokeCanvas canvas_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
@@ -73,6 +85,12 @@ class StrokeClipper {
     int first_row_ = 0, end_row_ = 0, first_column_ = 0, end_column_ = 0;  // of the stroke, in samples
     std::vector<Shadow> shadows_;
     std::vector<std::array<Behind, StrokeMask::kRows>> behind_;
+    std::span<const ClipPiece* const> boundaries_;
+    BoundaryCells cells_;  // of the boundaries
+    std::vector<PieceEnds> ends_;
+    std::vector<std::uint32_t> asked_;  // by which stroke each boundary was looked at
+    std::uint32_t stroke_count_ = 0;
+    std::uint64_t comparison_count_ = 0;
 };
 
 }  // namespace burin

@@ -29,8 +29,16 @@ class StrokeCanvas {
     explicit StrokeCanvas(const TileKernels& kernels = best_kernels()) : kernels_(&kernels) {}
     void reset(int x0, int y0, int width, int height);
 
+    /// Some pixels of it: columns [x0, x1) and rows [y0, y1).
+    struct Box {
+        int x0, y0, x1, y1;
+        bool is_empty() const { return x0 >= x1 || y0 >= y1; }
+    };
+
     /// Adds all that is closer than `radius_px` to a segment: a round pen's stroke.
     void draw(const glm::dvec2& from, const glm::dvec2& to, double radius_px) {
+        // Wide strokes lie on each other, and soon most of their pixels are full.
+        if (radius_px > kWideRadiusPx && open_part(box_around(from, to, radius_px + 1)).is_empty()) return;
         kernels_->draw_stroke({{from.x, from.y}, {to.x, to.y}, radius_px}, {masks_.data()->rows.data(), touched_.data(), x0_, y0_, width_, height_, stride_});
     }
 
@@ -68,6 +76,10 @@ class StrokeCanvas {
     static void visit_touched(std::uint64_t eight, int column, int row, const Visit& visit) {
         for (; eight != 0; eight &= eight - 1) visit(column + std::countr_zero(eight) / 8, row);
     }
+    /// The pixels that a stroke may reach.
+    Box box_around(const glm::dvec2& from, const glm::dvec2& to, double radius_px) const;
+    /// The smallest box around the pixels of a box to which something can be added.
+    Box open_part(Box box);
     /// Whether nothing can be added any more.
     bool is_full(int column, int row) const {
         if (!is_touched(column, row)) return false;
@@ -77,13 +89,17 @@ class StrokeCanvas {
     }
 
   private:
+    static constexpr double kWideRadiusPx = 8;
+
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
+    bool is_open(int column, int row);
 
     const TileKernels* kernels_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
     int stride_ = 0;  // a multiple of eight; pixels beyond the width stay untouched
     std::vector<StrokeMask, CacheLineAllocator<StrokeMask>> masks_;
     std::vector<std::uint8_t> touched_;
+    std::vector<std::uint8_t> known_full_;  // pixels that were found full; empty until one is looked for
 };
 
 }  // namespace burin

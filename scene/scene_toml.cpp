@@ -250,7 +250,7 @@ class SceneReader {
         const auto dash = t.numbers("dash", 2);
         if (!dash) return std::nullopt;
         for (const double length : *dash) {
-            if (!(length > 0 && length <= 65535)) t.fail("dash", "must be two lengths in pixels, greater than 0");
+            if (!(length > 0 && length <= 65535)) t.fail("dash", "must be two lengths in pixels, greater than 0 and at most 65535");
         }
         return std::array{(*dash)[0], (*dash)[1]};
     }

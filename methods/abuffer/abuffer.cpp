@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -13,6 +14,8 @@
 #include "methods/abuffer/picture_pieces.h"
 #include "methods/abuffer/row_finisher.h"
 #include "methods/abuffer/screen/sampling.h"
+#include "methods/abuffer/strokes/line_dashes.h"
+#include "methods/abuffer/strokes/shared_dashes.h"
 #include "methods/abuffer/strokes/smooth_contours.h"
 #include "methods/abuffer/strokes/visible_dashes.h"
 #include "methods/abuffer/surface_pass.h"
@@ -101,6 +104,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
 
     const bool has_layers = LayerPass::is_needed(*frame.scene);
     std::vector<std::vector<LineSegment>> segments;
+    std::optional<CourseIndex> visible_courses;  // before they are dashed
     RowFinisher finisher(frame, kernels, stats.threads, options, film);
     SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress, contours.get());
     const bool waits = !abuffer_finishes_in_bands(frame);
@@ -116,13 +120,18 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         const bool is_last = &piece == &plan.visible.back();
         if (waits && !is_last) continue;
         watch.lap();
-        if (lines.style.dash_px) {
+        if (const auto dash_px = visible_dashes(lines.style).dash_px) {
             std::vector<LayerLine> features;
             for (const std::vector<std::uint32_t>& group : plan.groups) {
                 show(group);
                 add_features(frame, screen, stats.threads, features);
             }
-            segments = dashed(segments, *lines.style.dash_px, lines.style.width_px, features, frame.surfaces);
+            const PixelRect picture{0, 0, frame.width, frame.height};
+            if (hidden_dashes(lines.style).dash_px) {
+                const double width_px = std::min(lines.style.width_px, lines.style.hidden_width_px());
+                visible_courses = courses_of(segments, picture, SharedDashes::reach_of_pen_px(width_px));
+            }
+            segments = dashed(segments, *dash_px, lines.style.width_px, picture, features, frame.surfaces);
             unfinished = segments;
         }
         if (!has_layers) {
@@ -139,6 +148,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     }
 
     LayerPass layers(frame, screen, kernels, stats.threads, contours.get());
+    if (visible_courses) layers.leave_out_dashes_along(*visible_courses);
     const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
     const bool needs_all = LayerPass::needs_all_lines(frame);
     const PossibleLines* const possible = surfaces.possible_lines();

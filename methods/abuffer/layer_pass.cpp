@@ -10,8 +10,9 @@
 #include "base/parallel.h"
 #include "methods/abuffer/layers/transparent_fill.h"
 #include "methods/abuffer/lines_of_crop.h"
-#include "methods/abuffer/strokes/line_chains.h"
-#include "methods/abuffer/strokes/visible_dashes.h"
+#include "methods/abuffer/strokes/dash_pen.h"
+#include "methods/abuffer/strokes/line_dashes.h"
+#include "methods/abuffer/strokes/shared_dashes.h"
 
 namespace burin {
 namespace {
@@ -30,7 +31,7 @@ PixelRect region_of(const Frame& frame) { return with_margin(frame, rect_with_li
 
 /// Where lines are looked for. Dashes are laid out along chains, which a crop must not cut.
 PixelRect region_of_lines(const Frame& frame) {
-    const bool is_dashed = frame.scene->lines.style.hidden.style == HiddenStyle::dashed;
+    const bool is_dashed = hidden_dashes(frame.scene->lines.style).dash_px.has_value();
     return is_dashed ? with_margin(frame, {0, 0, frame.width, frame.height}) : region_of(frame);
 }
 
@@ -69,21 +70,6 @@ void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, 
     }
 }
 
-/// Where lines stand along their chains: features by themselves, as visible ones do.
-std::vector<std::array<double, 2>> positions_of_ends(const std::vector<LayerLine>& lines, const SurfaceSet& surfaces, double period_px) {
-    std::vector<std::array<double, 2>> positions(lines.size());
-    for (const bool are_features : {true, false}) {
-        std::vector<LayerLine> chosen;
-        std::copy_if(lines.begin(), lines.end(), std::back_inserter(chosen), [&](const LayerLine& l) { return is_feature(l) == are_features; });
-        const auto of_chosen = positions_along_chains(chosen, surfaces, period_px);
-        auto next = of_chosen.begin();
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            if (is_feature(lines[i]) == are_features) positions[i] = *next++;
-        }
-    }
-    return positions;
-}
-
 /// Whether one piece of a line is drawn as the one before, behind however many layers they are.
 bool goes_on_alike(const LayerPiece& before, const LayerPiece& piece) {
     return piece.line == before.line && piece.begin == before.end && (piece.invisibility > 0) == (before.invisibility > 0) &&
@@ -120,7 +106,7 @@ PixelTiles LayerPass::tiles_of(const Frame& frame) {
 }
 
 bool LayerPass::needs_all_lines(const Frame& frame) {
-    return frame.scene->lines.style.hidden.style == HiddenStyle::dashed || needs_all_visible_lines(frame);
+    return hidden_dashes(frame.scene->lines.style).dash_px || needs_all_visible_lines(frame);
 }
 
 LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
@@ -139,7 +125,8 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
 bool LayerPass::knows_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
 
 void LayerPass::find_lines(TileRows rows, const PossibleLines* possible) {
-    const bool is_dashed = frame_.scene->lines.style.hidden.style == HiddenStyle::dashed || frame_.scene->lines.style.dash_px;
+    const LineStyle& style = frame_.scene->lines.style;
+    const bool is_dashed = hidden_dashes(style).dash_px || visible_dashes(style).dash_px;
     const PixelRect region = is_dashed                 ? anywhere_on_screen()
                              : needs_all_lines(frame_) ? region_of_lines(frame_)
                                                        : all_tiles_.only(rows).rect();
@@ -202,6 +189,8 @@ void LayerPass::find_pieces() {
     }
 }
 
+void LayerPass::leave_out_dashes_along(CourseIndex& visible) { visible_courses_ = &visible; }
+
 void LayerPass::find() {
     lines_.clear();
     find_lines(all_tiles_.rows());
@@ -240,37 +229,70 @@ void LayerPass::add(const LayerLine& line, LayerSegment segment, std::vector<Lay
     }
 }
 
-void LayerPass::add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
-                           std::vector<LayerSegment>& segments) const {
-    const LayerLine& line = lines_[piece.line];
-    const LineStyle& style = frame_.scene->lines.style;
-    const bool is_hidden = piece.invisibility > 0;
-    const auto [on, off] = is_hidden ? style.hidden_dash_px() : *style.dash_px;
-    // Strokes have round ends; a dash with its ends is as long as asked for.
-    const double length = position[1] - position[0], per_px = std::abs(length) / line.length_px();
-    const double inset = 0.5 * per_px * std::min(on, is_hidden ? style.hidden_width_px() : style.width_px);
-    const double a = position[0] + length * piece.begin, b = position[0] + length * piece.end;
-    const auto [low, high] = std::minmax(a, b);
-    for (double dash = std::floor(low / (on + off)) * (on + off); dash < high; dash += on + off) {
-        const double begin = std::max(low, dash + inset), end = std::min(high, dash + on - inset);
-        if (begin > end) continue;
-        LayerSegment segment;
-        segment.from = line.at((begin - position[0]) / length) / 256.0;
-        segment.to = line.at((end - position[0]) / length) / 256.0;
-        segment.drawn_as = line.drawn_as;
-        segment.is_hidden = is_hidden;
-        segment.transmission = line.opacity_behind(piece.transmission);
-        add(line, segment, segments);
+/// Where the dashes of all lines are: those of features by themselves first, as of visible lines.
+class LayerPass::Dashes {
+  public:
+    Dashes(const std::vector<LayerLine>& lines, const Frame& frame, std::array<double, 2> dash_px, double width_px)
+        : pen(dash_px, width_px), group_(lines.size()), number_(lines.size()) {
+        SharedDashes shared({0, 0, frame.width, frame.height}, SharedDashes::reach_of_pen_px(width_px));
+        for (const bool are_features : {true, false}) {
+            std::vector<LayerLine> chosen;
+            for (std::size_t i = 0; i < lines.size(); ++i) {
+                if (is_feature(lines[i]) != are_features) continue;
+                group_[i] = static_cast<std::uint8_t>(groups_.size());
+                number_[i] = static_cast<std::uint32_t>(chosen.size());
+                chosen.push_back(lines[i]);
+            }
+            groups_.emplace_back(chosen, frame.surfaces, pen.period_px(), shared);
+        }
     }
+    template <typename Visit>
+    void for_parts(std::size_t line, const Visit& visit) const {
+        groups_[group_[line]].for_parts(number_[line], visit);
+    }
+
+    DashPen pen;
+
+  private:
+    std::vector<LineDashes> groups_;
+    std::vector<std::uint8_t> group_;    // of each line
+    std::vector<std::uint32_t> number_;  // in its group
+};
+
+void LayerPass::add_dashes(const LayerPiece& piece, const Dashes& dashes, std::vector<LayerSegment>& segments) const {
+    const LayerLine& line = lines_[piece.line];
+    LayerSegment segment;
+    segment.drawn_as = line.drawn_as;
+    segment.is_hidden = piece.invisibility > 0;
+    segment.transmission = line.opacity_behind(piece.transmission);
+    const auto add_part = [&](const DashPart& part, double from, double to) {
+        const double begin = std::max(from, part.begin), end = std::min(to, part.end);
+        if (!(begin < end)) return;
+        const double share = part.end - part.begin, length = part.at_end - part.at_begin;
+        const auto at = [&](double of_line) { return part.at_begin + length * ((of_line - part.begin) / share); };
+        const auto place = [&](double along) { return line.at(part.begin + share * ((along - part.at_begin) / length)) / 256.0; };
+        dashes.pen.for_dashes(at(begin), at(end), std::abs(length) / (share * line.length_px()), [&](double first, double last) {
+            segment.from = place(first);
+            segment.to = place(last);
+            add(line, segment, segments);
+        });
+    };
+    const auto add_between = [&](double from, double to) {
+        dashes.for_parts(piece.line, [&](const DashPart& part) { add_part(part, from, to); });
+    };
+    if (!segment.is_hidden || visible_courses_ == nullptr) return add_between(piece.begin, piece.end);
+    const auto covers = visible_courses_->find(line.at(piece.begin) / 256.0, line.at(piece.end) / 256.0);
+    const double length = piece.end - piece.begin;
+    for_uncovered(covers, [&](double from, double to) { add_between(piece.begin + length * from, piece.begin + length * to); });
 }
 
 std::vector<LayerSegment> LayerPass::make_segments() const {
-    const HiddenStyle style = frame_.scene->lines.style.hidden.style;
-    const auto positions_of = [&](std::array<double, 2> dash_px) { return positions_of_ends(lines_, frame_.surfaces, dash_px[0] + dash_px[1]); };
-    std::vector<std::array<double, 2>> hidden_positions, visible_positions;  // where there are dashes
-    const auto& visible_dash_px = frame_.scene->lines.style.dash_px;
-    if (style == HiddenStyle::dashed) hidden_positions = positions_of(frame_.scene->lines.style.hidden_dash_px());
-    if (visible_dash_px) visible_positions = positions_of(*visible_dash_px);
+    const LineStyle& look = frame_.scene->lines.style;
+    const HiddenStyle style = look.hidden.style;
+    std::optional<Dashes> of_hidden, seen_through;
+    if (const auto dash_px = hidden_dashes(look).dash_px) of_hidden.emplace(lines_, frame_, *dash_px, look.hidden_width_px());
+    const auto visible_px = visible_dashes(look).dash_px;
+    if (visible_px && has_transparent_surfaces(*frame_.scene)) seen_through.emplace(lines_, frame_, *visible_px, look.width_px);
     std::vector<LayerSegment> segments;
     segments.reserve(pieces_.size());
     for (std::size_t i = 0; i < pieces_.size();) {
@@ -284,9 +306,9 @@ std::vector<LayerSegment> LayerPass::make_segments() const {
         while (++i < pieces_.size() && goes_on_alike(piece, pieces_[i])) piece.end = pieces_[i].end;
         const bool is_hidden = piece.invisibility > 0;
         if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
-        const auto& positions = is_hidden ? hidden_positions : visible_positions;
-        if (!positions.empty()) {
-            add_dashes(piece, positions[piece.line], segments);
+        const auto& dashes = is_hidden ? of_hidden : seen_through;
+        if (dashes) {
+            add_dashes(piece, *dashes, segments);
             continue;
         }
         const LayerLine& line = lines_[piece.line];

@@ -7,6 +7,7 @@
 #include "methods/abuffer/layers/layer_bins.h"
 #include "methods/abuffer/layers/layer_edges.h"
 #include "methods/abuffer/layers/layer_tile.h"
+#include "methods/abuffer/strokes/course_index.h"
 #include "methods/abuffer/strokes/layer_strokes.h"
 #include "methods/abuffer/strokes/smooth_contours.h"
 
@@ -55,19 +56,22 @@ class LayerPass {
     void composite(Film& film) const;
     /// Finds what is in front of lines in the rows sorted, and intersections that are missing.
     void find_pieces();
+    /// Hidden lines are not dashed where they lie on these: the dashes of either would fill the gaps of the other. `visible` must
+    /// outlive it.
+    void leave_out_dashes_along(CourseIndex& visible);
     /// Of all that was found since the last call; it is forgotten.
     std::vector<LayerSegment> take_segments();
 
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
+    class Dashes;
     std::vector<LayerSegment> make_segments() const;
     void join_results();
     /// Whether intersections are found from the scene's pairs.
     bool knows_pairs() const;
     void add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const;
-    void add_dashes(const LayerPiece& piece, const std::array<double, 2>& position,
-                    std::vector<LayerSegment>& segments) const;
+    void add_dashes(const LayerPiece& piece, const Dashes& dashes, std::vector<LayerSegment>& segments) const;
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
@@ -81,6 +85,7 @@ class LayerPass {
     std::vector<LayerLine> lines_;
     std::vector<LayerTileResult> results_;  // tile by tile, not joined yet
     std::vector<LayerPiece> pieces_;
+    CourseIndex* visible_courses_ = nullptr;
     std::uint64_t fragment_count_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/frame.h"
+#include "shading/dash_style.h"
 
 namespace burin {
 
@@ -9,7 +10,7 @@ namespace burin {
 /// the whole shows there.
 inline bool needs_all_visible_lines(const Frame& frame) {
     const LineSettings& lines = frame.scene->lines;
-    return lines.style.dash_px.has_value() || lines.contours == Contours::smooth;
+    return visible_dashes(lines.style).dash_px.has_value() || lines.contours == Contours::smooth;
 }
 inline PixelRect rect_with_lines(const Frame& frame) {
     return needs_all_visible_lines(frame) ? PixelRect{0, 0, frame.width, frame.height} : frame.crop;

@@ -54,9 +54,10 @@ std::uint64_t lasting_bytes(const Frame& frame, const PixelTiles& tiles, int thr
     return bytes + tiles.count() * 64;
 }
 
-/// The most that the edges along which dashes run may take. All are needed at once.
+/// The most that the edges along which dashes run may take. All are needed at once, with where they stand along their chains and which
+/// of them lie on each other.
 std::uint64_t feature_bytes(const Frame& frame, const ScreenSurfaces& screen) {
-    constexpr std::uint64_t kBytes = sizeof(LayerLine) + 64;  // and where it stands along its chain
+    constexpr std::uint64_t kBytes = sizeof(LayerLine) + 384;
     std::uint64_t sides = 0;
     for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
         const std::size_t count = frame.surfaces.instances[i].mesh->triangles.size();
@@ -152,7 +153,8 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     }
     // Lines are kept to the end of a piece, or of the picture where other lines have to be found first.
     std::uint64_t lasting = lasting_bytes(frame, tiles, threads);
-    if (frame.scene->lines.style.dash_px) lasting += feature_bytes(frame, screen);
+    const LineStyle& style = frame.scene->lines.style;
+    if (visible_dashes(style).dash_px || hidden_dashes(style).dash_px) lasting += feature_bytes(frame, screen);
     lasting += (costs.largest_layer_tile() + costs.largest_fine_tile()) * static_cast<std::uint64_t>(threads);
     const auto split = [&](const RowCosts& rows, bool keeps_lines) {
         std::vector<std::uint64_t> bytes = rows.bins;

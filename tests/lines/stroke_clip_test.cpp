@@ -64,10 +64,12 @@ TEST(StrokeClipper, HangsOnNoRectangle) {
         whole.reset(0, 0, kSize, kSize);
         on_whole.reset(0, 0, kSize, kSize);
         part.reset(x0, y0, width, height);
+        whole.set_boundaries(boundaries);
+        part.set_boundaries(boundaries);
         on_part.reset(x0, y0, width, height);
         for (const ClipPiece& p : pieces) {
-            whole.draw(p, radius_px, side, boundaries, on_whole);
-            part.draw(p, radius_px, side, boundaries, on_part);
+            whole.draw(p, radius_px, side, on_whole);
+            part.draw(p, radius_px, side, on_part);
         }
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
@@ -89,13 +91,14 @@ TEST(StrokeClipper, ManyStrokesAreTheUnionOfEach) {
         const StrokeSide side = random_side(random);
         StrokeClipper clipper;
         clipper.reset(0, 0, kSize, kSize);
+        clipper.set_boundaries(boundaries);
         StrokeCanvas all, expected, one;
         all.reset(0, 0, kSize, kSize);
         expected.reset(0, 0, kSize, kSize);
         for (const ClipPiece& p : pieces) {
-            clipper.draw(p, radius_px, side, boundaries, all);
+            clipper.draw(p, radius_px, side, all);
             one.reset(0, 0, kSize, kSize);
-            clipper.draw(p, radius_px, side, boundaries, one);
+            clipper.draw(p, radius_px, side, one);
             for (int y = 0; y < kSize; ++y) {
                 for (int x = 0; x < kSize; ++x) {
                     if (one.is_touched(x, y)) expected.add(x, y, one.at(x, y));
@@ -110,6 +113,71 @@ TEST(StrokeClipper, ManyStrokesAreTheUnionOfEach) {
         }
     }
     EXPECT_GT(full, 10000);
+}
+
+// Boundaries are found by place where there are many: others farther away change nothing.
+TEST(StrokeClipper, FarBoundariesChangeNothing) {
+    std::int64_t cut = 0;
+    for (std::uint64_t trial = 0; trial < 300; ++trial) {
+        Random random(trial);
+        const std::vector<ClipPiece> pieces = random_pieces(random);
+        std::vector<const ClipPiece*> boundaries = boundaries_of(pieces);
+        std::vector<ClipPiece> far(60);
+        for (ClipPiece& p : far) {
+            p.from = {random.real(-900, 900), random.real(150, 900)};
+            p.to = p.from + glm::dvec2(random.real(-20, 20), random.real(-20, 20));
+            p.occludes = true;
+        }
+        const double radius_px = std::pow(2.0, random.real(-2, 6));
+        const StrokeSide side = random_side(random);
+        StrokeClipper few, many;
+        StrokeCanvas on_few, on_many;
+        for (StrokeClipper* clipper : {&few, &many}) {
+            if (clipper == &many) {
+                for (const ClipPiece& p : far) boundaries.push_back(&p);
+            }
+            StrokeCanvas& canvas = clipper == &few ? on_few : on_many;
+            canvas.reset(0, 0, kSize, kSize);
+            clipper->reset(0, 0, kSize, kSize);
+            clipper->set_boundaries(boundaries);
+            for (const ClipPiece& p : pieces) clipper->draw(p, radius_px, side, canvas);
+        }
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                ASSERT_EQ(on_few.at(x, y).rows, on_many.at(x, y).rows) << "trial " << trial << " at " << x << ',' << y;
+                cut += count(on_few.at(x, y)) < 512;
+            }
+        }
+    }
+    EXPECT_GT(cut, 100000);
+}
+
+// Sheets side by side, all of which a wide stroke on the inside of each reaches: it is compared with those near it.
+TEST(StrokeClipper, IsLinearInTheStrokesOnOneSide) {
+    const auto comparisons = [](int count) {
+        std::vector<ClipPiece> pieces;
+        for (int i = -count; i < count; ++i) {
+            for (const bool is_right : {false, true}) {
+                ClipPiece p;
+                p.from = {4.0 * i + (is_right ? 3 : 0) + 20.5, 5};
+                p.to = p.from + glm::dvec2(0, 30);
+                p.occludes = true;
+                p.front_on_left = is_right == (p.to.y < p.from.y);
+                pieces.push_back(p);
+            }
+        }
+        const std::vector<const ClipPiece*> boundaries = boundaries_of(pieces);
+        StrokeClipper clipper;
+        StrokeCanvas canvas;
+        clipper.reset(0, 0, kSize, kSize);
+        canvas.reset(0, 0, kSize, kSize);
+        clipper.set_boundaries(boundaries);
+        for (const ClipPiece& p : pieces) clipper.draw(p, 512, StrokeSide::inside, canvas);
+        return clipper.comparison_count();
+    };
+    const std::uint64_t few = comparisons(30), many = comparisons(120);
+    EXPECT_GT(few, 0u);
+    EXPECT_LT(many, 5 * few);
 }
 
 TEST(StrokeClipper, ADotIsCutOffAsAVeryShortStroke) {
@@ -134,8 +202,9 @@ TEST(StrokeClipper, ADotIsCutOffAsAVeryShortStroke) {
             StrokeClipper clipper;
             StrokeCanvas canvas;
             clipper.reset(0, 0, kSize, kSize);
+            clipper.set_boundaries(boundaries);
             canvas.reset(0, 0, kSize, kSize);
-            clipper.draw(*p, 5, StrokeSide::both, boundaries, canvas);
+            clipper.draw(*p, 5, StrokeSide::both, canvas);
             for (int y = 0; y < kSize; ++y) {
                 for (int x = 0; x < kSize; ++x) bits[p == &stroke] += count(canvas.at(x, y));
             }

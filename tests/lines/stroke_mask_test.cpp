@@ -195,5 +195,51 @@ TEST(StrokeCanvas, LevelStrokesHaveTheirCoverageInEachPixel) {
     }
 }
 
+TEST(StrokeCanvas, KnowsWhereItIsOpen) {
+    for (std::uint64_t trial = 0; trial < 200; ++trial) {
+        test::Random random(trial);
+        const int width = random.integer(1, 40), height = random.integer(1, 40);
+        StrokeCanvas canvas;
+        canvas.reset(3, 5, width, height);
+        for (int k = 0; k < 20; ++k) {
+            const auto place = [&] { return glm::dvec2(random.real(-5, width + 10), random.real(-5, height + 10)); };
+            canvas.draw(place(), place(), std::pow(2.0, random.real(0, 4)));
+            const int x0 = random.integer(0, width - 1), y0 = random.integer(0, height - 1);
+            const StrokeCanvas::Box box{x0, y0, random.integer(x0, width), random.integer(y0, height)};
+            const StrokeCanvas::Box open = canvas.open_part(box);
+            StrokeCanvas::Box expected{box.x1, box.y1, box.x0, box.y0};
+            for (int y = box.y0; y < box.y1; ++y) {
+                for (int x = box.x0; x < box.x1; ++x) {
+                    if (canvas.is_full(x, y)) continue;
+                    expected = {std::min(expected.x0, x), std::min(expected.y0, y), std::max(expected.x1, x + 1), std::max(expected.y1, y + 1)};
+                }
+            }
+            ASSERT_EQ(open.is_empty(), expected.is_empty()) << trial;
+            if (open.is_empty()) continue;
+            ASSERT_TRUE(open.x0 == expected.x0 && open.y0 == expected.y0 && open.x1 == expected.x1 && open.y1 == expected.y1) << trial;
+        }
+    }
+}
+
+// Wide strokes are left out where all pixels are full: the masks are those of each alone, together.
+TEST(StrokeCanvas, WideStrokesAreTheUnionOfEach) {
+    for (std::uint64_t trial = 0; trial < 30; ++trial) {
+        test::Random random(trial);
+        StrokeCanvas all, one, expected;
+        for (StrokeCanvas* c : {&all, &expected}) c->reset(0, 0, 32, 32);
+        for (int k = 0; k < 12; ++k) {
+            const glm::dvec2 from(random.real(-60, 90), random.real(-60, 90)), to(random.real(-60, 90), random.real(-60, 90));
+            const double radius_px = random.real(8, 40);
+            all.draw(from, to, radius_px);
+            one.reset(0, 0, 32, 32);
+            one.draw(from, to, radius_px);
+            one.for_touched([&](int x, int y) { expected.add(x, y, one.at(x, y)); });
+        }
+        for (int y = 0; y < 32; ++y) {
+            for (int x = 0; x < 32; ++x) ASSERT_EQ(all.at(x, y).rows, expected.at(x, y).rows) << trial << ' ' << x << ' ' << y;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace burin

@@ -19,6 +19,8 @@ namespace {
 
 using namespace test;
 
+constexpr PixelRect kPicture{0, 0, 200, 200};
+
 std::vector<LineSegment> polyline(const std::vector<glm::dvec2>& points) {
     std::vector<LineSegment> pieces;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -68,7 +70,7 @@ std::vector<double> dash_lengths(const std::vector<LineSegment>& parts) {
 }
 
 TEST(VisibleDashes, OnACircleAreEqualWithoutASeam) {
-    const auto parts = dashed({polyline(circle(40, 97))}, {8, 5}, 1, {}, {});
+    const auto parts = dashed({polyline(circle(40, 97))}, {8, 5}, 1, kPicture, {}, {});
     const std::vector<double> lengths = dash_lengths(parts[0]);
     EXPECT_EQ(lengths.size(), 19u);  // 251 / 13, rounded
     for (const double length : lengths) EXPECT_NEAR(length, lengths.front(), 1e-9);
@@ -76,7 +78,7 @@ TEST(VisibleDashes, OnACircleAreEqualWithoutASeam) {
 }
 
 TEST(VisibleDashes, OfAnOpenChainBeginAtItsHigherEnd) {
-    const auto parts = dashed({polyline({{10, 50}, {10, 20}, {60, 20}, {60, 10}})}, {6, 4}, 2, {}, {});
+    const auto parts = dashed({polyline({{10, 50}, {10, 20}, {60, 20}, {60, 10}})}, {6, 4}, 2, kPicture, {}, {});
     ASSERT_FALSE(parts[0].empty());
     const LineSegment& first = parts[0].front();
     EXPECT_EQ(std::min(first.from.y, first.to.y), 11);  // half a pen's width from the end
@@ -89,7 +91,7 @@ TEST(VisibleDashes, OfAnOpenChainBeginAtItsHigherEnd) {
 TEST(VisibleDashes, TheOrderOfPiecesChangesNothing) {
     std::vector<LineSegment> pieces = polyline(circle(40, 97));
     for (const LineSegment& s : polyline({{100.3 + 40, 100.7}, {170, 120}, {180, 80}, {150, 20}})) pieces.push_back(s);
-    const auto expected = sorted_ends(dashed({pieces}, {7, 3}, 1, {}, {}));
+    const auto expected = sorted_ends(dashed({pieces}, {7, 3}, 1, kPicture, {}, {}));
     for (std::uint64_t trial = 0; trial < 20; ++trial) {
         Random random(trial);
         std::vector<std::vector<LineSegment>> lists(3);
@@ -99,19 +101,19 @@ TEST(VisibleDashes, TheOrderOfPiecesChangesNothing) {
             lists[rest.size() % 3].push_back(rest[i]);
             rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
         }
-        EXPECT_EQ(sorted_ends(dashed(lists, {7, 3}, 1, {}, {})), expected) << trial;
+        EXPECT_EQ(sorted_ends(dashed(lists, {7, 3}, 1, kPicture, {}, {})), expected) << trial;
     }
 }
 
 TEST(VisibleDashes, HooksDoNotDotTheGaps) {
     std::vector<LineSegment> pieces = polyline({{10, 10}, {50, 10}});
-    const auto expected = sorted_ends(dashed({pieces}, {6, 4}, 2, {}, {}));
+    const auto expected = sorted_ends(dashed({pieces}, {6, 4}, 2, kPicture, {}, {}));
     for (const LineSegment& s : polyline({{19, 10}, {20, 10.5}})) pieces.push_back(s);
-    EXPECT_EQ(sorted_ends(dashed({pieces}, {6, 4}, 2, {}, {})), expected);
+    EXPECT_EQ(sorted_ends(dashed({pieces}, {6, 4}, 2, kPicture, {}, {})), expected);
 }
 
 TEST(VisibleDashes, DotsAreRoundAndKeepTheirDirection) {
-    const auto parts = dashed({polyline({{10, 10}, {50, 10}})}, {1, 4}, 3, {}, {});
+    const auto parts = dashed({polyline({{10, 10}, {50, 10}})}, {1, 4}, 3, kPicture, {}, {});
     ASSERT_EQ(parts[0].size(), 8u);
     for (const LineSegment& s : parts[0]) {
         EXPECT_NEAR(s.to.x - s.from.x, 1.0 / 256, 1e-9);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "lines/pen.h"
+#include "shading/dash_style.h"
 
 namespace burin {
 namespace {
@@ -174,7 +175,9 @@ HiddenInk hidden_ink(const LineStyle& style, float ink, const glm::vec4& seen_th
 class LayerStrokes::Worker {
   public:
     Worker(const LineStyle& style, const FilterTable* filter, const TileKernels& kernels)
-        : style_(style), filter_(filter), reach_(reach_px(style.filter)), pen_(style.width_px), hidden_pen_(style.hidden_width_px()), strokes_(filter, kernels) {}
+        : style_(style), filter_(filter), reach_(reach_px(style.filter)), 
+          pen_(style.width_px, StrokeSide::both, visible_dashes(style).opacity),
+          hidden_pen_(style.hidden_width_px(), StrokeSide::both, hidden_dashes(style).opacity), strokes_(filter, kernels) {}
 
     void draw_below(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible, Film& film) {
         seen_through_.clear();

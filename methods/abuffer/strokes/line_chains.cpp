@@ -27,11 +27,18 @@ class Chains {
         }
     }
 
-    /// Calls visit(ends by which each line is entered, whether it is a loop) for all chains.
+    struct Chain {
+        std::size_t begin, end;  // of its lines
+        bool is_loop;
+        double length;  // in its mesh
+    };
+
+    /// Calls visit(ends by which each line is entered, whether it is a loop) for all chains, those first that come first.
     template <typename Visit>
     void for_chains(const Visit& visit) const {
         std::vector<bool> done(lines_.size(), false);
-        std::vector<std::uint32_t> chain;
+        std::vector<std::uint32_t> all, chain;
+        std::vector<Chain> chains;
         const auto follow = [&](std::uint32_t end, bool is_loop) {
             chain.clear();
             for (; end != kNoEnd && !done[end / 2]; end = link_[end ^ 1]) {
@@ -39,7 +46,10 @@ class Chains {
                 chain.push_back(end);
             }
             put_in_order(chain, is_loop);
-            visit(std::span<const std::uint32_t>(chain), is_loop);
+            double length = 0;
+            for (const std::uint32_t e : chain) length += length_in_mesh(e);
+            chains.push_back({all.size(), all.size() + chain.size(), is_loop, length});
+            all.insert(all.end(), chain.begin(), chain.end());
         };
         for (std::uint32_t end = 0; end < link_.size(); ++end) {
             if (link_[end] == kNoEnd && !done[end / 2]) follow(end, false);
@@ -47,9 +57,28 @@ class Chains {
         for (std::uint32_t end = 0; end < link_.size(); end += 2) {
             if (!done[end / 2]) follow(end, true);
         }
+        const auto ends_of = [&](const Chain& c) { return std::span<const std::uint32_t>(all).subspan(c.begin, c.end - c.begin); };
+        const auto before = [this](std::uint32_t a, std::uint32_t b) { return is_before(a, b); };
+        std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
+            if (a.length != b.length) return a.length > b.length;
+            const auto p = ends_of(a), q = ends_of(b);
+            if (std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end(), before)) return true;
+            if (std::lexicographical_compare(q.begin(), q.end(), p.begin(), p.end(), before)) return false;
+            return is_before(p.back() ^ 1, q.back() ^ 1);
+        });
+        for (const Chain& c : chains) visit(ends_of(c), c.is_loop);
     }
 
   private:
+    /// Of a whole edge, however much of it the line is: the same in all views. 0 of what is no edge.
+    double length_in_mesh(std::uint32_t end) const {
+        const LayerLine& line = lines_[end / 2];
+        if (!line.is_edge()) return 0;
+        const Mesh& mesh = *surfaces_.instances[static_cast<std::uint32_t>(line.line_key >> 32)].mesh;
+        const auto h = static_cast<HalfEdge>(line.line_key & 0xFFFFFFFFu);
+        const auto& corners = mesh.triangles[h / 3];
+        return glm::distance(glm::dvec3(mesh.positions[corners[h % 3]]), glm::dvec3(mesh.positions[corners[(h + 1) % 3]]));
+    }
     std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }
     /// What the line is, seen from anywhere.
     LineClassSet lasting_class(std::uint32_t end) const {
@@ -112,9 +141,9 @@ class Chains {
 
 }  // namespace
 
-std::vector<std::array<double, 2>> positions_along_chains(std::span<const LayerLine> lines, const SurfaceSet& surfaces,
-                                                          double period_px) {
-    std::vector<std::array<double, 2>> positions(lines.size());
+LineChains chains_of(std::span<const LayerLine> lines, const SurfaceSet& surfaces, double period_px) {
+    LineChains chains;
+    chains.positions.resize(lines.size());
     Chains(lines, surfaces).for_chains([&](std::span<const std::uint32_t> chain, bool is_loop) {
         double scale = 1;
         if (is_loop) {
@@ -124,12 +153,14 @@ std::vector<std::array<double, 2>> positions_along_chains(std::span<const LayerL
         }
         double at = 0;
         for (const std::uint32_t end : chain) {
-            positions[end / 2][end % 2] = at;
+            chains.positions[end / 2][end % 2] = at;
             at += scale * lines[end / 2].length_px();
-            positions[end / 2][1 - end % 2] = at;
+            chains.positions[end / 2][1 - end % 2] = at;
+            chains.lines.push_back(end / 2);
         }
+        chains.chain_ends.push_back(chains.lines.size());
     });
-    return positions;
+    return chains;
 }
 
 }  // namespace burin

@@ -6,15 +6,15 @@
 #include <tuple>
 #include <utility>
 
-#include "methods/abuffer/strokes/line_chains.h"
+#include "methods/abuffer/strokes/dash_pen.h"
+#include "methods/abuffer/strokes/line_dashes.h"
+#include "methods/abuffer/strokes/shared_dashes.h"
 
 namespace burin {
 namespace {
 
 /// Smaller loops come from samples beside a vertex, not from anything to be seen.
 constexpr double kSmallestLoopPx = 1.0 / 16;
-/// Length of what is drawn as a dot: it keeps its direction, or a dot would have no sides.
-constexpr double kDotPx = 1.0 / 256;
 constexpr std::uint32_t kNoEnd = 0xFFFFFFFFu;
 
 /// Higher on the screen, then further left.
@@ -33,6 +33,7 @@ class Chains {
     const LineSegment& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
     double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
 
+    /// By where they begin.
     std::vector<Chain> all() const {
         std::vector<Chain> chains;
         std::vector<bool> done(pieces_.size(), false);
@@ -52,6 +53,12 @@ class Chains {
         for (std::uint32_t end = 0; end < link_.size(); end += 2) {  // the rest are loops
             if (!done[end / 2]) follow(end, true);
         }
+        const auto is_before = [this](std::uint32_t a, std::uint32_t b) { return is_higher(place(a), place(b)); };
+        std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
+            if (std::lexicographical_compare(a.ends.begin(), a.ends.end(), b.ends.begin(), b.ends.end(), is_before)) return true;
+            if (std::lexicographical_compare(b.ends.begin(), b.ends.end(), a.ends.begin(), a.ends.end(), is_before)) return false;
+            return is_before(a.ends.back() ^ 1, b.ends.back() ^ 1);
+        });
         return chains;
     }
 
@@ -169,53 +176,65 @@ class Features {
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys_;  // number of a line
 };
 
-/// The dashes of a piece of a line.
-class DashPen {
-  public:
-    DashPen(std::array<double, 2> dash_px, double width_px, std::vector<LineSegment>& drawn)
-        : on_px_(dash_px[0]), period_px_(dash_px[0] + dash_px[1]), inset_px_(std::min(0.5 * on_px_, 0.5 * width_px)), drawn_(drawn) {}
+/// Adds the dashes of a part of a piece.
+void draw(const LineSegment& piece, const DashPart& part, const DashPen& pen, std::vector<LineSegment>& drawn) {
+    const double share = part.end - part.begin, length = part.at_end - part.at_begin;
+    const auto point = [&](double at) { return glm::mix(piece.from, piece.to, part.begin + share * ((at - part.at_begin) / length)); };
+    const double per_px = std::abs(length) / (share * glm::distance(piece.from, piece.to));
+    pen.for_dashes(part.at_begin, part.at_end, per_px, [&](double first, double last) {
+        LineSegment dash = piece;
+        dash.from = point(length > 0 ? first : last);
+        dash.to = point(length > 0 ? last : first);
+        drawn.push_back(dash);
+    });
+}
 
-    double period_px() const { return period_px_; }
+/// Of a piece of a feature. `first`, `last`: where its ends are on the feature, as shares of it.
+void draw_on_feature(const LineSegment& piece, double first, double last, const LineDashes& dashes, std::size_t feature, const DashPen& pen,
+                     std::vector<LineSegment>& drawn) {
+    constexpr double kFar = 1e300;
+    dashes.for_parts(feature, [&](const DashPart& part) {
+        // A piece may go on a little beyond its feature.
+        const double low = part.begin <= 0 ? -kFar : part.begin, high = part.end >= 1 ? kFar : part.end;
+        const double begin = std::max(std::min(first, last), low), end = std::min(std::max(first, last), high);
+        if (!(begin < end)) return;
+        const double at_begin = glm::mix(part.at_begin, part.at_end, (begin - part.begin) / (part.end - part.begin));
+        const double at_end = glm::mix(part.at_begin, part.at_end, (end - part.begin) / (part.end - part.begin));
+        const double s = (begin - first) / (last - first), t = (end - first) / (last - first);
+        draw(piece, s < t ? DashPart{s, t, at_begin, at_end} : DashPart{t, s, at_end, at_begin}, pen, drawn);
+    });
+}
 
-    /// `begin`, `end`: where `from` and `to` stand along the chain, in pixels; more of them where dashes are squeezed.
-    void draw(const LineSegment& piece, double begin, double end) {
-        if (begin == end) return;
-        const double length_px = glm::distance(piece.from, piece.to), per_px = std::abs(end - begin) / length_px;
-        const double inset = inset_px_ * per_px, on = on_px_ - inset, low = std::min(begin, end), high = std::max(begin, end);
-        const bool is_dotted = on_px_ - 2 * inset_px_ < kDotPx;
-        const auto point = [&](double at) { return glm::mix(piece.from, piece.to, std::clamp((at - begin) / (end - begin), 0.0, 1.0)); };
-        for (double dash = std::floor(low / period_px_); dash * period_px_ <= high; ++dash) {
-            const double first = std::max(low, dash * period_px_ + inset);
-            const double last = std::min(high, std::max(dash * period_px_ + inset, dash * period_px_ + on));
-            if (first > last) continue;
-            LineSegment part = piece;
-            part.from = point(begin < end ? first : last);
-            part.to = point(begin < end ? last : first);
-            if (is_dotted) {
-                const glm::dvec2 middle = 0.5 * (part.from + part.to);
-                const glm::dvec2 half = (piece.to - piece.from) * (0.5 * kDotPx / length_px);
-                part.from = middle - half;
-                part.to = middle + half;
-            }
-            drawn_.push_back(part);
-        }
+/// Hooks of facets, and loops from samples beside a vertex.
+bool is_drawn(const Chains& chains, const Chains::Chain& chain, double width_px) {
+    double total = 0;
+    for (const std::uint32_t end : chain.ends) total += chains.length(end);
+    return total >= (chain.is_closed ? kSmallestLoopPx : std::max(1.0, width_px));
+}
+
+/// Adds a chain's pieces with where they stand.
+void add_pieces(const Chains& chains, const Chains::Chain& chain, double period_px, std::vector<DashPiece>& pieces) {
+    double total = 0, at = 0;
+    for (const std::uint32_t end : chain.ends) total += chains.length(end);
+    const double scale = chain.is_closed ? period_px * std::max(1.0, std::round(total / period_px)) / total : 1;
+    for (const std::uint32_t end : chain.ends) {
+        const double begin = at;
+        at += scale * chains.length(end);
+        const LineSegment& piece = chains.piece(end);
+        const bool is_backwards = end % 2 == 1;
+        pieces.push_back({piece.from, piece.to, is_backwards ? at : begin, is_backwards ? begin : at});
     }
-
-  private:
-    double on_px_, period_px_, inset_px_;
-    std::vector<LineSegment>& drawn_;
-};
+}
 
 }  // namespace
 
-bool is_feature(const LayerLine& line) { return !(line.classes == LineClassSet(LineClass::silhouette)); }
-
 std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
-                                             std::array<double, 2> dash_px, double width_px,
+                                             std::array<double, 2> dash_px, double width_px, PixelRect picture,
                                              std::span<const LayerLine> features, const SurfaceSet& surfaces) {
     std::vector<std::vector<LineSegment>> result(1);
-    DashPen pen(dash_px, width_px, result[0]);
-    const auto positions = positions_along_chains(features, surfaces, pen.period_px());
+    const DashPen pen(dash_px, width_px);
+    SharedDashes shared(picture, SharedDashes::reach_of_pen_px(width_px));
+    const LineDashes of_features(features, surfaces, pen.period_px(), shared);
     const Features on_mesh(features, surfaces);
     std::vector<const LineSegment*> others;
     for (const auto& list : segments) {
@@ -225,31 +244,39 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
             } else if (s.from == s.to) {
                 continue;
             } else if (const auto feature = on_mesh.find(s)) {
-                const auto& [first, last] = positions[*feature];
-                const auto at = [&, &first = first, &last = last](glm::dvec2 place) {
-                    return glm::mix(first, last, Features::share_of(features[*feature], place));
-                };
-                pen.draw(s, at(s.from), at(s.to));
+                const double first = Features::share_of(features[*feature], s.from), last = Features::share_of(features[*feature], s.to);
+                draw_on_feature(s, first, last, of_features, *feature, pen, result[0]);
             } else {
                 others.push_back(&s);
             }
         }
     }
     const Chains chains(std::move(others));
+    std::vector<const LineSegment*> drawn;
+    std::vector<DashPiece> pieces;
+    std::vector<std::size_t> chain_ends;
     for (const Chains::Chain& chain : chains.all()) {
-        double total = 0;
-        for (const std::uint32_t end : chain.ends) total += chains.length(end);
-        if (total < (chain.is_closed ? kSmallestLoopPx : std::max(1.0, width_px))) continue;  // a hook of facets
-        const double scale = chain.is_closed ? pen.period_px() * std::max(1.0, std::round(total / pen.period_px())) / total : 1;
-        double at = 0;
-        for (const std::uint32_t end : chain.ends) {
-            const double begin = at;
-            at += scale * chains.length(end);
-            const bool is_backwards = end % 2 == 1;
-            pen.draw(chains.piece(end), is_backwards ? at : begin, is_backwards ? begin : at);
-        }
+        if (!is_drawn(chains, chain, width_px)) continue;
+        add_pieces(chains, chain, pen.period_px(), pieces);
+        for (const std::uint32_t end : chain.ends) drawn.push_back(&chains.piece(end));
+        chain_ends.push_back(pieces.size());
+    }
+    const DashPlaces places = shared.lay_out(std::move(pieces), chain_ends);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        places.for_parts(i, [&](const DashPart& part) { draw(*drawn[i], part, pen, result[0]); });
     }
     return result;
+}
+
+CourseIndex courses_of(const std::vector<std::vector<LineSegment>>& segments, PixelRect picture, double reach_px) {
+    CourseIndex courses(picture, reach_px);
+    for (const auto& list : segments) {
+        for (const LineSegment& s : list) {
+            const bool is_solid = s.is_drawn && s.opacity == 255;  // hidden lines shine through what fades
+            if (is_solid && glm::distance(s.from, s.to) >= courses.shortest_px()) courses.add(s.from, s.to);
+        }
+    }
+    return courses;
 }
 
 }  // namespace burin

@@ -2,13 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "shading/dash_style.h"
 
 namespace burin {
+namespace {
+
+constexpr double kWideRadiusPx = 8;
+constexpr std::size_t kLookEvery = 16;
+using Near = std::pair<double, std::size_t>;  // how near a stroke is, and its number
+
+double distance_to(glm::dvec2 place, const ClipPiece& piece) {
+    const glm::dvec2 along = piece.to - piece.from;
+    const double square = glm::dot(along, along), share = square > 0 ? glm::dot(place - piece.from, along) / square : 0;
+    return glm::distance(place, piece.from + along * std::clamp(share, 0.0, 1.0));
+}
+
+}  // namespace
 
 VisibleStrokes::VisibleStrokes(const Frame& frame, const TileKernels& kernels)
     : projection_(frame.surfaces.projection),
       side_(frame.scene->lines.style.side),
-      pen_(frame.scene->lines.style.width_px, side_),
+      pen_(frame.scene->lines.style.width_px, side_, visible_dashes(frame.scene->lines.style).opacity),
       faded_(kernels),
       clipper_(kernels) {
     for (StrokeCanvas& canvas : canvases_) canvas = StrokeCanvas(kernels);
@@ -56,16 +72,26 @@ void VisibleStrokes::draw_clipped(std::span<const LineSegment* const> segments) 
                            s->front_on_left});
     }
     clipper_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
+    const bool is_wide = pen_.radius_px > kWideRadiusPx;
+    const glm::dvec2 middle(0.5 * (rect_.x0 + rect_.x1), 0.5 * (rect_.y0 + rect_.y1));
+    const StrokeCanvas::Box all{0, 0, rect_.width(), rect_.height()};
     for (const LineClass c : classes_) {
         find_boundaries(segments, c);
+        std::vector<Near> strokes;
         for (std::size_t i = 0; i < segments.size(); ++i) {
             if (!segments[i]->is_drawn || segments[i]->opacity < 255 || segments[i]->drawn_as != c) continue;
-            clipper_.draw(pieces_[i], pen_.radius_px, side_, boundaries_, canvas_of(c));
+            strokes.push_back({is_wide ? distance_to(middle, pieces_[i]) : 0, i});
+        }
+        // In any order they make the same masks. Of wide ones, the nearest fill the tile, and then nothing is left of the others.
+        if (is_wide) std::sort(strokes.begin(), strokes.end());
+        for (std::size_t k = 0; k < strokes.size(); ++k) {
+            if (is_wide && k % kLookEvery == 0 && canvas_of(c).open_part(all).is_empty()) break;
+            clipper_.draw(pieces_[strokes[k].second], pen_.radius_px, side_, canvas_of(c));
         }
     }
     find_boundaries(segments, LineClass::crease);
     faded_.draw(segments, rect_, [&](std::size_t i, StrokeCanvas& canvas) {
-        clipper_.draw(pieces_[i], pen_.radius_px, side_, boundaries_, canvas);
+        clipper_.draw(pieces_[i], pen_.radius_px, side_, canvas);
     });
 }
 
@@ -78,6 +104,7 @@ void VisibleStrokes::find_boundaries(std::span<const LineSegment* const> segment
             boundaries_.push_back(&pieces_[i]);
         }
     }
+    clipper_.set_boundaries(boundaries_);
 }
 
 /// In pixels' widths at that distance: a difference of 1 is a pixel's width.
