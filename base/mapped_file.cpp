@@ -137,7 +137,9 @@ void MappedFile::on_bus_error(int signal_number, void* info) {
             ::_exit(1);
         }
     }
-    std::signal(signal_number, SIG_DFL);  // something else: comes again and ends the process
+    // Something else, which ends the process once this returns.
+    std::signal(signal_number, SIG_DFL);
+    ::raise(signal_number);
 }
 
 void MappedFile::end_process_where_files_are_cut() {

@@ -542,6 +542,7 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
     try {
         return read_tables(path, parse_stoppable(file.bytes(), path), overrides);
     } catch (const toml::parse_error& error) {
+        file.check_is_whole();
         const toml::source_position at = error.source().begin;
         std::string message(error.description());
         std::replace(message.begin(), message.end(), '\n', ' ');

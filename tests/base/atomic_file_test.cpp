@@ -2,14 +2,21 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <sys/file.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <filesystem>
+#include <iterator>
 
 #include "base/error.h"
 #include "tests/support/temporary_folder.h"
@@ -186,6 +193,61 @@ TEST(AtomicFile, HasNoNameBeforeItIsComplete) {
     EXPECT_TRUE(folder.names().empty());
     file.commit();
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
+}
+
+/// From now on this process finds no files without names.
+bool forbid_files_without_names() {
+    constexpr unsigned kNoName = O_TMPFILE & ~O_DIRECTORY;
+    sock_filter program[] = {
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_openat, 0, 3),
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args[2])),
+        BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, kNoName, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EOPNOTSUPP),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+    };
+    const sock_fprog filter{std::size(program), program};
+    return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+/// On file systems where every file has a name.
+TEST(AtomicFile, ATemporaryNameIsRemovedWhateverHappens) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("a.txt");
+    const auto is_temporary = [&](const std::vector<std::string>& names) {
+        return names.size() == 1 && names[0] == ".a.burin-" + std::to_string(::getpid()) + "-0.txt";
+    };
+    constexpr int kNoFilter = 77;
+    // The number of the check that fails, from 1.
+    const auto check = [&]() -> int {
+        if (!forbid_files_without_names()) return kNoFilter;
+        {
+            AtomicFile file(path);
+            if (!is_temporary(folder.names())) return 1;
+        }
+        if (!folder.names().empty()) return 2;
+        {
+            AtomicFile file(path);
+            remove_temporary_files();
+            if (!folder.names().empty()) return 3;
+        }
+        check_output_file(path);
+        if (!folder.names().empty()) return 4;
+        AtomicFile file(path);
+        file.write("new", 3);
+        check_output_file(path);  // leaves a file that is being written
+        if (!is_temporary(folder.names())) return 5;
+        file.commit();
+        if (folder.names() != std::vector<std::string>{"a.txt"}) return 6;
+        remove_temporary_files();
+        return read_file(path) == "new" ? 0 : 7;
+    };
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(check());
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kNoFilter) GTEST_SKIP() << "system calls cannot be refused here";
+    EXPECT_EQ(status, 0) << "check " << WEXITSTATUS(status);
 }
 
 }  // namespace
