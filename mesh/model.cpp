@@ -78,10 +78,12 @@ bool is_model_file(const std::string& path) {
 
 Model read_model(const std::string& path, const MeshOptions& options) {
     Model model = read_by_extension(path, options);
-    const bool has_triangles = std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
-        return !model.meshes[o.mesh].triangles.empty();
-    });
-    if (!has_triangles) {
+    const bool has_any =
+        std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
+            const Mesh& mesh = model.meshes[o.mesh];
+            return !mesh.triangles.empty() || !mesh.loose_edges.empty();
+        });
+    if (!has_any) {
         throw InputError(path + ": no polygon with an area is in it; burin draws the lines of surfaces");
     }
     return model;
