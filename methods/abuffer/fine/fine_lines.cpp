@@ -49,7 +49,7 @@ class FineLines::BlockClipper {
         const auto slack_of = [&](double level_px) { return level_slack(screen_.surfaces(), nearest, level_px) + by_snapping; };
         const double slack = slack_of(kLevelPx), coincident = slack_of(kCoincidentPx), certain = slack_of(kCertainPx);
         const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
-        const bool is_border = line.owners[0] == line.owners[1], is_loose = line.is_loose();
+        const bool is_border = line.owners[0] == line.owners[1], is_by_itself = line.is_by_itself();
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         hidden_.clear();
         double reached = begin;  // as far as no piece is left
@@ -67,7 +67,7 @@ class FineLines::BlockClipper {
                           // apart.
                           const bool is_own_mesh = t.instance == candidate.part.edge.instance;
                           const double touching = slack + t.slack;
-                          const double level = !is_own_mesh || is_loose ? certain + t.slack
+                          const double level = !is_own_mesh || is_by_itself ? certain + t.slack
                                                : is_border              ? rounding + t.slack
                                                                         : rounding;
                           // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
@@ -83,7 +83,7 @@ class FineLines::BlockClipper {
                               return contacts_.is_seen_instead(line, begin, end, t, touching) ||
                                      contacts_.is_flush(line, most_from, most_to, t, touching, criteria_, false);
                           };
-                          if (!is_settled && !is_loose && is_none()) {
+                          if (!is_settled && !is_by_itself && is_none()) {
                               from = most_from;
                               to = most_to;
                           } else if (!parts.is_any) {
@@ -172,7 +172,7 @@ class FineLines::BlockClipper {
     /// Adds what is no negligible fold.
     void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
                   std::vector<LineSegment>& segments) {
-        if (candidate.line.classes.has(LineClass::silhouette)) {
+        if (candidate.line.classes.has(LineClass::silhouette) && !candidate.line.is_wire) {
             const double step = kWidthStepPx / candidate.line.length_px();
             // At a vertex rounding says which triangle one gets to.
             const double inset = std::min(0.5, 0.5 * step);
@@ -188,7 +188,9 @@ class FineLines::BlockClipper {
         const glm::dvec2 at = candidate.line.at(t);
         const ScreenMesh& mesh = screen_.mesh(candidate.part.edge.instance);
         const double nearness = candidate.line.nearness_at(t);
-        return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
+        const HalfEdge h = candidate.part.edge.half_edge;
+        return is_fold_wide(mesh, h, at, nearness, 32 * level_slack(screen_.surfaces(), nearness)) ||
+               ring_around(mesh, h, at, nearness, 0) != Ring::none;
     }
 
     void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {

@@ -1,6 +1,8 @@
 #include "methods/abuffer/layers/fold_width.h"
 
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "lines/surface_walk.h"
 
@@ -17,6 +19,11 @@ struct PlaceOnEdge {
     glm::dvec2 at;
     double nearness, level;
 };
+
+/// A wire is no wider. 1/8 pixel.
+constexpr double kWidestWireSubpixels = 32;
+/// A wire has no more triangles around it.
+constexpr int kMostAroundWire = 256;
 
 enum class Reach { narrow, comes_back, goes_on };
 
@@ -112,6 +119,36 @@ class FoldWalk {
 };
 
 }  // namespace
+
+Ring ring_around(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {
+    const auto ends_of = [&](HalfEdge h) {
+        return std::pair(mesh.vertices + mesh.corners[h], mesh.vertices + mesh.corners[h % 3 == 2 ? h - 2 : h + 1]);
+    };
+    const auto [from, to] = ends_of(half_edge);
+    // Along rows where the edge is steep, else along columns.
+    const int across = std::abs(std::int64_t{to->x} - from->x) < std::abs(std::int64_t{to->y} - from->y) ? 0 : 1, along = 1 - across;
+    // Two edges of a triangle cross the row, or none: which ones is told without rounding.
+    const auto crosses = [&](const ScreenVertex* p, const ScreenVertex* q) { return (place_of(p)[along] < at[along]) != (place_of(q)[along] < at[along]); };
+    if (!crosses(from, to)) return Ring::none;
+    Ring ring = Ring::in_front;
+    HalfEdge entry = half_edge;
+    for (int step = 0; step < kMostAroundWire; ++step) {
+        if (mesh.facing[entry / 3] == off_screen) return Ring::none;
+        const HalfEdge first = entry - entry % 3, one = first + (entry + 1) % 3, two = first + (entry + 2) % 3;
+        const auto [one_from, one_to] = ends_of(one);
+        const HalfEdge exit = crosses(one_from, one_to) ? one : two, beyond = mesh.partners[exit];
+        if (beyond == exit || mesh.partners[beyond] != exit) return Ring::none;
+        if (beyond == half_edge) return ring;
+        const auto [p, q] = ends_of(exit);
+        const double share = (at[along] - place_of(p)[along]) / (place_of(q)[along] - place_of(p)[along]);
+        const double off = glm::mix(place_of(p)[across], place_of(q)[across], share) - at[across];
+        if (std::abs(off) > kWidestWireSubpixels) return Ring::none;
+        const bool may_be_line = (mesh.line_edges[exit / 3] >> exit % 3 & 1) != 0;
+        if (may_be_line && glm::mix(nearness_of(p), nearness_of(q), share) > nearness + level) ring = Ring::behind;
+        entry = beyond;
+    }
+    return Ring::none;
+}
 
 bool is_fold_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {
     const PlaceOnEdge from{at, nearness, level};

@@ -150,6 +150,7 @@ class LayerEdgeFinder::Rules {
         LineClassSet classes;
         double crease_cosine = 1;
         int front_side = 0;
+        bool is_wire = false;
         HalfEdge solid_h = h, solid_g = g;
         if (mesh.is_marked(h)) classes |= LineClass::mark;
         if (const EdgeSides::PlainPair pair = sides_.plain_pair(s.instance, h, g); pair.is_plain) {
@@ -169,6 +170,8 @@ class LayerEdgeFinder::Rules {
                 classes |= LineClass::silhouette;  // the wall may lie on either side, and is not in front
                 front_side = sides_.side_at(s.instance, at_wall, a, b);
             }
+            is_wire = sides_.is_front_of_wire(s.instance, h);
+            if (is_wire) classes |= LineClass::silhouette;
         }
         if (!sides_.is_sliver_at(s, h) && !sides_.is_sliver_at(s, g)) {
             const std::uint8_t* const sharp = screen_.sharp_edges(s.instance);
@@ -178,7 +181,7 @@ class LayerEdgeFinder::Rules {
             classes |= contact_classes(surfaces_, triangle_of(s, solid_h), triangle_of(s, solid_g),
                                        middle_px(s, h), criteria_, &crease_cosine);
         }
-        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, front_side, lines);
+        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, front_side, lines, is_wire);
     }
 
     /// The half-edge whose surface ends at a wall that begins behind the other.
@@ -311,7 +314,7 @@ class LayerEdgeFinder::Rules {
 
     /// `front_side`: of the way from the half-edge's start.
     void add(SurfaceId s, HalfEdge h, LineClassSet classes, double crease_cosine, std::array<std::uint32_t, 2> owners,
-             bool has_more, int front_side, std::vector<LayerLine>& lines) const {
+             bool has_more, int front_side, std::vector<LayerLine>& lines, bool is_wire = false) const {
         classes = classes & criteria_.classes;
         if (classes.empty()) return;
         const std::uint8_t opacity = fade_.opacity(classes, crease_cosine);
@@ -325,6 +328,7 @@ class LayerEdgeFinder::Rules {
         LayerLine& line = *added;
         line.owners = owners;
         line.has_more_owners = has_more;
+        line.is_wire = is_wire;
         line.front_side = static_cast<std::int8_t>(
             vertices.first == start_of(mesh, h) ? front_side : -front_side);
         line.classes = classes;
