@@ -177,8 +177,14 @@ class FineLines::BlockClipper {
             // At a vertex rounding says which triangle one gets to.
             const double inset = std::min(0.5, 0.5 * step);
             const auto is_wide_at = [&](double t) { return is_wide(candidate, std::clamp(t, inset, 1 - inset)); };
-            while (end - begin > shortest && !is_wide_at(begin)) begin = std::min(end, begin + step);
-            while (end - begin > shortest && !is_wide_at(end)) end = std::max(begin, end - step);
+            // A fold that begins narrow is none before it is wide, unless it is a tip of something by itself.
+            const auto is_wire_at = [&](double t) { return is_wire(candidate, std::clamp(t, inset, 1 - inset)); };
+            if (!is_wide_at(begin) && !is_wire_at(begin)) {
+                while (end - begin > shortest && !is_wide_at(begin)) begin = std::min(end, begin + step);
+            }
+            if (end - begin > shortest && !is_wide_at(end) && !is_wire_at(end)) {
+                while (end - begin > shortest && !is_wide_at(end)) end = std::max(begin, end - step);
+            }
         }
         if (end - begin > shortest) add(candidate, begin, end, segments);
     }
@@ -188,9 +194,13 @@ class FineLines::BlockClipper {
         const glm::dvec2 at = candidate.line.at(t);
         const ScreenMesh& mesh = screen_.mesh(candidate.part.edge.instance);
         const double nearness = candidate.line.nearness_at(t);
-        const HalfEdge h = candidate.part.edge.half_edge;
-        return is_fold_wide(mesh, h, at, nearness, 32 * level_slack(screen_.surfaces(), nearness)) ||
-               ring_around(mesh, h, at, nearness, 0) != Ring::none;
+        return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
+    }
+
+    /// Whether the surface closes around at a contour, as a wire's does.
+    bool is_wire(const FineCandidate& candidate, double t) const {
+        const LayerLine& line = candidate.line;
+        return ring_around(screen_.mesh(candidate.part.edge.instance), candidate.part.edge.half_edge, line.at(t), line.nearness_at(t), 0) != Ring::none;
     }
 
     void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
