@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -145,6 +146,26 @@ bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene)
     return has_hidden_lines;
 }
 
+/// Lines of the input that are not drawn.
+void note_loose_edges(const Frame& frame, const Method& method) {
+    std::uint64_t count = 0;
+    for (const SurfaceInstance& instance : frame.surfaces.instances)
+        count += instance.mesh->loose_edges.size();
+    if (count == 0) return;
+    const auto printed = static_cast<unsigned long long>(count);
+    if (!frame.scene->lines.classes.has(LineClass::mark)) {
+        std::fprintf(stderr,
+                     "burin: note: %llu lines of the input are not drawn, since the class mark is "
+                     "not; --lines %s draws it, too\n",
+                     printed, to_string(frame.scene->lines.classes | LineClass::mark).c_str());
+    } else if (!method.draws_loose_edges && method.draws.has(LineClass::mark)) {
+        std::fprintf(stderr,
+                     "burin: note: method %s draws edges of polygons only; %llu lines of the input "
+                     "are left out; abuffer draws them\n",
+                     std::string(method.name).c_str(), printed);
+    }
+}
+
 /// What a user should know before the picture surprises.
 void note_limits(const Arguments& a, const Frame& frame, const Method& method, bool has_hidden_lines,
                  const OutputOptions& output) {
@@ -168,6 +189,7 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
     note_if_unused(has_hidden_lines, "lines.hidden", "abuffer");
     note_if_unused(has_transparent_surfaces(*frame.scene), "the opacity of materials", "abuffer");
     const LineSettings& lines = frame.scene->lines;
+    note_loose_edges(frame, method);
     const auto missing = LineClassSet::from_bits(lines.classes.bits & ~unsigned{method.draws.bits});
     if (!missing.empty()) {
         std::fprintf(stderr, "burin: note: method %s cannot draw %s\n", std::string(method.name).c_str(),
@@ -223,6 +245,7 @@ Totals count(const Scene& scene) {
         totals.edges.non_manifold += edges.non_manifold;
         totals.edges.seam += edges.seam;
         totals.edges.marked += edges.marked;
+        totals.edges.loose += edges.loose;
         totals.repairs.degenerate_polygons += mesh.repairs.degenerate_polygons;
         totals.repairs.duplicate_polygons += mesh.repairs.duplicate_polygons;
         totals.repairs.cut_polygons += mesh.repairs.cut_polygons;
@@ -274,6 +297,7 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
     json.key("seam").value(t.edges.seam);
     json.key("non_manifold").value(t.edges.non_manifold);
     json.key("marked").value(t.edges.marked);
+    json.key("loose").value(t.edges.loose);
     json.end_object();
     json.key("object_list").begin_array();
     for (const SceneObject& object : scene.objects) {
@@ -321,6 +345,9 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
     std::printf("  edges      %llu: %llu border (%llu along a seam), %llu non-manifold, %llu marked\n",
                 number(t.edges.edges), number(t.edges.border), number(t.edges.seam),
                 number(t.edges.non_manifold), number(t.edges.marked));
+    if (t.edges.loose > 0)
+        std::printf("  lines      %llu of those marked that no polygon has\n",
+                    number(t.edges.loose));
     std::printf("  dropped    %llu degenerate and %llu duplicate polygons; %llu vertices welded\n",
                 number(t.repairs.degenerate_polygons), number(t.repairs.duplicate_polygons),
                 number(t.repairs.welded_vertices));
@@ -422,7 +449,13 @@ void run_render(const Arguments& a) {
     }
     watch.lap();
     const bool counts = (method.name == "abuffer" || method.name == "patel") && !a.crop;
-    if (counts && times.render.fragments == 0 && !a.quiet) std::fputs("burin: note: no sample of the picture sees a surface; does the camera look at the scene?\n", stderr);
+    const bool has_lines = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                       [](const Mesh& mesh) { return !mesh.loose_edges.empty(); });
+    if (counts && times.render.fragments == 0 && !has_lines && !a.quiet)
+        std::fputs(
+            "burin: note: no sample of the picture sees a surface; does the camera look at the "
+            "scene?\n",
+            stderr);
     if (writer) {
         writer->finish();
     } else {

@@ -50,6 +50,7 @@ class Walker {
         const Slice slice = slice_of(start);
         if (!slice.is_cut) return result;
         Place current{start, slice.crossings[slice.crossings[0].fraction < slice.crossings[1].fraction]};
+        const HalfEdge first_exit = current.exit.half_edge;
         Place farthest = current;      // where the walk got farthest
         Place before_wall = current;   // where it last got farther at all
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
@@ -109,6 +110,8 @@ class Walker {
             current = next.place;
             if (is_farthest) farthest = current;
             if (goes_on) before_wall = current;
+            // Around a wire thinner than a fold that counts: the surface ends where the walk got farthest.
+            if (current.exit.half_edge == first_exit) return ended(result, WalkEnd::fold, before_wall);
             if (circle.is_closed_by({current, farthest, before_wall, last_solid, slivers})) return result;
         }
         return result;

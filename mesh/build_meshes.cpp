@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "mesh/collect_triangles.h"
 #include "mesh/duplicate_polygons.h"
 #include "mesh/edge_links.h"
+#include "mesh/marked_edges.h"
 #include "mesh/object_collector.h"
 #include "mesh/repeated_edges.h"
 #include "mesh/spatial_order.h"
@@ -22,6 +22,8 @@
 
 namespace burin {
 namespace {
+
+constexpr std::uint32_t kNoObject = 0xFFFFFFFFu;
 
 double largest_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -39,14 +41,17 @@ double plainly_near(const PolygonSoup& soup) {
 
 /// Where to put 0 so that single precision resolves the model: its centre if the model lies more
 /// than 16 of its own half sizes away from 0, else 0 itself (and coordinates keep their values).
-/// Vertices that no polygon uses, such as a stray one at 0, do not count.
+/// Vertices that no polygon and no line uses, such as a stray one at 0, do not count.
 glm::dvec3 choose_origin(const PolygonSoup& soup) {
-    if (soup.corners.empty()) return glm::dvec3(0.0);
-    std::vector<std::uint8_t> is_corner(soup.positions.size(), 0);
-    for (const std::uint32_t v : soup.corners) is_corner[v] = 1;
-    glm::dvec3 low = soup.positions[soup.corners[0]], high = low;
+    if (soup.corners.empty() && soup.marked_edges.empty()) return glm::dvec3(0.0);
+    std::vector<std::uint8_t> is_used(soup.positions.size(), 0);
+    for (const std::uint32_t v : soup.corners) is_used[v] = 1;
+    for (const auto& [a, b] : soup.marked_edges) is_used[a] = is_used[b] = 1;
+    glm::dvec3 low =
+                   soup.positions[soup.corners.empty() ? soup.marked_edges[0][0] : soup.corners[0]],
+               high = low;
     for (std::size_t v = 0; v < soup.positions.size(); ++v) {
-        if (is_corner[v] == 0) continue;
+        if (is_used[v] == 0) continue;
         low = glm::min(low, soup.positions[v]);
         high = glm::max(high, soup.positions[v]);
     }
@@ -134,24 +139,14 @@ PolygonMesh without(const PolygonMesh& mesh, const std::vector<std::uint32_t>& d
     return result;
 }
 
-void mark_edges(const PolygonMesh& polygons, Mesh& mesh) {
-    if (polygons.marked_edges.empty()) return;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-    for (const auto& [a, b] : polygons.marked_edges) edges.emplace(std::min(a, b), std::max(a, b));
-    mesh.marked.assign(3 * mesh.triangles.size(), false);
-    for (HalfEdge h = 0; h < mesh.marked.size(); ++h) {
-        const auto& t = mesh.triangles[h / 3];
-        const std::uint32_t a = t[h % 3], b = t[(h + 1) % 3];
-        mesh.marked[h] = edges.contains({std::min(a, b), std::max(a, b)});
-    }
-}
-
 void triangulate_and_link(const PolygonMesh& polygons, Mesh& mesh) {
     triangulate_into(polygons, mesh);
     mesh.next_on_edge = link_edges(mesh.triangles, polygons.positions.size());
 }
 
-Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh) {
+/// `has_marks`: gets which of the marked edges are edges of the polygons.
+Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh,
+                 std::vector<bool>& has_marks) {
     triangulate_and_link(polygons, mesh);
     const std::vector<std::uint32_t> duplicates = find_duplicates(polygons, mesh);
     mesh.repairs.duplicate_polygons = duplicates.size();
@@ -162,10 +157,12 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh) {
         mesh.input_order.drop(duplicates);
     }
     if (is_subdivided) {
+        has_marks = marks_of_polygons(polygons);
         polygons = subdivide(polygons, options.scheme, options.subdivision_levels, mesh.name, options.budget);
     }
     if (!duplicates.empty() || is_subdivided) triangulate_and_link(polygons, mesh);
-    mark_edges(polygons, mesh);
+    std::vector<bool> found = mark_half_edges(polygons, mesh);
+    if (!is_subdivided) has_marks = std::move(found);
     mesh.polygon_material = std::move(polygons.polygon_material);
     const bool one_material =
         std::all_of(mesh.polygon_material.begin(), mesh.polygon_material.end(),
@@ -188,7 +185,8 @@ Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
         polygons.positions = std::move(mesh.positions);
         for (const auto& [a, b, c] : mesh.triangles)
             polygons.corners.insert(polygons.corners.end(), {a, b, c});
-        return finish_mesh(std::move(polygons), options, std::move(mesh));
+        std::vector<bool> has_none;
+        return finish_mesh(std::move(polygons), options, std::move(mesh), has_none);
     }
     mesh.borders = index_borders(mesh);
     return mesh;
@@ -250,7 +248,9 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         std::iota(groups.order.begin(), groups.order.end(), 0u);
     }
     std::optional<SpatialOrder> spatial;
-    ObjectCollector collector(soup, positions, welded);
+    MarkedEdges marks(soup, welded);
+    ObjectCollector collector(soup, positions, welded, marks);
+    std::vector<std::uint32_t> objects;  // of the meshes
     std::size_t begin = 0;
     for (std::size_t object = 0; object < groups.end.size(); ++object) {
         const std::size_t end = groups.end[object];
@@ -267,10 +267,33 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         PolygonMesh polygons = collector.collect(groups, begin, end, mesh.repairs, dropped);
         mesh.input_order.drop(dropped);
         if (!cut.empty()) note_cut_polygons(cut[object], mesh.repairs);
-        meshes.push_back(finish_mesh(std::move(polygons), options, std::move(mesh)));
+        std::vector<bool> has_marks;
+        meshes.push_back(finish_mesh(std::move(polygons), options, std::move(mesh), has_marks));
+        for (std::size_t i = 0; i < has_marks.size(); ++i) {
+            if (has_marks[i]) marks.note_polygon_has(collector.collected_marks()[i]);
+        }
+        objects.push_back(static_cast<std::uint32_t>(object));
         begin = end;
     }
-    return meshes;
+    const std::vector<MarkedEdges::Mark> loose = marks.loose_edges();
+    if (loose.empty()) return meshes;
+    // Objects of lines alone have their places among those with polygons.
+    std::vector<Mesh> all;
+    std::size_t next_mesh = 0;
+    const auto take_up_to = [&](std::uint32_t object) {
+        for (; next_mesh < meshes.size() && objects[next_mesh] <= object; ++next_mesh)
+            all.push_back(std::move(meshes[next_mesh]));
+    };
+    for (std::size_t first = 0, last; first < loose.size(); first = last) {
+        const std::uint32_t object = loose[first].object;
+        last = first;
+        while (last < loose.size() && loose[last].object == object) ++last;
+        take_up_to(object);
+        if (next_mesh == 0 || objects[next_mesh - 1] != object) all.push_back(empty_mesh(object));
+        add_loose_edges(std::span(loose).subspan(first, last - first), positions, all.back());
+    }
+    take_up_to(kNoObject);
+    return all;
 }
 
 }  // namespace burin

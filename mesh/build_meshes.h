@@ -20,15 +20,19 @@ struct MeshOptions {
 ///
 /// In this order: coordinates are rounded to single precision (relative to a common origin where
 /// the model lies far from 0), vertices with equal coordinates of one object are welded, repeated
-/// corners in a row and spikes (from a corner and straight back to it) collapse, polygons without three distinct corners or without area are dropped,
-/// polygons that pass an edge twice in one direction are cut (`mesh/repeated_edges.h`),
-/// duplicates of an earlier polygon (the same edges, in any direction) are dropped, the rest is
-/// subdivided if asked for, triangulated, and linked along its edges. Large objects of one
-/// material without marks are put in spatial order (`mesh/spatial_order.h`), if not subdivided. Everything else is kept:
-/// open, non-manifold, self-crossing and inconsistently wound surfaces.
+/// corners in a row and spikes (from a corner and straight back to it) collapse, polygons without
+/// three distinct corners or without area are dropped, polygons that pass an edge twice in one
+/// direction are cut (`mesh/repeated_edges.h`), duplicates of an earlier polygon (the same edges, in
+/// any direction) are dropped, the rest is subdivided if asked for, triangulated, and linked along
+/// its edges. Large objects of one material without marks are put in spatial order
+/// (`mesh/spatial_order.h`), if not subdivided. Everything else is kept: open, non-manifold,
+/// self-crossing and inconsistently wound surfaces.
 ///
-/// Each object that has polygons in the soup gives a mesh of its name, in order; a mesh whose
-/// polygons were all dropped is empty.
+/// A marked edge that no polygon of any object has becomes a loose edge of its own object;
+/// subdivision leaves it as it is.
+///
+/// Each object that has polygons or loose edges in the soup gives a mesh of its name, in order; a
+/// mesh whose polygons were all dropped may be empty.
 std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options);
 
 }  // namespace burin

@@ -27,6 +27,8 @@ EdgeCounts count_edges(const Mesh& mesh) {
         counts.border += ring == 1;
         counts.non_manifold += ring > 2;
     }
+    counts.loose = mesh.loose_edges.size();
+    counts.marked += counts.loose;
     for (const BorderIndex::Segment& s : mesh.borders.segments()) {
         throw_if_interrupted();
         const glm::dvec3 middle = 0.5 * (glm::dvec3(s.a) + glm::dvec3(s.b));

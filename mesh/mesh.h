@@ -27,9 +27,10 @@ struct MeshRepairs {
 
 /// One object's surface: welded vertices and triangulated polygons, with its neighbours.
 ///
-/// Vertices with equal coordinates are one vertex; vertices that no polygon uses are left out.
-/// A polygon stays one polygon: its triangles share a number, and the diagonals between them are
-/// no edges of the model. Surfaces are two-sided, so winding carries no meaning by itself.
+/// Vertices with equal coordinates are one vertex; vertices that no polygon and no loose edge uses
+/// are left out. A polygon stays one polygon: its triangles share a number, and the diagonals
+/// between them are no edges of the model. Surfaces are two-sided, so winding carries no meaning by
+/// itself.
 struct Mesh {
     std::string name;
 
@@ -51,6 +52,8 @@ struct Mesh {
     std::vector<HalfEdge> next_on_edge;
     /// Per half-edge, whether the user or the file marked its edge; empty: none is marked.
     std::vector<bool> marked;
+    /// Edges that the file marked and no polygon has, as vertex numbers: lines by themselves.
+    std::vector<std::array<std::uint32_t, 2>> loose_edges;
     /// The border half-edges, findable by place (in the coordinates of `positions`).
     BorderIndex borders;
 
@@ -65,6 +68,14 @@ struct Mesh {
         return polygon_material.empty() ? 0 : polygon_material[polygon_of(triangle)];
     }
     bool is_marked(HalfEdge h) const { return !marked.empty() && marked[h]; }
+    /// Loose edges are numbered behind the half-edges.
+    HalfEdge loose_number(std::size_t loose_edge) const {
+        return static_cast<HalfEdge>(3 * triangles.size() + loose_edge);
+    }
+    bool is_loose(HalfEdge h) const { return h >= 3 * triangles.size(); }
+    const std::array<std::uint32_t, 2>& loose_edge(HalfEdge h) const {
+        return loose_edges[h - 3 * triangles.size()];
+    }
     glm::dvec3 position(std::uint32_t vertex) const {
         return origin + glm::dvec3(positions[vertex]);
     }
@@ -78,7 +89,8 @@ struct EdgeCounts {
     std::uint64_t border = 0;
     std::uint64_t non_manifold = 0;
     std::uint64_t seam = 0;  ///< border edges with an unstitched neighbour at their middle
-    std::uint64_t marked = 0;  ///< of them, and of diagonals
+    std::uint64_t marked = 0;  ///< of them, and of diagonals; and loose ones
+    std::uint64_t loose = 0;   ///< lines that no polygon has
 };
 EdgeCounts count_edges(const Mesh& mesh);
 

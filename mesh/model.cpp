@@ -95,10 +95,11 @@ Model read_model(const std::string& path, const MeshOptions& options) {
         throw;
     }
     given.check();
-    const bool has_triangles = std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
-        return !model.meshes[o.mesh].triangles.empty();
+    const bool has_any = std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
+        const Mesh& mesh = model.meshes[o.mesh];
+        return !mesh.triangles.empty() || !mesh.loose_edges.empty();
     });
-    if (!has_triangles) {
+    if (!has_any) {
         throw InputError(path + ": no polygon with an area is in it; burin draws the lines of surfaces");
     }
     return model;

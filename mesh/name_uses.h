@@ -11,42 +11,59 @@
 
 namespace burin {
 
-/// Names that hold for the polygons behind them, until the next name: in the order of their first use.
+/// Names that hold for the polygons and lines behind them, until the next name: in the order of
+/// their first use.
 class NameUses {
   public:
     /// Name 0 is what stands before the first name.
     NameUses() { number_of(""); }
 
-    /// From polygon number `polygon` on the name is `name`.
-    void use(std::string_view name, std::size_t polygon) { use(number_of(name), polygon); }
+    /// Numbers of the polygon and the line that come next.
+    struct Place {
+        std::size_t polygon = 0, line = 0;
+        bool operator==(const Place&) const = default;
+    };
 
-    /// Uses of a text behind this one, whose polygon 0 is number `first_polygon` here.
-    void append(const NameUses& later, std::size_t first_polygon) {
+    /// From a place on the name is `name`.
+    void use(std::string_view name, Place place) { use(number_of(name), place); }
+
+    /// Uses of a text behind this one, whose first polygon and line have the numbers of `first`
+    /// here.
+    void append(const NameUses& later, Place first) {
         std::vector<std::uint32_t> numbers;
         for (const std::string& name : later.names_) numbers.push_back(number_of(name));
-        for (const Use& u : later.uses_) use(numbers[u.name], first_polygon + u.first_polygon);
+        for (const Use& u : later.uses_)
+            use(numbers[u.name], {first.polygon + u.first.polygon, first.line + u.first.line});
     }
 
     const std::vector<std::string>& names() const { return names_; }
 
     /// The number of the name of each of `count` polygons.
     std::vector<std::uint32_t> per_polygon(std::size_t count) const {
+        return per_item(count, &Place::polygon);
+    }
+    /// The same of lines.
+    std::vector<std::uint32_t> per_line(std::size_t count) const {
+        return per_item(count, &Place::line);
+    }
+
+  private:
+    struct Use {
+        Place first;
+        std::uint32_t name;
+    };
+
+    std::vector<std::uint32_t> per_item(std::size_t count, std::size_t Place::*item) const {
         std::vector<std::uint32_t> numbers;
         reserve_large(numbers, count);
         std::uint32_t name = 0;
         for (const Use& u : uses_) {
-            numbers.resize(u.first_polygon, name);
+            numbers.resize(u.first.*item, name);
             name = u.name;
         }
         numbers.resize(count, name);
         return numbers;
     }
-
-  private:
-    struct Use {
-        std::size_t first_polygon;
-        std::uint32_t name;
-    };
 
     std::uint32_t number_of(std::string_view name) {
         const auto [it, is_new] =
@@ -54,9 +71,9 @@ class NameUses {
         if (is_new) names_.push_back(it->first);
         return it->second;
     }
-    void use(std::uint32_t name, std::size_t polygon) {
-        if (!uses_.empty() && uses_.back().first_polygon == polygon) uses_.pop_back();
-        uses_.push_back({polygon, name});
+    void use(std::uint32_t name, Place place) {
+        if (!uses_.empty() && uses_.back().first == place) uses_.pop_back();
+        uses_.push_back({place, name});
     }
 
     std::vector<std::string> names_;

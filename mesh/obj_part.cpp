@@ -113,17 +113,21 @@ class ObjParser {
         } else if (keyword == "l") {
             parse_marked_line(scan);
         } else if (keyword == "o") {
-            part_.objects.use(scan.rest(), soup_.polygon_ends.size());
+            part_.objects.use(scan.rest(), next_place());
         } else if (keyword == "g") {
-            part_.groups.use(scan.rest(), soup_.polygon_ends.size());
+            part_.groups.use(scan.rest(), next_place());
         } else if (keyword == "usemtl") {
-            part_.materials.use(scan.rest(), soup_.polygon_ends.size());
+            part_.materials.use(scan.rest(), next_place());
         } else if (keyword == "mtllib") {
             part_.material_files.emplace_back(scan.rest());
         } else {
             return false;
         }
         return true;
+    }
+
+    NameUses::Place next_place() const {
+        return {soup_.polygon_ends.size(), soup_.marked_edges.size()};
     }
 
     void parse_vertex(LineScanner& scan) {

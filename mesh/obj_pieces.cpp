@@ -11,12 +11,13 @@ namespace burin {
 namespace {
 
 struct Counts {
-    std::size_t vertices = 0, corners = 0, polygons = 0;
+    std::size_t vertices = 0, corners = 0, polygons = 0, lines = 0;
 
     void add(const PolygonSoup& soup) {
         vertices += soup.positions.size();
         corners += soup.corners.size();
         polygons += soup.polygon_ends.size();
+        lines += soup.marked_edges.size();
     }
 };
 
@@ -54,9 +55,10 @@ void append(ObjPart& whole, ObjPart part) {
     add(whole.soup.polygon_ends, part.soup.polygon_ends);
     add(whole.soup.marked_edges, part.soup.marked_edges);
     add(whole.material_files, part.material_files);
-    whole.objects.append(part.objects, before.polygons);
-    whole.groups.append(part.groups, before.polygons);
-    whole.materials.append(part.materials, before.polygons);
+    const NameUses::Place first{before.polygons, before.lines};
+    whole.objects.append(part.objects, first);
+    whole.groups.append(part.groups, first);
+    whole.materials.append(part.materials, first);
 }
 
 }  // namespace

@@ -48,19 +48,14 @@ glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners) {
 }
 
 ObjectCollector::ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
-                                 const std::vector<std::uint32_t>& welded)
+                                 const std::vector<std::uint32_t>& welded, const MarkedEdges& marks)
     : soup_(soup),
       positions_(positions),
       welded_(welded),
       local_(positions.size(), kUnused),
       is_corner_(positions.size(), false),
-      is_welded_corner_(positions.size(), false) {
-    for (const auto& [a, b] : soup.marked_edges) {
-        const std::uint32_t u = welded[a], v = welded[b];
-        if (u != v) marks_.push_back({std::min(u, v), std::max(u, v)});
-    }
-    std::sort(marks_.begin(), marks_.end());
-}
+      is_welded_corner_(positions.size(), false),
+      marks_(marks) {}
 
 PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end, MeshRepairs& repairs,
                                      std::vector<std::uint32_t>& dropped) {
@@ -110,15 +105,16 @@ void ObjectCollector::collapse(std::span<const std::uint32_t> corners, MeshRepai
 }
 
 /// The marks between vertices of the object.
-void ObjectCollector::add_marks(PolygonMesh& mesh) const {
+void ObjectCollector::add_marks(PolygonMesh& mesh) {
+    collected_marks_.clear();
     if (marks_.empty()) return;
     for (const std::uint32_t u : used_) {
-        const std::array<std::uint32_t, 2> first{u, u + 1};
-        for (auto it = std::lower_bound(marks_.begin(), marks_.end(), first);
-             it != marks_.end() && (*it)[0] == u; ++it) {
-            const std::uint32_t v = local_[(*it)[1]];
-            if (v != kUnused) mesh.marked_edges.push_back({local_[u], v});
-        }
+        marks_.for_marks_from(u, [&](std::size_t mark, std::uint32_t other) {
+            const std::uint32_t v = local_[other];
+            if (v == kUnused) return;
+            mesh.marked_edges.push_back({local_[u], v});
+            collected_marks_.push_back(mark);
+        });
     }
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/marked_edges.h"
 #include "mesh/mesh.h"
 #include "mesh/polygon_mesh.h"
 #include "mesh/polygon_soup.h"
@@ -27,20 +28,23 @@ glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners);
 /// nothing without area.
 class ObjectCollector {
   public:
-    /// `welded`: per vertex of the soup the number of the first one at its place.
+    /// `welded`: per vertex of the soup the number of the first one at its place. `marks`: of the
+    /// soup.
     ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
-                    const std::vector<std::uint32_t>& welded);
+                    const std::vector<std::uint32_t>& welded, const MarkedEdges& marks);
 
     /// The polygons groups.order[begin, end), which are all of one object. `dropped`: gets the places, from `begin` on, of those
     /// without area.
     PolygonMesh collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end, MeshRepairs& repairs,
                         std::vector<std::uint32_t>& dropped);
+    /// The numbers of the marks that the last object got, in the order of its marked edges.
+    const std::vector<std::size_t>& collected_marks() const { return collected_marks_; }
 
   private:
     static constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
 
     void collapse(std::span<const std::uint32_t> corners, MeshRepairs& repairs);
-    void add_marks(PolygonMesh& mesh) const;
+    void add_marks(PolygonMesh& mesh);
     void forget(const PolygonsByObject& groups, std::size_t begin, std::size_t end);
     bool has_no_area();
     std::uint32_t local_number(std::uint32_t v, PolygonMesh& mesh);
@@ -54,7 +58,8 @@ class ObjectCollector {
     // welding.
     std::vector<bool> is_corner_, is_welded_corner_;
     std::uint64_t corners_seen_ = 0, welded_corners_seen_ = 0;
-    std::vector<std::array<std::uint32_t, 2>> marks_;  // welded, smaller vertex first, sorted
+    const MarkedEdges& marks_;
+    std::vector<std::size_t> collected_marks_;
     std::vector<std::uint32_t> corners_;
     std::vector<glm::dvec3> places_;  // of corners_
 };

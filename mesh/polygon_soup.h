@@ -28,6 +28,7 @@ struct PolygonSoup {
     std::vector<std::uint32_t> polygon_object;    ///< per polygon; empty: all are object 0
     std::vector<std::uint32_t> polygon_material;  ///< per polygon; empty: all have material 0
     std::vector<std::array<std::uint32_t, 2>> marked_edges;  ///< vertex numbers
+    std::vector<std::uint32_t> marked_edge_object;  ///< per marked edge; empty: all are of object 0
     std::vector<std::string> object_names;                   ///< at least one
     std::vector<Material> materials;                         ///< at least one
     std::uint64_t non_finite_polygons = 0;                   ///< left out: a coordinate is not finite or beyond 1e30
@@ -46,6 +47,10 @@ struct PolygonSoup {
     }
     std::uint32_t object_of(std::size_t i) const {
         return polygon_object.empty() ? 0 : polygon_object[i];
+    }
+    /// Counts where no polygon has the marked edge: a polygon's own marks are its object's.
+    std::uint32_t object_of_mark(std::size_t i) const {
+        return marked_edge_object.empty() ? 0 : marked_edge_object[i];
     }
     std::uint32_t material_of(std::size_t i) const {
         return polygon_material.empty() ? 0 : polygon_material[i];

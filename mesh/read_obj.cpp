@@ -32,8 +32,10 @@ void check(const std::string& path, const ObjPart& file) {
     if (file.soup.positions.empty()) {
         throw InputError(path + ": no vertices found; is this an OBJ file?");
     }
-    if (file.soup.polygon_ends.empty()) {
-        throw InputError(path + ": no polygons found; burin draws the lines of surfaces");
+    if (file.soup.polygon_ends.empty() && file.soup.marked_edges.empty()) {
+        throw InputError(path +
+                         ": no polygons and no lines found; burin draws the lines of surfaces, and "
+                         "lines by themselves");
     }
 }
 
@@ -42,6 +44,8 @@ PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::str
     const bool has_objects = file.objects.names().size() > 1;
     const NameUses& objects = has_objects ? file.objects : file.groups;
     soup.polygon_object = objects.per_polygon(soup.polygon_ends.size());
+    if (!soup.marked_edges.empty())
+        soup.marked_edge_object = objects.per_line(soup.marked_edges.size());
     soup.polygon_material = file.materials.per_polygon(soup.polygon_ends.size());
     soup.object_names = objects.names();
     soup.object_names[0] = std::filesystem::path(path).stem().string();

@@ -75,9 +75,10 @@ class BodyReader {
             throw InputError(path_ +
                              ": the file has no vertices; burin draws the lines of surfaces");
         }
-        if (soup_.polygon_count() == 0) {
+        if (soup_.polygon_count() == 0 && soup_.marked_edges.empty()) {
             throw InputError(path_ +
-                             ": the file has no polygons; burin draws the lines of surfaces");
+                             ": the file has no polygons and no edges; burin draws the lines of "
+                             "surfaces, and edges by themselves");
         }
         if (largest_plain_ >= soup_.positions.size()) {
             soup_ = {};

@@ -166,6 +166,7 @@ Mesh VertexClusters::merge() {
         result.polygon_normals.clear();
         result.triangle_polygon.clear();
     }
+    for (auto& edge : result.loose_edges) edge = {stand_in(edge[0]), stand_in(edge[1])};
     result.next_on_edge = link_edges(result.triangles, result.positions.size());
     spread_marks(result);
     result.borders = index_borders(result);
@@ -180,6 +181,7 @@ Mesh with_polygons_of(const Mesh& mesh) {
     result.input_order = mesh.input_order;
     result.polygon_material = mesh.polygon_material;
     result.repairs = mesh.repairs;
+    result.loose_edges = mesh.loose_edges;
     result.polygon_normals = mesh.polygon_normals;
     if (!result.polygon_normals.empty()) return result;
     result.polygon_normals.reserve(mesh.triangles.size());

@@ -19,7 +19,7 @@ constexpr std::string_view kHerrell = "Herrell, Baldwin, Wilcox, High-Quality Po
 
 constexpr std::array kMethods = {
     Method{"abuffer", "Burin; after Mayur Patel, 2000, and Loren Carpenter, 1984", LineClassSet::all(),
-           render_abuffer, nullptr, abuffer_finishes_in_bands},
+           render_abuffer, nullptr, abuffer_finishes_in_bands, true},
     Method{"patel", "Mayur Patel, Hidden Line Rendering with a Modified A-Buffer, 2000",
            LineClassSet::all(), render_patel},
     Method{"gbuffer", "Saito and Takahashi, Comprehensible Rendering of 3-D Shapes, SIGGRAPH 1990",

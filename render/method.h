@@ -36,6 +36,7 @@ struct Method {
     LineClassSet (*also_finds)(LineClassSet asked) = nullptr;
     /// Whether it finishes bands of a frame one after the other, and calls RunOptions::finished_band. nullptr: never.
     bool (*finishes_in_bands)(const Frame&) = nullptr;
+    bool draws_loose_edges = false;  ///< lines of class mark that no polygon has
 };
 
 }  // namespace burin

@@ -62,6 +62,7 @@ std::uint64_t feature_bytes(const Frame& frame, const ScreenSurfaces& screen) {
     for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
         const std::size_t count = frame.surfaces.instances[i].mesh->triangles.size();
         const std::uint8_t* const sharp = screen.sharp_edges(i);
+        sides += 2 * frame.surfaces.instances[i].mesh->loose_edges.size();
         for (std::size_t t = 0; t < count; ++t) sides += sharp == nullptr ? 3u : static_cast<unsigned>(std::popcount(sharp[t] & 7u));
     }
     return sides * kBytes;

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "methods/abuffer/layers/layer_edges.h"
+#include "methods/abuffer/screen/edge_on_screen.h"
 #include "methods/abuffer/screen/triangle_bins.h"
 
 namespace burin {
@@ -26,7 +28,7 @@ constexpr std::uint64_t kPerLayerInTile = 500;  // a triangle in a LayerTile and
 // Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.
 constexpr std::uint64_t kLinesPerVisible = 256, kLinesPerPixel = 32, kLinesPerLayer = 100;
 
-struct Box {  // in pixels
+struct ScreenExtent {  // in pixels
     glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
     void reach(double x, double y) {
         low = glm::min(low, glm::dvec2(x, y) / 256.0);
@@ -42,7 +44,7 @@ struct Tally {
 };
 
 /// The box of a triangle, nothing to the right of nothing if it is not seen; whether it counts as large.
-bool find_box(const ScreenSurfaces& screen, SurfaceId s, Box& box) {
+bool find_box(const ScreenSurfaces& screen, SurfaceId s, ScreenExtent& box) {
     const ScreenTriangle t = screen.triangle(s);
     const bool is_off = std::any_of(std::begin(t.corners), std::end(t.corners),
                                     [](const ScreenVertex& v) { return v.x == ScreenVertex::kOffScreen; });
@@ -84,6 +86,7 @@ PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int 
 void PieceCosts::add(ScreenSurfaces& screen) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     if (has_fine_) find_edges(screen, chunks);
+    add_loose_edges(screen);
     std::vector<Tally> tallies(static_cast<std::size_t>(threads_));
     const auto row_of = [](const PixelTiles& tiles, std::uint32_t tile) {
         return tile / static_cast<std::uint32_t>(tiles.columns());
@@ -100,7 +103,7 @@ void PieceCosts::add(ScreenSurfaces& screen) {
         }
         for (std::uint32_t triangle = chunks[c].begin; triangle < chunks[c].end; ++triangle) {
             const SurfaceId s{chunks[c].instance, triangle};
-            Box box;
+            ScreenExtent box;
             const bool is_large = find_box(screen, s, box);
             if (!(box.low.x <= box.high.x)) continue;
             if (layers_ != nullptr) {
@@ -141,6 +144,33 @@ void PieceCosts::add(ScreenSurfaces& screen) {
         add_to(counts_.layer_touches, tally.layer_touches);
         add_to(layer_tile_touches_, tally.layer_tile_touches);
         add_to(fine_tile_bytes_, tally.fine_tile_bytes);
+    }
+}
+
+/// As if marks were asked for, whether they are or not.
+void PieceCosts::add_loose_edges(const ScreenSurfaces& screen) {
+    const auto row_of = [](const PixelTiles& tiles, std::uint32_t tile) {
+        return tile / static_cast<std::uint32_t>(tiles.columns());
+    };
+    for (const LooseChunk& chunk : chunks_of_loose_edges(screen, LineClass::mark)) {
+        const Mesh& mesh = *screen.surfaces().instances[chunk.instance].mesh;
+        for (HalfEdge number = chunk.begin; number < chunk.end; ++number) {
+            const auto [from, to] = mesh.loose_edge(number);
+            const auto edge = edge_on_screen(screen, chunk.instance, from, to);
+            if (!edge) continue;
+            ScreenExtent box;
+            for (const glm::dvec2& end : {edge->from, edge->to}) box.reach(end.x, end.y);
+            visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_,
+                           [&](std::uint32_t tile) {
+                               counts_.visible_bytes[row_of(visible_, tile)] += kPerEdge;
+                               ++counts_.visible_touches[row_of(visible_, tile)];
+                               if (has_fine_) fine_tile_bytes_[tile] += kPerEdgeInTile;
+                           });
+            if (layers_ == nullptr) continue;
+            layers_->visit(box.low, box.high, [&](std::uint32_t tile) {
+                ++counts_.layer_touches[row_of(*layers_, tile)];
+            });
+        }
     }
 }
 
@@ -188,7 +218,7 @@ std::uint64_t PieceCosts::largest_fine_tile() const {
 InstanceExtent PieceCosts::extent_of(const ScreenSurfaces& screen, std::uint32_t instance) {
     const std::size_t count = screen.surfaces().instances[instance].mesh->positions.size();
     const ScreenVertex* const v = screen.vertices(instance);
-    Box box;
+    ScreenExtent box;
     for (std::size_t i = 0; i < count; ++i) {
         if (v[i].x == ScreenVertex::kOffScreen) return {glm::dvec2(-kGuardBandPx), glm::dvec2(kGuardBandPx)};
         box.reach(v[i].x, v[i].y);

@@ -38,6 +38,7 @@ class PieceCosts {
 
   private:
     void find_edges(ScreenSurfaces& screen, const std::vector<TriangleChunk>& chunks) const;
+    void add_loose_edges(const ScreenSurfaces& screen);
 
     PixelTiles visible_;
     const PixelTiles* layers_;

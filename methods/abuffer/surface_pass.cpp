@@ -74,10 +74,16 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
     Stopwatch watch;
     const int per_pixel = samples_per_pixel_of(*frame_.scene);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
-    const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples, has_fine);
+    const std::vector<LooseChunk> loose = chunks_of_loose_edges(screen_, frame_.criteria.classes);
+    const bool has_edges = has_fine || !loose.empty();
+    const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples,
+                            has_edges);
     std::optional<FineEdges> fine_edges;
     const PixelTiles grid(region, tile_samples / per_pixel);
-    if (has_fine) fine_edges.emplace(screen_, possible_lines_.emplace(screen_, threads_), grid, per_pixel, threads_);
+    if (has_fine) possible_lines_.emplace(screen_, threads_);
+    if (has_edges)
+        fine_edges.emplace(screen_, has_fine ? &*possible_lines_ : nullptr, loose, grid, per_pixel,
+                           threads_);
     if (!screen_.shows_all()) possible_lines_.reset();
     stats.prepare_s += watch.lap();
 
@@ -116,18 +122,21 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
             line_tiles[w] = std::make_unique<LineTile>(frame_, screen_, bins, *tiles[w], kernels_);
         }
         if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame_, screen_, kernels_);
-        if (has_fine && !fine_lines[w]) fine_lines[w] = std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region);
+        if (has_edges && !fine_lines[w])
+            fine_lines[w] = std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region);
         std::vector<LineSegment>& lines = lines_of[w];
         lines.clear();
         const auto add_fine_lines = [&] {
             parts[w].clear();
-            fine_parts[w].find(tiles[w]->samples(), fine_edges->in(index), lines, parts[w]);
+            fine_parts[w].find(tiles[w]->samples(), fine_edges->in(index),
+                               fine_edges->loose_in(index), lines, parts[w]);
             fine_lines[w]->find(index, parts[w], lines);
         };
         Stopwatch lap;
         if (bins.is_empty(index)) {
             fillers[w]->clear(bins.empty_tiles_from(index), film);
-            if (has_fine && !fine_edges->in(index).empty()) {  // it may have what is smaller than a sample
+            if (has_edges &&
+                fine_edges->has_any(index)) {  // it may have what is smaller than a sample
                 tiles[w]->draw(index);
                 add_fine_lines();
             }
@@ -135,7 +144,7 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
             tiles[w]->draw(index);
             times[w].raster += lap.lap();
             line_tiles[w]->find_lines(index, lines);
-            if (has_fine) add_fine_lines();
+            if (has_edges) add_fine_lines();
             times[w].lines += lap.lap();
             fillers[w]->fill(*tiles[w], film);
         }

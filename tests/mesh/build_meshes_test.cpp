@@ -301,9 +301,10 @@ TEST(BuildMeshes, MaterialsStayWithTheirPolygons) {
 
 TEST(BuildMeshes, MarksFindTheirEdgesAfterWelding) {
     PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}, {3, 4, 5}});
-    soup.marked_edges = {{4, 0}, {5, 3}, {1, 5}, {6, 0}, {0, 3}};  // not there: 1-5, to a vertex without polygon, of no length
+    soup.marked_edges = {{4, 0}, {5, 3}, {1, 5}, {6, 0}, {0, 3}};  // loose: 1-5, to a vertex without polygon; of no length
     const Mesh mesh = build_one(soup);
-    EXPECT_EQ(count_edges(mesh).marked, 2u);
+    EXPECT_EQ(count_edges(mesh).marked, 4u);
+    EXPECT_EQ(count_edges(mesh).loose, 2u);
     EXPECT_EQ(mesh.marked, (std::vector<bool>{false, false, true, true, false, true}));
     EXPECT_TRUE(mesh.is_marked(2));
     soup.marked_edges.clear();
@@ -325,9 +326,10 @@ TEST(BuildMeshes, MarksBelongToAllObjectsWithTheEdge) {
 TEST(BuildMeshes, AMarkedDiagonalIsCountedThoughItIsNoEdgeOfAPolygon) {
     PolygonSoup soup = soup_of(kSquare, {{0, 1, 2, 3}});
     EXPECT_EQ(count_edges(build_one(soup)).marked, 0u);
-    soup.marked_edges = {{0, 1}, {0, 2}, {1, 3}};  // one of the diagonals cuts the square
+    soup.marked_edges = {{0, 1}, {0, 2}, {1, 3}};  // one of the diagonals cuts the square, the other one is a loose line
     const EdgeCounts counts = count_edges(build_one(soup));
-    EXPECT_EQ(counts.marked, 2u);
+    EXPECT_EQ(counts.marked, 3u);
+    EXPECT_EQ(counts.loose, 1u);
     EXPECT_EQ(counts.edges, 4u);
 }
 

@@ -39,6 +39,7 @@ std::string difference(const PolygonSoup& a, const PolygonSoup& b) {
     if (a.polygon_object != b.polygon_object) return "objects";
     if (a.polygon_material != b.polygon_material) return "materials";
     if (a.marked_edges != b.marked_edges) return "marked edges";
+    if (a.marked_edge_object != b.marked_edge_object) return "objects of marked edges";
     if (a.object_names != b.object_names) return "names of objects";
     if (!std::equal(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(), same_material)) {
         return "colours of materials";
@@ -157,7 +158,7 @@ TEST_F(ObjPieces, TheFirstErrorIsTheOneReported) {
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\r\nf 1 \\\r\n2\r\nf 1 2 3\nf 1 2", ":9: the file ends in the middle of a face"));
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\nf 1", ":6: the file ends in the middle of a face"));
     EXPECT_TRUE(is_read(kSquare + "f 1 2 3\nf 1\nf\nl 1\nf 1 2\n"));
-    EXPECT_TRUE(is_refused(kSquare + "l 1 2\n\n", "no polygons found"));
+    EXPECT_TRUE(is_refused(kSquare + "l 1\n\n", "no polygons and no lines found"));
     EXPECT_TRUE(is_refused("hello\nworld\n", "no vertices found"));
     EXPECT_TRUE(is_refused(std::string("\xFF\xFEv\0\n\0 \n", 8), "UTF-16"));
 }

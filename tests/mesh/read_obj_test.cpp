@@ -259,7 +259,7 @@ TEST_F(ReadObj, TextThatIsNoObjIsRefused) {
     EXPECT_TRUE(refuses(std::string("\xFE\xFF\0v\0 ", 6), {"UTF-16"}));
     EXPECT_TRUE(refuses("hello\nworld\n", {"no vertices"}));
     EXPECT_TRUE(refuses(kSquare, {"no polygons"}));
-    EXPECT_TRUE(refuses(kSquare + "l 1 2\n", {"no polygons"}));
+    EXPECT_TRUE(refuses(kSquare + "l 1\n", {"no polygons"}));
     EXPECT_TRUE(refuses("", {"empty"}));
     EXPECT_TRUE(test::refuses(read_file, folder_.file("none.obj"), {"cannot open"}));
     EXPECT_TRUE(test::refuses(read_file, folder_.path(), {"not a regular file"}));

@@ -199,7 +199,8 @@ TEST(Memory, ListsOfEdgesAreCountedFromAbove) {
             return costs.visible().bins;
         };
         const std::vector<std::uint64_t> plain = rows(false), all = rows(true);
-        const FineEdges edges(screen, PossibleLines(screen, 1), tiles, kSamples, 1);
+        const PossibleLines possible(screen, 1);
+        const FineEdges edges(screen, &possible, {}, tiles, kSamples, 1);
         std::uint64_t count = 0;
         for (std::size_t row = 0; row < all.size(); ++row) {
             std::uint64_t in_row = 0;

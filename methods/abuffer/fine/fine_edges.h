@@ -39,13 +39,19 @@ struct SampleBlocks {
 /// miss. Left to the samples are edges of more than two triangles: which of them is seen makes the line.
 class FineEdges {
   public:
-    FineEdges(const ScreenSurfaces& screen, const PossibleLines& possible, const PixelTiles& tiles, int samples_per_pixel, int threads);
+    /// `possible`: nullptr if there are to be loose edges only.
+    FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible,
+              std::span<const LooseChunk> loose, const PixelTiles& tiles, int samples_per_pixel,
+              int threads);
 
     /// Those that touch squares of samples of a tile.
     std::span<const TileEdge> in(std::size_t tile) const { return lists_.of(tile); }
+    /// The loose edges that do, which no sample sees.
+    std::span<const TileEdge> loose_in(std::size_t tile) const { return loose_lists_.of(tile); }
+    bool has_any(std::size_t tile) const { return !in(tile).empty() || !loose_in(tile).empty(); }
 
   private:
-    TileLists<TileEdge> lists_;
+    TileLists<TileEdge> lists_, loose_lists_;
 };
 
 }  // namespace burin

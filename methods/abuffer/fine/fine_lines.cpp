@@ -49,7 +49,7 @@ class FineLines::BlockClipper {
         const auto slack_of = [&](double level_px) { return level_slack(screen_.surfaces(), nearest, level_px) + by_snapping; };
         const double slack = slack_of(kLevelPx), coincident = slack_of(kCoincidentPx), certain = slack_of(kCertainPx);
         const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
-        const bool is_border = line.owners[0] == line.owners[1];
+        const bool is_border = line.owners[0] == line.owners[1], is_by_itself = line.is_by_itself();
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         hidden_.clear();
         double reached = begin;  // as far as no piece is left
@@ -67,7 +67,9 @@ class FineLines::BlockClipper {
                           // apart.
                           const bool is_own_mesh = t.instance == candidate.part.edge.instance;
                           const double touching = slack + t.slack;
-                          const double level = !is_own_mesh ? certain + t.slack : is_border ? rounding + t.slack : rounding;
+                          const double level = !is_own_mesh || is_by_itself ? certain + t.slack
+                                               : is_border              ? rounding + t.slack
+                                                                        : rounding;
                           // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
                           // its edges, too, for its neighbour there may turn away.
                           HiddenParts parts;
@@ -81,7 +83,7 @@ class FineLines::BlockClipper {
                               return contacts_.is_seen_instead(line, begin, end, t, touching) ||
                                      contacts_.is_flush(line, most_from, most_to, t, touching, criteria_, false);
                           };
-                          if (!is_settled && is_none()) {
+                          if (!is_settled && !is_by_itself && is_none()) {
                               from = most_from;
                               to = most_to;
                           } else if (!parts.is_any) {
@@ -101,6 +103,11 @@ class FineLines::BlockClipper {
             reached = std::max(reached, h.end);
         }
         add_wide(candidate, reached, end, shortest, segments);
+    }
+
+    /// Adds all of a candidate, whatever is in front of it.
+    void add_all(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
+        add(candidate, candidate.part.begin, candidate.part.end, segments);
     }
 
   private:
@@ -165,13 +172,19 @@ class FineLines::BlockClipper {
     /// Adds what is no negligible fold.
     void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
                   std::vector<LineSegment>& segments) {
-        if (candidate.line.classes.has(LineClass::silhouette)) {
+        if (candidate.line.classes.has(LineClass::silhouette) && !candidate.line.is_wire) {
             const double step = kWidthStepPx / candidate.line.length_px();
             // At a vertex rounding says which triangle one gets to.
             const double inset = std::min(0.5, 0.5 * step);
             const auto is_wide_at = [&](double t) { return is_wide(candidate, std::clamp(t, inset, 1 - inset)); };
-            while (end - begin > shortest && !is_wide_at(begin)) begin = std::min(end, begin + step);
-            while (end - begin > shortest && !is_wide_at(end)) end = std::max(begin, end - step);
+            // A fold that begins narrow is none before it is wide, unless it is a tip of something by itself.
+            const auto is_wire_at = [&](double t) { return is_wire(candidate, std::clamp(t, inset, 1 - inset)); };
+            if (!is_wide_at(begin) && !is_wire_at(begin)) {
+                while (end - begin > shortest && !is_wide_at(begin)) begin = std::min(end, begin + step);
+            }
+            if (end - begin > shortest && !is_wide_at(end) && !is_wire_at(end)) {
+                while (end - begin > shortest && !is_wide_at(end)) end = std::max(begin, end - step);
+            }
         }
         if (end - begin > shortest) add(candidate, begin, end, segments);
     }
@@ -182,6 +195,12 @@ class FineLines::BlockClipper {
         const ScreenMesh& mesh = screen_.mesh(candidate.part.edge.instance);
         const double nearness = candidate.line.nearness_at(t);
         return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
+    }
+
+    /// Whether the surface closes around at a contour, as a wire's does.
+    bool is_wire(const FineCandidate& candidate, double t) const {
+        const LayerLine& line = candidate.line;
+        return ring_around(screen_.mesh(candidate.part.edge.instance), candidate.part.edge.half_edge, line.at(t), line.nearness_at(t), 0) != Ring::none;
     }
 
     void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
@@ -246,8 +265,10 @@ class FineLines::BlockClipper {
     /// Of the way from the line's beginning to its end.
     bool is_front_on_left(const FineCandidate& candidate) const {
         const LayerLine& line = candidate.line;
-        const int side = line.front_side != 0 ? line.front_side : owner_side(candidate);
-        // Of a surface that is seen edge-on, either side will do, but the same one whichever way the line runs.
+        const int side =
+            line.front_side != 0 || line.is_loose() ? line.front_side : owner_side(candidate);
+        // Of a loose edge, or a surface that is seen edge-on, either side will do, but the same one
+        // whichever way the line runs.
         if (side == 0) return line.from.x != line.to.x ? line.from.x < line.to.x : line.from.y < line.to.y;
         return side < 0;  // y runs down
     }
@@ -291,8 +312,30 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
         clipper_->set_triangles(blocks_.triangles(block),
                                 glm::ivec2(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y))),
                                 blocks_.candidates(block).size());
-        if (blocks_.candidates(block).size() * clipper_->triangles_per_cell() > kMostLooks) continue;
-        for (const std::uint32_t i : blocks_.candidates(block)) clipper_->add_visible(candidates_[i], segments);
+        find_in_block(block, segments);
+    }
+}
+
+void FineLines::find_in_block(std::size_t block, std::vector<LineSegment>& segments) {
+    const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
+    const auto are_few = [&](std::size_t count) {
+        return count * clipper_->triangles_per_cell() <= kMostLooks;
+    };
+    if (are_few(numbers.size())) {
+        for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], segments);
+        return;
+    }
+    // Of loose edges samples tell nothing: where they alone are too many, all of them are drawn.
+    const auto is_loose_one = [&](std::uint32_t i) { return candidates_[i].line.is_loose(); };
+    const bool are_few_loose = are_few(
+        static_cast<std::size_t>(std::count_if(numbers.begin(), numbers.end(), is_loose_one)));
+    for (const std::uint32_t i : numbers) {
+        if (!is_loose_one(i)) continue;
+        if (are_few_loose) {
+            clipper_->add_visible(candidates_[i], segments);
+        } else {
+            clipper_->add_all(candidates_[i], segments);
+        }
     }
 }
 
@@ -314,7 +357,8 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
             candidate.part.begin = begin;
             candidate.part.end = end;
             // The other patch of a seam may hide it.
-            if (screen_.mesh(instance).partners[h] == h) candidate.line.owners[1] = candidate.line.owners[0];
+            if (!line.is_loose() && screen_.mesh(instance).partners[h] == h)
+                candidate.line.owners[1] = candidate.line.owners[0];
         }
     }
 }
@@ -323,6 +367,11 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
 std::span<const LayerLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
     constexpr std::size_t kKnownBorders = 1 << 14;
     const SurfaceId s{instance, h / 3};
+    if (is_loose({instance, h})) {
+        lines_.clear();
+        finder_.find_loose(instance, h, lines_);
+        return lines_;
+    }
     if (screen_.mesh(instance).partners[h] != h) {
         lines_.clear();
         finder_.find(s, h, lines_);

@@ -28,6 +28,10 @@ class FineLines {
     class BlockClipper;
     void find_candidates(std::span<const FinePart> parts);
     std::span<const LayerLine> lines_of(std::uint32_t instance, HalfEdge h);
+    bool is_loose(const FineEdge& edge) const {
+        return edge.half_edge >= 3 * screen_.mesh(edge.instance).triangle_count;
+    }
+    void find_in_block(std::size_t block, std::vector<LineSegment>& segments);
 
     const ScreenSurfaces& screen_;
     SampleBlocks grid_;

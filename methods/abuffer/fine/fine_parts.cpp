@@ -47,16 +47,70 @@ std::pair<int, int> columns_beside(const EdgeOnScreen& edge, double top, double 
 
 }  // namespace
 
-void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
-                     std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
-    if (edges.empty()) return;
-    find_farthest(samples);
-    drawn_.set(drawn);
+FineParts::BlockRange FineParts::blocks_around(const SampleTile& samples,
+                                               const EdgeOnScreen& edge) {
     const SampleBlocks blocks(samples.samples_per_pixel);
-    const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
+    const glm::dvec2 low = glm::min(edge.from, edge.to), high = glm::max(edge.from, edge.to);
+    return {blocks.at(floor_to_int(low.x)), blocks.at(floor_to_int(low.y)),
+            blocks.at(floor_to_int(high.x)), blocks.at(floor_to_int(high.y))};
+}
+
+/// Calls visit(x, y, begin, end) for the tile's blocks that an edge touches, but where it is far
+/// behind, and the part of it there.
+template <typename Visit>
+void FineParts::for_blocks(const SampleTile& samples, const EdgeOnScreen& edge,
+                           const BlockRange& range, const Visit& visit) const {
+    const SampleBlocks blocks(samples.samples_per_pixel);
+    const int shift =
+        std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
     const int first_x = samples.first_column >> shift,
               last_x = (samples.first_column + samples.columns - 2) >> shift;
-    const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
+    const int first_y = samples.first_row >> shift,
+              last_y = (samples.first_row + samples.rows - 2) >> shift;
+    for (int y = std::max(range.y0, first_y); y <= std::min(range.y1, last_y); ++y) {
+        const auto [left, right] = columns_beside(edge, blocks.begin(y), blocks.begin(y + 1));
+        const int from = std::max({range.x0, first_x, blocks.at(left)}),
+                  to = std::min({range.x1, last_x, blocks.at(right)});
+        for (int x = from; x <= to; ++x) {
+            double begin = 0, end = 1;
+            if (!range.is_one()) {
+                const glm::dvec2 low(blocks.begin(x), blocks.begin(y)),
+                    high(blocks.begin(x + 1), blocks.begin(y + 1));
+                if (!clip_to_rect(edge.from, edge.to, low, high, begin, end)) continue;
+                if (is_behind(blocks_, samples, edge, begin, end)) continue;
+            }
+            visit(x, y, begin, end);
+        }
+    }
+}
+
+void FineParts::find_loose(const SampleTile& samples, std::span<const TileEdge> loose,
+                           std::vector<FinePart>& parts) const {
+    for (const TileEdge& e : loose) {
+        if (is_surely_behind(e, samples)) continue;
+        const auto [one, two] =
+            screen_.surfaces().instances[e.edge.instance].mesh->loose_edge(e.edge.half_edge);
+        const auto [first, second] = ends_in_order(screen_, e.edge.instance, one, two);
+        const auto edge = edge_on_screen(screen_, e.edge.instance, first, second);
+        if (!edge) continue;
+        const BlockRange range = blocks_around(samples, *edge);
+        if (is_behind(range.is_one() ? blocks_ : areas_, samples, *edge, 0, 1)) continue;
+        for_blocks(samples, *edge, range, [&](int x, int y, double begin, double end) {
+            parts.push_back({e.edge, x, y, begin, end});
+        });
+    }
+}
+
+void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
+                     std::span<const TileEdge> loose, std::span<const LineSegment> drawn,
+                     std::vector<FinePart>& parts) {
+    if (edges.empty() && loose.empty()) return;
+    find_farthest(samples);
+    find_loose(samples, loose, parts);
+    if (edges.empty()) return;
+    drawn_.set(drawn);
+    const int shift =
+        std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
     asked_.clear();
     for (const TileEdge& edge : edges) {
         if (is_surely_behind(edge, samples)) continue;
@@ -88,21 +142,12 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
         const auto on_screen = edge_on_screen(screen_, e.instance, first, second);
         if (!on_screen) continue;
         const EdgeOnScreen& edge = *on_screen;
-        const glm::dvec2 low = glm::min(edge.from, edge.to), high = glm::max(edge.from, edge.to);
-        const int x0 = blocks.at(floor_to_int(low.x)), x1 = blocks.at(floor_to_int(high.x));
-        const int y0 = blocks.at(floor_to_int(low.y)), y1 = blocks.at(floor_to_int(high.y));
-        const bool is_in_one = x0 == x1 && y0 == y1;
-        if (is_behind(is_in_one ? blocks_ : areas_, samples, edge, 0, 1)) continue;
+        const BlockRange range = blocks_around(samples, edge);
+        if (is_behind(range.is_one() ? blocks_ : areas_, samples, edge, 0, 1)) continue;
         const Owners owners = owners_of(e);
         const HalfEdge partner = mesh.partners[e.half_edge];
         const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
-        const auto look_at = [&](int x, int y) {
-            double begin = 0, end = 1;
-            if (!is_in_one) {
-                const glm::dvec2 from(blocks.begin(x), blocks.begin(y)), to(blocks.begin(x + 1), blocks.begin(y + 1));
-                if (!clip_to_rect(edge.from, edge.to, from, to, begin, end)) return;
-                if (is_behind(blocks_, samples, edge, begin, end)) return;
-            }
+        for_blocks(samples, edge, range, [&](int x, int y, double begin, double end) {
             const std::uint32_t block =
                 static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
             find_undrawn(edge, begin, end, drawn_.of_line(block, key));
@@ -116,12 +161,7 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
             }
             if (!takes_rests_ && !open_.empty() && is_drawn_by_another(edge, block)) return;
             for (const Interval& i : open_) parts.push_back({e, x, y, i.begin, i.end});
-        };
-        for (int y = std::max(y0, first_y); y <= std::min(y1, last_y); ++y) {
-            const auto [left, right] = columns_beside(edge, blocks.begin(y), blocks.begin(y + 1));
-            const int from = std::max({x0, first_x, blocks.at(left)}), to = std::min({x1, last_x, blocks.at(right)});
-            for (int x = from; x <= to; ++x) look_at(x, y);
-        }
+        });
     }
 }
 

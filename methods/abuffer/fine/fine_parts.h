@@ -26,8 +26,10 @@ class FineParts {
     /// others with a gap between them narrower than a sample (completes_lines()).
     FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests);
 
-    /// `drawn`: the lines found in the tile, as a SegmentMerger leaves them.
-    void find(const SampleTile& samples, std::span<const TileEdge> edges, std::span<const LineSegment> drawn,
+    /// `drawn`: the lines found in the tile, as a SegmentMerger leaves them. Of loose edges, which
+    /// samples never tell of, all that is not clearly behind.
+    void find(const SampleTile& samples, std::span<const TileEdge> edges,
+              std::span<const TileEdge> loose, std::span<const LineSegment> drawn,
               std::vector<FinePart>& parts);
 
   private:
@@ -39,6 +41,17 @@ class FineParts {
     struct Interval {
         double begin, end;
     };
+    /// The blocks that an edge may touch.
+    struct BlockRange {
+        int x0, y0, x1, y1;
+        bool is_one() const { return x0 == x1 && y0 == y1; }
+    };
+    static BlockRange blocks_around(const SampleTile& samples, const EdgeOnScreen& edge);
+    template <typename Visit>
+    void for_blocks(const SampleTile& samples, const EdgeOnScreen& edge, const BlockRange& range,
+                    const Visit& visit) const;
+    void find_loose(const SampleTile& samples, std::span<const TileEdge> loose,
+                    std::vector<FinePart>& parts) const;
     void find_farthest(const SampleTile& samples);
     Owners owners_of(FineEdge edge) const;
     int side_at(FineEdge edge, HalfEdge h) const;

@@ -15,6 +15,8 @@ namespace {
 
 /// A triangle lower than this is a fold that is no contour (docs/conventions.md). 1/64 pixel.
 constexpr double kThinSubpixels = 4;
+/// Shorter edges are no part of a wire: of meshes with very many triangles in a pixel nearly all are. 1/16 pixel.
+constexpr std::int64_t kShortestOfWireSubpixels = 16;
 /// So far beyond a wall nothing is left to be asked. Pixels.
 constexpr double kPastWallPx = 1.0 / 16;
 /// Where there are more on the way to a wall, it is one of very many in a pixel.
@@ -171,6 +173,15 @@ bool EdgeSides::is_negligible_fold(std::uint32_t instance, HalfEdge h) const {
     if (glm::distance(from, to) > kSubpixelsPerPixel) return false;
     const double nearness = 0.5 * (static_cast<double>(a.nearness) + static_cast<double>(b.nearness));
     return !is_fold_wide(mesh, h, 0.5 * (from + to), nearness, 32 * level_slack(surfaces_, nearness));
+}
+
+bool EdgeSides::is_front_of_wire(std::uint32_t instance, HalfEdge h) const {
+    const ScreenMesh& mesh = screen_.mesh(instance);
+    const ScreenVertex &a = mesh.vertices[mesh.corners[h]], &b = mesh.vertices[mesh.corners[h - h % 3 + (h + 1) % 3]];
+    if (is_off_screen(a) || is_off_screen(b) || square(a, b) <= kShortestOfWireSubpixels * kShortestOfWireSubpixels) return false;
+    const glm::dvec2 middle = 0.5 * (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y));
+    const double nearness = 0.5 * (static_cast<double>(a.nearness) + static_cast<double>(b.nearness));
+    return ring_around(mesh, h, middle, nearness, level_slack(surfaces_, nearness, kCertainPx)) == Ring::in_front;
 }
 
 std::optional<HalfEdge> EdgeSides::past_sliver(std::uint32_t instance, HalfEdge h) const {

@@ -38,6 +38,8 @@ class EdgeSides {
     bool ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond) const;
     /// Whether an edge, so short that its middle stands for all of it, is the rim of a fold too narrow for a contour.
     bool is_negligible_fold(std::uint32_t instance, HalfEdge h) const;
+    /// Whether an edge of two triangles is the one in front of a wire (ring_around()).
+    bool is_front_of_wire(std::uint32_t instance, HalfEdge h) const;
     /// Of a border: the half-edge itself, or that of the triangle behind its sliver, whose normal says nothing. Nothing if there
     /// is none: a needle that stands by itself or on an edge of others is no surface.
     std::optional<HalfEdge> past_sliver(std::uint32_t instance, HalfEdge h) const;

@@ -1,6 +1,7 @@
 #include "methods/abuffer/layers/fold_width.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include "lines/surface_walk.h"
 
@@ -17,6 +18,11 @@ struct PlaceOnEdge {
     glm::dvec2 at;
     double nearness, level;
 };
+
+/// A wire is no wider. 1/8 pixel.
+constexpr double kWidestWireSubpixels = 32;
+/// A wire has no more triangles around it.
+constexpr int kMostAroundWire = 256;
 
 enum class Reach { narrow, comes_back, goes_on };
 
@@ -111,7 +117,44 @@ class FoldWalk {
     const PlaceOnEdge& from_;
 };
 
+/// ring_around() along rows or columns.
+template <bool along_x>
+Ring ring_along(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& from) {
+    const double row = along_x ? from.at.y : from.at.x, place = along_x ? from.at.x : from.at.y;
+    const auto vertex = [&](HalfEdge h) { return mesh.vertices + mesh.corners[h]; };
+    const auto next_of = [](HalfEdge h) { return h % 3 == 2 ? h - 2 : h + 1; };
+    const auto row_of = [](const ScreenVertex* v) { return static_cast<double>(along_x ? v->y : v->x); };
+    const auto place_in_row = [](const ScreenVertex* v) { return static_cast<double>(along_x ? v->x : v->y); };
+    // A row crosses two edges of a triangle or none: which ones is told without rounding.
+    if ((row_of(vertex(half_edge)) < row) == (row_of(vertex(next_of(half_edge))) < row)) return Ring::none;
+    Ring ring = Ring::in_front;
+    HalfEdge entry = half_edge;
+    for (int step = 0; step < kMostAroundWire; ++step) {
+        if (mesh.facing[entry / 3] == off_screen) return Ring::none;
+        const HalfEdge second = next_of(entry), third = next_of(second);
+        const bool is_second = (row_of(vertex(third)) < row) != (row_of(vertex(second)) < row);
+        const HalfEdge exit = is_second ? second : third, beyond = mesh.partners[exit];
+        if (beyond == exit || mesh.partners[beyond] != exit) return Ring::none;
+        if (beyond == half_edge) return ring;
+        const ScreenVertex *const p = vertex(exit), *const q = vertex(next_of(exit));
+        const double share = (row - row_of(p)) / (row_of(q) - row_of(p));
+        if (std::abs(glm::mix(place_in_row(p), place_in_row(q), share) - place) > kWidestWireSubpixels) return Ring::none;
+        const bool may_be_line = (mesh.line_edges[exit / 3] >> exit % 3 & 1) != 0;
+        if (may_be_line && glm::mix(nearness_of(p), nearness_of(q), share) > from.nearness + from.level) ring = Ring::behind;
+        entry = beyond;
+    }
+    return Ring::none;
+}
+
 }  // namespace
+
+Ring ring_around(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {
+    const ScreenVertex &from = mesh.vertices[mesh.corners[half_edge]],
+                       &to = mesh.vertices[mesh.corners[half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1]];
+    const PlaceOnEdge place{at, nearness, level};
+    const bool is_steep = std::abs(std::int64_t{to.x} - from.x) < std::abs(std::int64_t{to.y} - from.y);
+    return is_steep ? ring_along<true>(mesh, half_edge, place) : ring_along<false>(mesh, half_edge, place);
+}
 
 bool is_fold_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {
     const PlaceOnEdge from{at, nearness, level};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "abuffer/screen_triangle.h"
@@ -11,5 +12,16 @@ namespace burin {
 /// comes back to the edge at another nearness. `half_edge`: one on the edge; `at`: a place there in 1/256 pixel, and `nearness`
 /// at it. Nearness that differs by at most `level` is one.
 bool is_fold_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level);
+
+/// What is around a place on an edge, where the surface is cut along a row or a column of pixels.
+enum class Ring : std::uint8_t {
+    none,     ///< the cut is no closed curve, or wider than a wire
+    behind,   ///< it is, and another edge that may be a line is nearer to the eye there
+    in_front  ///< it is, and the edge is the nearest, or one of them
+};
+
+/// A surface that closes around within 1/8 pixel is a wire there: a line, however thin it is. `half_edge`, `at` and `nearness` as above;
+/// what is nearer by at most `level` counts as equal. Which way its triangles face does not matter, since rounding may have decided it.
+Ring ring_around(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level);
 
 }  // namespace burin

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/unfilled_vector.h"
@@ -121,6 +122,16 @@ class LayerEdgeFinder::Rules {
         }
     }
 
+    void visit_loose(std::uint32_t instance, HalfEdge number, std::vector<LayerLine>& lines) const {
+        const auto [a, b] = surfaces_.instances[instance].mesh->loose_edge(number);
+        LayerLine* const line =
+            add_on_screen(instance, ends_in_order(screen_, instance, a, b), lines);
+        if (line == nullptr) return;
+        line->owners = {LayerLine::kNoOwner, LayerLine::kNoOwner};
+        line->classes = line->drawn_as = LineClass::mark;
+        line->line_key = std::uint64_t{instance} << 32 | number;
+    }
+
     std::optional<SurfaceId> solid_at_border(SurfaceId s, HalfEdge h) const {
         const auto solid = sides_.past_sliver(s.instance, h);
         if (!solid) return std::nullopt;
@@ -139,6 +150,7 @@ class LayerEdgeFinder::Rules {
         LineClassSet classes;
         double crease_cosine = 1;
         int front_side = 0;
+        bool is_wire = false;
         HalfEdge solid_h = h, solid_g = g;
         if (mesh.is_marked(h)) classes |= LineClass::mark;
         if (const EdgeSides::PlainPair pair = sides_.plain_pair(s.instance, h, g); pair.is_plain) {
@@ -158,6 +170,8 @@ class LayerEdgeFinder::Rules {
                 classes |= LineClass::silhouette;  // the wall may lie on either side, and is not in front
                 front_side = sides_.side_at(s.instance, at_wall, a, b);
             }
+            is_wire = sides_.is_front_of_wire(s.instance, h);
+            if (is_wire) classes |= LineClass::silhouette;
         }
         if (!sides_.is_sliver_at(s, h) && !sides_.is_sliver_at(s, g)) {
             const std::uint8_t* const sharp = screen_.sharp_edges(s.instance);
@@ -167,7 +181,7 @@ class LayerEdgeFinder::Rules {
             classes |= contact_classes(surfaces_, triangle_of(s, solid_h), triangle_of(s, solid_g),
                                        middle_px(s, h), criteria_, &crease_cosine);
         }
-        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, front_side, lines);
+        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, front_side, lines, is_wire);
     }
 
     /// The half-edge whose surface ends at a wall that begins behind the other.
@@ -300,32 +314,49 @@ class LayerEdgeFinder::Rules {
 
     /// `front_side`: of the way from the half-edge's start.
     void add(SurfaceId s, HalfEdge h, LineClassSet classes, double crease_cosine, std::array<std::uint32_t, 2> owners,
-             bool has_more, int front_side, std::vector<LayerLine>& lines) const {
+             bool has_more, int front_side, std::vector<LayerLine>& lines, bool is_wire = false) const {
         classes = classes & criteria_.classes;
         if (classes.empty()) return;
         const std::uint8_t opacity = fade_.opacity(classes, crease_cosine);
         if (opacity == 0) return;
         const Mesh& mesh = surfaces_.mesh_of(s);
         // One direction, whichever triangle asks.
-        const auto [a, b] = ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
-        const auto ends = edge_on_screen(screen_, s.instance, a, b);
-        if (!ends) return;
-        const glm::dvec2 low = glm::min(ends->from, ends->to), high = glm::max(ends->from, ends->to);
-        if (ends->from == ends->to || high.x < low_.x || high.y < low_.y || low.x > high_.x || low.y > high_.y) return;
+        const auto vertices =
+            ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
+        LayerLine* const added = add_on_screen(s.instance, vertices, lines);
+        if (added == nullptr) return;
+        LayerLine& line = *added;
+        line.owners = owners;
+        line.has_more_owners = has_more;
+        line.is_wire = is_wire;
+        line.front_side = static_cast<std::int8_t>(
+            vertices.first == start_of(mesh, h) ? front_side : -front_side);
+        line.classes = classes;
+        line.drawn_as = *classes.first();
+        line.opacity = opacity;
+        line.line_key = std::uint64_t{s.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
+    }
+
+    /// A line between two vertices. nullptr if it does not touch the region or is a dot.
+    LayerLine* add_on_screen(std::uint32_t instance,
+                             std::pair<std::uint32_t, std::uint32_t> vertices,
+                             std::vector<LayerLine>& lines) const {
+        const auto [a, b] = vertices;
+        const auto ends = edge_on_screen(screen_, instance, a, b);
+        if (!ends) return nullptr;
+        const glm::dvec2 low = glm::min(ends->from, ends->to),
+                         high = glm::max(ends->from, ends->to);
+        if (ends->from == ends->to || high.x < low_.x || high.y < low_.y || low.x > high_.x ||
+            low.y > high_.y)
+            return nullptr;
         LayerLine& line = lines.emplace_back();
         line.from = ends->from;
         line.to = ends->to;
         line.nearness_from = ends->nearness_from;
         line.nearness_to = ends->nearness_to;
-        line.owners = owners;
-        line.has_more_owners = has_more;
-        line.front_side = static_cast<std::int8_t>(a == start_of(mesh, h) ? front_side : -front_side);
-        line.classes = classes;
-        line.drawn_as = *classes.first();
-        line.opacity = opacity;
-        line.line_key = std::uint64_t{s.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
-        if (is_on_screen(s.instance, a)) line.nodes[0] = std::uint64_t{s.instance} << 32 | a;
-        if (is_on_screen(s.instance, b)) line.nodes[1] = std::uint64_t{s.instance} << 32 | b;
+        if (is_on_screen(instance, a)) line.nodes[0] = std::uint64_t{instance} << 32 | a;
+        if (is_on_screen(instance, b)) line.nodes[1] = std::uint64_t{instance} << 32 | b;
+        return &line;
     }
 
     const SurfaceSet& surfaces_;
@@ -345,13 +376,40 @@ LayerEdgeFinder::~LayerEdgeFinder() = default;
 
 void LayerEdgeFinder::find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const { rules_->visit(s, h, lines); }
 
+void LayerEdgeFinder::find_loose(std::uint32_t instance, HalfEdge number,
+                                 std::vector<LayerLine>& lines) const {
+    rules_->visit_loose(instance, number, lines);
+}
+
 std::optional<SurfaceId> LayerEdgeFinder::solid_at_border(SurfaceId s, HalfEdge h) const { return rules_->solid_at_border(s, h); }
+
+std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, LineClassSet classes) {
+    std::vector<LooseChunk> chunks;
+    if (!classes.has(LineClass::mark)) return chunks;
+    const auto& instances = screen.surfaces().instances;
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+        const Mesh& mesh = *instances[i].mesh;
+        if (mesh.loose_edges.empty() || !screen.is_shown(i)) continue;
+        const HalfEdge last = mesh.loose_number(mesh.loose_edges.size());
+        for (HalfEdge first = mesh.loose_number(0); first < last; first += kChunkTriangles) {
+            chunks.push_back({i, first, first + std::min(kChunkTriangles, last - first)});
+            if (last - first <= kChunkTriangles) break;  // the next one may be no number
+        }
+    }
+    return chunks;
+}
 
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
                                         PixelRect region, int threads) {
     const LayerEdgeFinder finder(frame, screen, region);
-    std::vector<std::vector<LayerLine>> found(possible.chunks.size());
-    parallel_for(found.size(), threads, [&](std::size_t c, int) {
+    const std::vector<LooseChunk> loose = chunks_of_loose_edges(screen, frame.criteria.classes);
+    std::vector<std::vector<LayerLine>> found(possible.chunks.size() + loose.size());
+    parallel_for(loose.size(), threads, [&](std::size_t c, int) {
+        std::vector<LayerLine>& lines = found[possible.chunks.size() + c];
+        for (HalfEdge number = loose[c].begin; number < loose[c].end; ++number)
+            finder.find_loose(loose[c].instance, number, lines);
+    });
+    parallel_for(possible.chunks.size(), threads, [&](std::size_t c, int) {
         const std::uint32_t instance = possible.chunks[c].instance;
         const ScreenMesh& mesh = screen.mesh(instance);
         const std::vector<HalfEdge>& edges = possible.edges[c];
@@ -365,7 +423,8 @@ std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces
         found[c].reserve(edges.size());  // nearly all are lines
         for (std::size_t i = 0; i < edges.size() + kAhead; ++i) {
             if (i < edges.size()) ask_for_vertices(mesh, edges[i]);
-            if (i >= kAhead) finder.find({instance, edges[i - kAhead] / 3}, edges[i - kAhead], found[c]);
+            if (i >= kAhead)
+                finder.find({instance, edges[i - kAhead] / 3}, edges[i - kAhead], found[c]);
         }
     });
     std::vector<LayerLine> lines;

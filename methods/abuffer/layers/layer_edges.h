@@ -36,6 +36,8 @@ class LayerEdgeFinder {
 
     /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
     void find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const;
+    /// The same of a loose edge of an instance, by its number (Mesh::loose_number()).
+    void find_loose(std::uint32_t instance, HalfEdge number, std::vector<LayerLine>& lines) const;
 
     /// What counts where a border of triangle `s` is in contact with another surface: the triangle, or behind a sliver the next
     /// one. Nothing if it is a needle.
@@ -51,6 +53,14 @@ constexpr PixelRect anywhere_on_screen() {
     constexpr int kFarPx = 1 << 20;
     return {-kFarPx, -kFarPx, kFarPx, kFarPx};
 }
+
+/// Of the mesh of an instance, the loose edges [begin, end), by their numbers.
+struct LooseChunk {
+    std::uint32_t instance;
+    HalfEdge begin, end;
+};
+/// All loose edges of the instances shown, in chunks; none if marks are not asked for.
+std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, LineClassSet classes);
 
 /// All lines among the edges of the instances shown, be they seen or not.
 std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,

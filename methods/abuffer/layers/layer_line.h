@@ -19,8 +19,13 @@ struct LayerLine {
     glm::dvec2 from{0.0}, to{0.0};  ///< in 1/256 pixel
     /// At either end, less SurfaceSet::farthest_nearness.
     double nearness_from = 0, nearness_to = 0;
-    /// Numbers of the triangles that the line lies on; they do not hide it.
+    /// Numbers of the triangles that the line lies on; they do not hide it. A loose edge has none.
     std::array<std::uint32_t, 2> owners{};
+    static constexpr std::uint32_t kNoOwner = 0xFFFFFFFFu;
+    bool is_loose() const { return owners[0] == kNoOwner; }
+    bool is_wire = false;  ///< the edge in front of a wire, whose triangles say nothing about what is in front
+    /// Surfaces hide it only where they are in front for certain, and not where they touch it.
+    bool is_by_itself() const { return is_wire || is_loose(); }
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;
     /// Of a contour, on which side of the way the surface in front is, as side_of_edge() counts. 0: elsewhere.

@@ -127,7 +127,7 @@ void LayerTile::hide(const LayerLine& line, std::span<const std::uint32_t> near,
 void LayerTile::hide(const LayerLine& line, std::uint32_t i, const LayerTriangle& t, const HiddenPart& hidden) {
     if (line.has_more_owners && lies_on(line, t)) return;
     // What is level with the line is in front where it is seen instead: what that is, is asked last.
-    if (hidden.is_level && line.drawn_as != LineClass::intersection) {
+    if (hidden.is_level && line.drawn_as != LineClass::intersection && !line.is_by_itself()) {
         const double begin = hidden.level_begin, end = hidden.level_end;
         const bool is_settled = hidden.is_any && hidden.begin == begin && hidden.end == end;
         if (!is_settled && contacts_.is_flush(line, begin, end, t, line_slack_ + t.slack, frame_.criteria, true)) {
