@@ -16,7 +16,7 @@ namespace burin {
 /// Polygons with fewer than three corners are passed on, to be counted and dropped by build_meshes.
 
 /// Wavefront OBJ. `o` names start objects (`g` names, in a file without any `o`), `usemtl` sets the
-/// material, `l` marks edges. Texture coordinates, normals, free-form surfaces, points are skipped.
+/// material, `l` marks edges, or draws lines of the current object. Texture coordinates, normals, free-form surfaces, points are skipped.
 /// Colours and opacities come from the `mtllib` files that lie in the model's folder or below.
 /// Read on `threads` threads (0 = all cores), which changes nothing else.
 PolygonSoup read_obj(const std::string& path, int threads = 1);
@@ -25,7 +25,7 @@ PolygonSoup read_obj_text(const std::string& path, std::string_view text, int th
                           std::size_t piece_size);
 
 /// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
-/// `element edge` marks edges; other elements and properties are skipped. Plain ASCII is read on `threads`
+/// `element edge` marks edges, or draws lines; other elements and properties are skipped. Plain ASCII is read on `threads`
 /// threads (0 = all cores), which changes nothing else.
 PolygonSoup read_ply(const std::string& path, int threads = 1);
 
