@@ -37,12 +37,12 @@ TEST_F(LooseLinesOfFiles, AreCounted) {
 TEST_F(LooseLinesOfFiles, WhatIsLeftOutIsNamedOnce) {
     const ProgramResult plain = run({"render", "both.obj", "-o", "a.png", "-r", "40x40"});
     EXPECT_EQ(plain.status, 0);
-    EXPECT_EQ(plain.err, "burin: note: 2 lines of the input are not drawn, since the class mark is not; "
-                         "--lines mark,border,silhouette,intersection,object,crease draws it, too\n");
+    EXPECT_EQ(plain.err, "burin: note: the class mark is not drawn, and so 2 lines of the input are missing; "
+                         "--lines mark,border,silhouette,intersection,object,crease has it, too\n");
     EXPECT_EQ(run({"render", "both.obj", "-o", "a.png", "-r", "40x40", "--lines", "mark"}).err, "");
     EXPECT_EQ(run({"render", "lines.obj", "-o", "a.png", "-r", "40x40", "--lines", "mark"}).err, "");
     const ProgramResult other = run({"render", "both.obj", "-m", "simple", "-o", "a.png", "-r", "40x40", "--lines", "mark"});
-    EXPECT_EQ(other.err, "burin: note: method simple draws edges of polygons only; 2 lines of the input are left out; abuffer draws them\n");
+    EXPECT_EQ(other.err, "burin: note: method simple draws edges of polygons only, and leaves out 2 lines of the input; abuffer draws them\n");
 }
 
 TEST_F(LooseLinesOfFiles, NoMethodFailsWithoutPolygons) {
