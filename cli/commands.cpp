@@ -152,17 +152,13 @@ void note_loose_edges(const Frame& frame, const Method& method) {
     for (const SurfaceInstance& instance : frame.surfaces.instances)
         count += instance.mesh->loose_edges.size();
     if (count == 0) return;
-    const auto printed = static_cast<unsigned long long>(count);
+    const std::string lines = count == 1 ? "1 line" : std::to_string(count) + " lines";
     if (!frame.scene->lines.classes.has(LineClass::mark)) {
-        std::fprintf(stderr,
-                     "burin: note: %llu lines of the input are not drawn, since the class mark is "
-                     "not; --lines %s draws it, too\n",
-                     printed, to_string(frame.scene->lines.classes | LineClass::mark).c_str());
+        std::fprintf(stderr, "burin: note: the class mark is not drawn, and so %s of the input %s missing; --lines %s has it, too\n", lines.c_str(),
+                     count == 1 ? "is" : "are", to_string(frame.scene->lines.classes | LineClass::mark).c_str());
     } else if (!method.draws_loose_edges && method.draws.has(LineClass::mark)) {
-        std::fprintf(stderr,
-                     "burin: note: method %s draws edges of polygons only; %llu lines of the input "
-                     "are left out; abuffer draws them\n",
-                     std::string(method.name).c_str(), printed);
+        std::fprintf(stderr, "burin: note: method %s draws edges of polygons only, and leaves out %s of the input; abuffer draws them\n",
+                     std::string(method.name).c_str(), lines.c_str());
     }
 }
 

@@ -20,7 +20,7 @@ namespace burin {
 /// Lines of text end in LF, CRLF or CR alone. Keywords may be in capitals.
 
 /// Wavefront OBJ. `o` names start objects (`g` names, in a file without any `o`), `usemtl` sets the
-/// material, `l` marks edges. Texture coordinates, normals, free-form surfaces, points are skipped.
+/// material, `l` marks edges, or draws lines of the current object. Texture coordinates, normals, free-form surfaces, points are skipped.
 /// Colours and opacities come from the `mtllib` files that lie in the model's folder or below.
 /// Read on `threads` threads (0 = all cores), which changes nothing else. `material_files`: gets the paths of those that were read.
 PolygonSoup read_obj(const std::string& path, int threads = 1, std::vector<std::string>* material_files = nullptr);
@@ -29,7 +29,7 @@ PolygonSoup read_obj_text(const std::string& path, std::string_view text, int th
                           std::vector<std::string>* material_files = nullptr);
 
 /// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
-/// `element edge` marks edges; other elements and properties are skipped. Plain ASCII is read on `threads`
+/// `element edge` marks edges, or draws lines; other elements and properties are skipped. Plain ASCII is read on `threads`
 /// threads (0 = all cores), which changes nothing else. Values of an ASCII file may stand on any lines; where that fails
 /// each item begins a line, and what follows its last value there is left out.
 PolygonSoup read_ply(const std::string& path, int threads = 1, bool strict = false);

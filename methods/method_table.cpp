@@ -43,7 +43,7 @@ constexpr std::array kMethods = {
            "Removal, 2008",
            kEdgeClasses, render_id_buffer},
     Method{"reference", "ground truth: rays, and exact distances to the lines between them",
-           LineClassSet::all(), render_reference},
+           LineClassSet::all(), render_reference, nullptr, nullptr, true},
 };
 
 }  // namespace

@@ -43,6 +43,7 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
     const EmbreeScene rays(geometry);
     const ReferenceLines lines(geometry, rays, frame.criteria.classes, frame.criteria.cos_crease_angle,
                                std::max(frame.width, frame.height));
+    const ReferenceLooseEdges loose(geometry, rays, frame.criteria.classes);
     stats.prepare_s = watch.lap();
 
     const auto tiles = tiles_of(frame, tile_px(frame.scene->reference.samples, ReferenceTile::margin_px(frame)));
@@ -52,7 +53,7 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
     parallel_for(tiles.size(), stats.threads, [&](std::size_t index, int worker) {
         auto& tile = workers[static_cast<std::size_t>(worker)];
         WorkerTimes& time = times[static_cast<std::size_t>(worker)];
-        if (!tile) tile = std::make_unique<ReferenceTile>(frame, geometry, rays, lines);
+        if (!tile) tile = std::make_unique<ReferenceTile>(frame, geometry, rays, lines, loose);
         Stopwatch lap;
         tile->cast(tiles[index]);
         time.cast += lap.lap();

@@ -25,11 +25,12 @@ StrokeBand band_of(const LineStyle& style, bool has_front) {
 }  // namespace
 
 ReferenceTile::ReferenceTile(const Frame& frame, const RayGeometry& geometry, const EmbreeScene& rays,
-                             const ReferenceLines& lines)
+                             const ReferenceLines& lines, const ReferenceLooseEdges& loose)
     : frame_(frame),
       geometry_(geometry),
       rays_(rays),
       lines_(lines),
+      loose_(loose),
       per_pixel_(frame.scene->reference.samples),
       cells_per_pixel_(std::max(per_pixel_, kLeastCells)),
       width_px_(frame.scene->lines.style.width_px),
@@ -96,6 +97,7 @@ void ReferenceTile::find_curves() {
         }
     }
     segments_ = curves.segments(kStraightPx, 1.0 / per_pixel_);
+    loose_.add_visible({rect_.x0 - margin_, rect_.y0 - margin_}, {rect_.x1 + margin_, rect_.y1 + margin_}, 1.0 / per_pixel_, segments_);
 }
 
 void ReferenceTile::shade(Film& film) {

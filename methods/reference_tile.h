@@ -7,6 +7,7 @@
 #include "methods/distance_field.h"
 #include "methods/embree_scene.h"
 #include "methods/reference_lines.h"
+#include "methods/reference_loose.h"
 #include "render/film.h"
 #include "render/frame.h"
 
@@ -16,14 +17,14 @@ namespace burin {
 class ReferenceTile {
   public:
     ReferenceTile(const Frame& frame, const RayGeometry& geometry, const EmbreeScene& rays,
-                  const ReferenceLines& lines);
+                  const ReferenceLines& lines, const ReferenceLooseEdges& loose);
 
     /// Pixels around a tile whose lines can reach into it.
     static int margin_px(const Frame& frame);
 
     /// Step 1: the facets at all samples of the rectangle and its margin.
     void cast(PixelRect rect);
-    /// Step 2: the boundary curves between them.
+    /// Step 2: the boundary curves between them, and loose edges.
     void find_curves();
     std::span<const BoundarySegment> segments() const { return segments_; }
     /// Step 3, for the pixels of the rectangle that are in the frame's crop.
@@ -54,6 +55,7 @@ class ReferenceTile {
     const RayGeometry& geometry_;
     const EmbreeScene& rays_;
     const ReferenceLines& lines_;
+    const ReferenceLooseEdges& loose_;
     int per_pixel_;        // samples per pixel and axis
     int cells_per_pixel_;  // the same for coverage
     double width_px_;

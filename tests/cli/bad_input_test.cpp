@@ -339,10 +339,10 @@ TEST(BadInput, NodesThatGoInCircles) {
 TEST(BadInput, ModelsWithoutSurfaces) {
     const TemporaryFolder folder;
     folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
-    folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
+    folder.write("dots.obj", "v 0 0 0\nv 1 0 0\nv 0 0 0\nl 1\nl 1 3\n");
     folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     folder.write("same.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
-    for (const char* name : {"points.obj", "lines.obj", "flat.obj", "same.obj"})
+    for (const char* name : {"points.obj", "dots.obj", "flat.obj", "same.obj"})
         expect_refused(folder, name);
 }
 

@@ -85,6 +85,13 @@ inline void expect_consistent(const Mesh& mesh, const std::string& what) {
             used[v] = true;
         }
     }
+    for (const auto& edge : mesh.loose_edges) {
+        ASSERT_NE(edge[0], edge[1]) << what;
+        for (const std::uint32_t v : edge) {
+            ASSERT_LT(v, used.size()) << what;
+            used[v] = true;
+        }
+    }
     ASSERT_EQ(std::count(used.begin(), used.end(), false), 0) << what << ": vertices that nothing uses";
     if (mesh.triangle_polygon.empty()) {
         ASSERT_EQ(mesh.polygon_count, mesh.triangles.size()) << what;

@@ -8,6 +8,7 @@
 
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
+#include "methods/reference.h"
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
@@ -231,6 +232,33 @@ TEST(LooseLines, ShowThroughGlass) {
     pane.materials = {Material{"glass", glm::vec3(0.8f), 0.5f}};
     const double drawn = ink(marks_of({pane, line_of({{20, 50.5, 0}, {80, 50.5, 0}})}), kPixels);
     EXPECT_NEAR(drawn, 20 + 40 * 0.25 + 1, 1) << "two panes in front of 40 pixels";
+}
+
+TEST(LooseLines, AreWhereRaysSeeThem) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        Random random(seed);
+        PolygonSoup ball = transformed(make_sphere(22, 20, 11), [](glm::dvec3 p) { return p + glm::dvec3(50, 50, 0); });
+        PolygonSoup lines;
+        for (int i = 0; i < 5; ++i) {
+            const glm::dvec3 middle(50, 50, 0);
+            add_line(i % 2 == 0 ? ball : lines, {middle + random.in_box(45), middle + random.in_box(45), middle + random.in_box(45)});
+        }
+        Scene scene = marks_of({ball, box_at({60, 40, 10}, {30, 20, 15}), lines});
+        scene.reference.samples = 8;
+        const Drawing drawn = drawing(scene, kPixels), truth(scene, kPixels, kPicture, kPicture, {0, 0, kPicture, kPicture}, 2, render_reference);
+        EXPECT_GT(truth.sum("lines.A"), 50);
+        // A stroke's end where its line passes under an edge along a row of pixels may lie over that edge.
+        int differing = 0;
+        for (int y = 0; y < kPicture; ++y) {
+            for (int x = 0; x < kPicture; ++x) {
+                const double difference = std::abs(drawn.line(x, y) - truth.line(x, y));
+                EXPECT_LT(difference, 0.4) << seed << ": " << x << ' ' << y;
+                differing += difference > 0.06 ? 1 : 0;
+            }
+        }
+        EXPECT_LE(differing, 2) << seed;
+        EXPECT_NEAR(drawn.sum("lines.A") / truth.sum("lines.A"), 1, 0.01) << seed;
+    }
 }
 
 // Dashes run on over the joints of a polyline, as if it were one line.

@@ -8,6 +8,7 @@
 
 #include "mesh/shapes.h"
 #include "methods/abuffer/abuffer.h"
+#include "render/close_cracks.h"
 #include "tests/methods/fine_drawings.h"
 
 namespace burin {
@@ -233,8 +234,8 @@ TEST(ThinWires, RingsOfThemAreClosed) {
     }
 }
 
-// A plate that is seen edge-on, as thin as a wire, and open bands.
-TEST(ThinWires, PlatesAndBandsSeenEdgeOn) {
+// A plate that is seen edge-on, as thin as a wire.
+TEST(ThinWires, PlatesSeenEdgeOn) {
     for (std::uint64_t seed = 0; seed < 80; ++seed) {
         Random random(7000 + seed);
         Wire wire = random_wire(random);
@@ -251,6 +252,26 @@ TEST(ThinWires, PlatesAndBandsSeenEdgeOn) {
         const Found found = look(draw(scene_of({plate}), camera, kSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire);
         EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire);
+    }
+}
+
+// A strip of one or more polygons across, flat or bent, open at both sides.
+TEST(ThinWires, OpenBandsAndTubes) {
+    for (std::uint64_t seed = 0; seed < 120; ++seed) {
+        Random random(8000 + seed);
+        const Wire wire = random_wire(random);
+        const PolygonSoup closed = wire.soup();
+        PolygonSoup open;
+        open.positions = closed.positions;
+        const bool is_tube = seed % 2 == 0;
+        const auto sides = static_cast<std::size_t>(is_tube ? wire.sides : random.integer(1, wire.sides - 1));
+        for (std::size_t i = 0; i < sides; ++i) open.add_polygon(closed.polygon(i));
+        const Camera camera = seed % 4 < 2 ? pixel_camera(kSize, kSize) : pixels_in_perspective();
+        Scene scene = scene_of({open});
+        close_cracks(scene, camera, kSize, kSize);
+        const Found found = look(draw(scene, camera, kSize), camera, wire);
+        EXPECT_EQ(found.share, 1) << seed << ": " << words(wire) << ", " << sides;
+        EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire) << ", " << sides;
     }
 }
 

@@ -80,10 +80,10 @@ class FineLines::BlockClipper {
                           double from = parts.begin, to = parts.end;
                           const bool is_settled = parts.is_any && from == most_from && to == most_to;
                           const auto is_none = [&] {
-                              return contacts_.is_seen_instead(line, begin, end, t, touching) ||
+                              return (!is_by_itself && contacts_.is_seen_instead(line, begin, end, t, touching)) ||
                                      contacts_.is_flush(line, most_from, most_to, t, touching, criteria_, false);
                           };
-                          if (!is_settled && !is_by_itself && is_none()) {
+                          if (!is_settled && is_none()) {
                               from = most_from;
                               to = most_to;
                           } else if (!parts.is_any) {
@@ -207,7 +207,7 @@ class FineLines::BlockClipper {
         const LayerLine& line = candidate.line;
         LineClassSet classes = line.classes;
         bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
-        if (classes.has(LineClass::border)) {
+        if (classes.has(LineClass::border) && !line.is_wire) {
             if (const auto contact = contact_behind(candidate, 0.5 * (begin + end))) {
                 classes = (classes & LineClass::mark) | (*contact & criteria_.classes);
                 occludes = false;

@@ -117,9 +117,9 @@ class FoldWalk {
     const PlaceOnEdge& from_;
 };
 
-/// ring_around() along rows or columns.
+/// ring_around() along rows or columns. `border`: gets the one at which the cut ends instead, if it is no wider.
 template <bool along_x>
-Ring ring_along(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& from) {
+Ring ring_along(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& from, HalfEdge& border) {
     const double row = along_x ? from.at.y : from.at.x, place = along_x ? from.at.x : from.at.y;
     const auto vertex = [&](HalfEdge h) { return mesh.vertices + mesh.corners[h]; };
     const auto next_of = [](HalfEdge h) { return h % 3 == 2 ? h - 2 : h + 1; };
@@ -134,11 +134,15 @@ Ring ring_along(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& f
         const HalfEdge second = next_of(entry), third = next_of(second);
         const bool is_second = (row_of(vertex(third)) < row) != (row_of(vertex(second)) < row);
         const HalfEdge exit = is_second ? second : third, beyond = mesh.partners[exit];
-        if (beyond == exit || mesh.partners[beyond] != exit) return Ring::none;
+        if (beyond != exit && mesh.partners[beyond] != exit) return Ring::none;
         if (beyond == half_edge) return ring;
         const ScreenVertex *const p = vertex(exit), *const q = vertex(next_of(exit));
         const double share = (row - row_of(p)) / (row_of(q) - row_of(p));
         if (std::abs(glm::mix(place_in_row(p), place_in_row(q), share) - place) > kWidestWireSubpixels) return Ring::none;
+        if (beyond == exit) {
+            border = exit;
+            return Ring::none;
+        }
         const bool may_be_line = (mesh.line_edges[exit / 3] >> exit % 3 & 1) != 0;
         if (may_be_line && glm::mix(nearness_of(p), nearness_of(q), share) > from.nearness + from.level) ring = Ring::behind;
         entry = beyond;
@@ -146,14 +150,25 @@ Ring ring_along(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& f
     return Ring::none;
 }
 
+/// Along rows where the edge is steep, else along columns.
+Ring cut_from(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& place, HalfEdge& border) {
+    const ScreenVertex &from = mesh.vertices[mesh.corners[half_edge]],
+                       &to = mesh.vertices[mesh.corners[half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1]];
+    const bool is_steep = std::abs(std::int64_t{to.x} - from.x) < std::abs(std::int64_t{to.y} - from.y);
+    return is_steep ? ring_along<true>(mesh, half_edge, place, border) : ring_along<false>(mesh, half_edge, place, border);
+}
+
 }  // namespace
 
 Ring ring_around(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {
-    const ScreenVertex &from = mesh.vertices[mesh.corners[half_edge]],
-                       &to = mesh.vertices[mesh.corners[half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1]];
-    const PlaceOnEdge place{at, nearness, level};
-    const bool is_steep = std::abs(std::int64_t{to.x} - from.x) < std::abs(std::int64_t{to.y} - from.y);
-    return is_steep ? ring_along<true>(mesh, half_edge, place) : ring_along<false>(mesh, half_edge, place);
+    HalfEdge border = kNoHalfEdge;
+    return cut_from(mesh, half_edge, {at, nearness, level}, border);
+}
+
+HalfEdge other_side_of_strip(const ScreenMesh& mesh, HalfEdge border, glm::dvec2 at) {
+    HalfEdge other = kNoHalfEdge;
+    cut_from(mesh, border, {at, 0, 0}, other);
+    return other;
 }
 
 bool is_fold_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {

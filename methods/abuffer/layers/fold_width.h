@@ -24,4 +24,7 @@ enum class Ring : std::uint8_t {
 /// what is nearer by at most `level` counts as equal. Which way its triangles face does not matter, since rounding may have decided it.
 Ring ring_around(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level);
 
+/// The border on the other side of a strip that is no wider than a wire at a place on its `border`; kNoHalfEdge if there is none.
+HalfEdge other_side_of_strip(const ScreenMesh& mesh, HalfEdge border, glm::dvec2 at);
+
 }  // namespace burin

@@ -11,6 +11,7 @@
 #include "base/unfilled_vector.h"
 #include "methods/abuffer/layers/border_parts.h"
 #include "methods/abuffer/layers/edge_sides.h"
+#include "methods/abuffer/layers/fold_width.h"
 #include "methods/abuffer/screen/edge_on_screen.h"
 
 namespace burin {
@@ -248,7 +249,9 @@ class LayerEdgeFinder::Rules {
         if (mesh.is_marked(h)) classes |= LineClass::mark;
         const std::uint32_t number = screen_.number_of(s);
         std::array<std::uint32_t, 2> owners{number, number};
-        if (part.partner) {
+        // Both borders of one narrow strip are no crack.
+        const bool is_strip = part.partner && other_side_of_strip(screen_.mesh(s.instance), h, edge.at(0.5 * (part.begin + part.end))) == *part.partner;
+        if (part.partner && !is_strip) {
             const SurfaceId beyond = triangle_of(s, *part.partner);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             auto solid_h = sides_.past_sliver(s.instance, h), solid_g = sides_.past_sliver(s.instance, *part.partner);
@@ -279,7 +282,7 @@ class LayerEdgeFinder::Rules {
             classes |= LineClass::border;
         }
         const std::size_t count = lines.size();
-        add(s, h, classes, crease_cosine, owners, false, front_side, lines);
+        add(s, h, classes, crease_cosine, owners, false, front_side, lines, is_strip);
         if (lines.size() == count || (part.begin == 0 && part.end == 1)) return;
         const bool is_reversed = ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h)).first != start_of(mesh, h);
         cut(lines.back(), is_reversed ? 1 - part.end : part.begin, is_reversed ? 1 - part.begin : part.end);

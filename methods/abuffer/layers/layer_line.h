@@ -23,8 +23,8 @@ struct LayerLine {
     std::array<std::uint32_t, 2> owners{};
     static constexpr std::uint32_t kNoOwner = 0xFFFFFFFFu;
     bool is_loose() const { return owners[0] == kNoOwner; }
-    bool is_wire = false;  ///< the edge in front of a wire, whose triangles say nothing about what is in front
-    /// Surfaces hide it only where they are in front for certain, and not where they touch it.
+    bool is_wire = false;  ///< the edge in front of a wire, or of a strip as narrow, whose triangles say nothing about what is in front
+    /// Surfaces hide it only where they are in front for certain, and not where they touch it, unless it is flush with them.
     bool is_by_itself() const { return is_wire || is_loose(); }
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;

@@ -127,14 +127,14 @@ void LayerTile::hide(const LayerLine& line, std::span<const std::uint32_t> near,
 void LayerTile::hide(const LayerLine& line, std::uint32_t i, const LayerTriangle& t, const HiddenPart& hidden) {
     if (line.has_more_owners && lies_on(line, t)) return;
     // What is level with the line is in front where it is seen instead: what that is, is asked last.
-    if (hidden.is_level && line.drawn_as != LineClass::intersection && !line.is_by_itself()) {
+    if (hidden.is_level && line.drawn_as != LineClass::intersection) {
         const double begin = hidden.level_begin, end = hidden.level_end;
         const bool is_settled = hidden.is_any && hidden.begin == begin && hidden.end == end;
         if (!is_settled && contacts_.is_flush(line, begin, end, t, line_slack_ + t.slack, frame_.criteria, true)) {
             contacts_of_line_.push_back({begin, end, i, false});
             return;
         }
-        if (!is_settled && contacts_.is_in_front(line, begin, end, t, line_slack_ + t.slack)) {
+        if (!is_settled && !line.is_by_itself() && contacts_.is_in_front(line, begin, end, t, line_slack_ + t.slack)) {
             sweep_.add(t.number, begin, end, t.transmission);
             return;
         }
@@ -160,7 +160,7 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
     sweep_.clear(begin, end, near_.size(), has_clipped_ || has_transparent_);
     hide(line, near_, part);
     if (sweep_.is_empty()) return;
-    if (line.classes.has(LineClass::border)) find_contacts(line, part);
+    if (line.classes.has(LineClass::border) && !line.is_wire) find_contacts(line, part);
     const std::size_t first_piece = pieces.size();
     sweep_.find_pieces(line, line_number, pieces);
     drop_contacts(line, first_piece, pieces);
