@@ -4,9 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
-#include <istream>
 #include <optional>
-#include <streambuf>
 #include <unordered_set>
 
 #include "base/interrupt.h"
@@ -14,6 +12,7 @@
 #include "mesh/text_scan.h"
 #include "scene/color.h"
 #include "scene/gbuffer_toml.h"
+#include "scene/parse_toml.h"
 #include "scene/scene_description.h"
 #include "scene/shape_toml.h"
 #include "scene/toml_depth.h"
@@ -477,54 +476,6 @@ void apply_override(toml::table& root, const Override& o) {
     fail_override(o, "the key has too many parts");
 }
 
-/// A text as a stream that ends where the user asks the program to stop.
-class StoppableText : public std::streambuf {
-  public:
-    explicit StoppableText(std::string_view text) : text_(text) { go_to(0); }
-
-  protected:
-    int_type underflow() override {
-        if (interrupt_requested()) return traits_type::eof();
-        go_to(static_cast<std::size_t>(egptr() - text_.data()));
-        return gptr() == egptr() ? traits_type::eof() : traits_type::to_int_type(*gptr());
-    }
-    // toml++ goes back to the beginning if there is no byte order mark.
-    pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
-        const off_type start = from == std::ios_base::beg   ? 0
-                               : from == std::ios_base::cur ? static_cast<off_type>(gptr() - text_.data())
-                                                            : static_cast<off_type>(text_.size());
-        return seekpos(start + offset, std::ios_base::in);
-    }
-    pos_type seekpos(pos_type position, std::ios_base::openmode) override {
-        const off_type place = position;
-        if (place < 0 || place > static_cast<off_type>(text_.size())) return pos_type(off_type(-1));
-        go_to(static_cast<std::size_t>(place));
-        return position;
-    }
-
-  private:
-    void go_to(std::size_t place) {
-        constexpr std::size_t kPiece = 1 << 16;
-        char* const begin = const_cast<char*>(text_.data()) + place;  // nothing is put back into it
-        setg(begin, begin, begin + std::min(kPiece, text_.size() - place));
-    }
-
-    std::string_view text_;
-};
-
-toml::table parse_stoppable(std::string_view text, const std::string& path) {
-    try {
-        StoppableText buffer(text);
-        std::istream stream(&buffer);
-        toml::table tables = toml::parse(stream, path);
-        throw_if_interrupted();
-        return tables;
-    } catch (const toml::parse_error&) {
-        throw_if_interrupted();  // it ended too early
-        throw;
-    }
-}
-
 SceneDescription read_tables(const std::string& path, toml::table root,
                              const std::vector<Override>& overrides) {
     for (const Override& o : overrides) apply_override(root, o);
@@ -540,7 +491,7 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
     }
     if (const auto line = line_nested_too_deep(file.bytes())) throw InputError({path, *line}, kTooDeep);
     try {
-        return read_tables(path, parse_stoppable(file.bytes(), path), overrides);
+        return read_tables(path, parse_toml(file.bytes(), path), overrides);
     } catch (const toml::parse_error& error) {
         file.check_is_whole();
         const toml::source_position at = error.source().begin;
