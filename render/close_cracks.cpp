@@ -33,9 +33,10 @@ Placing placing_of(const glm::dmat4& to_view, const glm::dvec3& origin) {
 
 /// Whether anything of it is.
 bool is_before_the_eye(const Placing& placing, const Mesh& mesh) {
-    return std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) {
-        return glm::dot(placing.per_position, glm::dvec3(p)) + placing.distance > 0;
-    });
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        if (glm::dot(placing.per_position, mesh.local_position(v)) + placing.distance > 0) return true;
+    }
+    return false;
 }
 
 }  // namespace

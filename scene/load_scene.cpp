@@ -29,7 +29,12 @@ constexpr std::size_t kPointBlock = 512;
 std::vector<Box> block_boxes(const Mesh& mesh) {
     std::vector<Box> boxes;
     for (std::size_t first = 0; first < mesh.positions.size(); first += kPointBlock) {
-        Box box = box_of(std::span(mesh.positions).subspan(first, std::min(kPointBlock, mesh.positions.size() - first)));
+        const std::size_t count = std::min(kPointBlock, mesh.positions.size() - first);
+        Box box = box_of(std::span(mesh.positions).subspan(first, count));
+        if (mesh.has_residuals()) {
+            box = {};
+            for (std::size_t v = first; v < first + count; ++v) box.add(mesh.local_position(static_cast<std::uint32_t>(v)));
+        }
         box.low += mesh.origin;  // rounds as points do
         box.high += mesh.origin;
         boxes.push_back(box);

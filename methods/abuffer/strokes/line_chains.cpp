@@ -86,7 +86,7 @@ class Chains {
             const std::uint64_t own = node(end);
             const bool has_vertex = own != LayerLine::kNoNode && lines_[end / 2].is_edge();
             const auto instance = static_cast<std::uint32_t>(own >> 32);
-            const glm::dvec3 p = has_vertex ? glm::dvec3(surfaces_.instances[instance].mesh->positions[own & 0xFFFFFFFFu])
+            const glm::dvec3 p = has_vertex ? surfaces_.instances[instance].mesh->local_position(own & 0xFFFFFFFFu)
                                             : glm::dvec3(end % 2 == 0 ? lines_[end / 2].from : lines_[end / 2].to, 0);
             return std::tuple(!has_vertex, has_vertex ? instance : 0, p.x, p.y, p.z);
         };
