@@ -62,9 +62,9 @@ std::vector<std::int8_t> find_windings(const Mesh& mesh, std::vector<std::uint8_
 
 double angle_at(const Mesh& mesh, HalfEdge corner) {
     const auto& t = mesh.triangles[corner / 3];
-    const glm::dvec3 p(mesh.positions[t[corner % 3]]);
-    const glm::dvec3 a = glm::dvec3(mesh.positions[t[(corner + 1) % 3]]) - p;
-    const glm::dvec3 b = glm::dvec3(mesh.positions[t[(corner + 2) % 3]]) - p;
+    const glm::dvec3 p = mesh.local_position(t[corner % 3]);
+    const glm::dvec3 a = mesh.local_position(t[(corner + 1) % 3]) - p;
+    const glm::dvec3 b = mesh.local_position(t[(corner + 2) % 3]) - p;
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <numeric>
 
 #include "abuffer/tile_kernels.h"
 #include "base/parallel.h"
@@ -29,14 +30,33 @@ void for_chunks(std::size_t triangles, int threads, const Work& work) {
     });
 }
 
+/// The corners of triangles [first, first + count), each triangle's seen from its first one: so single precision resolves them.
+std::vector<glm::vec3> corners_apart(const Mesh& mesh, std::size_t first, std::size_t count) {
+    std::vector<glm::vec3> corners;
+    corners.reserve(3 * count);
+    for (std::size_t t = first; t < first + count; ++t) {
+        const glm::dvec3 origin = mesh.local_position(mesh.triangles[t][0]);
+        for (const std::uint32_t v : mesh.triangles[t]) corners.emplace_back(mesh.local_position(v) - origin);
+    }
+    return corners;
+}
+
 /// The polygons' normals, in single precision; with kThinTriangle where a triangle is a sliver in its own
 /// proportions, or nearly.
 UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>& thin, int threads) {
     const TileKernels& kernels = best_kernels();
     UnfilledVector<Normal> normals(thin.size());
     for_chunks(thin.size(), threads, [&](std::size_t first, std::size_t count) {
-        kernels.triangle_normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count, kThinSquare,
-                                 normals[first].data(), &thin[first]);
+        if (mesh.has_residuals()) {
+            const std::vector<glm::vec3> corners = corners_apart(mesh, first, count);
+            std::vector<std::uint32_t> numbers(corners.size());
+            std::iota(numbers.begin(), numbers.end(), 0u);
+            kernels.triangle_normals(glm::value_ptr(corners.front()), numbers.data(), count, kThinSquare, normals[first].data(),
+                                     &thin[first]);
+        } else {
+            kernels.triangle_normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count, kThinSquare,
+                                     normals[first].data(), &thin[first]);
+        }
         for (std::size_t t = first; t < first + count; ++t) thin[t] *= kThinTriangle;
     });
     if (mesh.polygon_normals.empty()) return normals;
@@ -90,7 +110,7 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
     const bool by_crease = criteria.classes.has(LineClass::crease);
     // What is close to the angle counts as sharp and is looked at again.
     const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + kCreaseSlack;
-    const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !by_polygon && !by_material;
+    const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !mesh.has_residuals() && !by_polygon && !by_material;
     // Near an angle of 0 all that is flat would be in doubt.
     const bool is_flat_told = double{cos_crease} + 2 * kDoubt < 1;
     if (has_only_creases && by_crease && is_flat_told && mesh.next_on_edge.size() < std::size_t{1} << 29) {

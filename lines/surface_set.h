@@ -35,7 +35,7 @@ struct SurfacePair {
 /// A mesh placed in front of the camera, with its numbers in the scene.
 struct SurfaceInstance {
     const Mesh* mesh = nullptr;
-    glm::dmat4 to_view{1.0};        ///< takes Mesh::positions (the origin included) to view space
+    glm::dmat4 to_view{1.0};        ///< takes Mesh::local_position() (the origin included) to view space
     glm::dmat3 normal_to_view{1.0}; ///< takes area vectors to view space
     /// Of the mesh, see find_sharp_edges(); nullptr: not made yet.
     const std::uint8_t* sharp_edges = nullptr;
@@ -52,7 +52,9 @@ struct SurfaceSet {
     Projection projection;
     glm::dmat3 view_to_world{1.0};  ///< rotation, for normals
     std::vector<SurfaceInstance> instances;
-    double farthest_nearness = 0;   ///< of the scene's bounding box; all is at least as near
+    /// Of the scene's bounding box: all is at least as near. Where nearness would lose its precision for things that are not
+    /// on the screen, of the vertices that are; what is farther than these is below it.
+    double farthest_nearness = 0;
     double coordinate_error = 0;  ///< how exact coordinates are, in world units
 
     const SurfaceInstance& instance_of(SurfaceId s) const { return instances[s.instance]; }
@@ -60,7 +62,7 @@ struct SurfaceSet {
 
     glm::dvec3 view_position(std::uint32_t instance, std::uint32_t vertex) const {
         const SurfaceInstance& i = instances[instance];
-        const glm::dvec3 p(i.mesh->positions[vertex]);
+        const glm::dvec3 p = i.mesh->local_position(vertex);
         return glm::dvec3(i.to_view[0]) * p.x + glm::dvec3(i.to_view[1]) * p.y +
                (glm::dvec3(i.to_view[2]) * p.z + glm::dvec3(i.to_view[3]));
     }

@@ -251,8 +251,8 @@ class Walker {
         Continuation none;
         const Mesh& mesh = surfaces_.mesh_of(from.surface);
         const auto& t = mesh.triangles[from.surface.triangle];
-        const glm::dvec3 a(mesh.positions[t[from.exit.half_edge % 3]]);
-        const glm::dvec3 b(mesh.positions[t[(from.exit.half_edge + 1) % 3]]);
+        const glm::dvec3 a = mesh.local_position(t[from.exit.half_edge % 3]);
+        const glm::dvec3 b = mesh.local_position(t[(from.exit.half_edge + 1) % 3]);
         const auto partner =
             mesh.borders.seam_partner(from.exit.half_edge, glm::mix(a, b, from.exit.along_edge));
         if (!partner) return none;

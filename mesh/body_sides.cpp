@@ -23,12 +23,12 @@ std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
         body.assign(1, start);
         double volume = 0, area = 0;  // six times, twice
         bool has_border = false;
-        const glm::dvec3 origin(mesh.positions[mesh.triangles[start][0]]);
+        const glm::dvec3 origin = mesh.local_position(mesh.triangles[start][0]);
         glm::dvec3 area_vector(0.0), moment(0.0);
         for (std::size_t i = 0; i < body.size(); ++i) {
             const std::uint32_t t = body[i];
             const auto& corners = mesh.triangles[t];
-            const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[corners[k]]) - origin; };
+            const auto corner = [&](std::size_t k) { return mesh.local_position(corners[k]) - origin; };
             const glm::dvec3 a = corner(0), b = corner(1), c = corner(2), own = glm::cross(b - a, c - a);
             volume += sides[t] * glm::dot(a, glm::cross(b, c));
             area_vector += static_cast<double>(sides[t]) * own;

@@ -22,7 +22,7 @@ double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::
 /// How near a seam's other side must be, in lengths of the edge.
 constexpr double kReachPart = 0.05;
 
-glm::dvec3 direction_of(const BorderIndex::Segment& s) { return glm::dvec3(s.b) - glm::dvec3(s.a); }
+glm::dvec3 direction_of(const BorderIndex::Segment& s) { return s.b - s.a; }
 
 bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderIndex::Segment& other) {
     const glm::dvec3 way = direction_of(other);
@@ -35,7 +35,7 @@ struct Nearest {
     std::optional<HalfEdge> partner;
 
     void offer(const BorderIndex::Segment& other, const glm::dvec3& at) {
-        const double distance = distance_to_segment(at, glm::dvec3(other.a), glm::dvec3(other.b));
+        const double distance = distance_to_segment(at, other.a, other.b);
         if (distance < reach || (distance == reach && partner && other.half_edge < *partner)) {
             reach = distance;
             partner = other.half_edge;
@@ -52,10 +52,18 @@ bool is_box_near(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& hig
 /// Whether a box touches another one.
 struct TouchedBox {
     glm::dvec3 low, high;
-    bool operator()(const glm::vec3& other_low, const glm::vec3& other_high) const {
-        return glm::all(glm::lessThanEqual(glm::dvec3(other_low), high)) && glm::all(glm::lessThanEqual(low, glm::dvec3(other_high)));
+    bool operator()(const glm::dvec3& other_low, const glm::dvec3& other_high) const {
+        return glm::all(glm::lessThanEqual(other_low, high)) && glm::all(glm::lessThanEqual(low, other_high));
     }
 };
+
+/// In single precision, no larger and no smaller; most numbers come from there.
+float rounded_down(double v) {
+    const auto f = static_cast<float>(v);
+    return static_cast<double>(f) <= v ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+glm::vec3 rounded_down(const glm::dvec3& p) { return {rounded_down(p.x), rounded_down(p.y), rounded_down(p.z)}; }
+glm::vec3 rounded_up(const glm::dvec3& p) { return -rounded_down(-p); }
 
 }  // namespace
 
@@ -63,7 +71,7 @@ BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(se
     if (segments_.empty()) return;
     std::vector<Place> places;
     places.reserve(segments_.size());
-    for (std::uint32_t i = 0; i < segments_.size(); ++i) places.push_back({segments_[i].a + segments_[i].b, i});
+    for (std::uint32_t i = 0; i < segments_.size(); ++i) places.push_back({glm::vec3(segments_[i].a) + glm::vec3(segments_[i].b), i});
     order_.resize(segments_.size());
     nodes_.reserve(segments_.size());
     nodes_.emplace_back();
@@ -99,8 +107,8 @@ void BorderIndex::build(std::uint32_t node, std::uint32_t first, std::span<Place
         box.high = -box.low;
         for (const Place& place : places) {
             const Segment& s = segments_[place.segment];
-            box.low = glm::min(box.low, glm::min(s.a, s.b));
-            box.high = glm::max(box.high, glm::max(s.a, s.b));
+            box.low = glm::min(box.low, rounded_down(glm::min(s.a, s.b)));
+            box.high = glm::max(box.high, rounded_up(glm::max(s.a, s.b)));
             order_[first++] = place.segment;
         }
     }
@@ -166,7 +174,7 @@ void BorderIndex::find_candidates(HalfEdge half_edge, SeamCandidates& candidates
     if (own == nullptr) return;
     candidates.reach_ = kReachPart * glm::length(direction_of(*own));
     const double margin = candidates.reach_ * (1 + 1e-6);
-    const TouchedBox may_be_near{glm::dvec3(glm::min(own->a, own->b)) - margin, glm::dvec3(glm::max(own->a, own->b)) + margin};
+    const TouchedBox may_be_near{glm::min(own->a, own->b) - margin, glm::max(own->a, own->b) + margin};
     search(*own, may_be_near, [&](const Segment& other) { candidates.segments_.push_back(other); });
 }
 

@@ -20,7 +20,7 @@ class BorderIndex {
     struct Segment {
         HalfEdge half_edge = 0;
         std::uint32_t polygon = 0;
-        glm::vec3 a{0.0f}, b{0.0f};
+        glm::dvec3 a{0.0}, b{0.0};
     };
 
     BorderIndex() = default;

@@ -52,6 +52,13 @@ inline Box box_of(std::span<const glm::vec3> positions) {
     return box;
 }
 /// Around a mesh's positions, as seen from its origin.
-inline Box box_of(const Mesh& mesh) { return box_of(mesh.positions); }
+inline Box box_of(const Mesh& mesh) {
+    Box box = box_of(mesh.positions);
+    if (mesh.has_residuals()) {
+        box = {};
+        for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) box.add(mesh.local_position(v));
+    }
+    return box;
+}
 
 }  // namespace burin

@@ -16,63 +16,14 @@
 #include "mesh/marked_edges.h"
 #include "mesh/object_collector.h"
 #include "mesh/repeated_edges.h"
+#include "mesh/round_positions.h"
 #include "mesh/spatial_order.h"
 #include "mesh/triangulate.h"
-#include "mesh/vertex_welder.h"
 
 namespace burin {
 namespace {
 
 constexpr std::uint32_t kNoObject = 0xFFFFFFFFu;
-
-double largest_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
-/// If no vertex is so far from 0, choose_origin() finds 0: some corners alone make the model large enough for that.
-double plainly_near(const PolygonSoup& soup) {
-    if (soup.corners.empty()) return 0;
-    glm::dvec3 low = soup.positions[soup.corners[0]], high = low;
-    const std::size_t step = soup.corners.size() / 1024 + 1;
-    for (std::size_t i = 0; i < soup.corners.size(); i += step) {
-        low = glm::min(low, soup.positions[soup.corners[i]]);
-        high = glm::max(high, soup.positions[soup.corners[i]]);
-    }
-    return 16 * largest_of(0.5 * (high - low));
-}
-
-/// Where to put 0 so that single precision resolves the model: its centre if the model lies more
-/// than 16 of its own half sizes away from 0, else 0 itself (and coordinates keep their values).
-/// Vertices that no polygon and no line uses, such as a stray one at 0, do not count.
-glm::dvec3 choose_origin(const PolygonSoup& soup) {
-    if (soup.corners.empty() && soup.marked_edges.empty()) return glm::dvec3(0.0);
-    std::vector<std::uint8_t> is_used(soup.positions.size(), 0);
-    for (const std::uint32_t v : soup.corners) is_used[v] = 1;
-    for (const auto& [a, b] : soup.marked_edges) is_used[a] = is_used[b] = 1;
-    glm::dvec3 low =
-                   soup.positions[soup.corners.empty() ? soup.marked_edges[0][0] : soup.corners[0]],
-               high = low;
-    for (std::size_t v = 0; v < soup.positions.size(); ++v) {
-        if (is_used[v] == 0) continue;
-        low = glm::min(low, soup.positions[v]);
-        high = glm::max(high, soup.positions[v]);
-    }
-    const glm::dvec3 center = 0.5 * (low + high);
-    return largest_of(center) > 16 * largest_of(0.5 * (high - low)) ? center : glm::dvec3(0.0);
-}
-
-/// Puts positions, as seen from the origin that is chosen for them, into `rounded`. Returns the origin.
-glm::dvec3 round_positions(const PolygonSoup& soup, std::vector<glm::vec3>& rounded) {
-    reserve_large(rounded, soup.positions.size());
-    glm::dvec3 largest(0.0);
-    for (const glm::dvec3& p : soup.positions) {
-        rounded.push_back(glm::vec3(p) + 0.0f);  // + 0 turns -0 into 0
-        largest = glm::max(largest, glm::abs(p));
-    }
-    if (largest_of(largest) < plainly_near(soup)) return glm::dvec3(0.0);
-    const glm::dvec3 origin = choose_origin(soup);
-    if (origin == glm::dvec3(0.0)) return origin;
-    for (std::size_t i = 0; i < rounded.size(); ++i) rounded[i] = glm::vec3(soup.positions[i] - origin) + 0.0f;
-    return origin;
-}
 
 void check_triangle_count(const std::string& object, std::size_t triangles) {
     if (3 * triangles < kNoHalfEdge) return;
@@ -106,7 +57,7 @@ void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
         const std::span<const std::uint32_t> polygon = polygons.polygon(i);
         corners.clear();
-        for (const std::uint32_t v : polygon) corners.emplace_back(polygons.positions[v]);
+        for (const std::uint32_t v : polygon) corners.push_back(polygons.local_position(v));
         pieces.clear();
         triangulate_polygon(corners, pieces);
         for (const auto& [a, b, c] : pieces) {
@@ -124,6 +75,7 @@ void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
 PolygonMesh without(const PolygonMesh& mesh, const std::vector<std::uint32_t>& dropped) {
     PolygonMesh result;
     result.positions = mesh.positions;
+    result.residuals = mesh.residuals;
     result.marked_edges = mesh.marked_edges;
     auto next_dropped = dropped.begin();
     for (std::uint32_t i = 0; i < mesh.polygon_count(); ++i) {
@@ -169,6 +121,7 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh,
                     [](std::uint32_t m) { return m == 0; });
     if (one_material) mesh.polygon_material.clear();
     mesh.positions = std::move(polygons.positions);
+    mesh.residuals = std::move(polygons.residuals);
     mesh.borders = index_borders(mesh);
     return mesh;
 }
@@ -217,19 +170,19 @@ InputOrder put_in_order(const PolygonSoup& soup, const SpatialOrder& spatial, st
 }  // namespace
 
 std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
-    std::vector<glm::vec3> positions;
-    const glm::dvec3 origin = round_positions(soup, positions);
+    RoundedPositions rounded = round_positions(soup);
+    std::vector<glm::vec3>& positions = rounded.positions;
     throw_if_interrupted();
-    std::vector<std::uint32_t> welded = weld_vertices(positions);
+    std::vector<std::uint32_t> welded = weld_vertices(rounded);
     std::vector<Mesh> meshes;
     const auto empty_mesh = [&](std::size_t object) {
         Mesh mesh;
         mesh.name = soup.object_names.empty() ? "" : soup.object_names[object];
-        mesh.origin = origin;
+        mesh.origin = rounded.origin;
         return mesh;
     };
     const bool is_subdivided = options.subdivision_levels > 0;  // which numbers polygons anew
-    if (has_only_triangles(soup)) {
+    if (has_only_triangles(soup) && rounded.residuals.empty()) {
         Mesh mesh = empty_mesh(0);
         // What is done with makes room: fresh memory costs more than the work on it.
         release(soup.positions);
@@ -249,7 +202,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
     }
     std::optional<SpatialOrder> spatial;
     MarkedEdges marks(soup, welded);
-    ObjectCollector collector(soup, positions, welded, marks);
+    ObjectCollector collector(soup, positions, rounded.residuals, welded, marks);
     std::vector<std::uint32_t> objects;  // of the meshes
     std::size_t begin = 0;
     for (std::size_t object = 0; object < groups.end.size(); ++object) {
@@ -290,7 +243,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         while (last < loose.size() && loose[last].object == object) ++last;
         take_up_to(object);
         if (next_mesh == 0 || objects[next_mesh - 1] != object) all.push_back(empty_mesh(object));
-        add_loose_edges(std::span(loose).subspan(first, last - first), positions, all.back());
+        add_loose_edges(std::span(loose).subspan(first, last - first), rounded, all.back());
     }
     take_up_to(kNoObject);
     return all;

@@ -19,7 +19,8 @@ struct MeshOptions {
 /// Turns the polygons of a file into one Mesh per object that has polygons left.
 ///
 /// In this order: coordinates are rounded to single precision (relative to a common origin where
-/// the model lies far from 0), vertices with equal coordinates of one object are welded, repeated
+/// the model lies far from 0, and with residuals where that would blur it:
+/// `mesh/round_positions.h`), vertices with equal coordinates of one object are welded, repeated
 /// corners in a row and spikes (from a corner and straight back to it) collapse, polygons without
 /// three distinct corners or without area are dropped, polygons that pass an edge twice in one
 /// direction are cut (`mesh/repeated_edges.h`), duplicates of an earlier polygon (the same edges, in

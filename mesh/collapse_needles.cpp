@@ -26,7 +26,7 @@ bool is_between_others(const Mesh& mesh, HalfEdge end) {
 
 struct Needle {
     double length;
-    glm::vec3 low, high;  // its ends, in an order of their own
+    glm::dvec3 low, high;  // its ends, in an order of their own
     VertexClusters::Pair ends;
     std::uint32_t triangle;
 };
@@ -78,7 +78,7 @@ std::optional<Mesh> collapse_needles(const Mesh& mesh, const CrackReach& reach) 
     for (const Needle& needle : needles) pairs.push_back(needle.ends);
     VertexClusters clusters(mesh, pairs);
     for (const Needle& needle : needles) {
-        const double largest = kLargestPart * reach(glm::dvec3(needle.low));
+        const double largest = kLargestPart * reach(needle.low);
         if (clusters.may_join(needle.ends, largest, true)) clusters.join(needle.ends);
     }
     return clusters.merge();

@@ -23,15 +23,15 @@ CrackSides::CrackSides(const Mesh& mesh, const CrackReach& reach) : mesh_(mesh),
     lengths_.reserve(segments_.size());
     reach_.reserve(segments_.size());
     for (const BorderIndex::Segment& s : segments_) {
-        lengths_.push_back(glm::distance(glm::dvec3(s.a), glm::dvec3(s.b)));
-        reach_.push_back(std::min(reach(glm::dvec3(s.a)), reach(glm::dvec3(s.b))));
+        lengths_.push_back(glm::distance(s.a, s.b));
+        reach_.push_back(std::min(reach(s.a), reach(s.b)));
     }
     is_end_of_needle_.resize(segments_.size());
     heights_.resize(segments_.size());
     for (std::uint32_t i = 0; i < segments_.size(); ++i) {
         heights_[i] = glm::length(across(i));
         if (lengths_[i] > kNeedleEnd * reach_[i]) continue;
-        const glm::dvec3 far = apex(i), a(segments_[i].a), b(segments_[i].b);
+        const glm::dvec3 far = apex(i), a = segments_[i].a, b = segments_[i].b;
         is_end_of_needle_[i] = lengths_[i] <= kNeedleEndPart * std::min(glm::distance(a, far), glm::distance(b, far));
     }
 }
@@ -55,12 +55,12 @@ std::uint32_t CrackSides::apex_vertex(std::uint32_t segment) const {
     const HalfEdge h = segments_[segment].half_edge;
     return mesh_.triangles[h / 3][(h % 3 + 2) % 3];
 }
-glm::dvec3 CrackSides::apex(std::uint32_t segment) const { return glm::dvec3(mesh_.positions[apex_vertex(segment)]); }
+glm::dvec3 CrackSides::apex(std::uint32_t segment) const { return mesh_.local_position(apex_vertex(segment)); }
 
 /// From the edge to that, at a right angle.
 glm::dvec3 CrackSides::across(std::uint32_t segment) const {
     const BorderIndex::Segment& s = segments_[segment];
-    const glm::dvec3 a(s.a), along = glm::dvec3(s.b) - a, to_apex = apex(segment) - a;
+    const glm::dvec3 a = s.a, along = s.b - a, to_apex = apex(segment) - a;
     return to_apex - along * (glm::dot(to_apex, along) / std::max(glm::dot(along, along), 1e-300));
 }
 
@@ -88,7 +88,7 @@ bool CrackSides::has_beside(std::uint32_t segment, std::uint32_t vertex) const {
 /// Whether the other border lies on the polygon's side of one, and not on its triangle but behind it.
 bool CrackSides::ends_before(std::uint32_t segment, std::uint32_t other) const {
     const BorderIndex::Segment &s = segments_[segment], &t = segments_[other];
-    const double to_other = glm::dot(0.5 * (glm::dvec3(t.a) + glm::dvec3(t.b)) - glm::dvec3(s.a), inward(segment));
+    const double to_other = glm::dot(0.5 * (t.a + t.b) - s.a, inward(segment));
     return to_other > 0 && heights_[segment] <= kBarely * to_other;
 }
 

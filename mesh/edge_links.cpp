@@ -208,7 +208,7 @@ BorderIndex index_borders(const Mesh& mesh) {
         for (auto h = static_cast<HalfEdge>(first); h < end; ++h) {
             if (next[h] != h) continue;
             const auto& t = mesh.triangles[h / 3];
-            segments.push_back({h, mesh.polygon_of(h / 3), mesh.positions[t[h % 3]], mesh.positions[t[(h + 1) % 3]]});
+            segments.push_back({h, mesh.polygon_of(h / 3), mesh.local_position(t[h % 3]), mesh.local_position(t[(h + 1) % 3])});
         }
     }
     return BorderIndex(std::move(segments));

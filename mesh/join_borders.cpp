@@ -17,7 +17,7 @@ using Segment = BorderIndex::Segment;
 /// Two borders that are to be one: which vertices become one.
 struct Crack {
     double width;
-    std::array<glm::vec3, 4> place;  // tells cracks of one width apart
+    std::array<glm::dvec3, 4> place;  // tells cracks of one width apart
     std::array<VertexClusters::Pair, 2> joins;
     std::array<std::uint32_t, 2> sides;  // segments
 };
@@ -30,7 +30,7 @@ constexpr double kBarely = 1 + 1e-9;
 bool is_before(const Crack& a, const Crack& b) {
     if (a.width != b.width) return a.width < b.width;
     for (std::size_t i = 0; i < a.place.size(); ++i) {
-        const glm::vec3 &p = a.place[i], &q = b.place[i];
+        const glm::dvec3 &p = a.place[i], &q = b.place[i];
         if (p != q) return is_less(p, q);
     }
     return a.joins < b.joins;
@@ -50,16 +50,15 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
         near.clear();
         beside.clear();
         // Thousands may meet at an end.
-        const glm::dvec3 middle = 0.5 * (glm::dvec3(s.a) + glm::dvec3(s.b));
+        const glm::dvec3 middle = 0.5 * (s.a + s.b);
         sides.mesh().borders.find_in_box(middle - widest, middle + widest, near);
         for (const std::uint32_t j : near) {
             if (j == i) continue;
             const Segment& t = sides.segments()[j];
-            const glm::dvec3 off = 0.5 * (glm::dvec3(t.a) + glm::dvec3(t.b)) - middle;
+            const glm::dvec3 off = 0.5 * (t.a + t.b) - middle;
             if (glm::dot(off, off) > kBarely * widest * widest) continue;  // most lie in boxes that merely overlap
-            const auto apart = [](const glm::vec3& p, const glm::vec3& q) { return glm::distance(glm::dvec3(p), glm::dvec3(q)); };
-            const double opposite = std::max(apart(s.a, t.b), apart(s.b, t.a));
-            const double along = std::max(apart(s.a, t.a), apart(s.b, t.b));
+            const double opposite = std::max(glm::distance(s.a, t.b), glm::distance(s.b, t.a));
+            const double along = std::max(glm::distance(s.a, t.a), glm::distance(s.b, t.b));
             Crack crack;
             crack.width = std::min(opposite, along);
             if (crack.width > std::min(widest, sides.widest(j, sides.length(j))) || !sides.are_beside(i, j)) continue;
@@ -90,8 +89,8 @@ std::optional<Mesh> join_borders(const Mesh& mesh, const CrackReach& reach) {
     for (const Crack& crack : cracks) pairs.insert(pairs.end(), crack.joins.begin(), crack.joins.end());
     VertexClusters clusters(mesh, pairs);
     for (const Crack& crack : cracks) {
-        double largest = reach(glm::dvec3(crack.place[0]));
-        for (const glm::vec3& place : crack.place) largest = std::min(largest, reach(glm::dvec3(place)));
+        double largest = reach(crack.place[0]);
+        for (const glm::dvec3& place : crack.place) largest = std::min(largest, reach(place));
         if (!clusters.may_join(crack.joins[0], largest) || !clusters.may_join(crack.joins[1], largest)) continue;
         clusters.join(crack.joins[0]);
         clusters.join(crack.joins[1]);

@@ -71,40 +71,41 @@ std::vector<MarkedEdges::Mark> MarkedEdges::loose_edges() const {
     return loose;
 }
 
-void add_loose_edges(std::span<const MarkedEdges::Mark> edges,
-                     const std::vector<glm::vec3>& positions, Mesh& mesh) {
+void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPositions& rounded, Mesh& mesh) {
     constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    using Place = std::array<float, 6>;  // position and residual
     struct Vertex {
-        glm::vec3 position;
+        Place place;
         std::uint32_t in_mesh;
     };
-    const auto is_before = [](const glm::vec3& p, const glm::vec3& q) {
-        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+    const auto place_of = [](const auto& vertices, std::size_t v) {
+        const glm::vec3 p = vertices.positions[v], r = vertices.residuals.empty() ? glm::vec3(0) : vertices.residuals[v];
+        return Place{p.x, p.y, p.z, r.x, r.y, r.z};
     };
+    const bool keeps_residuals = !rounded.residuals.empty() && (mesh.positions.empty() || mesh.has_residuals());
     std::vector<Vertex> vertices;  // by place
     for (const MarkedEdges::Mark& edge : edges) {
-        for (const std::uint32_t v : edge.vertices) vertices.push_back({positions[v], kNone});
+        for (const std::uint32_t v : edge.vertices) vertices.push_back({place_of(rounded, v), kNone});
     }
-    std::sort(vertices.begin(), vertices.end(),
-              [&](const Vertex& a, const Vertex& b) { return is_before(a.position, b.position); });
-    const auto is_same = [](const Vertex& a, const Vertex& b) { return a.position == b.position; };
+    std::sort(vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) { return a.place < b.place; });
+    const auto is_same = [](const Vertex& a, const Vertex& b) { return a.place == b.place; };
     vertices.erase(std::unique(vertices.begin(), vertices.end(), is_same), vertices.end());
-    const auto find = [&](const glm::vec3& p) {
-        const auto it = std::lower_bound(
-            vertices.begin(), vertices.end(), p,
-            [&](const Vertex& v, const glm::vec3& q) { return is_before(v.position, q); });
-        return it != vertices.end() && it->position == p ? &*it : nullptr;
+    const auto find = [&](const Place& place) {
+        const auto it = std::lower_bound(vertices.begin(), vertices.end(), place, [](const Vertex& v, const Place& p) { return v.place < p; });
+        return it != vertices.end() && it->place == place ? &*it : nullptr;
     };
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        if (Vertex* const known = find(mesh.positions[v])) known->in_mesh = v;
+        if (Vertex* const known = find(place_of(mesh, v))) known->in_mesh = v;
     }
     for (const MarkedEdges::Mark& edge : edges) {
         std::array<std::uint32_t, 2>& ends = mesh.loose_edges.emplace_back();
         for (std::size_t end = 0; end < 2; ++end) {
-            Vertex& vertex = *find(positions[edge.vertices[end]]);
+            const std::uint32_t v = edge.vertices[end];
+            Vertex& vertex = *find(place_of(rounded, v));
             if (vertex.in_mesh == kNone) {
                 vertex.in_mesh = static_cast<std::uint32_t>(mesh.positions.size());
-                mesh.positions.push_back(vertex.position);
+                mesh.positions.push_back(rounded.positions[v]);
+                if (keeps_residuals) mesh.residuals.push_back(rounded.residuals[v]);
             }
             ends[end] = vertex.in_mesh;
         }

@@ -10,6 +10,7 @@
 #include "mesh/mesh.h"
 #include "mesh/polygon_mesh.h"
 #include "mesh/polygon_soup.h"
+#include "mesh/round_positions.h"
 
 namespace burin {
 
@@ -47,10 +48,8 @@ class MarkedEdges {
     std::vector<bool> is_of_polygon_;
 };
 
-/// Gives a mesh the loose edges of its object, with the vertices that it lacks. `positions`: of the
-/// soup.
-void add_loose_edges(std::span<const MarkedEdges::Mark> edges,
-                     const std::vector<glm::vec3>& positions, Mesh& mesh);
+/// Gives a mesh the loose edges of its object, with the vertices that it lacks. `rounded`: the soup's.
+void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPositions& rounded, Mesh& mesh);
 
 /// Which of a mesh's marked edges are edges of its polygons, before it is triangulated.
 std::vector<bool> marks_of_polygons(const PolygonMesh& polygons);

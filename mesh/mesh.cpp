@@ -7,8 +7,8 @@ namespace burin {
 glm::dvec3 Mesh::polygon_area_vector(std::uint32_t triangle) const {
     if (!polygon_normals.empty()) return glm::dvec3(polygon_normals[polygon_of(triangle)]);
     const auto& [a, b, c] = triangles[triangle];
-    const glm::dvec3 p(positions[a]);
-    return glm::cross(glm::dvec3(positions[b]) - p, glm::dvec3(positions[c]) - p);
+    const glm::dvec3 p = local_position(a);
+    return glm::cross(local_position(b) - p, local_position(c) - p);
 }
 
 EdgeCounts count_edges(const Mesh& mesh) {
@@ -31,7 +31,7 @@ EdgeCounts count_edges(const Mesh& mesh) {
     counts.marked += counts.loose;
     for (const BorderIndex::Segment& s : mesh.borders.segments()) {
         throw_if_interrupted();
-        const glm::dvec3 middle = 0.5 * (glm::dvec3(s.a) + glm::dvec3(s.b));
+        const glm::dvec3 middle = 0.5 * (s.a + s.b);
         counts.seam += mesh.borders.seam_partner(s.half_edge, middle).has_value();
     }
     return counts;

@@ -34,10 +34,13 @@ struct MeshRepairs {
 struct Mesh {
     std::string name;
 
-    /// Coordinates are origin + position. The origin is 0 unless the model lies so far from 0
+    /// Coordinates are origin + position (+ residual). The origin is 0 unless the model lies so far from 0
     /// that single precision would blur it.
     glm::dvec3 origin{0.0};
     std::vector<glm::vec3> positions;
+    /// What single precision leaves of each position, 0 too. Empty unless the model is so much larger than what it is made of that
+    /// single precision would blur that, wherever the origin is.
+    std::vector<glm::vec3> residuals;
 
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< vertex numbers
     std::vector<std::uint32_t> triangle_polygon;  ///< empty: triangle i is polygon i
@@ -76,9 +79,13 @@ struct Mesh {
     const std::array<std::uint32_t, 2>& loose_edge(HalfEdge h) const {
         return loose_edges[h - 3 * triangles.size()];
     }
-    glm::dvec3 position(std::uint32_t vertex) const {
-        return origin + glm::dvec3(positions[vertex]);
+    bool has_residuals() const { return !residuals.empty(); }
+    /// As seen from the origin.
+    glm::dvec3 local_position(std::uint32_t vertex) const {
+        const glm::dvec3 p(positions[vertex]);
+        return residuals.empty() ? p : p + glm::dvec3(residuals[vertex]);
     }
+    glm::dvec3 position(std::uint32_t vertex) const { return origin + local_position(vertex); }
     /// Area vector of the polygon that the triangle belongs to (any length, never used as 0).
     glm::dvec3 polygon_area_vector(std::uint32_t triangle) const;
 };

@@ -48,9 +48,11 @@ glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners) {
 }
 
 ObjectCollector::ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
-                                 const std::vector<std::uint32_t>& welded, const MarkedEdges& marks)
+                                 const std::vector<glm::vec3>& residuals, const std::vector<std::uint32_t>& welded,
+                                 const MarkedEdges& marks)
     : soup_(soup),
       positions_(positions),
+      residuals_(residuals),
       welded_(welded),
       local_(positions.size(), kUnused),
       is_corner_(positions.size(), false),
@@ -79,6 +81,9 @@ PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t
         if (!soup_.polygon_material.empty()) {
             mesh.polygon_material.push_back(soup_.material_of(polygon));
         }
+    }
+    if (!residuals_.empty()) {
+        for (const std::uint32_t v : used_) mesh.residuals.push_back(residuals_[v]);
     }
     add_marks(mesh);
     repairs.welded_vertices = corners_seen_ - welded_corners_seen_;
@@ -135,6 +140,9 @@ void ObjectCollector::forget(const PolygonsByObject& groups, std::size_t begin, 
 bool ObjectCollector::has_no_area() {
     places_.clear();
     for (const std::uint32_t v : corners_) places_.emplace_back(positions_[v]);
+    if (!residuals_.empty()) {
+        for (std::size_t i = 0; i < corners_.size(); ++i) places_[i] += glm::dvec3(residuals_[corners_[i]]);
+    }
     return normal_of_any_corners(places_) == glm::dvec3(0.0);
 }
 

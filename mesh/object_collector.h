@@ -28,9 +28,9 @@ glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners);
 /// nothing without area.
 class ObjectCollector {
   public:
-    /// `welded`: per vertex of the soup the number of the first one at its place. `marks`: of the
-    /// soup.
-    ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
+    /// `residuals`: of positions, as Mesh has them. `welded`: per vertex of the soup the number of the first one at its place.
+    /// `marks`: of the soup.
+    ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& residuals,
                     const std::vector<std::uint32_t>& welded, const MarkedEdges& marks);
 
     /// The polygons groups.order[begin, end), which are all of one object. `dropped`: gets the places, from `begin` on, of those
@@ -50,7 +50,7 @@ class ObjectCollector {
     std::uint32_t local_number(std::uint32_t v, PolygonMesh& mesh);
 
     const PolygonSoup& soup_;
-    const std::vector<glm::vec3>& positions_;
+    const std::vector<glm::vec3>&positions_, &residuals_;
     const std::vector<std::uint32_t>& welded_;
     std::vector<std::uint32_t> local_;  // per soup vertex: its number in the object
     std::vector<std::uint32_t> used_;

@@ -12,11 +12,16 @@ namespace burin {
 /// on. Corners are numbers into `positions`.
 struct PolygonMesh {
     std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> residuals;  ///< as Mesh has them
     std::vector<std::uint32_t> corners;
     std::vector<std::uint32_t> ends;              ///< empty: all polygons are triangles
     std::vector<std::uint32_t> polygon_material;  ///< empty: all have material 0
     std::vector<std::array<std::uint32_t, 2>> marked_edges;
 
+    glm::dvec3 local_position(std::uint32_t vertex) const {
+        const glm::dvec3 p(positions[vertex]);
+        return residuals.empty() ? p : p + glm::dvec3(residuals[vertex]);
+    }
     std::size_t polygon_count() const { return ends.empty() ? corners.size() / 3 : ends.size(); }
     std::span<const std::uint32_t> polygon(std::size_t i) const {
         if (ends.empty()) return {corners.data() + 3 * i, 3};

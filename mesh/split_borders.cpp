@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "mesh/edge_links.h"
+#include "mesh/residuals.h"
 #include "mesh/vertex_clusters.h"
 
 namespace burin {
@@ -27,17 +28,17 @@ void find_cuts(const CrackSides& sides, std::uint32_t i, std::vector<std::uint32
     const Segment& s = sides.segments()[i];
     const double length = sides.length(i), most = sides.widest(i, length);
     if (!(most > 0)) return;
-    const glm::dvec3 a(s.a), b(s.b), along = (b - a) / length;
+    const glm::dvec3 a = s.a, b = s.b, along = (b - a) / length;
     near.clear();
     sides.mesh().borders.find_in_box(glm::min(a, b) - most, glm::max(a, b) + most, near);
     const std::size_t first = cuts.size();
     for (const std::uint32_t j : near) {
         const Segment& t = sides.segments()[j];
-        const glm::dvec3 way = glm::dvec3(t.b) - glm::dvec3(t.a);
+        const glm::dvec3 way = t.b - t.a;
         if (std::abs(glm::dot(along, way)) < kCosParallel * sides.length(j)) continue;
         const double widest = std::min(most, std::max(sides.widest(i, sides.length(j)), 0.05 * length));
         const std::size_t before = cuts.size();
-        for (const glm::dvec3 corner : {glm::dvec3(t.a), glm::dvec3(t.b)}) {
+        for (const glm::dvec3 corner : {t.a, t.b}) {
             const double at = glm::dot(corner - a, along);
             const bool is_inside = at > 0 && at < length && glm::distance(corner, a) > widest && glm::distance(corner, b) > widest;
             if (is_inside && glm::distance(corner, a + at * along) <= widest) cuts.push_back({s.half_edge, at / length});
@@ -97,6 +98,7 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
     if (cuts.empty()) return std::nullopt;
     Mesh result = with_polygons_of(mesh);
     result.positions = mesh.positions;
+    result.residuals = mesh.residuals;
     std::vector<Part> parts;
     std::vector<std::uint32_t> points;
     auto cut = cuts.begin();
@@ -105,7 +107,7 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
         // The longest edge first, whichever corner the triangle begins with.
         const auto first = cut;
         while (cut != cuts.end() && cut->half_edge / 3 == t) ++cut;
-        const auto corner = [&](HalfEdge h) { return glm::dvec3(mesh.positions[mesh.triangles[t][h % 3]]); };
+        const auto corner = [&](HalfEdge h) { return mesh.local_position(mesh.triangles[t][h % 3]); };
         std::array<HalfEdge, 3> edges{3 * t, 3 * t + 1, 3 * t + 2};
         const auto length = [&](HalfEdge h) { return glm::distance(corner(h), corner(h + 1)); };
         if (cut != first) std::stable_sort(edges.begin(), edges.end(), [&](HalfEdge g, HalfEdge h) { return length(g) > length(h); });
@@ -114,7 +116,7 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
             for (auto it = first; it != cut; ++it) {
                 if (it->half_edge != h) continue;
                 points.push_back(static_cast<std::uint32_t>(result.positions.size()));
-                result.positions.emplace_back(glm::mix(corner(h), corner(h + 1), it->share));
+                add_position(result, glm::mix(corner(h), corner(h + 1), it->share), mesh.has_residuals());
             }
             if (!points.empty()) cut_fan(parts, static_cast<std::uint8_t>(h % 3), points);
         }

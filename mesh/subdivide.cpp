@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "mesh/residuals.h"
 
 namespace burin {
 namespace {
@@ -41,7 +42,10 @@ bool has_repeated_corner(std::span<const std::uint32_t> corners) {
 template <typename OmMesh>
 OmMesh to_openmesh(const PolygonMesh& mesh, const std::string& object_name) {
     OmMesh om;
-    for (const glm::vec3& p : mesh.positions) om.add_vertex(OpenMesh::Vec3d(p.x, p.y, p.z));
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        const glm::dvec3 p = mesh.local_position(v);
+        om.add_vertex(OpenMesh::Vec3d(p.x, p.y, p.z));
+    }
     std::vector<OpenMesh::VertexHandle> handles;
     for (std::size_t i = 0; i < mesh.polygon_count(); ++i) {
         if (has_repeated_corner(mesh.polygon(i))) refuse(object_name, i, "has a corner twice");
@@ -130,8 +134,7 @@ PolygonMesh subdivide_as(const PolygonMesh& cage, int levels, const std::string&
     result.polygon_material = std::move(materials);
     for (const auto v : om.vertices()) {
         const OpenMesh::Vec3d p = om.point(v);
-        result.positions.emplace_back(static_cast<float>(p[0]), static_cast<float>(p[1]),
-                                      static_cast<float>(p[2]));
+        add_position(result, {p[0], p[1], p[2]}, !cage.residuals.empty());
     }
     std::vector<std::uint32_t> corners;
     for (const auto f : om.faces()) {

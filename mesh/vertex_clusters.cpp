@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "mesh/edge_links.h"
+#include "mesh/residuals.h"
 
 namespace burin {
 namespace {
@@ -26,10 +27,12 @@ void spread_marks(Mesh& mesh) {
 
 }  // namespace
 
-bool is_less(const glm::vec3& p, const glm::vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
+bool is_less(const glm::dvec3& p, const glm::dvec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 
 VertexClusters::VertexClusters(const Mesh& mesh, std::span<const Pair> pairs)
     : mesh_(mesh), number_(mesh.positions.size(), kNone) {
+    given_.reserve(mesh.positions.size());
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) given_.push_back(mesh.local_position(v));
     for (const auto& [u, v] : pairs) {
         for (const std::uint32_t vertex : {u, v}) {
             if (number_[vertex] != kNone) continue;
@@ -57,7 +60,7 @@ bool VertexClusters::may_join(Pair pair, double largest, bool may_collapse) cons
     if (a == b) return true;
     for (const std::uint32_t m : members_[a]) {
         for (const std::uint32_t n : members_[b]) {
-            if (glm::distance(glm::dvec3(place(m)), glm::dvec3(place(n))) > largest) return false;
+            if (glm::distance(place(m), place(n)) > largest) return false;
         }
         if (may_collapse) continue;
         for (const std::uint32_t t : triangles_[m]) {
@@ -79,50 +82,50 @@ void VertexClusters::join(Pair pair) {
 }
 
 /// Of all vertices once clusters are one each.
-std::vector<glm::vec3> VertexClusters::positions() const {
-    std::vector<glm::vec3> result = mesh_.positions;
-    std::vector<glm::vec3> places;
+VertexClusters::Positions VertexClusters::positions() const {
+    Positions result = given_, places;
     for (const auto& members : members_) {
         if (members.size() < 2) continue;
         places.clear();
         for (const std::uint32_t m : members) places.push_back(place(m));
         std::sort(places.begin(), places.end(), is_less);  // sums depend on the order
         glm::dvec3 sum(0.0);
-        for (const glm::vec3& p : places) sum += glm::dvec3(p);
-        const glm::vec3 middle(sum / static_cast<double>(places.size()));
+        for (const glm::dvec3& p : places) sum += p;
+        glm::dvec3 middle = sum / static_cast<double>(places.size());
+        if (!mesh_.has_residuals()) middle = glm::dvec3(glm::vec3(middle));
         for (const std::uint32_t m : members) result[vertices_[m]] = middle;
     }
     return result;
 }
 
-glm::dvec3 VertexClusters::area_of(const std::vector<glm::vec3>& positions, std::uint32_t triangle) const {
+glm::dvec3 VertexClusters::area_of(const Positions& positions, std::uint32_t triangle) const {
     const auto& t = mesh_.triangles[triangle];
-    const glm::dvec3 a(positions[t[0]]);
-    return glm::cross(glm::dvec3(positions[t[1]]) - a, glm::dvec3(positions[t[2]]) - a);
+    const glm::dvec3 a = positions[t[0]];
+    return glm::cross(positions[t[1]] - a, positions[t[2]] - a);
 }
 
 /// Whether a triangle is a needle whose end is about as short as what its corners are moved by: then its normal says nothing.
-bool VertexClusters::is_needle(const std::vector<glm::vec3>& moved, std::uint32_t triangle) const {
+bool VertexClusters::is_needle(const Positions& moved, std::uint32_t triangle) const {
     const auto& t = mesh_.triangles[triangle];
     std::array<double, 3> lengths{};
     double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const glm::dvec3 p(mesh_.positions[t[k]]), next(mesh_.positions[t[(k + 1) % 3]]);
+        const glm::dvec3 p = given_[t[k]], next = given_[t[(k + 1) % 3]];
         lengths[k] = glm::distance(p, next);
-        farthest = std::max(farthest, glm::distance(p, glm::dvec3(moved[t[k]])));
+        farthest = std::max(farthest, glm::distance(p, moved[t[k]]));
     }
     std::sort(lengths.begin(), lengths.end());
     return lengths[0] <= kNeedleMoves * farthest && lengths[0] <= kNeedleEndPart * lengths[1];
 }
 
 /// Lets clusters fall apart where triangles turn too far. Whether there were any.
-bool VertexClusters::undo_turned(const std::vector<glm::vec3>& moved) {
+bool VertexClusters::undo_turned(const Positions& moved) {
     std::vector<std::uint32_t> undone;
     for (const auto& members : members_) {
         if (members.size() < 2) continue;
         const auto turns = [&](std::uint32_t m) {
             return std::any_of(triangles_[m].begin(), triangles_[m].end(), [&](std::uint32_t t) {
-                const glm::dvec3 before = area_of(mesh_.positions, t), after = area_of(moved, t);
+                const glm::dvec3 before = area_of(given_, t), after = area_of(moved, t);
                 return glm::dot(before, after) < kCosLargestTurn * glm::length(before) * glm::length(after) && !is_needle(moved, t);
             });
         };
@@ -144,7 +147,7 @@ std::uint32_t VertexClusters::stand_in(std::uint32_t vertex) const {
 }
 
 Mesh VertexClusters::merge() {
-    std::vector<glm::vec3> moved = positions();
+    Positions moved = positions();
     while (undo_turned(moved)) moved = positions();
     const auto corners_of = [&](std::uint32_t t) {
         const auto& [a, b, c] = mesh_.triangles[t];
@@ -152,7 +155,8 @@ Mesh VertexClusters::merge() {
     };
     const auto has_collapsed = [](const std::array<std::uint32_t, 3>& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; };
     Mesh result = with_polygons_of(mesh_);
-    result.positions = std::move(moved);
+    result.positions.reserve(moved.size());
+    for (const glm::dvec3& p : moved) add_position(result, p, mesh_.has_residuals());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         const std::array<std::uint32_t, 3> corners = corners_of(t);
         if (has_collapsed(corners)) continue;

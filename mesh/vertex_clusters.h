@@ -9,7 +9,7 @@
 namespace burin {
 
 /// Some coordinate decides; an order that does not depend on how vertices are numbered.
-bool is_less(const glm::vec3& p, const glm::vec3& q);
+bool is_less(const glm::dvec3& p, const glm::dvec3& q);
 
 /// Vertices of a mesh that are to be one, in the middle of all of them.
 class VertexClusters {
@@ -30,14 +30,16 @@ class VertexClusters {
 
   private:
     std::uint32_t cluster_of(std::uint32_t vertex) const { return cluster_[number_[vertex]]; }
-    glm::vec3 place(std::uint32_t number) const { return mesh_.positions[vertices_[number]]; }
-    glm::dvec3 area_of(const std::vector<glm::vec3>& positions, std::uint32_t triangle) const;
-    std::vector<glm::vec3> positions() const;
-    bool is_needle(const std::vector<glm::vec3>& moved, std::uint32_t triangle) const;
-    bool undo_turned(const std::vector<glm::vec3>& moved);
+    using Positions = std::vector<glm::dvec3>;  // of all vertices, as the mesh would have them
+    glm::dvec3 place(std::uint32_t number) const { return mesh_.local_position(vertices_[number]); }
+    glm::dvec3 area_of(const Positions& positions, std::uint32_t triangle) const;
+    Positions positions() const;
+    bool is_needle(const Positions& moved, std::uint32_t triangle) const;
+    bool undo_turned(const Positions& moved);
     std::uint32_t stand_in(std::uint32_t vertex) const;
 
     const Mesh& mesh_;
+    Positions given_;  // before anything moves
     std::vector<std::uint32_t> number_;    // per vertex of the mesh, of those in pairs
     std::vector<std::uint32_t> vertices_;  // the other way round
     std::vector<std::uint32_t> cluster_;

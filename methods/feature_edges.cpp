@@ -97,8 +97,7 @@ class InstanceEdges {
     LineClassSet classes_of_border(HalfEdge h) const {
         const auto& t = mesh_.triangles[h / 3];
         const std::uint32_t a = t[h % 3], b = t[(h % 3 + 1) % 3];
-        const glm::dvec3 middle =
-            0.5 * (glm::dvec3(mesh_.positions[a]) + glm::dvec3(mesh_.positions[b]));
+        const glm::dvec3 middle = 0.5 * (mesh_.local_position(a) + mesh_.local_position(b));
         const auto partner = mesh_.borders.seam_partner(h, middle);
         if (!partner) return LineClass::border;
         const SurfaceId own{instance_, h / 3}, other{instance_, *partner / 3};

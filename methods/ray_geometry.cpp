@@ -16,9 +16,8 @@ std::vector<glm::dvec3> areas_of_polygons(const Mesh& mesh) {
     areas.assign(mesh.polygon_count, glm::dvec3(0.0));
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& [a, b, c] = mesh.triangles[t];
-        const glm::dvec3 p(mesh.positions[a]);
-        areas[mesh.polygon_of(t)] +=
-            glm::cross(glm::dvec3(mesh.positions[b]) - p, glm::dvec3(mesh.positions[c]) - p);
+        const glm::dvec3 p = mesh.local_position(a);
+        areas[mesh.polygon_of(t)] += glm::cross(mesh.local_position(b) - p, mesh.local_position(c) - p);
     }
     return areas;
 }

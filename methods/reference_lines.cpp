@@ -380,7 +380,7 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const double margin = std::min(0.5, 0.5 * kWidestCrackPx / length_px);
     along_edge = std::clamp(along_edge, margin, 1 - margin);
     const auto seam = mesh.borders.seam_partner(
-        border, glm::mix(glm::dvec3(mesh.positions[v]), glm::dvec3(mesh.positions[w]), along_edge));
+        border, glm::mix(mesh.local_position(v), mesh.local_position(w), along_edge));
     if (!seam) return false;
     const glm::dvec3 place = glm::mix(geometry_.position(f.object, v), geometry_.position(f.object, w), along_edge);
     const auto& u = mesh.triangles[*seam / 3];

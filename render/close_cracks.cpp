@@ -54,9 +54,10 @@ Distances distances_of(const Placing& placing, const Box& box) {
 /// Whether anything of it is. `box` is around the mesh.
 bool is_before_the_eye(const Placing& placing, const Mesh& mesh, const Box& box) {
     if (distances_of(placing, box).high < 0) return false;
-    return std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) {
-        return glm::dot(placing.per_position, glm::dvec3(p)) + placing.distance > 0;
-    });
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        if (glm::dot(placing.per_position, mesh.local_position(v)) + placing.distance > 0) return true;
+    }
+    return false;
 }
 
 /// Leaves the placings that matter where the mesh is: the size of a pixel is the least of all.

@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "mesh/box.h"
 #include "mesh/text_scan.h"
+#include "render/frame_reach.h"
 
 namespace burin {
 namespace {
@@ -41,6 +42,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     surfaces.view_to_world = glm::dmat3(camera.to_world);
     const glm::dmat4 world_to_view = camera.to_view();
     Box view_box;
+    std::vector<Box> view_boxes;
     std::uint64_t next_polygon_id = 1;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         throw_if_interrupted();
@@ -59,33 +61,29 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         instance.first_polygon_id = static_cast<std::uint32_t>(next_polygon_id);
         next_polygon_id += mesh.polygon_count;
         instance.materials = object.materials;
-        mesh_boxes[object.mesh].for_each_corner([&](const glm::dvec3& corner) {
-            if (!mesh.positions.empty()) {
-                view_box.add(glm::dvec3(instance.to_view * glm::dvec4(corner, 1.0)));
-            }
-        });
+        Box own;
+        if (!mesh.positions.empty()) {
+            mesh_boxes[object.mesh].for_each_corner([&](const glm::dvec3& corner) {
+                own.add(glm::dvec3(instance.to_view * glm::dvec4(corner, 1.0)));
+            });
+            view_box.add(own.low);
+            view_box.add(own.high);
+        }
+        view_boxes.push_back(own);
         surfaces.instances.push_back(std::move(instance));
     }
     if (next_polygon_id > std::numeric_limits<std::uint32_t>::max()) {
         throw InputError("the scene has more than 4 billion polygons; split it");
     }
 
-    double farthest = 0;
     if (!view_box.is_empty()) {
         const glm::dvec3 reach = glm::max(glm::abs(view_box.low), glm::abs(view_box.high));
         if (!(std::max({reach.x, reach.y, reach.z}) <= kLargestCoordinate)) {
             throw InputError("the scene reaches beyond 1e30 units from the camera; scale it down");
         }
-        farthest = glm::length(reach);
-        // Single-precision coordinates are exact to 2^-24 of their size; transforms of files and
-        // the planes of small triangles lose some more.
-        surfaces.coordinate_error = 0x1p-21 * 0.5 * glm::distance(view_box.low, view_box.high);
     }
-    const double near_distance = camera.orthographic ? 0.0 : 0x1p-20 * farthest;
-    surfaces.projection = camera.projection(width, height, near_distance);
-    const double depth = view_box.is_empty() ? 1.0 : -view_box.low.z;
-    surfaces.farthest_nearness = surfaces.projection.nearness(
-        {0, 0, -(camera.orthographic ? depth : std::max(depth, near_distance))});
+    surfaces.projection = camera.projection(width, height, 0);
+    set_reach(surfaces, view_boxes, glm::length(camera.eye()));
     return frame;
 }
 

@@ -22,8 +22,12 @@ class BoxTree {
         const std::span<const glm::vec3> positions(mesh.positions);
         std::vector<Box> boxes;
         for (std::size_t first = 0; first < positions.size(); first += kPointBlock) {
-            Box box =
-                box_of(positions.subspan(first, std::min(kPointBlock, positions.size() - first)));
+            const std::size_t count = std::min(kPointBlock, positions.size() - first);
+            Box box = box_of(positions.subspan(first, count));
+            if (mesh.has_residuals()) {
+                box = {};
+                for (std::size_t v = first; v < first + count; ++v) box.add(mesh.local_position(static_cast<std::uint32_t>(v)));
+            }
             box.low += mesh.origin;  // rounds as points do
             box.high += mesh.origin;
             boxes.push_back(box);

@@ -106,7 +106,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     std::vector<std::vector<LineSegment>> segments;
     std::optional<CourseIndex> visible_courses;  // before they are dashed
     RowFinisher finisher(frame, kernels, stats.threads, options, film);
-    SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress, contours.get());
+    SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress);
     const bool waits = !abuffer_finishes_in_bands(frame);
     const auto hand_on = [&](PixelRect part) {
         stats.lines_s += watch.lap();
@@ -120,6 +120,10 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         const bool is_last = &piece == &plan.visible.back();
         if (waits && !is_last) continue;
         watch.lap();
+        if (contours) {
+            contours->move(segments, stats.threads);
+            unfinished = segments;
+        }
         if (const auto dash_px = visible_dashes(lines.style).dash_px) {
             std::vector<LayerLine> features;
             for (const std::vector<std::uint32_t>& group : plan.groups) {

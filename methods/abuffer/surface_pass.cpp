@@ -148,7 +148,6 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
             times[w].lines += lap.lap();
             fillers[w]->fill(*tiles[w], film);
         }
-        if (contours_ != nullptr) contours_->move(lines);
         segments[before + index].assign(lines.begin(), lines.end());
         times[w].shade += lap.lap();
         const double write_s = finish_rows(index, worker);

@@ -9,7 +9,7 @@
 #include "methods/abuffer/layers/layer_edges.h"
 #include "methods/abuffer/row_finisher.h"
 #include "methods/abuffer/screen/screen_surfaces.h"
-#include "methods/abuffer/strokes/smooth_contours.h"
+#include "methods/abuffer/strokes/stroke_pass.h"
 #include "render/film.h"
 #include "render/frame.h"
 #include "render/stats.h"
@@ -21,8 +21,8 @@ namespace burin {
 class SurfacePass {
   public:
     SurfacePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads,
-                Progress* progress, const SmoothContours* contours)
-        : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress), contours_(contours) {}
+                Progress* progress)
+        : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress) {}
 
     /// Draws the tiles of `region`, adds their lines and the time it took. Rows whose lines are known by then are
     /// finished, except for the last ones; nullptr: none. Returns the lists of `segments` that may reach rows that are not.
@@ -37,7 +37,6 @@ class SurfacePass {
     const TileKernels& kernels_;
     int threads_;
     Progress* progress_;
-    const SmoothContours* contours_;  // nullptr where they follow the mesh
     std::optional<PossibleLines> possible_lines_;
 };
 

@@ -136,7 +136,7 @@ TEST(SeamPartner, PatchesAlongOneCurveAreSeamsOfEachOther) {
         const Mesh& mesh = meshes.at(0);
         int seams = 0;
         for (const Segment& s : mesh.borders.segments()) {
-            const bool on_curve = std::abs(glm::length(s.a) - 1) < 1e-5f && std::abs(glm::length(s.b) - 1) < 1e-5f;
+            const bool on_curve = std::abs(glm::length(s.a) - 1) < 1e-5 && std::abs(glm::length(s.b) - 1) < 1e-5;
             for (const double t : {0.1, 0.5, 0.8}) {
                 const auto partner = mesh.borders.seam_partner(s.half_edge, glm::mix(glm::dvec3(s.a), glm::dvec3(s.b), t));
                 if (!on_curve) {

@@ -104,8 +104,8 @@ TEST(IndexBorders, ListsTheHalfEdgesThatAreAlone) {
         EXPECT_EQ(borders.segments()[i].half_edge, expected[i]);
         EXPECT_EQ(borders.segments()[i].polygon, 7u);
     }
-    EXPECT_EQ(borders.segments()[2].a, glm::vec3(1, 1, 0));
-    EXPECT_EQ(borders.segments()[2].b, glm::vec3(0, 1, 0));
+    EXPECT_EQ(borders.segments()[2].a, glm::dvec3(1, 1, 0));
+    EXPECT_EQ(borders.segments()[2].b, glm::dvec3(0, 1, 0));
 }
 
 }  // namespace

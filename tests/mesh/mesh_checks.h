@@ -119,8 +119,8 @@ inline void expect_consistent(const Mesh& mesh, const std::string& what) {
         const HalfEdge h = borders[i];
         ASSERT_EQ(s.half_edge, h) << what;
         ASSERT_EQ(s.polygon, mesh.polygon_of(h / 3)) << what;
-        ASSERT_EQ(s.a, mesh.positions[mesh.triangles[h / 3][h % 3]]) << what;
-        ASSERT_EQ(s.b, mesh.positions[mesh.triangles[h / 3][(h + 1) % 3]]) << what;
+        ASSERT_EQ(s.a, mesh.local_position(mesh.triangles[h / 3][h % 3])) << what;
+        ASSERT_EQ(s.b, mesh.local_position(mesh.triangles[h / 3][(h + 1) % 3])) << what;
     }
 }
 

@@ -147,8 +147,8 @@ TEST(Teapot, PatchesAreStitchedExceptWhereNewellLeftThemOpen) {
             const glm::dvec3 m = 0.5 * (glm::dvec3(s.a) + glm::dvec3(s.b));
             const double radius = std::hypot(m.x, m.z);
             // The mouth of the body and the edge of the lid lie at one height, at radii 1.4 and 1.3.
-            if (std::abs(s.a.y - 2.4f) < 1e-5f && std::abs(s.b.y - 2.4f) < 1e-5f && radius < 1.41) {
-                ++(std::hypot(s.a.x, s.a.z) > 1.35f ? rim : lid);
+            if (std::abs(s.a.y - 2.4) < 1e-5 && std::abs(s.b.y - 2.4) < 1e-5 && radius < 1.41) {
+                ++(std::hypot(s.a.x, s.a.z) > 1.35 ? rim : lid);
             } else if (m.x < 0) {
                 ++(m.y > 1.5 ? handle_top : handle_bottom);
             } else {

@@ -24,7 +24,7 @@ bool is_level(const ScreenSurfaces& screen, double nearness_a, double nearness_b
 std::optional<HalfEdge> seam_partner(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h, const EdgeOnScreen& edge,
                                      const BorderIndex::SeamCandidates& candidates, double on_screen) {
     const Mesh& mesh = screen.surfaces().mesh_of(s);
-    const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), b(mesh.positions[end_of(mesh, h)]);
+    const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), b = mesh.local_position(end_of(mesh, h));
     const auto partner = candidates.nearest(glm::mix(a, b, share_in_space(screen, edge, on_screen)));
     if (!partner) return std::nullopt;
     const auto other = edge_on_screen(screen, s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
@@ -61,15 +61,15 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     BorderIndex::SeamCandidates candidates;
     mesh.borders.find_candidates(h, candidates);
     if (candidates.segments().empty()) return {{}};
-    const glm::dvec3 a(mesh.positions[start_of(mesh, h)]), along = glm::dvec3(mesh.positions[end_of(mesh, h)]) - a;
+    const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), along = mesh.local_position(end_of(mesh, h)) - a;
     const double square = glm::dot(along, along);
     std::vector<double> ends;
     bool has_crack = false;
     for (const BorderIndex::Segment& other : candidates.segments()) {
         if (!is_crack_beside(screen, s.instance, edge, other.half_edge)) continue;
         has_crack = true;
-        for (const glm::vec3& end : {other.a, other.b}) {
-            const double in_space = glm::dot(glm::dvec3(end) - a, along) / square;
+        for (const glm::dvec3& end : {other.a, other.b}) {
+            const double in_space = glm::dot(end - a, along) / square;
             if (in_space > edge.begin && in_space < edge.end) ends.push_back(share_on_screen(screen, edge, in_space));
         }
     }

@@ -34,7 +34,7 @@ class IntersectionTest {
     /// A vertex of an object, from the scene's middle.
     glm::dvec3 position(std::uint32_t object, std::uint32_t vertex) const {
         const Place& p = places_[object];
-        const glm::dvec3 at(p.mesh->positions[vertex]);
+        const glm::dvec3 at = p.mesh->local_position(vertex);
         return p.axes[0] * at.x + p.axes[1] * at.y + (p.axes[2] * at.z + p.origin);
     }
     /// The diagonal of the box of all vertices.

@@ -305,8 +305,7 @@ class LayerEdgeFinder::Rules {
     }
 
     double length_of(const Mesh& mesh, HalfEdge h) const {
-        return glm::distance(glm::dvec3(mesh.positions[start_of(mesh, h)]),
-                             glm::dvec3(mesh.positions[end_of(mesh, h)]));
+        return glm::distance(mesh.local_position(start_of(mesh, h)), mesh.local_position(end_of(mesh, h)));
     }
 
     glm::dvec2 middle_px(SurfaceId s, HalfEdge h) const {

@@ -53,7 +53,7 @@ bool goes_on_beyond(const ScreenSurfaces& screen, const LayerTriangle& t, std::s
     const Mesh& mesh = *screen.surfaces().instances[t.instance].mesh;
     const HalfEdge own = half_edge_at(screen, t, k);
     if (mesh.next_on_edge[own] == own) {
-        const glm::dvec3 middle = 0.5 * (glm::dvec3(mesh.positions[from]) + glm::dvec3(mesh.positions[to]));
+        const glm::dvec3 middle = 0.5 * (mesh.local_position(from) + mesh.local_position(to));
         return mesh.borders.seam_partner(own, middle).has_value();
     }
     for (HalfEdge h = mesh.next_on_edge[own]; h != own; h = mesh.next_on_edge[h]) {

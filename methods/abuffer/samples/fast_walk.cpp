@@ -287,7 +287,7 @@ std::optional<HalfEdge> FastWalker::seam_beyond(std::uint32_t instance, HalfEdge
     const double qn = surfaces_.farthest_nearness + static_cast<double>(vertices[n].nearness);
     // Where that is on the edge in space.
     const double part = surfaces_.projection.orthographic ? along : along * qn / ((1 - along) * qk + along * qn);
-    const glm::dvec3 a(mesh.positions[k]), b(mesh.positions[n]);
+    const glm::dvec3 a = mesh.local_position(k), b = mesh.local_position(n);
     return seams_.partner(mesh.borders, border, glm::mix(a, b, part));
 }
 

@@ -87,7 +87,7 @@ void PixelFiller::make_looks() {
         const Mesh& mesh = screen_.surfaces().mesh_of(first);
         const std::uint32_t offset = numbers_[i] - first.triangle;
         std::size_t count = 0;
-        while (count < kWidth && i + count < numbers_.size() && mesh.polygon_normals.empty()) {
+        while (count < kWidth && i + count < numbers_.size() && mesh.polygon_normals.empty() && !mesh.has_residuals()) {
             const std::uint32_t number = numbers_[i + count];
             if (number - offset >= mesh.triangles.size() || screen_.facing(number) == off_screen) break;
             triangles[count++] = number - offset;

@@ -55,7 +55,7 @@ std::optional<EdgeOnScreen> clipped_edge(const ScreenSurfaces& screen, std::uint
 
 bool comes_first_in_space(const ScreenSurfaces& screen, std::uint32_t instance, std::uint32_t one, std::uint32_t two) {
     const Mesh& mesh = *screen.surfaces().instances[instance].mesh;
-    const glm::vec3 &p = mesh.positions[one], &q = mesh.positions[two];
+    const glm::dvec3 p = mesh.local_position(one), q = mesh.local_position(two);
     return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
 

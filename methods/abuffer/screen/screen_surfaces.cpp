@@ -4,6 +4,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <numeric>
 
+#include "abuffer/screen_polygon.h"
 #include "base/error.h"
 #include "base/parallel.h"
 
@@ -36,6 +37,16 @@ ScreenTransform transform_of(const SurfaceSet& surfaces, const SurfaceInstance& 
     t.guard_band_px = kGuardBandPx;
     t.farthest_nearness = surfaces.farthest_nearness;
     return t;
+}
+
+/// What TileKernels::project() does, for a mesh with residuals.
+ScreenVertex projected(const SurfaceSet& surfaces, std::uint32_t instance, std::uint32_t vertex) {
+    const Projection& p = surfaces.projection;
+    const glm::dvec3 view = surfaces.view_position(instance, vertex);
+    if (!needs_no_clipping(p, view)) return {ScreenVertex::kOffScreen, 0, 0};
+    const glm::dvec2 pixel = p.to_pixel(view);
+    return {static_cast<std::int32_t>(snap_to_subpixels(pixel.x)), static_cast<std::int32_t>(snap_to_subpixels(pixel.y)),
+            static_cast<float>(p.nearness(view) - surfaces.farthest_nearness)};
 }
 
 /// The instance that has the triangle with a number of the frame.
@@ -96,10 +107,16 @@ void ScreenSurfaces::show(std::span<const std::uint32_t> instances, int threads)
     meshes_.resize(is_shown_.size());
     for (const std::uint32_t i : instances) meshes_[i] = make_mesh(i);
     for (const std::uint32_t i : instances) {
-        const std::vector<glm::vec3>& positions = surfaces_.instances[i].mesh->positions;
+        const Mesh& mesh = *surfaces_.instances[i].mesh;
+        const std::vector<glm::vec3>& positions = mesh.positions;
         for_chunks(positions.size(), threads, [&](std::size_t begin, std::size_t end) {
+            ScreenVertex* const own = vertices_.get() + first_vertex_[i];
+            if (mesh.has_residuals()) {
+                for (std::size_t v = begin; v < end; ++v) own[v] = projected(surfaces_, i, static_cast<std::uint32_t>(v));
+                return;
+            }
             kernels_.project(transforms_[i], glm::value_ptr(positions[begin]), end - begin,
-                             vertices_.get() + first_vertex_[i] + begin);
+own + begin);
         });
     }
 }

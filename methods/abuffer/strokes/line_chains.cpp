@@ -77,7 +77,7 @@ class Chains {
         const Mesh& mesh = *surfaces_.instances[static_cast<std::uint32_t>(line.line_key >> 32)].mesh;
         const auto h = static_cast<HalfEdge>(line.line_key & 0xFFFFFFFFu);
         const auto& corners = mesh.triangles[h / 3];
-        return glm::distance(glm::dvec3(mesh.positions[corners[h % 3]]), glm::dvec3(mesh.positions[corners[(h + 1) % 3]]));
+        return glm::distance(mesh.local_position(corners[h % 3]), mesh.local_position(corners[(h + 1) % 3]));
     }
     std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }
     /// What the line is, seen from anywhere.
@@ -115,7 +115,7 @@ class Chains {
             const std::uint64_t own = node(end);
             const bool has_vertex = own != LayerLine::kNoNode && lines_[end / 2].is_edge();
             const auto instance = static_cast<std::uint32_t>(own >> 32);
-            const glm::dvec3 p = has_vertex ? glm::dvec3(surfaces_.instances[instance].mesh->positions[own & 0xFFFFFFFFu])
+            const glm::dvec3 p = has_vertex ? surfaces_.instances[instance].mesh->local_position(own & 0xFFFFFFFFu)
                                             : glm::dvec3(end % 2 == 0 ? lines_[end / 2].from : lines_[end / 2].to, 0);
             return std::tuple(!has_vertex, has_vertex ? instance : 0, p.x, p.y, p.z);
         };

@@ -1,27 +1,40 @@
 #include "methods/abuffer/strokes/smooth_contours.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <span>
 #include <tuple>
+#include <utility>
 
-#include "abuffer/projection.h"
+#include "abuffer/screen_polygon.h"
 #include "base/parallel.h"
+#include "methods/abuffer/strokes/contour_joints.h"
 
 namespace burin {
 namespace {
 
-/// Folds are moved point by point, this far apart.
-constexpr double kStepPx = 0.25;
-/// From one piece of a contour to another that does not touch it, or to the mesh, a line goes on over at
-/// most this.
-constexpr double kWidestGapPx = 3;
-/// Neighbouring folds come to the same place but for rounding; chains of lines need equal bits.
-constexpr double kGridPerPx = 4096;
+/// A contour that comes no nearer to an edge than this part of the longest edge of its triangles belongs to something else; of
+/// its own length, if the outline stays where it is at both ends.
+constexpr double kFarthestPart = 0.25;
+constexpr double kLongestJointsPart = 0.5;
 
-glm::dvec2 rounded(glm::dvec2 p) { return glm::round(p * kGridPerPx) / kGridPerPx; }
+HalfEdge half_edge_of(std::uint64_t line_key) { return static_cast<HalfEdge>(line_key & 0xFFFFFFFFu); }
 
-bool is_less(const glm::vec3& a, const glm::vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+/// Whether a surface is not smooth all around the vertex of a corner.
+bool is_at_sharp_edge(const Mesh& mesh, const SmoothMesh& smooth, HalfEdge corner) {
+    bool is_sharp = false;
+    visit_smooth_corners(mesh, smooth, corner, [&](HalfEdge h) { is_sharp = is_sharp || smooth.is_sharp(h) || smooth.is_sharp(h - h % 3 + (h + 2) % 3); });
+    return is_sharp;
+}
+
+void add_pieces(const LineSegment& line, const std::vector<glm::dvec2>& points, std::vector<LineSegment>& to) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        if (points[i - 1] == points[i]) continue;
+        to.push_back(line);
+        to.back().from = points[i - 1];
+        to.back().to = points[i];
+    }
+}
 
 }  // namespace
 
@@ -37,149 +50,103 @@ SmoothContours::SmoothContours(const SurfaceSet& surfaces, double cos_crease_ang
     for (const SurfaceInstance& instance : surfaces.instances) smooth_of_.push_back(&meshes_[numbers[instance.mesh]]);
 }
 
-std::optional<SurfaceEdge> SmoothContours::fold_of(const LineSegment& segment) const {
-    if (segment.drawn_as != LineClass::silhouette || segment.line_key >> 63 != 0) return std::nullopt;
-    const auto instance = static_cast<std::uint32_t>(segment.line_key >> 32);
-    const auto h = static_cast<HalfEdge>(segment.line_key & 0xFFFFFFFFu);
-    if (smooth_of_[instance]->is_sharp(h)) return std::nullopt;
-    return SurfaceEdge{{instance, h / 3}, h};
+bool SmoothContours::is_fold(const LineSegment& segment) const {
+    if (segment.drawn_as != LineClass::silhouette || segment.line_key >> 63 != 0) return false;
+    return !smooth_of_[segment.line_key >> 32]->is_sharp(half_edge_of(segment.line_key));
 }
 
-std::optional<SmoothContours::Piece> SmoothContours::piece_in(SurfaceId s) const {
-    const SurfaceInstance& instance = surfaces_.instance_of(s);
-    const Mesh& mesh = *instance.mesh;
-    const auto& t = mesh.triangles[s.triangle];
-    const Projection& projection = surfaces_.projection;
-    std::array<glm::dvec3, 3> view;
-    std::array<double, 3> facing;
-    for (std::size_t k = 0; k < 3; ++k) {
-        view[k] = surfaces_.view_position(s.instance, t[k]);
-        if (!needs_no_clipping(projection, view[k])) return std::nullopt;
-        const glm::vec3& own = smooth_of_[s.instance]->normals[3 * s.triangle + k];
-        if (own == glm::vec3(0.0f)) return std::nullopt;
-        const glm::dvec3 normal = instance.normal_to_view * glm::dvec3(own);
-        const glm::dvec3 ray = projection.orthographic ? glm::dvec3(0, 0, -1) : view[k] / glm::length(view[k]);
-        facing[k] = glm::dot(normal, ray) / std::max(glm::length(normal), 1e-300);
-    }
-    Piece piece;
-    int found = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        std::size_t a = k, b = (k + 1) % 3;
-        if ((facing[a] >= 0) == (facing[b] >= 0)) continue;
-        // In one order, so that both triangles at the edge come to the same bits.
-        if (is_less(mesh.positions[t[b]], mesh.positions[t[a]])) std::swap(a, b);
-        const double share = facing[a] / (facing[a] - facing[b]);
-        piece.ends[found++] = rounded(projection.to_pixel(glm::mix(view[a], view[b], share)));
-    }
-    if (found != 2 || piece.ends[0] == piece.ends[1]) return std::nullopt;
-    if (std::tie(piece.ends[1].x, piece.ends[1].y) < std::tie(piece.ends[0].x, piece.ends[0].y)) {
-        std::swap(piece.ends[0], piece.ends[1]);
-    }
-    return piece;
-}
-
-/// On the triangles that have a vertex in common with one at the fold's ends.
-void SmoothContours::find_pieces(SurfaceEdge fold, std::vector<Piece>& pieces) const {
-    const std::uint32_t instance = fold.surface.instance;
+FoldMap SmoothContours::map_of(std::uint64_t line_key) const {
+    const auto instance = static_cast<std::uint32_t>(line_key >> 32);
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const Projection& projection = surfaces_.projection;
+    const HalfEdge h = half_edge_of(line_key);
+    glm::dvec2 ends[2];
+    double longest = 0;
+    for (const HalfEdge side : {h, mesh.next_on_edge[h]}) {
+        const auto& t = mesh.triangles[side / 3];
+        glm::dvec2 corners[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec3 view = surfaces_.view_position(instance, t[k]);
+            if (!needs_no_clipping(projection, view)) return {};
+            corners[k] = projection.to_pixel(view);
+        }
+        for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(corners[k], corners[(k + 1) % 3]));
+        ends[0] = corners[side % 3];
+        ends[1] = corners[(side + 1) % 3];
+    }
+    // In one order, whichever triangle comes first.
+    if (std::tie(ends[1].x, ends[1].y) < std::tie(ends[0].x, ends[0].y)) std::swap(ends[0], ends[1]);
     const SmoothMesh& smooth = *smooth_of_[instance];
-    std::vector<std::uint32_t> ring, triangles;
-    const auto add_around = [&](HalfEdge corner, std::vector<std::uint32_t>& list) {
-        visit_smooth_corners(mesh, smooth, corner, [&](HalfEdge h) { list.push_back(h / 3); });
-    };
-    const auto make_unique = [](std::vector<std::uint32_t>& list) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-    };
-    const HalfEdge h = fold.half_edge;
-    add_around(h, ring);
-    add_around(h - h % 3 + (h + 1) % 3, ring);
-    make_unique(ring);
-    for (const std::uint32_t t : ring) {
-        for (HalfEdge k = 0; k < 3; ++k) add_around(3 * t + k, triangles);
+    const bool stays_at_ends = is_at_sharp_edge(mesh, smooth, h) && is_at_sharp_edge(mesh, smooth, h - h % 3 + (h + 1) % 3);
+    const double farthest_px = kFarthestPart * (stays_at_ends ? glm::distance(ends[0], ends[1]) : longest);
+    return {ends[0], ends[1], ContourFinder(surfaces_, instance, smooth).chains_around(h), farthest_px};
+}
+
+void SmoothContours::move(std::vector<std::vector<LineSegment>>& lists, int threads) const {
+    std::vector<std::uint64_t> keys;
+    for (const auto& list : lists) {
+        for (const LineSegment& s : list) {
+            if (is_fold(s)) keys.push_back(s.line_key);
+        }
     }
-    make_unique(triangles);
-    pieces.clear();
-    for (const std::uint32_t t : triangles) {
-        if (const auto piece = piece_in({instance, t})) pieces.push_back(*piece);
-    }
-    std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
-        return std::tie(a.ends[0].x, a.ends[0].y, a.ends[1].x, a.ends[1].y) <
-               std::tie(b.ends[0].x, b.ends[0].y, b.ends[1].x, b.ends[1].y);
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    std::vector<FoldMap> maps(keys.size());
+    constexpr std::size_t kChunk = 64;
+    parallel_for((keys.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+        for (std::size_t i = chunk * kChunk; i < std::min(keys.size(), (chunk + 1) * kChunk); ++i) maps[i] = map_of(keys[i]);
     });
-    for (Piece& piece : pieces) {
-        for (int k = 0; k < 2; ++k) {
-            piece.goes_on[k] = std::any_of(pieces.begin(), pieces.end(), [&](const Piece& other) {
-                return &other != &piece && (other.ends[0] == piece.ends[k] || other.ends[1] == piece.ends[k]);
-            });
-        }
-    }
-}
 
-SmoothContours::Foot SmoothContours::nearest(const std::vector<Piece>& pieces, glm::dvec2 pixel) {
-    Foot best;
-    double least = 1e300;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const glm::dvec2 a = pieces[i].ends[0], along = pieces[i].ends[1] - a;
-        const double share = std::clamp(glm::dot(pixel - a, along) / glm::dot(along, along), 0.0, 1.0);
-        const glm::dvec2 foot = rounded(a + along * share);
-        const double square = glm::dot(pixel - foot, pixel - foot);
-        if (!(square < least)) continue;
-        least = square;
-        const bool is_beside = (share > 0 || pieces[i].goes_on[0]) && (share < 1 || pieces[i].goes_on[1]);
-        best = is_beside ? Foot{foot, i} : Foot{pixel, kNoPiece};
-    }
-    return best;
-}
-
-std::optional<glm::dvec2> SmoothContours::common_end(const std::vector<Piece>& pieces, std::size_t a, std::size_t b) {
-    if (a == kNoPiece || b == kNoPiece) return std::nullopt;
-    for (const glm::dvec2& p : pieces[a].ends) {
-        if (p == pieces[b].ends[0] || p == pieces[b].ends[1]) return p;
-    }
-    return std::nullopt;
-}
-
-void SmoothContours::add_moved(const LineSegment& fold, const std::vector<Piece>& pieces,
-                               std::vector<LineSegment>& moved) {
-    const auto add = [&](glm::dvec2 from, glm::dvec2 to) {
-        if (from == to) return;
-        moved.push_back(fold);
-        moved.back().from = from;
-        moved.back().to = to;
+    const auto number_of = [&](std::uint64_t key) { return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin()); };
+    const auto moved_line = [&](const LineSegment& s) {
+        MovedLine line{&s, {s.from, s.to}};
+        if (!is_fold(s)) return line;
+        const FoldMap& map = maps[number_of(s.line_key)];
+        line.is_moved = map.is_moved();
+        if (line.is_moved) line.points = map.moved(s.from, s.to);
+        return line;
     };
-    const int steps = std::max(1, static_cast<int>(std::ceil(glm::distance(fold.from, fold.to) / kStepPx)));
-    Foot begin = nearest(pieces, fold.from), last = begin;
-    for (int i = 1; i <= steps; ++i) {
-        const Foot foot = nearest(pieces, i == steps ? fold.to : glm::mix(fold.from, fold.to, double(i) / steps));
-        if (foot.piece != last.piece) {
-            if (const auto corner = common_end(pieces, last.piece, foot.piece)) {
-                add(begin.pixel, *corner);
-                begin.pixel = *corner;
-            } else {
-                add(begin.pixel, last.pixel);
-                begin.pixel = foot.pixel;
-                if (glm::distance(last.pixel, foot.pixel) <= kWidestGapPx) add(last.pixel, foot.pixel);
+    std::vector<MovedLine> lines;  // where surfaces end
+    const auto join = [&] {
+        lines.clear();
+        for (const auto& list : lists) {
+            for (const LineSegment& s : list) {
+                if (s.occludes && s.from != s.to) lines.push_back(moved_line(s));
             }
-            begin.piece = foot.piece;
         }
-        last = foot;
+        return find_joints(lines);
+    };
+    Joints joints = join();
+    // What would be joined by longer lines than half of what is seen of it is better left where it is.
+    std::vector<double> seen(keys.size(), 0), joined(keys.size(), 0);
+    for (const MovedLine& line : lines) {
+        if (line.is_moved) seen[number_of(line.given->line_key)] += glm::distance(line.given->from, line.given->to);
     }
-    add(begin.pixel, last.pixel);
+    for (const LineSegment& s : joints.pieces) {
+        if (is_fold(s)) joined[number_of(s.line_key)] += glm::distance(s.from, s.to);
+    }
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (joined[i] > kLongestJointsPart * seen[i]) maps[i] = {};
+    }
+    joints = join();
+    for (const LeadIn& lead : joints.to_lines_that_stay) maps[number_of(lines[lead.line].given->line_key)].lead_to_end(lead.place);
+    if (!joints.to_lines_that_stay.empty()) joints = join();
+
+    std::vector<LineSegment> moved;
+    for (auto& list : lists) {
+        moved.clear();
+        for (const LineSegment& s : list) add_pieces(s, moved_line(s).points, moved);
+        list = moved;
+    }
+    lists.push_back(std::move(joints.pieces));
 }
 
 void SmoothContours::move(std::vector<LineSegment>& segments) const {
     std::vector<LineSegment> moved;
-    std::vector<Piece> pieces;
-    std::uint64_t key = ~std::uint64_t{0};  // whose pieces those are
     for (const LineSegment& s : segments) {
-        const auto fold = fold_of(s);
-        if (fold && s.line_key != key) {
-            find_pieces(*fold, pieces);
-            key = s.line_key;
-        }
-        if (fold && !pieces.empty()) {
-            add_moved(s, pieces, moved);
+        const FoldMap map = is_fold(s) ? map_of(s.line_key) : FoldMap();
+        if (map.is_moved()) {
+            add_pieces(s, map.moved(s.from, s.to), moved);
         } else {
             moved.push_back(s);
         }
