@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace burin {
+
+/// A size as messages say it: "1.5 GB", "700 MB". 1 GB is 1024 MB, as for --memory.
+std::string size_text(std::uint64_t bytes);
+
+/// How much memory models may take beyond the size of their files.
+///
+/// A few words of a file can ask for gigabytes: 4096 segments, 8 subdivisions, an accessor that is
+/// used again and again. Who reads such words counts what they will take before anything is made.
+/// What a file spells out itself, such as its vertices and polygons, is not counted. One budget
+/// serves all models of a scene, on one thread at a time.
+class ModelBudget {
+  public:
+    static constexpr std::uint64_t kDefaultLimit = std::uint64_t{2} << 30;
+
+    explicit ModelBudget(std::uint64_t limit_bytes = kDefaultLimit) : limit_bytes_(limit_bytes) {}
+
+    /// Counts bytes that are about to be taken. Throws InputError once they are more than the
+    /// limit, with those counted before; `what` takes them, and is the subject of the message:
+    /// "object 'ball', with 4096 segments and 4096 rings,".
+    void add(std::uint64_t bytes, const std::string& what);
+
+    std::uint64_t counted_bytes() const { return counted_bytes_; }
+    std::uint64_t limit_bytes() const { return limit_bytes_; }
+
+  private:
+    std::uint64_t limit_bytes_;
+    std::uint64_t counted_bytes_ = 0;
+};
+
+/// Products for add(), which stay at the largest number instead of passing it.
+constexpr std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
+    return a != 0 && b > UINT64_MAX / a ? UINT64_MAX : a * b;
+}
+
+}  // namespace burin
