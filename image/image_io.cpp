@@ -1,16 +1,14 @@
 #include "image/image_io.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/lower_extension.h"
+#include "base/module.h"
 #include "image/half.h"
 #include "image/oiio_module.h"
 #include "image/png_writer.h"
@@ -18,39 +16,10 @@
 namespace burin {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Where the module can be: beside the program, or where it was installed.
-std::vector<fs::path> module_candidates() {
-    const char* const name = "burin_oiio.so";
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    std::vector<fs::path> candidates;
-    if (!error) {
-        candidates.push_back(program.parent_path() / name);
-        candidates.push_back(program.parent_path().parent_path() / "lib" / "burin" / name);
-    }
-    candidates.emplace_back(name);  // the loader's own search path
-    return candidates;
-}
-
 template <typename Function>
 Function* module_function(const char* name) {
-    static void* const module = [] {
-        void* handle = nullptr;
-        for (const fs::path& candidate : module_candidates()) {
-            if (handle == nullptr) handle = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
-        }
-        return handle;
-    }();
-    void* const symbol = module != nullptr ? dlsym(module, name) : nullptr;
-    if (symbol == nullptr) {
-        const char* const reason = dlerror();
-        throw InputError(std::string("cannot load burin_oiio.so, which writes TIFF: ") +
-                         (reason != nullptr ? reason : "not found") +
-                         "; keep it beside the burin program, or write EXR or PNG");
-    }
-    return reinterpret_cast<Function*>(symbol);
+    return reinterpret_cast<Function*>(
+        burin::module_function("burin_oiio.so", name, "writes TIFF", "write EXR or PNG"));
 }
 
 std::uint16_t code_value(float unit) {
