@@ -51,6 +51,7 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     }
     model.materials = std::move(scene.materials);
     model.skipped_primitives = scene.skipped_primitives;
+    model.left_out = std::move(scene.left_out);
     return model;
 }
 

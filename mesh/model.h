@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/build_meshes.h"
+#include "mesh/left_out.h"
 #include "mesh/mesh.h"
 #include "mesh/polygon_soup.h"
 
@@ -33,7 +34,8 @@ struct Model {
     std::vector<Material> materials;
     std::vector<ModelObject> objects;
     std::vector<ModelCamera> cameras;
-    std::uint64_t skipped_primitives = 0;  ///< points and lines of a glTF
+    std::uint64_t skipped_primitives = 0;  ///< of a glTF: points, and what has no positions
+    std::vector<LeftOut> left_out;         ///< these, and all else that the file has and is not drawn
 };
 
 /// True if the extension names a format that read_model can read.

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace burin {
+
+/// Something in a file that is not drawn, and how often it is there.
+struct LeftOut {
+    std::string what;  ///< in the plural: "primitives of points"
+    std::uint64_t count = 0;
+};
+
+}  // namespace burin
