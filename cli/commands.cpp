@@ -135,6 +135,7 @@ bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene)
 /// What a user should know before the picture surprises.
 void note_limits(const Arguments& a, const Frame& frame, const Method& method, bool has_hidden_lines,
                  const OutputOptions& output) {
+    note_left_out(a, *frame.scene);
     if (a.quiet) return;
     if (a.names_layers && output.format != OutputFormat::exr) {
         std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n",
@@ -250,6 +251,15 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
     json.key("welded_vertices").value(t.repairs.welded_vertices);
     json.key("skipped_primitives").value(scene.skipped_primitives);
     json.end_object();
+    json.key("left_out").begin_array();
+    for (const LeftOut& part : scene.left_out) {
+        json.begin_object();
+        json.key("file").value(part.file);
+        json.key("what").value(part.what);
+        json.key("count").value(part.count);
+        json.end_object();
+    }
+    json.end_array();
     json.key("edges").begin_object();
     json.key("total").value(t.edges.edges);
     json.key("border").value(t.edges.border);
@@ -305,8 +315,8 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
     std::printf("  dropped    %llu degenerate and %llu duplicate polygons; %llu vertices welded\n",
                 number(t.repairs.degenerate_polygons), number(t.repairs.duplicate_polygons),
                 number(t.repairs.welded_vertices));
-    if (scene.skipped_primitives > 0) {
-        std::printf("  skipped    %llu primitives of points or lines\n", number(scene.skipped_primitives));
+    for (const LeftOut& part : scene.left_out) {
+        std::printf("  left out   %llu %s\n", number(part.count), part.what.c_str());
     }
     std::printf("  materials  %zu:", scene.materials.size());
     for (const Material& m : scene.materials) {

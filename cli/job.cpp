@@ -1,6 +1,7 @@
 #include "cli/job.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "base/error.h"
 #include "base/lower_extension.h"
@@ -98,6 +99,14 @@ Scene load_input(const Arguments& a) {
         scene.lines.crease_fade_deg = to - from;
     }
     return scene;
+}
+
+void note_left_out(const Arguments& a, const Scene& scene) {
+    if (a.quiet) return;
+    for (const LeftOut& part : scene.left_out) {
+        std::fprintf(stderr, "burin: note: %s: left out %llu %s\n", printable(part.file, 200).c_str(),
+                     static_cast<unsigned long long>(part.count), part.what.c_str());
+    }
 }
 
 Camera camera_of(const Scene& scene, const Arguments& a) {

@@ -12,6 +12,9 @@ namespace burin {
 /// A scene with the command line's wishes worked in. Throws InputError and UsageError.
 Scene load_input(const Arguments& arguments);
 
+/// Names what models have that is not drawn on standard error, unless all is to be quiet.
+void note_left_out(const Arguments& arguments, const Scene& scene);
+
 /// The camera that the arguments ask for. Throws InputError and UsageError.
 Camera camera_of(const Scene& scene, const Arguments& arguments);
 

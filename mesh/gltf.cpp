@@ -195,7 +195,7 @@ class GltfReader {
         }
         scene_.skipped_primitives = points + without_positions;
         const auto list = [&](const char* what, std::uint64_t count) {
-            if (count > 0) scene_.left_out.push_back({what, count});
+            if (count > 0) scene_.left_out.push_back({path_, what, count});
         };
         list("primitives of points", points);
         list("primitives without positions", without_positions);

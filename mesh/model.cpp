@@ -62,7 +62,8 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
     if (extension == ".stl") return model_of(path, read_stl(path), options);
     if (extension == ".off") return model_of(path, read_off(path), options);
     if (extension == ".gltf" || extension == ".glb") {
-        return model_of(path, read_gltf(path), options);
+        ModelBudget by_default;
+        return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default), options);
     }
     throw InputError(path + ": unknown kind of model '" + extension +
                      "'; burin reads .obj .ply .stl .off .gltf .glb");

@@ -93,7 +93,7 @@ class SceneLoader {
     }
 
     const LoadedModel& load_model(ObjectDescription& object) {
-        const MeshOptions options{object.subdivide, object.scheme, threads_};
+        const MeshOptions options{.subdivision_levels = object.subdivide, .scheme = object.scheme, .threads = threads_};
         if (object.file.empty()) {
             Model model;
             model.materials = std::move(object.shape.materials);
@@ -128,6 +128,11 @@ class SceneLoader {
         for (Material& material : model.materials) scene_.materials.push_back(std::move(material));
         loaded.objects = std::move(model.objects);
         scene_.skipped_primitives += model.skipped_primitives;
+        for (LeftOut& part : model.left_out) {
+            if (std::find(scene_.left_out.begin(), scene_.left_out.end(), part) == scene_.left_out.end()) {
+                scene_.left_out.push_back(std::move(part));  // once, though a file may be read in several ways
+            }
+        }
         return loaded;
     }
 

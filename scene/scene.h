@@ -8,6 +8,7 @@
 
 #include "lines/crease_fade.h"
 #include "lines/surface_set.h"
+#include "mesh/left_out.h"
 #include "mesh/mesh.h"
 #include "mesh/subdivide.h"
 #include "scene/camera.h"
@@ -81,6 +82,7 @@ struct Scene {
     ZBufferSettings zbuffer;
     WireSettings wire;
     std::uint64_t skipped_primitives = 0;
+    std::vector<LeftOut> left_out;  ///< of the models
 };
 
 /// Whether some surface of the scene lets light through.
