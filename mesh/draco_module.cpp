@@ -16,7 +16,8 @@ class HeaderReader {
     HeaderReader(const void* bytes, std::uint64_t size)
         : at_(static_cast<const unsigned char*>(bytes)), end_(at_ + size) {}
 
-    /// Whether the data say to be a mesh of so many triangles (and, if it is known so early, points).
+    /// Whether the data say to be a mesh of so many triangles (and, if it is known so early,
+    /// points).
     const char* check(std::uint64_t points, std::uint64_t triangles) {
         if (end_ - at_ < 11 || std::memcmp(at_, "DRACO", 5) != 0) return "this is not Draco's";
         if (at_[5] != 2 || at_[6] != 2) return "only version 2.2 of its format is read";
@@ -92,13 +93,20 @@ bool copy_values(const draco::PointAttribute& from, std::uint32_t points, unsign
 bool copy_values(const draco::PointAttribute& from, std::uint32_t points,
                  const BurinDracoAttribute& to) {
     switch (to.component_type) {
-        case 5120: return copy_values<std::int8_t>(from, points, to.components, to.values);
-        case 5121: return copy_values<std::uint8_t>(from, points, to.components, to.values);
-        case 5122: return copy_values<std::int16_t>(from, points, to.components, to.values);
-        case 5123: return copy_values<std::uint16_t>(from, points, to.components, to.values);
-        case 5125: return copy_values<std::uint32_t>(from, points, to.components, to.values);
-        case 5126: return copy_values<float>(from, points, to.components, to.values);
-        default: return false;
+        case 5120:
+            return copy_values<std::int8_t>(from, points, to.components, to.values);
+        case 5121:
+            return copy_values<std::uint8_t>(from, points, to.components, to.values);
+        case 5122:
+            return copy_values<std::int16_t>(from, points, to.components, to.values);
+        case 5123:
+            return copy_values<std::uint16_t>(from, points, to.components, to.values);
+        case 5125:
+            return copy_values<std::uint32_t>(from, points, to.components, to.values);
+        case 5126:
+            return copy_values<float>(from, points, to.components, to.values);
+        default:
+            return false;
     }
 }
 

@@ -79,7 +79,8 @@ class GltfReader {
             plans_.push_back(
                 plan_gltf_mesh(root_.at("meshes").element(i), i, *buffers_, materials_));
             const auto number = static_cast<std::uint32_t>(i);
-            first_like_.push_back(known.try_emplace(std::move(plans_[i].key), number).first->second);
+            first_like_.push_back(
+                known.try_emplace(std::move(plans_[i].key), number).first->second);
         }
         poses_.resize(plans_.size());
     }

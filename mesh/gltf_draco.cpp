@@ -27,12 +27,13 @@ DracoGeometry decode_draco(const GltfPrimitive& primitive, GltfBuffers& buffers)
     const JsonPlace ids = place.at("attributes");
     for (const auto& [name, id] : ids.json().items()) {
         if (!is_needed(name)) continue;
-        GltfAccessor accessor = buffers.without_sparse(
-            primitive.place.at("attributes").at(name.c_str()),
-            name == "POSITION" ? "VEC3" : "VEC4", primitive.vertices);
+        GltfAccessor accessor =
+            buffers.without_sparse(primitive.place.at("attributes").at(name.c_str()),
+                                   name == "POSITION" ? "VEC3" : "VEC4", primitive.vertices);
         if (accessor.count != primitive.vertices) {
-            primitive.place.at("attributes").at(name.c_str()).fail(
-                "the accessors of a primitive must have as many elements each");
+            primitive.place.at("attributes")
+                .at(name.c_str())
+                .fail("the accessors of a primitive must have as many elements each");
         }
         auto room = std::make_shared<std::string>(accessor.count * accessor.element_size, '\0');
         wanted.push_back({ids.at(name.c_str()).index_below(0xFFFFFFFFu, "attribute"),

@@ -9,9 +9,8 @@ namespace {
 
 /// These are read.
 constexpr std::array<std::string_view, 7> kRead = {
-    "KHR_mesh_quantization",    "KHR_node_visibility",
-    "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",  "EXT_mesh_primitive_edge_visibility",
+    "KHR_mesh_quantization",    "KHR_node_visibility",     "KHR_draco_mesh_compression",
+    "EXT_mesh_gpu_instancing",  "EXT_meshopt_compression", "EXT_mesh_primitive_edge_visibility",
     "CESIUM_primitive_outline",
 };
 

@@ -19,8 +19,8 @@ class InstanceList {
         place_ = attributes.at(key);
         accessor_ = buffers.accessor(*place_, type);
         const std::uint64_t number = accessor_.component_type;
-        const bool is_small = type == "VEC4" && accessor_.normalized &&
-                              (number == kGltfByte || number == kGltfShort);
+        const bool is_small =
+            type == "VEC4" && accessor_.normalized && (number == kGltfByte || number == kGltfShort);
         if (number != kGltfFloat && !is_small) {
             place_->fail(type == "VEC4" ? "must be floats, or normalized bytes or shorts"
                                         : "must be floats");
@@ -45,8 +45,7 @@ class InstanceList {
 
 }  // namespace
 
-std::optional<std::uint64_t> gltf_instance_count(const JsonPlace& node,
-                                                 GltfBuffers& buffers) {
+std::optional<std::uint64_t> gltf_instance_count(const JsonPlace& node, GltfBuffers& buffers) {
     if (!node.has_extension(kExtension)) return std::nullopt;
     const JsonPlace attributes = node.extension(kExtension).at("attributes");
     std::optional<std::uint64_t> count;

@@ -28,7 +28,8 @@ void store(char* p, T value) {
 /// A number of -1..1 as a normalized integer of type T.
 template <typename T>
 T normalized(double value) {
-    return static_cast<T>(std::lround(std::clamp(value, -1.0, 1.0) * std::numeric_limits<T>::max()));
+    return static_cast<T>(
+        std::lround(std::clamp(value, -1.0, 1.0) * std::numeric_limits<T>::max()));
 }
 
 /// Unit vectors from two coordinates on an octahedron and what stands for 1.
@@ -144,13 +145,18 @@ std::string decode_meshopt(const JsonPlace& compressed, const MeshoptLayout& lay
     }
     if (status != 0) compressed.fail("the compressed data are broken");
     switch (layout.filter) {
-        case MeshoptLayout::Filter::none: break;
+        case MeshoptLayout::Filter::none:
+            break;
         case MeshoptLayout::Filter::octahedral:
             layout.stride == 4 ? decode_octahedral<std::int8_t>(result)
                                : decode_octahedral<std::int16_t>(result);
             break;
-        case MeshoptLayout::Filter::quaternion: decode_quaternions(result); break;
-        case MeshoptLayout::Filter::exponential: decode_exponential(result); break;
+        case MeshoptLayout::Filter::quaternion:
+            decode_quaternions(result);
+            break;
+        case MeshoptLayout::Filter::exponential:
+            decode_exponential(result);
+            break;
     }
     return result;
 }

@@ -118,8 +118,7 @@ class NodeWalk {
               bool is_visible) {
         const std::string name = node.text_or("name", "node" + std::to_string(number));
         if (node.has("mesh")) {
-            const std::uint32_t mesh =
-                node.at("mesh").index_below(root_.size_of("meshes"), "mesh");
+            const std::uint32_t mesh = node.at("mesh").index_below(root_.size_of("meshes"), "mesh");
             if (is_visible) {
                 result_.mesh_nodes.push_back({number, mesh, name});
             } else {
@@ -162,12 +161,13 @@ class NodeWalk {
 
 }  // namespace
 
-GltfNodes read_gltf_nodes(const JsonPlace& root) { return NodeWalk(root).walk(); }
+GltfNodes read_gltf_nodes(const JsonPlace& root) {
+    return NodeWalk(root).walk();
+}
 
 glm::dmat4 gltf_matrix(const glm::dvec3& translation, const glm::dvec4& rotation,
                        const glm::dvec3& scale) {
-    glm::dmat4 matrix =
-        glm::mat4_cast(glm::dquat(rotation.w, rotation.x, rotation.y, rotation.z));
+    glm::dmat4 matrix = glm::mat4_cast(glm::dquat(rotation.w, rotation.x, rotation.y, rotation.z));
     for (int axis = 0; axis < 3; ++axis) matrix[axis] *= scale[axis];
     matrix[3] = glm::dvec4(translation, 1.0);
     return matrix;

@@ -8,8 +8,8 @@
 namespace burin {
 namespace {
 
-// What a triangle, a vertex, a mark and an object take at most at a time, while they are loaded (90,
-// 50, 130 and 350 were measured) and drawn.
+// What a triangle, a vertex, a mark and an object take at most at a time, while they are loaded
+// (90, 50, 130 and 350 were measured) and drawn.
 constexpr double kTriangleBytes = 160, kVertexBytes = 70, kMarkBytes = 150, kObjectBytes = 700;
 constexpr double kInstanceBytes = 12;  // a translation in the file
 
@@ -67,7 +67,9 @@ bool GltfPrimitive::has_marked_edges() const {
     return place.has_extension(kEdgeVisibilityExtension) || place.has_extension(kOutlineExtension);
 }
 
-bool GltfPrimitive::is_draco() const { return place.has_extension(kDracoExtension); }
+bool GltfPrimitive::is_draco() const {
+    return place.has_extension(kDracoExtension);
+}
 
 GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffers& buffers,
                             const GltfMaterials& materials) {
@@ -88,8 +90,8 @@ GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffe
         }
         // What Draco compressed has accessors without data.
         const std::uint64_t known_count = primitive.is_draco() ? UINT64_MAX : 0;
-        const GltfAccessor positions = buffers.without_sparse(
-            place.at("attributes").at("POSITION"), "VEC3", known_count);
+        const GltfAccessor positions =
+            buffers.without_sparse(place.at("attributes").at("POSITION"), "VEC3", known_count);
         primitive.vertices = primitive.corners = positions.count;
         primitive.vertex_size = positions.element_size;
         primitive.material = static_cast<std::uint32_t>(material_of(place, materials));
@@ -126,7 +128,7 @@ GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffe
 
 bool uses_few_vertices(const GltfMeshPlan& mesh, const GltfPrimitive& primitive) {
     return primitive.index_size > 0 && !primitive.has_marked_edges() && !primitive.is_draco() &&
-           mesh.group_corners[primitive.vertex_group] < primitive.vertices / 4;
+           mesh.group_corners[primitive.vertex_group] < primitive.vertices / 2;
 }
 
 void GltfExpansion::add_mesh(const GltfMeshPlan& mesh, std::uint64_t times) {

@@ -21,11 +21,11 @@ struct GltfPrimitive {
     JsonPlace place;
     std::uint64_t mode = 4;
     std::uint32_t material = 0;
-    std::uint64_t vertices = 0;  ///< elements of its accessors
-    std::uint64_t corners = 0;   ///< vertex numbers: of its indices, or as many as vertices
+    std::uint64_t vertices = 0;     ///< elements of its accessors
+    std::uint64_t corners = 0;      ///< vertex numbers: of its indices, or as many as vertices
     std::uint64_t vertex_size = 0;  ///< bytes of a position in the file
     std::uint64_t index_size = 0;   ///< bytes of one; 0: it has no indices
-    std::size_t vertex_group = 0;  ///< equal in primitives of a mesh that have the same vertices
+    std::size_t vertex_group = 0;   ///< equal in primitives of a mesh that have the same vertices
 
     bool has_lines() const { return mode < 4; }
     std::uint64_t triangles() const;
@@ -38,9 +38,9 @@ struct GltfPrimitive {
 /// A glTF mesh before its accessors are expanded.
 struct GltfMeshPlan {
     std::string name;
-    std::vector<GltfPrimitive> primitives;  ///< what is drawn; equal ones are there once
+    std::vector<GltfPrimitive> primitives;     ///< what is drawn; equal ones are there once
     std::vector<std::uint64_t> group_corners;  ///< per vertex group, of all its primitives
-    std::string key;  ///< the same for meshes that hold the same
+    std::string key;                           ///< the same for meshes that hold the same
     std::uint64_t skipped_points = 0;
     std::uint64_t skipped_without_positions = 0;
     std::uint64_t cut_out_polygons = 0;

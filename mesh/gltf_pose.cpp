@@ -68,8 +68,8 @@ class SkinWeights {
     }
 
     [[noreturn]] void fail(std::uint64_t element) const {
-        attributes_.at("WEIGHTS_0").fail("the weights of vertex " + std::to_string(element) +
-                                         " sum to 0");
+        attributes_.at("WEIGHTS_0")
+            .fail("the weights of vertex " + std::to_string(element) + " sum to 0");
     }
 
   private:
@@ -86,7 +86,8 @@ class SkinWeights {
         if (weight == 0) return;
         if (!(weight > 0 && weight <= kLargestCoordinate)) {
             attributes_.at(set.weights_name.c_str())
-                .fail("vertex " + std::to_string(element) + " has a weight that is below 0 or not finite");
+                .fail("vertex " + std::to_string(element) +
+                      " has a weight that is below 0 or not finite");
         }
         const auto joint = static_cast<std::uint32_t>(set.joints.number(element, component));
         if (joint >= joint_count_) {

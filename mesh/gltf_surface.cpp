@@ -66,9 +66,9 @@ class SurfaceBuilder {
         if (vertices.first + vertices.size() > 0xFFFFFFFFu) {
             attribute.fail("more than 4 billion vertices");
         }
-        const GltfAccessor accessor =
-            vertices.elements == 0 ? GltfAccessor()
-                                   : vertices.attribute("POSITION", "VEC3", buffers_);
+        const GltfAccessor accessor = vertices.elements == 0
+                                          ? GltfAccessor()
+                                          : vertices.attribute("POSITION", "VEC3", buffers_);
         for (std::uint64_t i = 0; i < vertices.size(); ++i) {
             positions.push_back(gltf_position(accessor, vertices.element_of(i), attribute));
         }

@@ -17,10 +17,10 @@ namespace burin {
 struct GltfVertices {
     explicit GltfVertices(const JsonPlace& primitive) : place(primitive) {}
 
-    JsonPlace place;        ///< of the primitive
-    std::size_t first = 0;  ///< number of the first one in the mesh
-    std::uint64_t elements = 0;        ///< of each accessor
-    std::vector<std::uint32_t> used;   ///< the elements that are vertices; empty: all
+    JsonPlace place;                             ///< of the primitive
+    std::size_t first = 0;                       ///< number of the first one in the mesh
+    std::uint64_t elements = 0;                  ///< of each accessor
+    std::vector<std::uint32_t> used;             ///< the elements that are vertices; empty: all
     std::shared_ptr<const DracoGeometry> draco;  ///< if it is compressed so
 
     std::uint64_t size() const { return used.empty() ? elements : used.size(); }
