@@ -207,6 +207,7 @@ void pose_gltf_mesh(GltfSurface& surface, const std::vector<double>& weights, co
     std::vector<bool> is_used;
     if (skin != nullptr) is_used = used_vertices(surface.soup);
     for (const GltfVertices& vertices : surface.vertices) {
+        if (vertices.size() == 0) continue;
         if (!weights.empty()) add_targets(vertices, weights, buffers, positions);
         if (skin != nullptr) apply_skin(vertices, *skin, is_used, buffers, positions);
         for (std::uint64_t i = 0; i < vertices.size(); ++i) {

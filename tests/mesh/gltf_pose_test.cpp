@@ -114,6 +114,14 @@ TEST_F(GltfPose, PrimitivesThatShareVerticesButNotTargetsMoveApart) {
     EXPECT_EQ(read(parts).meshes.at(0).positions, (Points{{0, 0, 1}, {1, 0, 1}, {0, 1, 2}, {4, 0, 0}, {1, 0, 0}, {0, 9, 0}}));
 }
 
+TEST_F(GltfPose, APrimitiveWithoutCornersHasNothingToMove) {
+    GltfAccessors a = morphing_triangle();
+    a.add_object(R"({"type": "SCALAR", "componentType": 5123, "count": 0})");
+    GltfParts parts = gltf_of(a, std::string(kMorphing) + R"(, {"attributes": {"POSITION": 2}, "indices": 3, "targets": [{"POSITION": 1}, {}, {}]})");
+    parts.nodes = R"([{"mesh": 0, "weights": [1, 0, 0]}])";
+    EXPECT_EQ(read(parts).meshes.at(0).positions, (Points{{0, 0, 1}, {1, 0, 1}, {0, 1, 2}}));
+}
+
 TEST_F(GltfPose, BrokenTargetsAreRefused) {
     const auto with = [](const std::string& primitive, const char* weights) {
         GltfAccessors a = morphing_triangle();
@@ -289,6 +297,9 @@ TEST_F(GltfPose, BrokenSkinsAreRefused) {
     GltfParts parts = SkinnedTriangle().parts;
     parts.skins = "";
     EXPECT_TRUE(refuses(parts, {"nodes[0].skin: skin 0 does not exist (there are 0)"}));
+    parts = SkinnedTriangle().parts;
+    parts.nodes.replace(parts.nodes.find("\"skin\""), 0, R"("extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}, )");
+    EXPECT_TRUE(refuses(parts, {"nodes[0]: a node with a skin cannot have instances"}));
     parts = SkinnedTriangle().parts;
     parts.scenes = R"([{"nodes": [0]}])";
     parts.nodes = R"([{"mesh": 0, "skin": 0}, {"children": [2]}, {"children": [1]}])";
