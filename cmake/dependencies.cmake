@@ -8,6 +8,8 @@ find_package(PNG REQUIRED)
 find_package(OpenMesh CONFIG REQUIRED)
 find_package(tomlplusplus CONFIG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
+find_package(meshoptimizer CONFIG REQUIRED)
+find_package(draco CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(embree 3 CONFIG REQUIRED)
 

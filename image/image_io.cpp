@@ -1,17 +1,14 @@
 #include "image/image_io.h"
 
-#include <dlfcn.h>
-#include <sys/auxv.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/lower_extension.h"
+#include "base/module.h"
 #include "image/half.h"
 #include "image/oiio_module.h"
 #include "image/png_writer.h"
@@ -19,49 +16,10 @@
 namespace burin {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// The program's own path. Without /proc the one that it was started by.
-fs::path program_path() {
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (!error) return program;
-    const auto* const started_by = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
-    return started_by != nullptr ? fs::canonical(started_by, error) : fs::path();
-}
-
-constexpr const char* kModule = "burin_oiio.so";
-
-/// The module and, if it cannot be loaded, why. It is beside the program, or where it was installed.
-struct OiioModule {
-    void* handle = nullptr;
-    std::string failure;
-
-    OiioModule() {
-        const fs::path folder = program_path().parent_path();
-        const fs::path installed = folder.parent_path() / "lib" / "burin" / kModule;
-        std::error_code ignored;
-        for (const fs::path& candidate : {folder / kModule, installed}) {
-            if (handle == nullptr && fs::exists(candidate, ignored)) load(candidate.string());
-        }
-        if (handle == nullptr && failure.empty()) load(kModule);  // the loader's own search path
-    }
-    void load(const std::string& path) {
-        handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (handle == nullptr) failure = ::dlerror();
-    }
-};
-
 template <typename Function>
 Function* module_function(const char* name) {
-    static const OiioModule module;
-    void* const symbol = module.handle != nullptr ? ::dlsym(module.handle, name) : nullptr;
-    if (symbol == nullptr) {
-        throw InputError("cannot load burin_oiio.so, which writes TIFF: " +
-                         (module.failure.empty() ? std::string("it lacks a function") : module.failure) +
-                         "; keep it beside the burin program, or write EXR or PNG");
-    }
-    return reinterpret_cast<Function*>(symbol);
+    return reinterpret_cast<Function*>(
+        burin::module_function("burin_oiio.so", name, "writes TIFF", "write EXR or PNG"));
 }
 
 std::uint16_t code_value(float unit) {

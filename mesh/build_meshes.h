@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/model_budget.h"
 #include "mesh/mesh.h"
 #include "mesh/polygon_soup.h"
 #include "mesh/subdivide.h"
@@ -11,7 +12,7 @@ namespace burin {
 struct MeshOptions {
     int subdivision_levels = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
-    ModelBudget* budget = nullptr;  ///< counts what subdivision makes; nullptr: nothing is counted
+    ModelBudget* budget = nullptr;  ///< counts what a model takes beyond its file; nullptr: as by default
     int threads = 1;  ///< for reading a file; 0 = all cores. Changes no result.
     bool strict = false;  ///< for reading a file: refuses what a reader would leave out with a note
 };

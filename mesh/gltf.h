@@ -2,24 +2,17 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/model_budget.h"
+#include "mesh/gltf_nodes.h"
+#include "mesh/left_out.h"
 #include "mesh/polygon_soup.h"
 
 namespace burin {
 
-/// A glTF camera where its node puts it. It looks down its own -Z, with +Y up.
-struct GltfCamera {
-    std::string name;
-    bool orthographic = false;
-    double fov_deg = 0;  ///< vertical, perspective only
-    double height = 0;   ///< full visible height in world units, orthographic only
-    glm::dmat4 to_world{1.0};
-};
-
-/// A node that shows a mesh: an object.
+/// A node that shows a mesh, or one of its instances: an object.
 struct GltfObject {
     std::string name;
     std::uint32_t mesh = 0;
@@ -28,21 +21,27 @@ struct GltfObject {
 
 /// The default scene of a glTF 2.0 file.
 struct GltfScene {
-    std::vector<PolygonSoup> meshes;  ///< one per glTF mesh; materials are numbers into `materials`
+    /// One per glTF mesh, and per pose in which nodes show it; materials are numbers into
+    /// `materials`. Meshes that hold the same are there once.
+    std::vector<PolygonSoup> meshes;
     std::vector<std::string> mesh_names;
     std::vector<Material> materials;  ///< the last one is the default material
     std::vector<GltfObject> objects;
     std::vector<GltfCamera> cameras;
-    std::uint64_t skipped_primitives = 0;  ///< points and lines
-    std::vector<std::string> buffer_files; ///< paths of the buffers that are files
+    std::uint64_t skipped_primitives = 0;  ///< of points, or without positions
+    std::vector<LeftOut> left_out;         ///< these and all else
+    std::vector<std::string> buffer_files;  ///< paths of the buffers that are files
 };
 
-/// Reads `.gltf` and `.glb`. Skins and morph targets stay in their rest pose; textures are not
+/// Reads `.gltf` and `.glb`. Morph targets have the weights of the file, skins stand where the
+/// nodes of the file put their joints, lines are marked edges; textures and animations are not
 /// looked at. Buffers may be embedded, data URIs, or files in the model's folder or below.
 ///
 /// Everything is checked before use: numbers of nodes, meshes, accessors and views, the room in
 /// buffers, node cycles. Throws InputError that names the place as glTF writes it,
-/// "meshes[2].primitives[0].indices".
+/// "meshes[2].primitives[0].indices". What the file makes of its data by naming them again and
+/// again, or has compressed, is counted in `budget` before it is expanded.
+GltfScene read_gltf(const std::string& path, ModelBudget& budget);
 GltfScene read_gltf(const std::string& path);
 
 }  // namespace burin

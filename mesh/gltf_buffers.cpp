@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "mesh/gltf_meshopt.h"
 #include "mesh/model_path.h"
 
 namespace burin {
@@ -88,6 +89,19 @@ double load_component(const char* p, std::uint64_t type, bool normalized) {
     }
 }
 
+int component_count(std::string_view type) {
+    if (type == "VEC3") return 3;
+    if (type == "VEC4") return 4;
+    return type == "MAT4" ? 16 : 1;
+}
+
+/// Whether the buffer is only there for programs that cannot decompress.
+bool is_fallback_buffer(const JsonPlace& buffer) {
+    if (!buffer.has_extension(kMeshoptExtension)) return false;
+    const JsonPlace extension = buffer.extension(kMeshoptExtension);
+    return extension.has("fallback") && extension.at("fallback").boolean();
+}
+
 }  // namespace
 
 double GltfAccessor::number(std::uint64_t element, int component) const {
@@ -97,23 +111,37 @@ double GltfAccessor::number(std::uint64_t element, int component) const {
     return load_component(p, component_type, normalized);
 }
 
-GltfBuffers::GltfBuffers(const std::string& path, const JsonPlace& root, std::string_view binary)
+GltfBuffers::GltfBuffers(const std::string& path, const JsonPlace& root, std::string_view binary,
+                         ModelBudget& budget)
     : path_(path), root_(root) {
     for (std::size_t i = 0; i < root_.size_of("buffers"); ++i) {
         const JsonPlace buffer = root_.at("buffers").element(i);
         const std::uint64_t length = buffer.at("byteLength").integer();
-        std::string_view bytes = binary;
-        if (buffer.has("uri")) {
-            bytes = load_uri(buffer.at("uri"));
-        } else if (i != 0 || bytes.empty()) {
-            buffer.fail("the buffer has neither a URI nor a binary chunk");
+        const bool is_fallback = is_fallback_buffer(buffer);
+        const bool is_chunk = i == 0 && !binary.empty() && !buffer.has("uri");
+        // What it stands for is compressed elsewhere in the file.
+        if (is_fallback || (!is_chunk && !buffer.has("uri"))) {
+            buffers_.emplace_back();
+            continue;
         }
+        const std::string_view bytes = is_chunk ? binary : load_uri(buffer.at("uri"));
         if (length > bytes.size()) {
             buffer.fail("byteLength is " + std::to_string(length) + ", but there are only " +
                         std::to_string(bytes.size()) + " bytes");
         }
-        buffers_.push_back(bytes.substr(0, length));
+        buffers_.emplace_back(bytes.substr(0, length));
+        size_bytes_ += length;
     }
+    std::uint64_t decompressed = 0;
+    for (std::size_t i = 0; i < root_.size_of("bufferViews"); ++i) {
+        const JsonPlace view = root_.at("bufferViews").element(i);
+        if (!view.has_extension(kMeshoptExtension)) continue;
+        const std::uint64_t size =
+            meshopt_layout(view, view.extension(kMeshoptExtension)).size_bytes();
+        decompressed += std::min(size, UINT64_MAX - decompressed);
+    }
+    budget.add(decompressed, path + ": what it has compressed");
+    size_bytes_ += std::min(decompressed, UINT64_MAX - size_bytes_);
 }
 
 std::string_view GltfBuffers::load_uri(const JsonPlace& place) {
@@ -151,84 +179,119 @@ void GltfBuffers::check_are_whole() const {
     for (const auto& file : external_) file->check_is_whole();
 }
 
-/// The bytes [offset, offset + size) of a view, checked.
-const char* GltfBuffers::view_bytes(const JsonPlace& place, std::uint64_t offset, std::uint64_t size,
-                       std::uint64_t* stride) const {
+/// The bytes that `view` names in its buffer.
+std::string_view GltfBuffers::slice(const JsonPlace& view) const {
+    const std::uint32_t number = view.at("buffer").index_below(buffers_.size(), "buffer");
+    if (!buffers_[number]) {
+        root_.at("buffers").element(number).fail(
+            root_.at("buffers").element(number).has("uri")
+                ? "the buffer is a fallback, but a view that is not compressed uses it"
+                : "the buffer has neither a URI nor a binary chunk");
+    }
+    const std::string_view buffer = *buffers_[number];
+    const std::uint64_t offset = view.integer_or("byteOffset", 0);
+    const std::uint64_t length = view.at("byteLength").integer();
+    if (offset > buffer.size() || length > buffer.size() - offset) {
+        view.fail("the view reaches beyond its buffer of " + std::to_string(buffer.size()) +
+                  " bytes");
+    }
+    return buffer.substr(offset, length);
+}
+
+std::string_view GltfBuffers::view(const JsonPlace& place) {
     const std::uint32_t number =
         place.at("bufferView").index_below(root_.size_of("bufferViews"), "buffer view");
     const JsonPlace view = root_.at("bufferViews").element(number);
-    const std::uint32_t buffer = view.at("buffer").index_below(buffers_.size(), "buffer");
-    const std::uint64_t view_offset = view.integer_or("byteOffset", 0);
-    const std::uint64_t view_length = view.at("byteLength").integer();
-    const std::uint64_t available = buffers_[buffer].size();
-    if (view_offset > available || view_length > available - view_offset) {
-        view.fail("the view reaches beyond its buffer of " + std::to_string(available) + " bytes");
-    }
-    if (offset > view_length || size > view_length - offset) {
-        place.fail("reaches beyond its buffer view of " + std::to_string(view_length) + " bytes");
-    }
-    if (stride != nullptr) *stride = view.integer_or("byteStride", 0);
-    return buffers_[buffer].data() + view_offset + offset;
+    if (!view.has_extension(kMeshoptExtension)) return slice(view);
+    const auto known = decompressed_.find(number);
+    if (known != decompressed_.end()) return known->second;
+    const JsonPlace compressed = view.extension(kMeshoptExtension);
+    const MeshoptLayout layout = meshopt_layout(view, compressed);
+    return decompressed_[number] = decode_meshopt(compressed, layout, slice(compressed));
 }
 
-GltfAccessor GltfBuffers::accessor(const JsonPlace& reference, int components) {
+/// The bytes [offset, offset + size) of the view of `place`, checked.
+const char* GltfBuffers::bytes_of(const JsonPlace& place, std::uint64_t offset,
+                                  std::uint64_t size) {
+    const std::string_view bytes = view(place);
+    if (offset > bytes.size() || size > bytes.size() - offset) {
+        place.fail("reaches beyond its buffer view of " + std::to_string(bytes.size()) + " bytes");
+    }
+    return bytes.data() + offset;
+}
+
+/// The stride that the view of `place` sets; 0: none.
+std::uint64_t GltfBuffers::stride_of(const JsonPlace& place) const {
+    const std::uint32_t number =
+        place.at("bufferView").index_below(root_.size_of("bufferViews"), "buffer view");
+    return root_.at("bufferViews").element(number).integer_or("byteStride", 0);
+}
+
+GltfAccessor GltfBuffers::without_sparse(const JsonPlace& reference, std::string_view type,
+                                         std::uint64_t known_count) {
     const std::uint32_t number = reference.index_below(root_.size_of("accessors"), "accessor");
     const JsonPlace place = root_.at("accessors").element(number);
-    GltfAccessor view;
-    view.count = place.at("count").integer();
-    view.components = components;
-    view.component_type = place.at("componentType").integer();
-    view.normalized = place.has("normalized") && place.at("normalized").json() == true;
-    const std::size_t size = component_size(view.component_type);
+    GltfAccessor accessor;
+    accessor.count = place.at("count").integer();
+    accessor.components = component_count(type);
+    accessor.component_type = place.at("componentType").integer();
+    accessor.normalized = place.has("normalized") && place.at("normalized").json() == true;
+    const std::size_t size = component_size(accessor.component_type);
     if (size == 0) place.fail("unknown componentType");
-    if (place.at("type").text() != (components == 1 ? "SCALAR" : "VEC3")) {
-        place.fail(std::string("the type must be ") + (components == 1 ? "SCALAR" : "VEC3"));
-    }
-    if (view.count > 0xFFFFFFFFu) place.fail("more than 4 billion elements");
-    const std::uint64_t element_size = static_cast<std::uint64_t>(components) * size;
-    view.stride = element_size;
-    if (place.has("bufferView") && view.count > 0) {
-        std::uint64_t stride = 0;
+    if (place.at("type").text() != type) place.fail("the type must be " + std::string(type));
+    if (accessor.count > 0xFFFFFFFFu) place.fail("more than 4 billion elements");
+    const std::uint64_t element_size = static_cast<std::uint64_t>(accessor.components) * size;
+    accessor.stride = accessor.element_size = element_size;
+    if (place.has("bufferView") && accessor.count > 0) {
         const std::uint64_t offset = place.integer_or("byteOffset", 0);
-        view_bytes(place, offset, 0, &stride);
+        bytes_of(place, offset, 0);
+        const std::uint64_t stride = stride_of(place);
         if (stride != 0) {
-            if (stride < element_size || stride > 0xFFFF) place.fail("the byteStride is too small or large");
-            view.stride = stride;
+            if (stride < element_size || stride > 0xFFFF) {
+                place.fail("the byteStride is too small or large");
+            }
+            accessor.stride = stride;
         }
-        view.data = view_bytes(place, offset, (view.count - 1) * view.stride + element_size, nullptr);
+        accessor.data =
+            bytes_of(place, offset, (accessor.count - 1) * accessor.stride + element_size);
     }
-    if (place.has("sparse")) return with_sparse_values(place, view);
-    if (view.data == nullptr) count_implicit_zeros(place, view.count);
-    return view;
+    // Elements without data must not let a small file fill the memory.
+    if (accessor.data == nullptr && accessor.count > std::max(known_count, kMaxImplicitZeros)) {
+        place.fail("has no data for its " + std::to_string(accessor.count) + " elements");
+    }
+    return accessor;
 }
 
-/// Elements without data must not let a small file fill the memory.
-void GltfBuffers::count_implicit_zeros(const JsonPlace& place, std::uint64_t count) {
-    if (count > kMaxImplicitZeros - implicit_zeros_) {
-        place.fail("has no data for its " + std::to_string(count) + " elements");
+GltfAccessor GltfBuffers::accessor(const JsonPlace& reference, std::string_view type,
+                                   std::uint64_t known_count) {
+    GltfAccessor result = without_sparse(reference, type, known_count);
+    const std::uint32_t number = reference.index_below(root_.size_of("accessors"), "accessor");
+    const JsonPlace place = root_.at("accessors").element(number);
+    if (!place.has("sparse")) return result;
+    if (sparse_number_ != number) {
+        sparse_ = with_sparse_values(place, result);
+        sparse_number_ = number;
     }
-    implicit_zeros_ += count;
+    return sparse_;
 }
 
-/// A copy of the accessor as floats, with the values of its "sparse" part put in.
+/// A copy of the accessor with the values of its "sparse" part put in.
 GltfAccessor GltfBuffers::with_sparse_values(const JsonPlace& place, const GltfAccessor& base) {
     const JsonPlace sparse = place.at("sparse");
     const std::uint64_t count = sparse.at("count").integer();
     if (count > base.count) sparse.fail("more sparse values than elements");
-    if (base.data == nullptr) count_implicit_zeros(place, base.count);
     const JsonPlace indices = sparse.at("indices");
     const std::uint64_t index_type = indices.at("componentType").integer();
     const std::size_t index_size = component_size(index_type);
-    if (index_size == 0 || index_type == 5126) indices.fail("unknown componentType");
+    if (index_size == 0 || index_type == kGltfFloat) indices.fail("unknown componentType");
     const char* const index_data =
-        view_bytes(indices, indices.integer_or("byteOffset", 0), count * index_size, nullptr);
-    const std::size_t size = component_size(base.component_type);
-    const std::uint64_t element_size = static_cast<std::uint64_t>(base.components) * size;
+        bytes_of(indices, indices.integer_or("byteOffset", 0), count * index_size);
+    const std::uint64_t element_size = base.element_size;
     const JsonPlace values = sparse.at("values");
     const char* const value_data =
-        view_bytes(values, values.integer_or("byteOffset", 0), count * element_size, nullptr);
+        bytes_of(values, values.integer_or("byteOffset", 0), count * element_size);
 
-    auto copy = std::make_unique<std::string>(base.count * element_size, '\0');
+    auto copy = std::make_shared<std::string>(base.count * element_size, '\0');
     if (base.data != nullptr) {
         for (std::uint64_t i = 0; i < base.count; ++i) {
             std::memcpy(copy->data() + i * element_size, base.data + i * base.stride, element_size);
@@ -242,11 +305,11 @@ GltfAccessor GltfBuffers::with_sparse_values(const JsonPlace& place, const GltfA
         std::memcpy(copy->data() + static_cast<std::uint64_t>(index) * element_size,
                     value_data + i * element_size, element_size);
     }
-    GltfAccessor view = base;
-    view.data = copy->data();
-    view.stride = element_size;
-    decoded_.push_back(std::move(copy));
-    return view;
+    GltfAccessor result = base;
+    result.data = copy->data();
+    result.stride = element_size;
+    result.owned = std::move(copy);
+    return result;
 }
 
 }  // namespace burin

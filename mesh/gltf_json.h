@@ -85,6 +85,14 @@ class JsonPlace {
     std::string text_or(const char* key, const std::string& fallback) const {
         return has(key) ? at(key).text() : fallback;
     }
+    bool boolean() const {
+        if (!value_->is_boolean()) fail("must be true or false");
+        return value_->get<bool>();
+    }
+    bool has_extension(const char* name) const {
+        return has("extensions") && at("extensions").has(name);
+    }
+    JsonPlace extension(const char* name) const { return at("extensions").at(name); }
 
   private:
     const std::string* file_;

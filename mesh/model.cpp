@@ -55,6 +55,7 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     model.materials = std::move(scene.materials);
     model.skipped_primitives = scene.skipped_primitives;
     model.other_files = std::move(scene.buffer_files);
+    model.left_out = std::move(scene.left_out);
     return model;
 }
 
@@ -70,7 +71,8 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
     if (extension == ".stl") return model_of(path, read_stl(path, options.strict), options);
     if (extension == ".off") return model_of(path, read_off(path), options);
     if (extension == ".gltf" || extension == ".glb") {
-        return model_of(path, read_gltf(path), options);
+        ModelBudget by_default;
+        return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default), options);
     }
     throw InputError(path + ": unknown kind of model '" + extension +
                      "'; burin reads .obj .ply .stl .off .gltf .glb");

@@ -200,6 +200,9 @@ class SceneLoader {
             // A file that is read twice, with and without subdivision, says the same twice.
             if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end()) scene_.notes.push_back(std::move(note));
         }
+        for (LeftOut& part : model.left_out) {
+            if (std::find(scene_.left_out.begin(), scene_.left_out.end(), part) == scene_.left_out.end()) scene_.left_out.push_back(std::move(part));
+        }
         return loaded;
     }
 

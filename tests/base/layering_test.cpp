@@ -44,6 +44,8 @@ const std::map<std::string, std::set<std::string>> kLibraryFiles = {
     {"OpenImageIO/", {"image/oiio_module.cpp"}},
     {"OpenMesh/", {"mesh/subdivide.cpp"}},
     {"nlohmann/", {"mesh/gltf_json.h"}},
+    {"meshoptimizer", {"mesh/gltf_meshopt.cpp"}},
+    {"draco/", {"mesh/draco_module.cpp"}},
     {"toml\\+\\+/", {"scene/toml_reader.h"}},
     {"CLI/", {"cli/arguments.cpp"}},
     {"embree3/", {"methods/embree_scene.cpp"}},

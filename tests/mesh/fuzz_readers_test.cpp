@@ -153,8 +153,27 @@ TEST(FuzzReaders, Gltf) {
                              {"buffer": 0, "byteOffset": 60, "byteLength": 2}, {"buffer": 0, "byteOffset": 64, "byteLength": 24}])";
     sparse.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "sparse": {"count": 2,
         "indices": {"bufferView": 2, "componentType": 5121}, "values": {"bufferView": 3}}}, {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}])";
-    fuzz(".gltf", {GltfParts{}.json(), tree.json(), sparse.json()});
-    fuzz(".glb", {GltfParts{}.as_glb(), tree.as_glb(), sparse.as_glb()});
+    test::GltfAccessors a;
+    a.add_positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    a.add_indices({0, 1, 2, 0, 2, 3});
+    a.add_vectors({0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0});
+    a.add(ByteWriter().add<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0}).bytes(), "VEC4", 5121, 4);
+    a.add(ByteWriter().add<std::uint8_t>({255, 0, 0, 0, 9, 0, 0, 0, 7, 7, 0, 0, 99, 99, 0, 0}).bytes(), "VEC4", 5121, 4, R"("normalized": true)");
+    a.add(ByteWriter().add<std::uint8_t>({0x22, 3}).bytes(), "SCALAR", 5121, 2);
+    a.add(ByteWriter().add<std::int8_t>({0, 0, 127, 0, 90, 0, 0, 90}).bytes(), "VEC4", 5120, 2, R"("normalized": true)");
+    a.add_vectors({0, 0, 1, 2, 2, 2});
+    GltfParts posed;
+    a.put_into(posed);
+    posed.scenes = R"([{"nodes": [0, 1, 3]}])";
+    posed.nodes = R"([{"mesh": 0, "skin": 0, "weights": [0.5]}, {"translation": [1, 2, 3], "children": [2]}, {"scale": [2, 2, 2]},
+        {"mesh": 1, "extensions": {"KHR_node_visibility": {"visible": true}, "EXT_mesh_gpu_instancing": {"attributes": {"ROTATION": 6, "SCALE": 7}}}}])";
+    posed.skins = R"([{"joints": [1, 2]}])";
+    posed.materials = R"([{"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 0.5]}, "alphaMode": "MASK", "alphaCutoff": 0.4}])";
+    posed.meshes = R"([{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 3, "WEIGHTS_0": 4}, "indices": 1, "targets": [{"POSITION": 2}]}]},
+        {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0, "extensions": {"EXT_mesh_primitive_edge_visibility": {"visibility": 5},
+        "CESIUM_primitive_outline": {"indices": 1}}}, {"attributes": {"POSITION": 0}, "mode": 2}]}])";
+    fuzz(".gltf", {GltfParts{}.json(), tree.json(), sparse.json(), posed.json()});
+    fuzz(".glb", {GltfParts{}.as_glb(), tree.as_glb(), sparse.as_glb(), posed.as_glb()});
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ std::string GltfParts::json() const {
     add("scenes", scenes);
     add("nodes", nodes);
     add("cameras", cameras);
+    add("skins", skins);
     add("meshes", meshes);
     add("materials", materials);
     add("accessors", accessors);
@@ -77,6 +78,47 @@ std::string GltfParts::as_glb() const {
         parts.buffers = "[{\"byteLength\": " + std::to_string(binary.size()) + "}]";
     }
     return glb(parts.json(), binary);
+}
+
+int GltfAccessors::add_view(const std::string& bytes) {
+    binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
+    views_ += std::string(views_.empty() ? "" : ", ") + "{\"buffer\": 0, \"byteOffset\": " + std::to_string(binary_.size()) +
+              ", \"byteLength\": " + std::to_string(bytes.size()) + "}";
+    binary_ += bytes;
+    return view_count_++;
+}
+
+int GltfAccessors::add_object(const std::string& object) {
+    accessors_ += (accessors_.empty() ? "" : ", ") + object;
+    return accessor_count_++;
+}
+
+int GltfAccessors::add(const std::string& bytes, const char* type, int component_type, std::size_t count, const std::string& more) {
+    const int view = add_view(bytes);
+    return add_object("{\"bufferView\": " + std::to_string(view) + ", \"type\": \"" + type + "\", \"componentType\": " + std::to_string(component_type) +
+                      ", \"count\": " + std::to_string(count) + (more.empty() ? "" : ", ") + more + "}");
+}
+
+int GltfAccessors::add_positions(std::initializer_list<float> numbers) {
+    return add(ByteWriter().add<float>(numbers).bytes(), "VEC3", 5126, numbers.size() / 3);
+}
+
+int GltfAccessors::add_indices(std::initializer_list<std::uint16_t> numbers) {
+    return add(ByteWriter().add<std::uint16_t>(numbers).bytes(), "SCALAR", 5123, numbers.size());
+}
+
+void GltfAccessors::put_into(GltfParts& parts) const {
+    parts.binary = binary_;
+    parts.buffer_views = "[" + views_ + "]";
+    parts.accessors = "[" + accessors_ + "]";
+}
+
+GltfParts gltf_of(const GltfAccessors& accessors, const std::string& primitives) {
+    GltfParts parts;
+    accessors.put_into(parts);
+    parts.meshes = "[{\"primitives\": [" + primitives + "]}]";
+    parts.nodes = R"([{"mesh": 0}])";
+    return parts;
 }
 
 }  // namespace burin::test

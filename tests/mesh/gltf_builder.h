@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -32,7 +34,7 @@ struct GltfParts {
     std::string buffer_views = R"([{"buffer": 0, "byteLength": 48},)"
                                R"( {"buffer": 0, "byteOffset": 48, "byteLength": 12}])";
     std::string buffers;  ///< empty: `binary` in a data URI
-    std::string materials, cameras, required;
+    std::string materials, cameras, skins, required;
 
     std::string binary = square_positions() + square_indices();
 
@@ -40,5 +42,31 @@ struct GltfParts {
     /// The same with the buffer in the binary chunk.
     std::string as_glb() const;
 };
+
+/// The buffer, views and accessors of a glTF file, one after the other.
+class GltfAccessors {
+  public:
+    /// Adds an accessor over bytes of its own. `more`: further members of its object, as
+    /// R"("normalized": true)". Returns its number.
+    int add(const std::string& bytes, const char* type, int component_type, std::size_t count, const std::string& more = "");
+    int add_positions(std::initializer_list<float> numbers);
+    /// Three numbers each, as floats.
+    int add_vectors(std::initializer_list<float> numbers) { return add_positions(numbers); }
+    int add_indices(std::initializer_list<std::uint16_t> numbers);
+    /// Adds an accessor as text.
+    int add_object(const std::string& object);
+    /// Returns the number of the view.
+    int add_view(const std::string& bytes);
+
+    void put_into(GltfParts& parts) const;
+
+  private:
+    std::string binary_;
+    std::string views_, accessors_;
+    int view_count_ = 0, accessor_count_ = 0;
+};
+
+/// A glTF file of one node that shows a mesh of the given primitives (as JSON, without brackets).
+GltfParts gltf_of(const GltfAccessors& accessors, const std::string& primitives);
 
 }  // namespace burin::test

@@ -12,6 +12,8 @@
 namespace burin {
 namespace {
 
+GltfScene read_file(const std::string& path) { return read_gltf(path); }
+
 using test::ByteWriter;
 using test::GltfParts;
 using test::Polygons;
@@ -162,10 +164,10 @@ TEST_F(ReadGltf, MaterialsGiveColourAndOpacity) {
 
 TEST_F(ReadGltf, PrimitivesThatShareVerticesShareThemInTheMesh) {
     GltfParts parts;
-    parts.meshes = R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 0}, "indices": 1}]}])";
+    parts.meshes = R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 0}}]}])";
     const GltfScene scene = read(parts);
     EXPECT_EQ(scene.meshes[0].positions.size(), 4u);
-    EXPECT_EQ(polygons_of(scene.meshes[0]), (Polygons{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(polygons_of(scene.meshes[0]), (Polygons{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
 }
 
 TEST_F(ReadGltf, PrimitivesWithOwnVerticesFollowEachOther) {
@@ -197,7 +199,7 @@ TEST_F(ReadGltf, UrisThatLeaveTheFolderAreRefused) {
     for (const std::string& uri : {std::string("../x.bin"), outside, std::string("link.bin"), std::string("up/x.bin"), std::string("%2E%2E/x.bin"),
                                    std::string("..%2Fx.bin"), std::string(""), std::string("."), std::string("x.bin%00")}) {
         parts.buffers = "[{\"byteLength\": 60, \"uri\": \"" + uri + "\"}]";
-        EXPECT_TRUE(test::refuses(read_gltf, folder_.write("inside/part.gltf", parts.json()), {"buffers[0].uri: ", "leads out of the model's folder"}))
+        EXPECT_TRUE(test::refuses(read_file, folder_.write("inside/part.gltf", parts.json()), {"buffers[0].uri: ", "leads out of the model's folder"}))
             << uri;
     }
 }
@@ -215,12 +217,17 @@ TEST_F(ReadGltf, StripsAndFansBecomeTrianglesOfOneWinding) {
     EXPECT_EQ(polygons_of(read(parts).meshes[0]), (Polygons{{0, 1, 2}})) << "two vertices are left over";
 }
 
-TEST_F(ReadGltf, PointsAndLinesAreSkippedAndCounted) {
+TEST_F(ReadGltf, PointsAndWhatHasNoPositionsAreSkippedAndCounted) {
     GltfParts parts;
-    parts.meshes = R"([{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}, {"mode": 3, "attributes": {"POSITION": 0}},
+    parts.meshes = R"([{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}, {"mode": 0, "attributes": {"POSITION": 0}},
                       {"attributes": {"NORMAL": 0}}, {"attributes": {"POSITION": 0}, "indices": 1}]}])";
     const Model model = read_as_model(parts);
     EXPECT_EQ(model.skipped_primitives, 3u);
+    ASSERT_EQ(model.left_out.size(), 2u);
+    EXPECT_EQ(model.left_out[0].what, "primitives of points");
+    EXPECT_EQ(model.left_out[0].count, 2u);
+    EXPECT_EQ(model.left_out[1].what, "primitives without positions");
+    EXPECT_EQ(model.left_out[1].count, 1u);
     EXPECT_EQ(model.meshes[0].triangles.size(), 2u);
 }
 
@@ -283,7 +290,7 @@ TEST_F(ReadGltf, SparseAccessorsReplaceSomeValues) {
 
 TEST_F(ReadGltf, SurfacesThatHaveNothingToDrawAreRefusedByReadModel) {
     GltfParts parts;
-    parts.meshes = R"([{"primitives": [{"mode": 1, "attributes": {"POSITION": 0}}]}])";
+    parts.meshes = R"([{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}]}])";
     EXPECT_TRUE(test::refuses([](const std::string& p) { read_model(p, {}); }, folder_.write("part.gltf", parts.json()), {"no polygon with an area"}));
     EXPECT_TRUE(test::refuses([](const std::string& p) { read_model(p, {}); }, folder_.write("part.xyz", "x"), {"unknown kind of model '.xyz'", ".gltf"}));
 }

@@ -1,0 +1,57 @@
+#include "base/module.h"
+
+#include <dlfcn.h>
+#include <sys/auxv.h>
+
+#include <filesystem>
+#include <string>
+
+#include "base/error.h"
+
+namespace burin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The program's own path. Without /proc the one that it was started by.
+fs::path program_path() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (!error) return program;
+    const auto* const started_by = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
+    return started_by != nullptr ? fs::canonical(started_by, error) : fs::path();
+}
+
+/// A module and, if it cannot be loaded, why.
+struct Module {
+    void* handle = nullptr;
+    std::string failure;
+
+    explicit Module(const char* name) {
+        const fs::path folder = program_path().parent_path();
+        std::error_code ignored;
+        for (const fs::path& candidate : {folder / name, folder.parent_path() / "lib" / "burin" / name}) {
+            if (handle == nullptr && fs::exists(candidate, ignored)) load(candidate.c_str());
+        }
+        if (handle == nullptr && failure.empty()) load(name);  // the loader's own search path
+    }
+    void load(const char* path) {
+        handle = ::dlopen(path, RTLD_NOW | RTLD_LOCAL);
+        if (handle == nullptr) failure = ::dlerror();
+    }
+};
+
+}  // namespace
+
+void* module_function(const char* module, const char* name, const char* purpose, const char* remedy) {
+    const Module loaded(module);  // what is loaded already is only found again
+    void* const function = loaded.handle != nullptr ? ::dlsym(loaded.handle, name) : nullptr;
+    if (function == nullptr) {
+        throw InputError("cannot load " + std::string(module) + ", which " + purpose + ": " +
+                         (loaded.failure.empty() ? std::string("it lacks a function") : loaded.failure) +
+                         "; keep it beside the burin program, or " + remedy);
+    }
+    return function;
+}
+
+}  // namespace burin

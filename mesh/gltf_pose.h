@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "mesh/gltf_buffers.h"
+#include "mesh/gltf_json.h"
+#include "mesh/gltf_nodes.h"
+#include "mesh/gltf_surface.h"
+
+namespace burin {
+
+/// Where the joints of a skin take a vertex that depends on one of them alone.
+struct GltfSkin {
+    std::vector<glm::dmat4> joint_matrices;  ///< joint's world matrix x inverse bind matrix
+};
+GltfSkin read_gltf_skin(const JsonPlace& skin, const GltfNodes& nodes, GltfBuffers& buffers);
+
+/// How much of each morph target a node adds to its mesh while nothing moves: `node.weights`, else
+/// `mesh.weights`. Empty if nothing is added.
+std::vector<double> gltf_morph_weights(const JsonPlace& node, const JsonPlace& mesh);
+
+/// Adds morph targets to the positions of a mesh, then puts them where the joints of `skin` are
+/// (nullptr: it has none). Vertices that are equal in all that their accessors say end in the same
+/// place, to the bit.
+void pose_gltf_mesh(GltfSurface& surface, const std::vector<double>& weights, const GltfSkin* skin,
+                    GltfBuffers& buffers);
+
+}  // namespace burin
