@@ -110,7 +110,7 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh,
     }
     if (is_subdivided) {
         has_marks = marks_of_polygons(polygons);
-        polygons = subdivide(polygons, options.scheme, options.subdivision_levels, mesh.name, options.budget);
+        polygons = subdivide(polygons, options.scheme, options.subdivision_levels, mesh.name);
     }
     if (!duplicates.empty() || is_subdivided) triangulate_and_link(polygons, mesh);
     std::vector<bool> found = mark_half_edges(polygons, mesh);
@@ -153,6 +153,18 @@ void note_cut_polygons(const CutPolygons& cut, MeshRepairs& repairs) {
     repairs.input_triangles += cut.triangles - cut.piece_triangles;
 }
 
+/// Counts what subdivision makes of all objects together, before the first of them is made. Corners become four in each step, by
+/// either scheme.
+void count_subdivision(const PolygonSoup& soup, const MeshOptions& options) {
+    if (options.subdivision_levels == 0 || options.budget == nullptr) return;
+    const bool has_triangles = soup.corners.size() == 3 * soup.polygon_count();
+    std::uint64_t corners = soup.corners.size();
+    for (int level = 0; level < options.subdivision_levels; ++level) corners = saturating_product(corners, 4);
+    const std::string object = soup.object_names.size() == 1 ? "object '" + soup.object_names[0] + "'" : "the model";
+    count_mesh(*options.budget, {corners / (has_triangles ? 3 : 4), corners}, object,
+               "subdivide " + std::to_string(options.subdivision_levels));
+}
+
 /// Whether the order of an object's polygons shows in nothing but their numbers: where some coincide, the first one is seen.
 bool may_be_put_in_order(const PolygonSoup& soup, std::span<const std::uint32_t> polygons) {
     if (polygons.size() < kWorthSpatialOrder || !soup.marked_edges.empty()) return false;
@@ -170,6 +182,7 @@ InputOrder put_in_order(const PolygonSoup& soup, const SpatialOrder& spatial, st
 }  // namespace
 
 std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
+    count_subdivision(soup, options);
     RoundedPositions rounded = round_positions(soup);
     std::vector<glm::vec3>& positions = rounded.positions;
     throw_if_interrupted();

@@ -175,8 +175,8 @@ void count_mesh(ModelBudget& budget, PolygonCounts mesh, const std::string& obje
     budget.add(saturating_product(kBytesPerCorner, mesh.corners), object + " of " + million + " million polygons (" + settings + ")");
 }
 
-PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels, const std::string& object_name,
-                      ModelBudget* budget) {
+PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
+                      const std::string& object_name) {
     static std::once_flag silenced;  // OpenMesh reports every refused face on standard error
     std::call_once(silenced, [] { omerr().disable(); });
 
@@ -187,8 +187,7 @@ PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int lev
     if (scheme == SubdivisionScheme::automatic) {
         scheme = all_triangles ? SubdivisionScheme::loop : SubdivisionScheme::catmull_clark;
     }
-    const PolygonCounts counts = count_subdivided({mesh.polygon_count(), mesh.corners.size()}, scheme, levels, object_name);
-    if (budget != nullptr) count_mesh(*budget, counts, "object '" + object_name + "'", "subdivide " + std::to_string(levels));
+    count_subdivided({mesh.polygon_count(), mesh.corners.size()}, scheme, levels, object_name);  // refuses what is too large
     if (scheme == SubdivisionScheme::catmull_clark) {
         return subdivide_as<PolyMesh>(mesh, levels, object_name);
     }

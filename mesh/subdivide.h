@@ -31,8 +31,8 @@ void count_mesh(ModelBudget& budget, PolygonCounts mesh, const std::string& obje
 ///
 /// Throws InputError if the surface is not two-manifold or not wound consistently (subdivision has
 /// no meaning there), if Loop is asked for polygons that are not triangles, or if more than
-/// 2^28 polygons would result, or more than the budget allows (nullptr: it is counted already). `object_name` is for messages.
-PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels, const std::string& object_name,
-                      ModelBudget* budget = nullptr);
+/// 2^28 polygons would result. `object_name` is for messages.
+PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
+                      const std::string& object_name);
 
 }  // namespace burin

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <toml++/toml.h>
 #include <string>
 #include <string_view>
+
+#include "scene/toml_reader.h"
 
 namespace burin {
 

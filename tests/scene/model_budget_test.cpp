@@ -83,6 +83,17 @@ TEST(ModelBudgetOfScenes, SubdividedFilesAreRefusedBeforeTheWork) {
     EXPECT_TRUE(has(message, "0.1 million polygons (subdivide 8) needs about 22 MB")) << message;
 }
 
+/// All objects of a file together, and before the first of them.
+TEST(ModelBudgetOfScenes, SubdividedObjectsCountTogether) {
+    std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+    for (int i = 0; i < 100; ++i) obj += "o part" + std::to_string(i) + (i % 2 == 0 ? "\nf 1 2 3\n" : "\nf 1 2 4 3\n");
+    const SceneText text("[[object]]\nfile='parts.obj'\nsubdivide=3\n");
+    text.folder().write("parts.obj", obj);
+    const std::string message = refusal(text, kMega);  // 350 corners become 22,400
+    EXPECT_TRUE(has(message, "the model of 0.0 million polygons (subdivide 3) needs about 1.3 MB")) << message;
+    EXPECT_EQ(refusal(text, 2 * kMega), "");
+}
+
 /// As long as a file only says what it says, it may be large.
 TEST(ModelBudgetOfScenes, WhatAFileSpellsOutIsNotCounted) {
     std::string obj;
