@@ -16,6 +16,9 @@ namespace {
 
 /// Planes that meet at an angle drift apart by more than kCoincidentPx within so many pixels, or are taken for one.
 constexpr double kAroundPx = 2;
+/// Programs round coordinates on the way to a file. By less than this, in pixels, nothing is in front for certain, unless that is
+/// more than single precision loses anywhere in the scene.
+constexpr double kLeastCertainPx = 1.0 / 2048;
 
 /// A convex polygon on the screen, in pixels, clockwise as seen.
 class Region {
@@ -137,17 +140,22 @@ class PlanePair {
     }
 
     bool has_both() const { return of_a_.has_plane() && of_b_.has_plane(); }
-    SurfaceOrder at(glm::dvec2 p, bool may_be_one_plane, double coordinate_error) const {
-        const auto change = [&](double nearness, double error) { return of_a_.change(nearness, error) + of_b_.change(nearness, error); };
+    SurfaceOrder at(glm::dvec2 p, bool may_be_one_plane, const CoordinateErrors& errors) const {
         const double nearness = plane_a_.extended_to(p), gap = nearness - plane_b_.extended_to(p);
-        const double error = change(nearness, coordinate_error);
-        const double visible = change(nearness, 0.5 * kCoincidentPx * projection_.pixel_size(projection_.distance(nearness)));
+        const auto change = [&](double of_a, double of_b) { return of_a_.change(nearness, of_a) + of_b_.change(nearness, of_b); };
+        const double pixel = projection_.pixel_size(projection_.distance(nearness));
+        const double error = change(errors.any, errors.any), per_pixel = change(0.5 * pixel, 0.5 * pixel);
+        const double visible = change(0.5 * kCoincidentPx * pixel, 0.5 * kCoincidentPx * pixel);
         const double certain = error + snapping_;
         SurfaceOrder order;
         order.have_common_place = true;
         (gap > certain ? order.has_front : gap < -certain ? order.has_behind : order.has_level) = true;
+        const double own_error = std::min(error, std::max(change(errors.of_a, errors.of_b), kLeastCertainPx * per_pixel));
+        (gap > own_error ? order.has_nearer : gap < -own_error ? order.has_farther : order.has_equal) = true;
         const double allowed = may_be_one_plane ? std::max(error, visible) : error;
         order.is_apart = !(std::abs(gap) + kAroundPx * drift_ <= allowed);  // so is what is not a number
+        order.is_far = !(std::abs(gap) <= (may_be_one_plane ? std::max(error, kCopiesApartPx * per_pixel) : error));
+        order.least_gap_px = order.greatest_gap_px = gap / per_pixel;
         return order;
     }
 
@@ -161,17 +169,24 @@ class PlanePair {
 }  // namespace
 
 void SurfaceOrder::operator+=(const SurfaceOrder& o) {
-    have_common_place = have_common_place || o.have_common_place;
+    if (!o.have_common_place) return;
+    least_gap_px = have_common_place ? std::min(least_gap_px, o.least_gap_px) : o.least_gap_px;
+    greatest_gap_px = have_common_place ? std::max(greatest_gap_px, o.greatest_gap_px) : o.greatest_gap_px;
+    have_common_place = true;
     has_front = has_front || o.has_front;
     has_behind = has_behind || o.has_behind;
     has_level = has_level || o.has_level;
     is_apart = is_apart || o.is_apart;
+    has_nearer = has_nearer || o.has_nearer;
+    has_farther = has_farther || o.has_farther;
+    has_equal = has_equal || o.has_equal;
+    is_far = is_far || o.is_far;
 }
 
 bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]) { return Sensitivity(projection, corners).is_front(); }
 
 SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
-                              bool may_be_one_plane, double coordinate_error) {
+                              bool may_be_one_plane, const CoordinateErrors& errors) {
     const ScreenPolygon on_screen_a = project_triangle(projection, a), on_screen_b = project_triangle(projection, b);
     if (are_beside(on_screen_a, on_screen_b)) return {};  // small ones mostly are, and this takes less time
     const PlanePair planes(projection, a, b);
@@ -179,14 +194,14 @@ SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a
     const Region region = common_region(projection, on_screen_a, on_screen_b);
     SurfaceOrder order;
     if (region.is_sliver()) return order;
-    for (const glm::dvec2 p : region.corners()) order += planes.at(p, may_be_one_plane, coordinate_error);
+    for (const glm::dvec2 p : region.corners()) order += planes.at(p, may_be_one_plane, errors);
     return order;
 }
 
 SurfaceOrder compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], glm::dvec2 place,
-                            bool may_be_one_plane, double coordinate_error) {
+                            bool may_be_one_plane, const CoordinateErrors& errors) {
     const PlanePair planes(projection, a, b);
-    return planes.has_both() ? planes.at(place, may_be_one_plane, coordinate_error) : SurfaceOrder{};
+    return planes.has_both() ? planes.at(place, may_be_one_plane, errors) : SurfaceOrder{};
 }
 
 }  // namespace burin

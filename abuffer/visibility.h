@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "abuffer/coincidence.h"
 #include "abuffer/depth_plane.h"
 #include "abuffer/fragment_lists.h"
+#include "abuffer/projection.h"
 
 namespace burin {
 
@@ -30,11 +32,12 @@ struct VisibleSamples {
 ///
 /// Rounding decides nothing: a surface in front wherever both are is so on the edge of one that ends at it, too, and of
 /// coincident surfaces the first one in the list wins. `plane_of(fragment)` gives a fragment's DepthPlane;
-/// `order_of(fragment, fragment)` their SurfaceOrder, which is asked for only where their planes are hardly apart.
+/// `order_of(fragment, fragment)` their SurfaceOrder, which is asked for only where their planes are hardly apart: by what snapping
+/// does, or, with `projection`, by what may separate copies of one surface.
 template <typename Mask, typename PlaneOf, typename OrderOf>
 void resolve_visibility(std::span<const Fragment<Mask>> fragments, const ExtendedGrid& grid, int x,
                         int y, const PlaneOf& plane_of, const OrderOf& order_of,
-                        VisibleSamples<Mask>& visible) {
+                        VisibleSamples<Mask>& visible, const Projection* projection = nullptr) {
     constexpr int kSide = mask_side<Mask>;
     const auto background = static_cast<std::uint32_t>(fragments.size());
     visible.owner.fill(background);
@@ -51,8 +54,13 @@ void resolve_visibility(std::span<const Fragment<Mask>> fragments, const Extende
             }
         }
     };
-    const auto are_close = [](double gap, const DepthPlane& a, const DepthPlane& b, double nearness) {
-        return std::abs(gap) <= a.snapping_error() + b.snapping_error() + 1e-5 * std::abs(nearness);
+    const auto are_close = [projection](double gap, const DepthPlane& a, const DepthPlane& b, double nearness) {
+        double allowed = a.snapping_error() + b.snapping_error() + 1e-5 * std::abs(nearness);
+        if (projection != nullptr) {
+            const double per_px = (projection->orthographic ? 1 : std::abs(nearness)) / projection->focal_px;
+            allowed = std::max(allowed, kCopiesApartPx * (std::abs(a.per_x) + std::abs(a.per_y) + per_px));
+        }
+        return std::abs(gap) <= allowed;
     };
     for (std::uint32_t i = 0; i < background; ++i) {
         const DepthPlane& plane = plane_of(fragments[i]);
@@ -82,14 +90,7 @@ void resolve_visibility(std::span<const Fragment<Mask>> fragments, const Extende
         }
     };
     if (any_close) {
-        // Planes that are one within this many pixels need not be asked which is in front.
-        constexpr double kAroundPx = 64;
-        const auto are_one = [](const DepthPlane& a, const DepthPlane& b) {
-            return kAroundPx * (std::abs(a.per_x - b.per_x) + std::abs(a.per_y - b.per_y)) <= a.snapping_error() + b.snapping_error();
-        };
-        settle([&](std::uint32_t i, std::uint32_t owner) {
-            return !are_one(plane_of(fragments[i]), plane_of(fragments[owner])) && order_of(fragments[i], fragments[owner]).is_in_front();
-        });
+        settle([&](std::uint32_t i, std::uint32_t owner) { return order_of(fragments[i], fragments[owner]).is_in_front(); });
         settle([&](std::uint32_t i, std::uint32_t owner) { return i < owner && order_of(fragments[i], fragments[owner]).are_coincident(); });
     }
     for (int row = 0; row < kSide; ++row) {

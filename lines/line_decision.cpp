@@ -5,6 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "lines/narrow_lap.h"
+#include "lines/rounded_copies.h"
+
 namespace burin {
 namespace {
 
@@ -141,8 +144,8 @@ class Decider {
                    surfaces_.coincide(own, walks_[1 - i].surface);
         };
         if (touching && !is_mark(walks_[i]) && ends_in_plane()) {
-            if (goes_on_beneath(1 - i)) return connected(1 - i);
-            if (are_flush(points_[0].surface, points_[1].surface)) return smooth();
+            if (goes_on_beneath(1 - i) && !laps_narrowly(i)) return connected(1 - i);
+            if (!goes_on_beneath(1 - i) && are_flush(points_[0].surface, points_[1].surface)) return smooth();
             const bool left_before = is_certainly_behind(i, gap[i]) && walks_[1 - i].end == WalkEnd::arrived &&
                                      surfaces_.coincide(walks_[1 - i].surface, points_[i].surface);
             if (left_before) {
@@ -157,6 +160,11 @@ class Decider {
     }
     /// Whether point i's surface reaches the other point in the plane of what is seen there: as if it were seen at both.
     bool goes_on_beneath(int i) const { return walks_[i].end == WalkEnd::arrived && are_flush(walks_[i].surface, other(i).surface); }
+    /// Whether that is so for a narrow strip beyond the end of point i's surface alone.
+    bool laps_narrowly(int i) const {
+        const SurfaceWalk& w = walks_[i];
+        return burin::laps_narrowly(surfaces_, w.surface, w.half_edge, {walks_[1 - i].surface, points_[i].pixel}, place(i, w.fraction));
+    }
     /// Both points lie in one plane, that of the other's surface, and point i's leaves it on the way, at an edge.
     std::optional<LineDecision> leaves_plane(int i) const {
         const SurfaceWalk& w = walks_[i];
@@ -235,6 +243,8 @@ class Decider {
             if (coincident || walks_[i].end != WalkEnd::arrived || !surfaces_.coincide(walks_[i].surface, other(i).surface)) continue;
             if (const auto decision = leaves_plane(1 - i)) return *decision;
         }
+        const auto run_along_at = [&](int i) { return run_along(surfaces_, walks_[1 - i].surface, points_[i].surface, points_[i].pixel); };
+        if (!coincident && followed && run_along_at(0) && run_along_at(1)) return smooth();
         LineDecision decision;
         decision.front = gap[0] >= gap[1] ? 0 : 1;
         const glm::dvec2 middle = glm::mix(points_[0].pixel, points_[1].pixel, 0.5);

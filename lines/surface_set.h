@@ -88,6 +88,8 @@ struct SurfaceSet {
         return known.have_common_place ? known : order_at(a, b, place);
     }
     bool coincide(SurfaceId a, SurfaceId b) const { return order(a, b).are_coincident(); }
+    /// How two triangles lie to each other, without the rest of their polygons.
+    SurfaceOrder order_of_triangles(SurfaceId a, SurfaceId b) const { return compare(a, b, nullptr); }
     ScreenPolygon screen_polygon(SurfaceId s) const {
         glm::dvec3 corners[3];
         view_corners(s, corners);
@@ -131,6 +133,9 @@ struct SurfaceSet {
     }
 
   private:
+    SurfaceOrder order_of_polygons(SurfaceId a, SurfaceId b) const;
+    /// How far a triangle's plane may be off, as its corners are rounded to single precision. In world units.
+    double rounding_error(SurfaceId s, const glm::dvec3 (&corners)[3]) const;
     /// Of two triangles, at one place or wherever both are.
     SurfaceOrder compare(SurfaceId s, SurfaceId t, const glm::dvec2* place) const;
 };

@@ -60,10 +60,10 @@ class PatelTile {
     const VisibleSamples<Mask>& resolve(int x, int y) {
         resolve_visibility(fragments(x, y), grid_, x, y,
                            [this](const Fragment<Mask>& f) -> const DepthPlane& { return plane_of(f); },
-                           [&](const Fragment<Mask>& a, const Fragment<Mask>& b) {
-                               return frame_.surfaces.order(surface_of(a), surface_of(b));
+                           [this](const Fragment<Mask>& a, const Fragment<Mask>& b) -> const SurfaceOrder& {
+                               return order(surface_of(a), surface_of(b));
                            },
-                           visible_);
+                           visible_, &frame_.surfaces.projection);
         return visible_;
     }
 
@@ -82,6 +82,20 @@ class PatelTile {
         SurfaceId id;
         DepthPlane plane;
     };
+    struct KnownOrder {
+        SurfaceId first, second;
+        SurfaceOrder order;
+    };
+
+    /// Mostly asked of the same two for one sample after the other.
+    const SurfaceOrder& order(SurfaceId a, SurfaceId b) {
+        constexpr std::size_t kMost = 1024;
+        if (known_orders_.empty()) known_orders_.resize(kMost);
+        const std::size_t mixed = (std::size_t{a.triangle} * 31 + b.triangle) * 31 + std::size_t{a.instance} * 7 + b.instance;
+        KnownOrder& known = known_orders_[mixed % kMost];
+        if (known.first != a || known.second != b) known = {a, b, frame_.surfaces.order(a, b)};
+        return known.order;
+    }
 
     const Frame& frame_;
     ExtendedGrid grid_;
@@ -89,6 +103,7 @@ class PatelTile {
     std::vector<TileSurface> surfaces_;
     FragmentLists<Mask> lists_;
     VisibleSamples<Mask> visible_;
+    std::vector<KnownOrder> known_orders_;  // by a hash
     PixelLines<Mask> lines_;
 };
 

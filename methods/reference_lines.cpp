@@ -289,6 +289,7 @@ LineCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
     }
     // Both go on behind each other, or lie in one plane.
     const bool lost = ways[0].end == Follow::End::lost || ways[1].end == Follow::End::lost;
+    if (!lost && run_along(t.a, t.b, at)) return crossing;
     if (coincident || lost) {
         if (!lost || t.a.object != t.b.object) crossing.classes = contact;
         return crossing;
@@ -297,13 +298,41 @@ LineCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
     return crossing;
 }
 
+/// Whether two surfaces that pass through each other at a place stay within kCopiesApartPx of each other around it, as far as both
+/// go on: then they are copies of one surface, rounded in different ways (docs/decisions/0017-rounded-copies.md).
+bool ReferenceLines::run_along(Facet a, Facet b, glm::dvec2 at) const {
+    constexpr double kCopiesApartPx = 7.0 / 64, kAtEdges = 2;  // there one copy has gone on to the next facet
+    constexpr double kFarthestPx = 64;
+    const auto gap_px = [this](Facet one, Facet other, glm::dvec2 place) {
+        glm::dvec3 origin, ray;
+        geometry_.projection().view_ray(place, origin, ray);
+        const double first = geometry_.distance(one, place), second = geometry_.distance(other, place);
+        const double slant = 1 / std::abs(glm::dot(geometry_.polygon_normal(one), ray)) + 1 / std::abs(glm::dot(geometry_.polygon_normal(other), ray));
+        return std::abs(first - second) / (0.5 * slant * geometry_.projection().pixel_size(std::min(first, second)));
+    };
+    if (!(gap_px(a, b, at) <= kAtEdges * kCopiesApartPx)) return false;
+    for (const glm::dvec2 direction : {glm::dvec2(1, 0), {0.7, 0.7}, {0, 1}, {-0.7, 0.7}, {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}}) {
+        for (double far_px = 1; far_px <= kFarthestPx; far_px *= 2) {
+            const Way way(at, at + far_px * direction);
+            const Follow one = follow(way, a, 0, {}, way.length), other = follow(way, b, 0, {}, way.length);
+            if (one.end != Follow::End::goes_on || other.end != Follow::End::goes_on) break;
+            if (!(gap_px(one.facet, other.facet, way.at(1)) <= kAtEdges * kCopiesApartPx)) return false;
+        }
+    }
+    return true;
+}
+
 ReferenceLines::Follow ReferenceLines::follow(const Way& way, Facet start, double from, Facet goal) const {
+    return follow(way, start, from, goal, 6 * resolution_px_);
+}
+
+ReferenceLines::Follow ReferenceLines::follow(const Way& way, Facet start, double from, Facet goal, double reach_px) const {
     Follow result;
     result.facet = start;
     const Mesh& mesh = geometry_.mesh(start.object);
     Slice slice = slice_of(way, start);
     if (!slice.is_cut) return result;
-    const double beyond = from + 6 * resolution_px_ / way.length;
+    const double beyond = from + reach_px / way.length;
     const double negligible = kNegligibleFoldPx / way.length;
     Facet current = start;
     int exit = slice.exit();

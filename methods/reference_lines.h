@@ -53,6 +53,8 @@ class ReferenceLines {
     Slice slice_of(const Way& way, Facet f) const;
     static double place_on(const Way& way, const glm::dvec3& point, const glm::dvec3& other);
     Follow follow(const Way& way, Facet start, double from, Facet goal) const;
+    Follow follow(const Way& way, Facet start, double from, Facet goal, double reach_px) const;
+    bool run_along(Facet a, Facet b, glm::dvec2 at) const;
     bool seam_goes_on(const Way& way, Facet f, HalfEdge border, double at, Facet& partner) const;
     LineClassSet edge_classes(Facet a, HalfEdge ha, Facet b, HalfEdge hb, glm::dvec2 at) const;
     LineClassSet classes_of_edge(Facet a, HalfEdge h, glm::dvec2 at) const;

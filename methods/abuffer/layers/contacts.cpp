@@ -63,7 +63,8 @@ bool Contacts::is_in_front(const LayerLine& line, double begin, double end, cons
         if (gap >= -level) {
             const SurfaceOrder order = screen_.surfaces().order(s, screen_.surface_of(cover->number));
             const bool is_coincident = order.are_coincident();
-            if (!order.have_common_place || (is_coincident ? owner < cover->number : gap > 0)) return false;
+            const bool is_seen = is_coincident ? owner < cover->number : order.is_in_front() || (gap > 0 && !order.is_behind());
+            if (!order.have_common_place || is_seen) return false;
             is_behind = !is_coincident || s.instance != t.instance;  // within a mesh, what lies flat on another part has no outline
         }
         is_any_behind = is_any_behind || is_behind;
@@ -84,13 +85,13 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
     const std::size_t first = t.covers(places[0]) ? 1 : 0;
     std::optional<LayerTriangle> covers[2];
     for (const std::size_t side : {first, 1 - first}) {
-        covers[side] = what_covers(places[side], t, Over::plain_edges);
+        covers[side] = what_covers(places[side], t, Over::plain_edges, &criteria);
         if (!covers[side]) return false;
     }
     // What is asked last takes longest.
     struct Level {
         SurfaceId own, other;
-        glm::dvec2 place;
+        glm::dvec2 place, covered;
     };
     Level levels[2];
     int level_count = 0;
@@ -98,24 +99,33 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
         const SurfaceId s = screen_.surface_of(owner);
         const auto beside = place_beside(s, owner, *touching);
         if (!beside) continue;
-        const LayerTriangle& cover = *covers[glm::dot(*beside - *touching, right) < 0 ? 0 : 1];
+        const std::size_t side = glm::dot(*beside - *touching, right) < 0 ? 0 : 1;
+        const LayerTriangle& cover = *covers[side];
         const double gap = screen_.nearness_of(owner, *beside) - cover.nearness_at(*beside);
         if (gap > level) return false;
-        if (gap >= -level) levels[level_count++] = {s, screen_.surface_of(cover.number), *beside / double{kSubpixelsPerPixel}};
+        if (gap >= -level) levels[level_count++] = {s, screen_.surface_of(cover.number), *beside / double{kSubpixelsPerPixel}, places[side] / double{kSubpixelsPerPixel}};
     }
     if (level_count == 0) return false;
     bool is_any_flush = false;
     for (int i = 0; i < level_count; ++i) {
-        const auto& [own, other, place] = levels[i];
+        const auto& [own, other, place, covered] = levels[i];
         if (!surfaces.order_near(own, other, place).are_coincident()) {
             if (rises_in_front(surfaces, own, FacePlane(surfaces, other))) return false;
             continue;
         }
         if (on_one_side && side_of_body(own) != side_of_body(other)) return false;
         if (!(contact_classes(surfaces, own, other, place, criteria) & criteria.classes).empty()) return false;
+        if (laps_narrowly(line, own, {other, covered}, middle)) return false;
         is_any_flush = true;
     }
     return is_any_flush;
+}
+
+/// Whether a face that ends at a line laps over another one there by a narrow strip alone.
+bool Contacts::laps_narrowly(const LayerLine& line, SurfaceId own, const FacePlace& other, glm::dvec2 middle) const {
+    if (!line.is_edge()) return false;
+    const auto edge = static_cast<HalfEdge>(line.line_key);
+    return burin::laps_narrowly(screen_.surfaces(), own, edge, other, middle / double{kSubpixelsPerPixel});
 }
 
 std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, const LayerTriangle& t, const LineCriteria& criteria,
@@ -160,18 +170,12 @@ int Contacts::side_of_body(SurfaceId s) const {
 
 /// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place. Of what is cut,
 /// as a floor that reaches behind the eye, all parts.
-std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t, Over over) const {
+std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t, Over over, const LineCriteria* criteria) const {
     if (t.covers(place)) return t;
     const ScreenMesh& mesh = screen_.mesh(t.instance);
     const SurfaceId own = screen_.surface_of(t.number);
-    const auto part_at_place = [&](SurfaceId s, std::uint32_t number) -> std::optional<LayerTriangle> {
-        for (const LayerTriangle& part : clipped_layer_triangles(screen_, s, number)) {
-            if (part.covers(place)) return part;
-        }
-        return std::nullopt;
-    };
     if (screen_.facing(t.number) == off_screen) {
-        if (const auto part = part_at_place(own, t.number)) return part;
+        if (const auto part = part_at(place, own)) return part;
     }
     const HalfEdge first = 3 * own.triangle;
     const unsigned line_edges = mesh.line_edges[own.triangle];
@@ -185,22 +189,46 @@ std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const Layer
             const HalfEdge g = mesh.partners[h];
             if (!may_cover(b, a, place_of(mesh.vertices[mesh.corners[g % 3 == 0 ? g + 2 : g - 1]]), 1, place)) continue;
         } else if (over == Over::plain_edges && (mesh.sharp == nullptr || (mesh.sharp[own.triangle] >> k & 1) != 0)) {
+            if (const auto other = what_covers_in_plane(place, own, h, *criteria)) return other;
             continue;
         }
         const SurfaceId s{t.instance, mesh.partners[h] / 3};
-        const std::uint32_t number = screen_.number_of(s);
-        const Facing facing = screen_.facing(number);
-        if (number == t.number || facing == edge_on) continue;
-        if (facing == off_screen) {
-            if (const auto part = part_at_place(s, number)) return part;
-            continue;
-        }
-        const auto& [a, b, c] = screen_.triangle(s).corners;
-        if (!may_cover(place_of(a), place_of(b), place_of(c), facing == clockwise ? 1 : -1, place)) continue;
-        const LayerTriangle neighbour = layer_triangle(screen_, s, number);
-        if (neighbour.covers(place)) return neighbour;
+        if (s.triangle == own.triangle) continue;
+        if (const auto part = part_at(place, s)) return part;
     }
     return std::nullopt;
+}
+
+/// What is at a place of the faces beyond an edge of more than two polygons that go on in the plane of one of them: bodies that
+/// stand flush and share corners have no line between them.
+std::optional<LayerTriangle> Contacts::what_covers_in_plane(glm::dvec2 place, SurfaceId own, HalfEdge h, const LineCriteria& criteria) const {
+    const ScreenMesh& mesh = screen_.mesh(own.instance);
+    if (mesh.partners[mesh.partners[h]] == h) return std::nullopt;
+    const glm::dvec2 at = place / double{kSubpixelsPerPixel};
+    for (HalfEdge g = mesh.partners[h]; g != h; g = mesh.partners[g]) {
+        const SurfaceId s{own.instance, g / 3};
+        const LineClassSet classes = contact_classes(screen_.surfaces(), own, s, at, criteria);
+        if (!(classes & criteria.classes).empty() || classes.has(LineClass::crease)) continue;
+        if (const auto part = part_at(place, s)) return part;
+    }
+    return std::nullopt;
+}
+
+/// A triangle where it covers a place, or the part of it that does if it is cut.
+std::optional<LayerTriangle> Contacts::part_at(glm::dvec2 place, SurfaceId s) const {
+    const std::uint32_t number = screen_.number_of(s);
+    const Facing facing = screen_.facing(number);
+    if (facing == edge_on) return std::nullopt;
+    if (facing == off_screen) {
+        for (const LayerTriangle& part : clipped_layer_triangles(screen_, s, number)) {
+            if (part.covers(place)) return part;
+        }
+        return std::nullopt;
+    }
+    const auto& [a, b, c] = screen_.triangle(s).corners;
+    if (!may_cover(place_of(a), place_of(b), place_of(c), facing == clockwise ? 1 : -1, place)) return std::nullopt;
+    const LayerTriangle triangle = layer_triangle(screen_, s, number);
+    return triangle.covers(place) ? std::optional(triangle) : std::nullopt;
 }
 
 /// Where a line comes nearest to the plane of `t`, if it is level with it there.
@@ -232,10 +260,9 @@ bool Contacts::have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const 
 /// Whether `one` is seen where `other` lies at about its depth, nearer by `gap` than that. Of neighbours that have no more than
 /// slivers in common each is, whichever comes first.
 bool Contacts::is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
-    if (gap > 0 && one < other) return true;  // however they lie
     const SurfaceOrder order = screen_.surfaces().order(screen_.surface_of(one), screen_.surface_of(other));
     if (!order.have_common_place) return true;
-    return order.are_coincident() ? one < other : gap > 0;
+    return order.are_coincident() ? one < other : order.is_in_front() || (gap > 0 && !order.is_behind());
 }
 
 /// A place within what is on the screen of a triangle.

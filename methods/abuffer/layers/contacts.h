@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "lines/narrow_lap.h"
 #include "methods/abuffer/layers/layer_line.h"
 #include "methods/abuffer/layers/layer_triangle.h"
 #include "methods/abuffer/screen/screen_surfaces.h"
@@ -41,9 +42,12 @@ class Contacts {
     std::optional<glm::dvec2> touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
                                              double level) const;
     std::optional<glm::dvec2> place_beside(SurfaceId s, std::uint32_t owner, glm::dvec2 at) const;
+    bool laps_narrowly(const LayerLine& line, SurfaceId own, const FacePlace& other, glm::dvec2 middle) const;
     int side_of_body(SurfaceId s) const;
     enum class Over { any_edge, plain_edges };
-    std::optional<LayerTriangle> what_covers(glm::dvec2 place, const LayerTriangle& t, Over over) const;
+    std::optional<LayerTriangle> what_covers(glm::dvec2 place, const LayerTriangle& t, Over over, const LineCriteria* criteria = nullptr) const;
+    std::optional<LayerTriangle> what_covers_in_plane(glm::dvec2 place, SurfaceId own, HalfEdge h, const LineCriteria& criteria) const;
+    std::optional<LayerTriangle> part_at(glm::dvec2 place, SurfaceId s) const;
     bool have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const;
     bool is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const;
     std::optional<glm::dvec2> centre_of(SurfaceId s, std::uint32_t number) const;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "lines/rounded_copies.h"
 
 namespace burin {
 namespace {
@@ -155,10 +156,11 @@ void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std:
     line.owners = {a.number, b.number};
     const SurfaceId sa = screen_.surface_of(a.number), sb = screen_.surface_of(b.number);
     if (frame_.surfaces.are_of_one_polygon(sa, sb)) return;
-    const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, 0.5 * (line.from + line.to) / 256.0, frame_.criteria);
+    const glm::dvec2 middle = 0.5 * (line.from + line.to) / 256.0;
+    const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, middle, frame_.criteria);
     const LineClassSet classes =
         (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;
-    if (classes.empty()) return;
+    if (classes.empty() || run_along(frame_.surfaces, sa, sb, middle)) return;
     line.classes = classes;
     line.drawn_as = *classes.first();
     lines.push_back(line);

@@ -129,7 +129,7 @@ class TransparentTile {
             order_ = frame_.surfaces.order(screen_.surface_of(number), screen_.surface_of(opaque));
         }
         if (order_.are_coincident()) return number < opaque;
-        return order_.has_front == order_.has_behind ? gap > 0 : order_.has_front;
+        return order_.is_in_front() || (gap > 0 && !order_.is_behind());
     }
 
     void composite(Film& film) {

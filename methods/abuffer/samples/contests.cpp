@@ -66,17 +66,14 @@ const Contests::Relation& Contests::relation(std::uint32_t loser, std::uint32_t 
     return r;
 }
 
-/// Whether a part of `back` is behind the plane of `front` by more than snapping does: else the order of the two, which takes
-/// longer, need not be asked for.
+/// Whether a part of `back` is behind the plane of `front`: else the order of the two, which takes longer, need not be asked for.
+/// What is in front by less than snapping does may be so for certain.
 bool Contests::may_be_in_front(std::uint32_t front, std::uint32_t back) const {
     if (screen_.facing(front) == off_screen || screen_.facing(back) == off_screen) return true;
     if (screen_.facing(front) == edge_on) return false;
     const ScreenTriangle plane = screen_.triangle(screen_.surface_of(front)), other = screen_.triangle(screen_.surface_of(back));
-    const ScreenVertex& origin = plane.corners[0];
-    const double here = extended_nearness(plane, origin.x, origin.y);
-    const double snapping = std::abs(extended_nearness(plane, origin.x + 1, origin.y) - here) + std::abs(extended_nearness(plane, origin.x, origin.y + 1) - here);
     return std::any_of(std::begin(other.corners), std::end(other.corners), [&](const ScreenVertex& corner) {
-        return extended_nearness(plane, corner.x, corner.y) - static_cast<double>(corner.nearness) > snapping;
+        return extended_nearness(plane, corner.x, corner.y) - static_cast<double>(corner.nearness) > 0;
     });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lines/narrow_lap.h"
 #include "methods/abuffer/screen/face_plane.h"
 
 namespace burin {
@@ -62,6 +63,34 @@ bool FlushCover::stands_in_front(HalfEdge edge, SurfaceId face) const {
     const FacePlane plane(surfaces, face);
     const auto rises = [&](HalfEdge h) { return rises_in_front(surfaces, {face.instance, h / 3}, plane, kCoincidentPx); };
     return rises(edge) || rises(screen_.mesh(face.instance).partners[edge]);
+}
+
+/// Whether one of the faces at a line laps over the other one by a narrow strip alone: that is a contact, unless a third face goes
+/// on under both.
+bool FlushCover::laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm::ivec2 block) {
+    if (edge == kNoHalfEdge) return false;
+    const SurfaceSet& surfaces = screen_.surfaces();
+    const std::uint32_t instance = pair.surfaces[0].instance;
+    const auto pixel_at = [&](double fraction) { return pair.place(fraction) / double{kSubpixelsPerPixel}; };
+    const glm::dvec2 middle = pair.place(0.5);
+    const auto laps_over = [&](const FacePlace& other) {
+        for (const HalfEdge h : {edge, screen_.mesh(instance).partners[edge]}) {
+            const SurfaceId own{instance, h / 3};
+            if (are_flush(own, other.surface, middle) && burin::laps_narrowly(surfaces, own, h, other, pixel_at(0.5))) return true;
+        }
+        return false;
+    };
+    if (!laps_over({pair.surfaces[0], pixel_at(0)}) && !laps_over({pair.surfaces[1], pixel_at(1)})) return false;
+    const auto goes_on = [&](const FacePlace& from, double fraction) {
+        return walk_surface(surfaces, from.surface, from.pixel, pixel_at(fraction), criteria_).end == WalkEnd::arrived;
+    };
+    const std::vector<Face>& faces = faces_from(block);
+    return std::none_of(faces.begin(), faces.end(), [&](const Face& face) {
+        const Interval part = part_within(pair, face.surface);
+        if (!(part.begin < part.end) || !are_flush(face.surface, pair.surfaces[0], middle)) return false;
+        const FacePlace place{face.surface, pixel_at(0.5 * (part.begin + part.end))};
+        return goes_on(place, 0) && goes_on(place, 1) && !laps_over(place);
+    });
 }
 
 /// Whether two triangles lie in one plane without a line between them. Those that have nothing in common on the screen are

@@ -29,7 +29,8 @@ class FlushCover {
     bool covers(const NeighbourSamples& pair, glm::ivec2 sample, const float (&nearness)[2], HalfEdge edge) {
         const SurfaceId first = pair.surfaces[0], second = pair.surfaces[1];
         if (first.instance != second.instance || first.is_background() || meet_at(first, second, edge)) return false;
-        return may_be_level(pair, nearness) && !stands_in_front(edge, first) && is_covered(pair, sample >> kBlockShift);
+        return may_be_level(pair, nearness) && !stands_in_front(edge, first) && is_covered(pair, sample >> kBlockShift) &&
+               !laps_narrowly(edge, pair, sample >> kBlockShift);
     }
 
   private:
@@ -51,6 +52,7 @@ class FlushCover {
     }
     /// Whether a surface at the line rises in front of a face's plane, as a fin does that stands on it between the samples.
     bool stands_in_front(HalfEdge edge, SurfaceId face) const;
+    bool laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm::ivec2 block);
     /// False for nearly all pairs that are not of one plane.
     bool may_be_level(const NeighbourSamples& pair, const float (&nearness)[2]) const;
     bool is_covered(const NeighbourSamples& pair, glm::ivec2 block);
