@@ -301,7 +301,7 @@ LineCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
 /// Whether two surfaces that pass through each other at a place stay within kCopiesApartPx of each other around it, as far as both
 /// go on: then they are copies of one surface, rounded in different ways (docs/decisions/0017-rounded-copies.md).
 bool ReferenceLines::run_along(Facet a, Facet b, glm::dvec2 at) const {
-    constexpr double kCopiesApartPx = 7.0 / 64, kAtEdges = 2;  // there one copy has gone on to the next facet
+    constexpr double kAtEdges = 2;  // there one copy has gone on to the next facet
     constexpr double kFarthestPx = 64;
     const auto gap_px = [this](Facet one, Facet other, glm::dvec2 place) {
         glm::dvec3 origin, ray;

@@ -64,9 +64,10 @@ TEST_F(GltfMarks, TheLinesOfAMeshAreNumberedBehindItsTriangles) {
     EXPECT_EQ(soup.positions.size(), 7u);
     EXPECT_EQ(soup.polygon_count(), 1u);
     EXPECT_EQ(soup.marked_edges, (Marks{{5, 6}, {0, 1}, {2, 3}}));
-    // The first one lies along an edge of the triangle; so does the second one.
+    // The first two lie along edges of the triangle, the third one is a line by itself.
     const Model model = read_model(folder_.write("part.gltf", parts.json()), {});
-    EXPECT_EQ(count_edges(model.meshes.at(0)).marked, 2u);
+    EXPECT_EQ(count_edges(model.meshes.at(0)).marked, 3u);
+    EXPECT_EQ(count_edges(model.meshes.at(0)).loose, 1u);
     EXPECT_EQ(model.skipped_primitives, 0u);
 }
 
