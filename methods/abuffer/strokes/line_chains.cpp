@@ -64,7 +64,9 @@ class Chains {
             const auto p = ends_of(a), q = ends_of(b);
             if (std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end(), before)) return true;
             if (std::lexicographical_compare(q.begin(), q.end(), p.begin(), p.end(), before)) return false;
-            return is_before(p.back() ^ 1, q.back() ^ 1);
+            if (is_before(p.back() ^ 1, q.back() ^ 1)) return true;
+            if (is_before(q.back() ^ 1, p.back() ^ 1)) return false;
+            return depth_of(p.front()) < depth_of(q.front());  // one lies behind the other
         });
         for (const Chain& c : chains) visit(ends_of(c), c.is_loop);
     }
@@ -76,8 +78,18 @@ class Chains {
         if (!line.is_edge()) return 0;
         const Mesh& mesh = *surfaces_.instances[static_cast<std::uint32_t>(line.line_key >> 32)].mesh;
         const auto h = static_cast<HalfEdge>(line.line_key & 0xFFFFFFFFu);
+        if (mesh.is_loose(h)) {
+            const auto [a, b] = mesh.loose_edge(h);
+            return glm::distance(mesh.local_position(a), mesh.local_position(b));
+        }
         const auto& corners = mesh.triangles[h / 3];
         return glm::distance(mesh.local_position(corners[h % 3]), mesh.local_position(corners[(h + 1) % 3]));
+    }
+    /// Tells lines apart that cover each other: by their edge, and by how near they are.
+    std::tuple<std::uint64_t, double, double> depth_of(std::uint32_t end) const {
+        const LayerLine& line = lines_[end / 2];
+        const bool is_forwards = end % 2 == 0;
+        return {line.line_key, is_forwards ? line.nearness_from : line.nearness_to, is_forwards ? line.nearness_to : line.nearness_from};
     }
     std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }
     /// What the line is, seen from anywhere.
