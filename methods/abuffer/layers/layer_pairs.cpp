@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "methods/abuffer/layers/layer_triangle.h"
+
 namespace burin {
 namespace {
 
@@ -61,8 +63,8 @@ void LayerPairs::find_in_cell(int column, int row) {
         for (const std::uint32_t j : touching(i + 1, c.end, box, from(box.x0, left), from(box.y0, top))) {
             if (have_vertex_in_common(i, j)) continue;
             if (!plane) plane = side_plane(vertices_[i]);
-            if (is_on_one_side(*plane, vertices_[j])) continue;
-            if (is_on_one_side(side_plane(vertices_[j]), vertices_[i])) continue;
+            const SidePlane other = side_plane(vertices_[j]);
+            if (is_on_one_side(*plane, other, vertices_[j]) || is_on_one_side(other, *plane, vertices_[i])) continue;
             pairs_.push_back({cells_.places()[i], cells_.places()[j]});
         }
     }
@@ -88,10 +90,12 @@ LayerPairs::SidePlane LayerPairs::side_plane(const Corners& corners) const {
     return plane;
 }
 
-/// Whether a plane does not reach through a triangle, by more than snapping does, nor has an edge of it; neither need be set up
-/// for that.
-bool LayerPairs::is_on_one_side(const SidePlane& plane, const Corners& corners) const {
-    if (!plane.is_on_screen) return false;
+/// Whether a plane does not reach through a triangle, by more than snapping does, nor may have an edge of it, as
+/// IntersectionLines tells. `own`: the triangle's plane. Neither need be set up for that.
+bool LayerPairs::is_on_one_side(const SidePlane& plane, const SidePlane& own, const Corners& corners) const {
+    if (!plane.is_on_screen || !own.is_on_screen) return false;
+    const double area = std::abs(plane.per_nearness);
+    const double slack = plane.slack + area * (own.slack / std::abs(own.per_nearness));
     const ScreenVertex* const v = screen_.vertices(0);
     double low = 0, high = 0;
     int in_plane = 0;
@@ -102,7 +106,7 @@ bool LayerPairs::is_on_one_side(const SidePlane& plane, const Corners& corners) 
                            plane.per_nearness * (static_cast<double>(p.nearness) - plane.nearness);
         low = std::min(low, gap);
         high = std::max(high, gap);
-        in_plane += std::abs(gap) <= plane.slack;
+        in_plane += std::abs(gap) <= slack + area * level_slack(screen_.surfaces(), static_cast<double>(p.nearness));
     }
     return (low >= -plane.slack || high <= plane.slack) && in_plane != 2;
 }

@@ -40,7 +40,7 @@ class LayerPairs {
     std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0, float least_y0);
     void find_in_cell(int column, int row);
     SidePlane side_plane(const Corners& corners) const;
-    bool is_on_one_side(const SidePlane& plane, const Corners& corners) const;
+    bool is_on_one_side(const SidePlane& plane, const SidePlane& own, const Corners& corners) const;
 
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
