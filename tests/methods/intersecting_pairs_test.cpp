@@ -332,6 +332,37 @@ TEST(IntersectingPairs, GiveTheSameLinesAndPieces) {
     EXPECT_GT(cut, 50u);
 }
 
+/// Folded sheets whose folds lie about in the plane of a wall, some steep and some flat to the eye.
+Scene folds_in_walls(Random& random) {
+    std::vector<PolygonSoup> objects{transformed(make_plane(4, 4, 3, 3), [](glm::dvec3 p) { return glm::dvec3(p.x, p.z, 0); })};
+    for (int i = 0; i < 12; ++i) {
+        const auto near = [&](double z) { return glm::dvec3(random.real(-1.8, 1.8), random.real(-1.8, 1.8), z); };
+        const double off = std::pow(10.0, random.real(-6, -2));
+        const auto in_wall = [&] { return near(random.real(-off, off)); };
+        objects.push_back(soup_of({in_wall(), in_wall(), near(random.real(0.01, 1)), near(random.real(-1, -0.01))}, {{0, 1, 2}, {1, 0, 3}}));
+    }
+    return scene_of(std::move(objects));
+}
+
+TEST(IntersectingPairs, GiveTheSameLinesWhereFoldsLieInPlanes) {
+    std::size_t intersections = 0;
+    for (std::uint64_t trial = 0; trial < 200; ++trial) {
+        Random random(trial);
+        Scene scene = folds_in_walls(random);
+        scene.lines.style.hidden.style = HiddenStyle::solid;
+        const Camera camera = perspective_camera(random.real(3, 12) * random.direction(), {0, 0, 0}, 40);
+        const Found without(scene, camera, 2);
+        prepare_for_abuffer(scene, 2);
+        const Found with(scene, camera, 1);
+        ASSERT_EQ(with.lines.size(), without.lines.size()) << "trial " << trial;
+        for (std::size_t i = 0; i < with.lines.size(); ++i) {
+            ASSERT_TRUE(with.lines[i].from == without.lines[i].from && with.lines[i].to == without.lines[i].to) << "trial " << trial;
+            intersections += with.lines[i].drawn_as == LineClass::intersection;
+        }
+    }
+    EXPECT_GT(intersections, 1000u);
+}
+
 /// Where a line, behind a wall all along, also goes behind a narrower wall; with many triangles around it or few.
 double second_wall_begins_at(double x, bool has_many, int crop_x0) {
     const auto wall = [](double x0, double y0, double x1, double y1, double z) {
