@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "lines/circle_finder.h"
 #include "lines/sharp_edges.h"
 
 namespace burin {
@@ -54,6 +55,7 @@ class Walker {
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
         int slivers = 0;               // there were so many others since
         const double negligible_fold = kNegligibleFoldPx / length_, snapping = kSnappingPx / length_;
+        CircleFinder<State> circle;  // polygons that pass an edge several times make some
 
         for (int steps = 0, steps_on_wall = 0; steps < most_triangles && steps_on_wall < kMostTrianglesOfWall;) {
             if (current.exit.fraction >= 1) {
@@ -107,6 +109,7 @@ class Walker {
             current = next.place;
             if (is_farthest) farthest = current;
             if (goes_on) before_wall = current;
+            if (circle.is_closed_by({current, farthest, before_wall, last_solid, slivers})) return result;
         }
         return result;
     }
@@ -139,6 +142,14 @@ class Walker {
     struct Place {
         SurfaceId surface;
         Crossing exit;
+        bool operator==(const Place& other) const { return surface == other.surface && exit.half_edge == other.exit.half_edge; }
+    };
+    /// All that the next step of a walk depends on.
+    struct State {
+        Place current, farthest, before_wall;
+        SurfaceId last_solid;
+        int slivers;
+        bool operator==(const State&) const = default;
     };
     struct Continuation {
         WalkEnd kind = WalkEnd::border;  // arrived: it goes on; border, crack: it does not
