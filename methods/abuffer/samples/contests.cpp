@@ -6,11 +6,12 @@
 
 namespace burin {
 
-void Contests::settle(SampleTile& samples) {
+void Contests::settle(SampleTile& samples, std::size_t end_of_samples) {
     // Mostly nothing is to be done: those of samples where nothing takes the winner's place are left out.
     if (is_open_.size() < samples.ids.size()) is_open_.assign(samples.ids.size(), 0);
     bool has_open = false;
     for (std::uint32_t i = 0; i < count_; ++i) {
+        if (noted_[i].sample >= end_of_samples) continue;
         const std::uint32_t winner = samples.ids[noted_[i].sample] >> 1, loser = noted_[i].loser >> 1;
         if (loser == winner || !relation(loser, winner).any()) continue;
         is_open_[noted_[i].sample] = 1;

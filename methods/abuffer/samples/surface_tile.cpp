@@ -31,8 +31,8 @@ __attribute__((always_inline)) inline void prefetch(const ScreenMesh& mesh, std:
 }  // namespace
 
 SurfaceTile::SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, int samples_per_pixel,
-                         const TileKernels& kernels)
-    : screen_(screen), bins_(bins), kernels_(kernels), per_pixel_(samples_per_pixel), contests_(screen) {
+                         const TileKernels& kernels, std::size_t most_contests)
+    : screen_(screen), bins_(bins), kernels_(kernels), per_pixel_(samples_per_pixel), contests_(screen, most_contests) {
     // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
     const Projection& p = frame.surfaces.projection;
     const double per_nearness = 2 / p.focal_px;
@@ -49,22 +49,64 @@ SampleView SurfaceTile::view() {
     return view;
 }
 
-void SurfaceTile::draw(std::size_t tile) {
-    rect_ = bins_.tile(tile);
-    draw_all(tile);
-    if (contests_.make_room()) draw_all(tile);  // once more, so that all are noted
-    contests_.settle(samples_);
+/// The rows that are drawn, as a tile of their own.
+SampleView SurfaceTile::view_of_rows() {
+    SampleView view = this->view();
+    view.nearness += offset_of_rows();
+    view.ids += offset_of_rows();
+    view.first_row += first_row_;
+    view.rows = end_row_ - first_row_;
+    return view;
 }
 
-void SurfaceTile::draw_all(std::size_t tile) {
-    contests_.clear();
+void SurfaceTile::draw(std::size_t tile) {
+    rect_ = bins_.tile(tile);
     samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
                    rect_.height() * per_pixel_ + 1, per_pixel_);
     farthest_.resize(BlockTable::kSize);
-    draw_large_ones(tile);
+    order_large_ones(tile);
     order_runs(tile);
-    draw_runs(!bins_.large_in(tile).empty());
+    draw_rows(0, samples_.rows);
+    if (contests_.has_room()) return contests_.settle(samples_, samples_.ids.size());
+    draw_in_bands();
 }
+
+/// Some rows after the other, as many as there is room for what is level there: where surfaces lie in a heap, each of them is in
+/// every sample. The samples are the same.
+void SurfaceTile::draw_in_bands() {
+    int most_rows = samples_.rows;
+    for (int row = 0; row < samples_.rows;) {
+        if (!contests_.has_room()) {
+            if (most_rows > 1 && contests_.are_too_many()) {
+                most_rows = std::clamp(static_cast<int>(most_rows * share_looked_at()), 1, most_rows / 2);
+            } else {
+                contests_.make_room();
+            }
+        }
+        const int end = std::min(row + most_rows, samples_.rows);
+        samples_.clear_rows(row, end);
+        draw_rows(row, end);
+        if (!contests_.has_room()) continue;
+        const bool is_last = end == samples_.rows;
+        contests_.settle(samples_, is_last ? samples_.ids.size() : static_cast<std::size_t>(end) * static_cast<std::size_t>(samples_.stride));
+        row = end;
+    }
+}
+
+/// Of cleared samples. Ends early where there is no use in going on, because too many are level.
+void SurfaceTile::draw_rows(int first, int end) {
+    first_row_ = first;
+    end_row_ = end;
+    contests_.clear();
+    looked_at_ = 0;
+    draw_large_ones();
+    draw_runs(!large_.empty());
+}
+
+/// Of what is to be drawn, polygons and runs.
+double SurfaceTile::share_looked_at() const { return static_cast<double>(looked_at_) / static_cast<double>(large_.size() + runs_.size()); }
+
+bool SurfaceTile::is_in_vain() const { return contests_.are_too_many() && !contests_.has_room() && end_row_ - first_row_ > 1; }
 
 /// What is hidden by what was drawn so far need not be drawn. The picture does not depend on the order, only the time does.
 /// Runs are short, so those between two looks are drawn together: what comes next is on its way meanwhile.
@@ -75,10 +117,11 @@ void SurfaceTile::draw_runs(bool is_worth_a_look) {
     const auto is_hidden = [&](const TriangleRun& run) {
         return has_look && run.is_behind(farthest_.data(), run.highest + (run.highest * hidden_level_per_nearness_ + hidden_level_));
     };
-    for (std::size_t i = 0, next = 0; i < runs_.size(); i = next) {
+    for (std::size_t i = 0, next = 0; i < runs_.size() && !is_in_vain(); i = next) {
         for (++next; next < runs_.size() && is_hidden(*runs_[next].run);) ++next;
         if (next < runs_.size()) prefetch(*runs_[next].run);
         const TriangleRun& run = *runs_[i].run;
+        ++looked_at_;
         if (since_look >= kWorthALook) {
             const ScreenMesh& mesh = screen_.mesh(run.instance);
             for (std::size_t k = 0; k < run.count && k < kTrianglesAhead; ++k) prefetch(mesh, run.triangles[k].triangle);
@@ -113,7 +156,9 @@ void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
 
 void SurfaceTile::draw_seen() {
     if (seen_count_ == 0) return;
-    kernels_.draw_small(view(), screen_.mesh(seen_of_), seen_.data(), seen_count_);
+    const std::size_t noted = contests_.count();
+    kernels_.draw_small(view_of_rows(), screen_.mesh(seen_of_), seen_.data(), seen_count_);
+    contests_.move_from(noted, offset_of_rows());
     drawn_ += seen_count_;
     seen_count_ = 0;
 }
@@ -136,7 +181,7 @@ void SurfaceTile::order_runs(std::size_t tile) {
 }
 
 /// Near ones first.
-void SurfaceTile::draw_large_ones(std::size_t tile) {
+void SurfaceTile::order_large_ones(std::size_t tile) {
     large_.clear();
     for (const std::uint32_t i : bins_.large_in(tile)) {
         large_.push_back({i, highest_in(bins_.large(i).plane, 0, samples_.columns, 0, samples_.rows)});
@@ -144,6 +189,9 @@ void SurfaceTile::draw_large_ones(std::size_t tile) {
     std::sort(large_.begin(), large_.end(), [](const PlacedPolygon& a, const PlacedPolygon& b) {
         return a.highest != b.highest ? a.highest > b.highest : a.number < b.number;
     });
+}
+
+void SurfaceTile::draw_large_ones() {
     const int worth_a_look = samples_.columns * samples_.rows / 2;
     int since_look = 0;
     bool has_look = false;
@@ -156,7 +204,8 @@ void SurfaceTile::draw_large_ones(std::size_t tile) {
             since_look = 0;
             has_look = true;
         }
-        if (highest_level_with(placed.highest, samples) < farthest) break;  // and so are all that come
+        if (is_in_vain() || highest_level_with(placed.highest, samples) < farthest) break;  // and so are all that come
+        ++looked_at_;
         const LargePolygon& large = bins_.large(placed.number);
         since_look += draw_large(large, screen_.is_plain(large.plane.id >> 1), has_look);
     }
@@ -200,8 +249,8 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
     plane.id |= plain && !is_steep ? 1u : 0u;
     const int left = std::max(scan.first_column() - samples_.first_column, 0);
     const int right = std::min(scan.end_column() - samples_.first_column, samples_.columns);
-    const int top = std::max(scan.first_row() - samples_.first_row, 0);
-    const int bottom = std::min(scan.end_row() - samples_.first_row, samples_.rows);
+    const int top = std::max(scan.first_row() - samples_.first_row, first_row_);
+    const int bottom = std::min(scan.end_row() - samples_.first_row, end_row_);
     int drawn = 0;
     if (left >= right) return drawn;
     for (int strip = top & -kBlockSamples; strip < bottom; strip += kBlockSamples) {

@@ -13,8 +13,9 @@ namespace burin {
 /// What is visible at the samples of one tile after the other; buffers are used again.
 class SurfaceTile {
   public:
+    /// `most_contests`: that are noted at a time.
     SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, int samples_per_pixel,
-                const TileKernels& kernels);
+                const TileKernels& kernels, std::size_t most_contests = Contests::kMostNoted);
 
     /// Finds what is visible at the samples of a tile and one more column and row.
     void draw(std::size_t tile);
@@ -27,16 +28,24 @@ class SurfaceTile {
         const std::uint32_t id = samples_.ids[sample];
         return id == SampleTile::kBackground ? kBackground : screen_.surface_of(id >> 1);
     }
+    /// How many contests it can note at a time.
+    std::size_t room_for_contests() const { return contests_.room(); }
     /// How many triangles were drawn.
     std::uint64_t sample_tests() const { return drawn_; }
 
   private:
-    void draw_all(std::size_t tile);
+    SampleView view_of_rows();
+    std::size_t offset_of_rows() const { return static_cast<std::size_t>(first_row_) * static_cast<std::size_t>(samples_.stride); }
+    void draw_in_bands();
+    void draw_rows(int first, int end);
+    bool is_in_vain() const;
+    double share_looked_at() const;
     void draw_runs(bool is_worth_a_look);
     void find_seen(const TriangleRun& run, bool has_look);
     void draw_seen();
     void order_runs(std::size_t tile);
-    void draw_large_ones(std::size_t tile);
+    void order_large_ones(std::size_t tile);
+    void draw_large_ones();
     int draw_large(const LargePolygon& large, bool plain, bool has_look);
     float farthest_in_blocks() const;
     float highest_in(const SpanPlane& plane, int from, int to, int first_row, int end_row) const;
@@ -49,6 +58,8 @@ class SurfaceTile {
     float hidden_level_, hidden_level_per_nearness_;  // the same with level_reach(): what is farther behind is level with nothing
     PixelRect rect_;
     SampleTile samples_;
+    int first_row_ = 0, end_row_ = 0;  // those that are drawn
+    std::size_t looked_at_ = 0;        // polygons and runs
     Contests contests_;
     struct PlacedRun {
         const TriangleRun* run;
