@@ -1,16 +1,14 @@
 #include "mesh/border_index.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "base/interrupt.h"
+#include "mesh/near_segment.h"
 
 namespace burin {
 namespace {
-
-constexpr std::uint32_t kLeafSize = 4;
 
 double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 d = b - a;
@@ -43,12 +41,6 @@ struct Nearest {
     }
 };
 
-/// Whether a box may be so near to a point; the margin keeps rounding from hiding an equally near one.
-bool is_box_near(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high, double reach) {
-    const glm::dvec3 outside = glm::max(glm::max(glm::dvec3(low) - p, p - glm::dvec3(high)), glm::dvec3(0.0));
-    return glm::dot(outside, outside) <= reach * reach * (1 + 1e-9);
-}
-
 /// Whether a box touches another one.
 struct TouchedBox {
     glm::dvec3 low, high;
@@ -57,62 +49,99 @@ struct TouchedBox {
     }
 };
 
-/// In single precision, no larger and no smaller; most numbers come from there.
-float rounded_down(double v) {
-    const auto f = static_cast<float>(v);
-    return static_cast<double>(f) <= v ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+/// Whether two segments come as near to each other as `margin`, but for rounding.
+bool are_near(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, double margin) {
+    const glm::dvec3 u = b - a, v = d - c, w = a - c;
+    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), area = uu * vv - uv * uv;
+    if (area > 0) {
+        const double s = std::clamp((uv * glm::dot(v, w) - vv * glm::dot(u, w)) / area, 0.0, 1.0);
+        if (distance_to_segment(a + s * u, c, d) <= margin) return true;
+    }
+    return distance_to_segment(a, c, d) <= margin || distance_to_segment(b, c, d) <= margin || distance_to_segment(c, a, b) <= margin ||
+           distance_to_segment(d, a, b) <= margin;
 }
-glm::vec3 rounded_down(const glm::dvec3& p) { return {rounded_down(p.x), rounded_down(p.y), rounded_down(p.z)}; }
-glm::vec3 rounded_up(const glm::dvec3& p) { return -rounded_down(-p); }
+
+SegmentPiece whole_of(const BorderIndex::Segment& s, std::uint32_t number) { return piece_around(glm::min(s.a, s.b), glm::max(s.a, s.b), number); }
+
+/// How far a segment's box reaches beside the segment: the middle one of its extents.
+double width_of_box(const BorderIndex::Segment& s) {
+    const glm::dvec3 size = glm::abs(direction_of(s));
+    return std::max(std::min(size.x, size.y), std::min(std::max(size.x, size.y), size.z));
+}
+
+/// All segments cut into pieces whose boxes are about equally wide.
+std::vector<SegmentPiece> pieces_of(std::span<const BorderIndex::Segment> segments) {
+    constexpr std::size_t kMostPerSegment = 16, kMostMore = std::size_t{1} << 20;
+    const std::size_t most_more = std::min((kMostPerSegment - 1) * segments.size(), kMostMore);
+    double sum = 0;
+    for (const BorderIndex::Segment& s : segments) sum += width_of_box(s);
+    const double pieces_per_unit = sum > 0 ? static_cast<double>(most_more) / sum : 0;
+    std::vector<SegmentPiece> pieces;
+    pieces.reserve(segments.size() + most_more);
+    for (std::uint32_t i = 0; i < segments.size(); ++i) {
+        const SegmentPiece whole = whole_of(segments[i], i);
+        const auto count = 1 + static_cast<int>(width_of_box(segments[i]) * pieces_per_unit);
+        const glm::dvec3 &a = segments[i].a, &b = segments[i].b;
+        for (int k = 0; k < count; ++k) {
+            const glm::dvec3 from = glm::mix(a, b, static_cast<double>(k) / count), to = glm::mix(a, b, static_cast<double>(k + 1) / count);
+            const SegmentPiece part = piece_around(glm::min(from, to), glm::max(from, to), i);
+            pieces.push_back({glm::max(part.low, whole.low), glm::min(part.high, whole.high), i});
+        }
+    }
+    return pieces;
+}
+
+/// Some numbers, each once.
+class NumberSet {
+  public:
+    std::size_t count() const { return count_; }
+    /// False if it was there already. Not more than half as many as there are places.
+    bool add(std::uint32_t number) {
+        constexpr std::uint32_t kSpread = 2654435769u;
+        for (std::uint32_t i = number * kSpread >> (32 - kShift);; i = (i + 1) % kPlaces) {
+            if (numbers_[i] == number) return false;
+            if (numbers_[i] != kNone) continue;
+            numbers_[i] = number;
+            ++count_;
+            return true;
+        }
+    }
+
+  private:
+    static constexpr int kShift = 10;
+    static constexpr std::uint32_t kPlaces = 1u << kShift, kNone = 0xFFFFFFFFu;
+    static_assert(2 * (BorderIndex::kMostNear + 1) <= kPlaces);
+    std::array<std::uint32_t, kPlaces> numbers_ = filled();
+    std::size_t count_ = 0;
+
+    static std::array<std::uint32_t, kPlaces> filled() {
+        std::array<std::uint32_t, kPlaces> none;
+        none.fill(kNone);
+        return none;
+    }
+};
 
 }  // namespace
 
 BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(segments)) {
-    if (segments_.empty()) return;
-    std::vector<Place> places;
-    places.reserve(segments_.size());
-    for (std::uint32_t i = 0; i < segments_.size(); ++i) places.push_back({glm::vec3(segments_[i].a) + glm::vec3(segments_[i].b), i});
-    order_.resize(segments_.size());
-    nodes_.reserve(segments_.size());
-    nodes_.emplace_back();
-    build(0, 0, places);
+    std::vector<SegmentPiece> all;
+    all.reserve(segments_.size());
+    for (std::uint32_t i = 0; i < segments_.size(); ++i) all.push_back(whole_of(segments_[i], i));
+    whole_ = SegmentTree(all);
+    if (is_crowded()) pieces_ = SegmentTree(pieces_of(segments_));
 }
 
-void BorderIndex::build(std::uint32_t node, std::uint32_t first, std::span<Place> places) {
-    const auto count = static_cast<std::uint32_t>(places.size());
-    if (count > 0xFFFF) throw_if_interrupted();
-    Node box;
-    if (count > kLeafSize) {
-        glm::vec3 low = places.front().middle, high = low;  // of middles: long segments say nothing about where to cut
-        for (const Place& place : places) {
-            low = glm::min(low, place.middle);
-            high = glm::max(high, place.middle);
-        }
-        const glm::vec3 size = high - low;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-        const std::uint32_t half = count / 2;
-        std::nth_element(places.begin(), places.begin() + half, places.end(),
-                         [&](const Place& p, const Place& q) { return p.middle[axis] < q.middle[axis]; });
-        box.first = static_cast<std::uint32_t>(nodes_.size());
-        nodes_.resize(nodes_.size() + 2);
-        build(box.first, first, places.first(half));
-        build(box.first + 1, first + half, places.subspan(half));
-        const Node &left = nodes_[box.first], &right = nodes_[box.first + 1];
-        box.low = glm::min(left.low, right.low);
-        box.high = glm::max(left.high, right.high);
-    } else {
-        box.first = first;
-        box.count = count;
-        box.low = glm::vec3(std::numeric_limits<float>::infinity());
-        box.high = -box.low;
-        for (const Place& place : places) {
-            const Segment& s = segments_[place.segment];
-            box.low = glm::min(box.low, rounded_down(glm::min(s.a, s.b)));
-            box.high = glm::max(box.high, rounded_up(glm::max(s.a, s.b)));
-            order_[first++] = place.segment;
-        }
+/// Whether long segments run through each other's boxes, so that these tell little: asked of some segments all over the mesh.
+bool BorderIndex::is_crowded() const {
+    constexpr std::size_t kAsked = 64, kMany = 24;
+    if (segments_.size() <= kAsked) return false;
+    std::size_t looked_at = 0;
+    for (std::size_t i = 0; i < kAsked; ++i) {
+        const Segment& s = segments_[by_place()[i * segments_.size() / kAsked]];
+        const glm::dvec3 middle = 0.5 * (s.a + s.b);
+        whole_.visit_leaves(TouchedBox{middle, middle}, [&](std::uint32_t) { return ++looked_at <= kMany * kAsked; });
     }
-    nodes_[node] = box;
+    return looked_at > kMany * kAsked;
 }
 
 const BorderIndex::Segment* BorderIndex::find(HalfEdge half_edge) const {
@@ -121,37 +150,11 @@ const BorderIndex::Segment* BorderIndex::find(HalfEdge half_edge) const {
     return own == segments_.end() || own->half_edge != half_edge ? nullptr : &*own;
 }
 
-template <typename MayBeNear, typename Visit>
-void BorderIndex::visit_leaves(const MayBeNear& may_be_near, const Visit& visit) const {
-    std::uint32_t stack[64];  // halving 2^32 segments takes 32 levels
-    int top = 0;
-    stack[top++] = 0;
-    while (top > 0) {
-        const Node& node = nodes_[stack[--top]];
-        if (!may_be_near(node.low, node.high)) continue;
-        if (node.count == 0) {
-            stack[top++] = node.first;
-            stack[top++] = node.first + 1;
-            continue;
-        }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(order_[i]);
-    }
-}
-
-template <typename MayBeNear, typename Visit>
-void BorderIndex::search(const Segment& own, const MayBeNear& may_be_near, const Visit& visit) const {
-    const glm::dvec3 along = direction_of(own);
-    const double length = glm::length(along);
-    visit_leaves(may_be_near, [&](std::uint32_t i) {
-        const Segment& other = segments_[i];
-        const bool may_be = other.polygon != own.polygon && may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b));
-        if (may_be && are_nearly_parallel(along, length, other)) visit(other);
-    });
-}
-
 void BorderIndex::find_in_box(const glm::dvec3& low, const glm::dvec3& high, std::vector<std::uint32_t>& found) const {
-    if (nodes_.empty()) return;
-    visit_leaves(TouchedBox{low, high}, [&](std::uint32_t i) { found.push_back(i); });
+    whole_.visit_leaves(TouchedBox{low, high}, [&](std::uint32_t i) {
+        found.push_back(i);
+        return true;
+    });
 }
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
@@ -160,22 +163,104 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     Nearest nearest{kReachPart * glm::length(direction_of(*own)), {}};
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
-    visit_leaves([&](const glm::vec3& low, const glm::vec3& high) { return is_box_near(at, low, high, nearest.reach); },
-                 [&](std::uint32_t i) {  // a look at its box would take as long as its distance
-                     const Segment& other = segments_[i];
-                     if (other.polygon != own->polygon && are_nearly_parallel(along, length, other)) nearest.offer(other, at);
-                 });
+    finest().visit_nearest(at, nearest.reach, [&](std::uint32_t i) {  // a look at its box would take as long as its distance
+        const Segment& other = segments_[i];
+        if (other.polygon != own->polygon && are_nearly_parallel(along, length, other)) nearest.offer(other, at);
+    });
     return nearest.partner;
 }
 
-void BorderIndex::find_candidates(HalfEdge half_edge, SeamCandidates& candidates) const {
+BorderIndex::Neighbourhood BorderIndex::neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const {
+    // Others are looked for somewhat farther away, so that the answer holds for some places around.
+    constexpr double kFarther = 1.25;
+    Neighbourhood found;
+    found.at_ = at;
+    const Segment* const own = find(half_edge);
+    if (own == nullptr) return found;
+    const glm::dvec3 along = direction_of(*own);
+    const double length = glm::length(along);
+    found.reach_ = kReachPart * length;
+    found.others_ = kFarther * found.reach_;
+    finest().visit_nearest(at, found.others_, [&](std::uint32_t i) {
+        const Segment& other = segments_[i];
+        if (other.polygon == own->polygon || !are_nearly_parallel(along, length, other)) return;
+        const double distance = distance_to_segment(at, other.a, other.b);
+        if (distance < found.others_) found.offer(other, distance);
+    });
+    return found;
+}
+
+void BorderIndex::Neighbourhood::offer(const Segment& segment, double distance) {
+    const auto is_known = [&](std::size_t i) { return nearest_[i].half_edge == segment.half_edge; };
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (is_known(i)) return;  // by another piece of it
+    }
+    if (count_ == kMost) {  // the farthest one becomes one of the others
+        if (distance >= distances_[kMost - 1]) {
+            others_ = distance;
+            return;
+        }
+        others_ = distances_[--count_];
+    }
+    std::size_t i = count_++;
+    for (; i > 0 && distances_[i - 1] > distance; --i) {
+        nearest_[i] = nearest_[i - 1];
+        distances_[i] = distances_[i - 1];
+    }
+    nearest_[i] = segment;
+    distances_[i] = distance;
+}
+
+BorderIndex::Neighbourhood::Answer BorderIndex::Neighbourhood::partner_at(const glm::dvec3& place) const {
+    const double away = glm::distance(place, at_);
+    const double others = (others_ - away) - 1e-9 * (others_ + away);  // but for rounding
+    Nearest nearest{reach_, {}};
+    for (std::size_t i = 0; i < count_; ++i) nearest.offer(nearest_[i], place);
+    return {nearest.partner ? nearest.reach < others : others >= reach_, nearest.partner};
+}
+
+bool BorderIndex::find_candidates(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const {
     candidates.segments_.clear();
     const Segment* const own = find(half_edge);
-    if (own == nullptr) return;
-    candidates.reach_ = kReachPart * glm::length(direction_of(*own));
+    if (own == nullptr) return true;
+    const glm::dvec3 along = direction_of(*own);
+    const double length = glm::length(along);
+    candidates.reach_ = kReachPart * length;
     const double margin = candidates.reach_ * (1 + 1e-6);
     const TouchedBox may_be_near{glm::min(own->a, own->b) - margin, glm::max(own->a, own->b) + margin};
-    search(*own, may_be_near, [&](const Segment& other) { candidates.segments_.push_back(other); });
+    std::size_t count = 0;
+    whole_.visit_leaves(may_be_near, [&](std::uint32_t i) {
+        const Segment& other = segments_[i];
+        if (!may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b))) return true;
+        if (++count > most) return false;
+        if (other.polygon != own->polygon && are_nearly_parallel(along, length, other)) candidates.segments_.push_back(other);
+        return true;
+    });
+    if (count > most) candidates.segments_.clear();
+    return count <= most;
+}
+
+bool BorderIndex::find_near(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const {
+    candidates.segments_.clear();
+    const Segment* const own = find(half_edge);
+    if (own == nullptr) return true;
+    const glm::dvec3 along = direction_of(*own);
+    const double length = glm::length(along);
+    candidates.reach_ = kReachPart * length;
+    const double margin = candidates.reach_ * (1 + 1e-3);  // a trifle more, for rounding
+    const glm::dvec3 &a = own->a, &b = own->b;
+    const NearSegment may_be_near{a, b, margin};
+    most = std::min(most, kMostNear);
+    NumberSet seen;
+    finest().visit_leaves(may_be_near, [&](std::uint32_t i) {
+        const Segment& other = segments_[i];
+        if (!are_near(a, b, other.a, other.b, margin) || !seen.add(i)) return true;
+        if (seen.count() > most) return false;
+        if (other.polygon != own->polygon && are_nearly_parallel(along, length, other)) candidates.segments_.push_back(other);
+        return true;
+    });
+    if (seen.count() > most) candidates.segments_.clear();
+    return seen.count() <= most;
 }
 
 std::optional<HalfEdge> BorderIndex::SeamCandidates::nearest(const glm::dvec3& at) const {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <vector>
+
+#include "mesh/segment_tree.h"
 
 namespace burin {
 
@@ -28,12 +31,18 @@ class BorderIndex {
 
     std::span<const Segment> segments() const { return segments_; }
     /// The numbers of all segments, those near each other mostly one after the other: for whoever asks what is near each.
-    std::span<const std::uint32_t> by_place() const { return order_; }
+    std::span<const std::uint32_t> by_place() const { return whole_.segments(); }
 
     /// The border edge of another polygon that runs along `half_edge` at the point `at` on it, if
     /// there is one: nearly parallel, and nearer than 1/20 of the edge's length, which covers the
     /// gaps between two different tessellations of one curve.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at) const;
+
+    /// The same with what it says of places near `at`.
+    class Neighbourhood;
+    Neighbourhood neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const;
+    /// Whether segments lie over each other by the dozen, so that many come near an edge.
+    bool has_crowds() const { return !pieces_.is_empty(); }
 
     /// What seam_partner() chooses from along one edge, wherever the point lies.
     class SeamCandidates {
@@ -46,35 +55,47 @@ class BorderIndex {
         double reach_ = 0;
         std::vector<Segment> segments_;
     };
-    void find_candidates(HalfEdge half_edge, SeamCandidates& candidates) const;
+    /// Those whose boxes are that near to the box of the edge. False, and none, if there are more than `most` segments there, of any
+    /// direction.
+    bool find_candidates(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
+    /// Those that are that near to the edge itself. False, and none, if there are more than `most`, at most kMostNear, of any direction.
+    static constexpr std::size_t kMostNear = 256;
+    bool find_near(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
 
     /// Adds the numbers of the segments whose boxes may touch a box, in no order that means anything.
     void find_in_box(const glm::dvec3& low, const glm::dvec3& high, std::vector<std::uint32_t>& found) const;
 
   private:
-    /// A box around segments: those at [first, first + count) of order_ (a leaf), or all of its
-    /// children's, which are nodes `first` and `first + 1` (count 0).
-    struct Node {
-        glm::vec3 low{0.0f}, high{0.0f};
-        std::uint32_t first = 0, count = 0;
-    };
     const Segment* find(HalfEdge half_edge) const;
-    /// Calls visit(number of a segment) for all in boxes that may_be_near(low, high).
-    template <typename MayBeNear, typename Visit>
-    void visit_leaves(const MayBeNear& may_be_near, const Visit& visit) const;
-    /// Calls visit(segment) for those of other polygons that are nearly parallel to `own` and whose boxes
-    /// may_be_near(low, high).
-    template <typename MayBeNear, typename Visit>
-    void search(const Segment& own, const MayBeNear& may_be_near, const Visit& visit) const;
-    struct Place {
-        glm::vec3 middle;  // twice that
-        std::uint32_t segment;
-    };
-    void build(std::uint32_t node, std::uint32_t first, std::span<Place> places);
+    bool is_crowded() const;
+    const SegmentTree& finest() const { return pieces_.is_empty() ? whole_ : pieces_; }
 
     std::vector<Segment> segments_;  // by half-edge
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    SegmentTree whole_;              // of whole segments
+    SegmentTree pieces_;             // of short pieces, where boxes around whole ones lie over each other by the dozen; else empty
+};
+
+/// Of one edge: the segments nearest to a place on it, of which one may be its partner, and how near all others are at least.
+class BorderIndex::Neighbourhood {
+  public:
+    /// The edge's seam_partner() at a place near that; has_answer is false where others may be as near.
+    struct Answer {
+        bool has_answer = false;
+        std::optional<HalfEdge> partner;
+    };
+    Answer partner_at(const glm::dvec3& place) const;
+
+  private:
+    friend class BorderIndex;
+    static constexpr std::size_t kMost = 6;  // both borders of three thin polygons
+    void offer(const Segment& segment, double distance);
+
+    glm::dvec3 at_{0.0};
+    double reach_ = 0;    ///< nearer than this is a partner
+    double others_ = -1;  ///< none but `nearest_` that may be a partner is nearer to `at_`
+    std::size_t count_ = 0;
+    std::array<Segment, kMost> nearest_;  ///< the first ones are so near, in order
+    std::array<double, kMost> distances_{};
 };
 
 }  // namespace burin

@@ -36,10 +36,46 @@ bool is_before(const Crack& a, const Crack& b) {
     return a.joins < b.joins;
 }
 
+/// Finds borders by their middles.
+class Middles {
+  public:
+    explicit Middles(const BorderIndex& borders) : borders_(borders) {
+        if (!borders.has_crowds()) return;
+        // The boxes of borders would tell little.
+        std::vector<SegmentPiece> middles;
+        middles.reserve(borders.segments().size());
+        for (std::uint32_t i = 0; i < borders.segments().size(); ++i) {
+            const glm::vec3 middle(0.5 * (borders.segments()[i].a + borders.segments()[i].b));
+            middles.push_back({middle, middle, i});
+        }
+        tree_ = SegmentTree(middles);
+    }
+
+    /// The numbers of all with a middle within `reach` of a place, and others.
+    void find(const glm::dvec3& place, double reach, std::vector<std::uint32_t>& near) const {
+        near.clear();
+        if (tree_.is_empty()) return borders_.find_in_box(place - reach, place + reach, near);
+        // Middles were rounded.
+        const glm::dvec3 around = reach * (1 + 1e-6) + 1e-6 * glm::abs(place), low = place - around, high = place + around;
+        const auto may_be_near = [&](const glm::vec3& box_low, const glm::vec3& box_high) {
+            return glm::all(glm::lessThanEqual(glm::dvec3(box_low), high)) && glm::all(glm::lessThanEqual(low, glm::dvec3(box_high)));
+        };
+        tree_.visit_leaves(may_be_near, [&](std::uint32_t i) {
+            near.push_back(i);
+            return true;
+        });
+    }
+
+  private:
+    const BorderIndex& borders_;
+    SegmentTree tree_;
+};
+
 /// All that are narrow enough, the narrowest first.
 std::vector<Crack> find_cracks(const CrackSides& sides) {
     std::vector<Crack> cracks, beside;
     std::vector<std::uint32_t> near;
+    const Middles middles(sides.mesh().borders);
     std::vector<bool> is_in_pile(sides.segments().size());
     std::size_t asked = 0;
     for (const std::uint32_t i : sides.mesh().borders.by_place()) {
@@ -47,11 +83,10 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
         const double widest = sides.widest(i, sides.length(i));
         if (!(widest > 0)) continue;
         const Segment& s = sides.segments()[i];
-        near.clear();
         beside.clear();
         // Thousands may meet at an end.
         const glm::dvec3 middle = 0.5 * (s.a + s.b);
-        sides.mesh().borders.find_in_box(middle - widest, middle + widest, near);
+        middles.find(middle, widest, near);
         for (const std::uint32_t j : near) {
             if (j == i) continue;
             const Segment& t = sides.segments()[j];

@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "mesh/edge_links.h"
+#include "mesh/near_segment.h"
 #include "mesh/residuals.h"
 #include "mesh/vertex_clusters.h"
 
@@ -15,6 +16,9 @@ namespace {
 /// Borders run along each other if the cosine of the angle between them is larger.
 constexpr double kCosParallel = 0.7;
 
+/// Cuts are as far from a border's ends as this part of its length, or as cracks are wide.
+constexpr double kNearestPart = 0.05;
+
 using Segment = BorderIndex::Segment;
 
 /// Where a border is cut.
@@ -23,20 +27,61 @@ struct Cut {
     double share;  // of the way along it, 0..1
 };
 
+/// Finds borders with an end where another one may be cut.
+class Corners {
+  public:
+    explicit Corners(const BorderIndex& borders) : borders_(borders) {
+        if (!borders.has_crowds()) return;
+        // The boxes of borders would tell little.
+        std::vector<SegmentPiece> ends;
+        ends.reserve(2 * borders.segments().size());
+        for (std::uint32_t i = 0; i < borders.segments().size(); ++i) {
+            for (const glm::dvec3& end : {borders.segments()[i].a, borders.segments()[i].b}) ends.push_back(piece_around(end, end, i));
+        }
+        ends_ = SegmentTree(ends);
+    }
+
+    /// The numbers of borders, each once, in no order: all with an end as near as `most` to the way from a to b, but for those whose
+    /// ends are as near as `least` to a or b.
+    void find(const glm::dvec3& a, const glm::dvec3& b, double most, double least, std::vector<std::uint32_t>& near) const {
+        near.clear();
+        if (ends_.is_empty()) return borders_.find_in_box(glm::min(a, b) - most, glm::max(a, b) + most, near);
+        const NearSegment may_be_near{a, b, most * (1 + 1e-6)};
+        const auto is_at = [least](const glm::dvec3& place, const glm::vec3& low, const glm::vec3& high) {  // all of a box
+            const glm::dvec3 farthest = glm::max(glm::abs(glm::dvec3(low) - place), glm::abs(glm::dvec3(high) - place));
+            return glm::dot(farthest, farthest) < least * least * (1 - 1e-6);
+        };
+        // Thousands may meet at an end.
+        const auto may_cut = [&](const glm::vec3& low, const glm::vec3& high) {
+            return may_be_near(low, high) && !is_at(a, low, high) && !is_at(b, low, high);
+        };
+        ends_.visit_leaves(may_cut, [&](std::uint32_t i) {
+            near.push_back(i);
+            return true;
+        });
+        std::sort(near.begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+    }
+
+  private:
+    const BorderIndex& borders_;
+    SegmentTree ends_;
+};
+
 /// Cuts of one border, in order along it.
-void find_cuts(const CrackSides& sides, std::uint32_t i, std::vector<std::uint32_t>& near, std::vector<Cut>& cuts) {
+void find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i, std::vector<std::uint32_t>& near, std::vector<Cut>& cuts) {
     const Segment& s = sides.segments()[i];
     const double length = sides.length(i), most = sides.widest(i, length);
     if (!(most > 0)) return;
     const glm::dvec3 a = s.a, b = s.b, along = (b - a) / length;
-    near.clear();
-    sides.mesh().borders.find_in_box(glm::min(a, b) - most, glm::max(a, b) + most, near);
+    const double least = std::min(most, kNearestPart * length);
+    corners.find(a, b, most, least, near);
     const std::size_t first = cuts.size();
     for (const std::uint32_t j : near) {
         const Segment& t = sides.segments()[j];
         const glm::dvec3 way = t.b - t.a;
         if (std::abs(glm::dot(along, way)) < kCosParallel * sides.length(j)) continue;
-        const double widest = std::min(most, std::max(sides.widest(i, sides.length(j)), 0.05 * length));
+        const double widest = std::min(most, std::max(sides.widest(i, sides.length(j)), kNearestPart * length));
         const std::size_t before = cuts.size();
         for (const glm::dvec3 corner : {t.a, t.b}) {
             const double at = glm::dot(corner - a, along);
@@ -86,12 +131,13 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
     const CrackSides sides(mesh, reach);
     // A corner cuts one border or two. Where there are many more, borders lie in a pile.
     const std::size_t most_cuts = 16 * sides.segments().size();
+    const Corners corners(mesh.borders);
     std::vector<Cut> cuts;
     std::vector<std::uint32_t> near;
     std::size_t asked = 0;
     for (const std::uint32_t i : mesh.borders.by_place()) {
         if ((asked++ & 0xFFF) == 0) throw_if_interrupted();
-        find_cuts(sides, i, near, cuts);
+        find_cuts(sides, corners, i, near, cuts);
         if (cuts.size() > most_cuts) return std::nullopt;
     }
     std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& p, const Cut& q) { return p.half_edge < q.half_edge; });

@@ -1,6 +1,7 @@
 #include "methods/abuffer/layer_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -86,8 +87,9 @@ void ask_for(const LayerLine& line) {
 TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const PixelTiles& grid) {
     std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
-        grid.visit(glm::min(lines[i].from, lines[i].to) / 256.0, glm::max(lines[i].from, lines[i].to) / 256.0,
-                   [&](std::uint32_t tile) { records[0].push_back({tile, i}); });
+        const glm::dvec2 a = lines[i].from / 256.0, b = lines[i].to / 256.0;
+        const std::array<PolygonRows::Corner, 2> ends{{{a.x, a.y}, {b.x, b.y}}};
+        grid.visit(glm::min(a, b), glm::max(a, b), PolygonRows(ends), 1, [&](std::uint32_t tile) { records[0].push_back({tile, i}); });
     }
     return TileLists<std::uint32_t>(records, grid.count());
 }

@@ -35,6 +35,7 @@ std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, 
 
 TEST(BorderIndex, AgreesWithASearchThroughAllSegments) {
     int found = 0, asked = 0;
+    constexpr std::size_t kAll = 1000;
     BorderIndex::SeamCandidates candidates;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         Random random(seed);
@@ -55,7 +56,7 @@ TEST(BorderIndex, AgreesWithASearchThroughAllSegments) {
             const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), random.real(0, 1));
             const auto expected = partner_by_search(segments, own, at);
             ASSERT_EQ(index.seam_partner(own.half_edge, at), expected) << "seed " << seed << ", half-edge " << own.half_edge;
-            index.find_candidates(own.half_edge, candidates);
+            ASSERT_TRUE(index.find_candidates(own.half_edge, kAll, candidates));
             ASSERT_EQ(candidates.nearest(at), expected) << "seed " << seed << ", half-edge " << own.half_edge;
             found += expected.has_value();
             ++asked;

@@ -1,7 +1,9 @@
 #include "methods/abuffer/fine/fine_blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "abuffer/screen_triangles.h"
@@ -174,18 +176,36 @@ void FineBlocks::add_large(const LargePolygon& large) {
         const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
         box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
     }
-    add(triangle, box);
+    std::array<PolygonRows::Corner, ScreenPolygon::kMaxCorners> corners;
+    const auto count = static_cast<std::size_t>(polygon.count);
+    std::transform(polygon.corners.begin(), polygon.corners.begin() + polygon.count, corners.begin(),
+                   [](const SubpixelPoint& p) { return PolygonRows::Corner{static_cast<double>(p.x), static_cast<double>(p.y)}; });
+    add(triangle, box, std::span(corners).first(count));
 }
 
-/// It may fill the tile, and few blocks have candidates.
-void FineBlocks::add(const CrossedTriangle& triangle, const Box& box) {
-    const int left = grid_.at(box.x0 - kReach) - first_x_, right = grid_.at(box.x1 + kReach) - first_x_;
-    const int top = grid_.at(box.y0 - kReach) - first_y_, bottom = grid_.at(box.y1 + kReach) - first_y_;
-    for (std::size_t i = 0; i < count_; ++i) {
-        const glm::ivec2 at = places_[i];
-        const bool touches = at.x >= left && at.x <= right && at.y >= top && at.y <= bottom;
-        if (touches && hides_something(box, triangle.highest, at.x, at.y)) triangles_[i].push_back(triangle);
+/// It may fill the tile, or cross it and touch few of the blocks in its box.
+void FineBlocks::add(const CrossedTriangle& triangle, const Box& box, std::span<const PolygonRows::Corner> corners) {
+    const int x0 = grid_.at(box.x0 - kReach) - first_x_, x1 = grid_.at(box.x1 + kReach) - first_x_;
+    const int y0 = grid_.at(box.y0 - kReach) - first_y_, y1 = grid_.at(box.y1 + kReach) - first_y_;
+    const int left = std::max(x0, 0), right = std::min(x1, columns_ - 1), top = std::max(y0, 0), bottom = std::min(y1, rows_ - 1);
+    const bool fills_box = x0 == x1 || y0 == y1;
+    const PolygonRows rows(corners);
+    constexpr int kAround = kReach + 1;  // with rounding
+    for (int y = top; y <= bottom; ++y) {
+        int first = left, last = right;
+        if (!fills_box) {
+            const PolygonRows::Range range = rows.between(grid_.begin(first_y_ + y) - kAround, grid_.begin(first_y_ + y + 1) + kAround);
+            if (range.is_empty()) continue;
+            first = std::max(left, grid_.at(static_cast<int>(std::floor(range.low)) - kAround) - first_x_);
+            last = std::min(right, grid_.at(static_cast<int>(std::ceil(range.high)) + kAround) - first_x_);
+        }
+        for (int x = first; x <= last; ++x) add_to_block(triangle, box, x, y);
     }
+}
+
+void FineBlocks::add_to_block(const CrossedTriangle& triangle, const Box& box, int block_x, int block_y) {
+    const std::uint32_t index = index_[block_at(block_x, block_y)];
+    if (index != kNone && hides_something(box, triangle.highest, block_x, block_y)) triangles_[index].push_back(triangle);
 }
 
 bool FineBlocks::hides_something(const Box& box, float highest, int block_x, int block_y) const {
@@ -206,8 +226,10 @@ void FineBlocks::sort_triangles(const ScreenMesh& mesh, const std::uint32_t* lis
         for (std::size_t i = 0; i < other_count; ++i) {
             const std::uint32_t t = others_[i], *const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
             const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
+            const auto corner_of = [](const ScreenVertex& v) { return PolygonRows::Corner{static_cast<double>(v.x), static_cast<double>(v.y)}; };
             add(crossed_triangle(a, b, c, static_cast<Facing>(mesh.facing[t]), mesh.first_number + t),
-                {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})});
+                {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})},
+                std::array{corner_of(a), corner_of(b), corner_of(c)});
         }
     }
 }

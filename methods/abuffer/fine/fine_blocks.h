@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "abuffer/polygon_rows.h"
 #include "abuffer/tile_kernels.h"
 #include "methods/abuffer/fine/fine_parts.h"
 #include "methods/abuffer/layers/layer_line.h"
@@ -67,7 +68,8 @@ class FineBlocks {
     void add_beyond(std::size_t tile);
     void add_large(const LargePolygon& large);
     void sort_triangles(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count);
-    void add(const CrossedTriangle& triangle, const Box& box);
+    void add(const CrossedTriangle& triangle, const Box& box, std::span<const PolygonRows::Corner> corners);
+    void add_to_block(const CrossedTriangle& triangle, const Box& box, int block_x, int block_y);
     bool hides_something(const Box& box, float highest, int block_x, int block_y) const;
 
     const ScreenSurfaces& screen_;

@@ -1,7 +1,10 @@
 #include "methods/abuffer/fine/fine_cells.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "abuffer/polygon_rows.h"
 
 namespace burin {
 namespace {
@@ -14,6 +17,11 @@ constexpr std::size_t kTrianglesPerCell = 512, kFewTrianglesPerCell = 128, kMany
 constexpr std::size_t kFewLines = 12, kMostForFewLines = 1024;
 /// In so many cells a triangle may be, on average.
 constexpr std::size_t kMostPlaces = 4;
+/// What single precision may do to places, 1/256 pixel: near the picture, and from some distance on.
+struct Rounding {
+    int margin, far_margin, near;
+};
+constexpr Rounding kRounding{1, 16, 1 << 20};
 
 }  // namespace
 
@@ -42,20 +50,41 @@ void FineCells::sort_to_cells() {
     // Counts are kept one place further, so that filling moves each list's end to its place.
     for (; cells_ > 1; cells_ /= 2, ++cell_shift_) {
         cell_end_.assign(count_of_cells() + 2, 0);
+        const std::size_t most = kMostPlaces * given_->size();  // large ones would fill all cells
         std::size_t count = 0;
-        for (const Box& box : boxes_) {
-            for_cells(box, [&](std::size_t cell) {
+        for (std::size_t i = 0; i < boxes_.size() && count <= most; ++i) {
+            for_cells_of((*given_)[i], boxes_[i], [&](std::size_t cell) {
                 ++cell_end_[cell + 2];
                 ++count;
             });
         }
-        if (count <= kMostPlaces * given_->size()) break;  // large ones would fill all cells
+        if (count <= most) break;
     }
     if (cells_ == 1) return;
     for (std::size_t i = 2; i < cell_end_.size(); ++i) cell_end_[i] += cell_end_[i - 1];
     in_cells_.resize(cell_end_.back());
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-        for_cells(boxes_[i], [&](std::size_t cell) { in_cells_[cell_end_[cell + 1]++] = i; });
+        for_cells_of((*given_)[i], boxes_[i], [&](std::size_t cell) { in_cells_[cell_end_[cell + 1]++] = i; });
+    }
+}
+
+/// Calls visit(cell) for those that a triangle touches, but for rounding: of its box, not those that it passes by.
+template <typename Visit>
+void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Visit& visit) const {
+    const Range cells = range_of(box);
+    if (cells.x0 == cells.x1 || cells.y0 == cells.y1 || screen_.facing(t.number) == off_screen) return for_cells(box, visit);
+    const std::array<PolygonRows::Corner, 3> corners{{{t.x[0], t.y[0]}, {t.x[1], t.y[1]}, {t.x[2], t.y[2]}}};
+    const PolygonRows rows(corners);
+    const auto [margin, far_margin, near] = kRounding;
+    const glm::ivec2 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
+    const int around = std::max(farthest.x, farthest.y) < near ? margin : far_margin;
+    for (int y = cells.y0; y <= cells.y1; ++y) {
+        // Cells at the block's border stand for what is beyond it.
+        const int top = y == 0 ? box.low.y : corner_.y + (y << cell_shift_), bottom = y == cells_ - 1 ? box.high.y : corner_.y + ((y + 1) << cell_shift_);
+        const PolygonRows::Range range = rows.between(top - around, bottom + around);
+        if (range.is_empty()) continue;
+        const int first = static_cast<int>(std::floor(range.low)) - around, last = static_cast<int>(std::ceil(range.high)) + around;
+        for (int x = cell_along(first, corner_.x); x <= cell_along(last, corner_.x); ++x) visit(static_cast<std::size_t>(y * cells_ + x));
     }
 }
 
@@ -67,12 +96,10 @@ std::size_t FineCells::find_hiding(const FrontBoxes& boxes, std::size_t begin, s
     return kernels_.find_hiding(given_->data(), found_.data(), count, line, found_.data());
 }
 
-/// What single precision may do to places is left beside them.
 ScreenBox FineCells::box_around(glm::dvec2 a, glm::dvec2 b, float low) {
-    constexpr float kMargin = 1, kFarMargin = 16, kNear = 1 << 20;
     const glm::vec2 begin(glm::min(a, b)), end(glm::max(a, b));
     const float farthest = std::max({std::abs(begin.x), std::abs(begin.y), std::abs(end.x), std::abs(end.y)});
-    const float margin = farthest < kNear ? kMargin : kFarMargin;
+    const auto margin = static_cast<float>(farthest < static_cast<float>(kRounding.near) ? kRounding.margin : kRounding.far_margin);
     return {begin.x - margin, begin.y - margin, end.x + margin, end.y + margin, low, std::numeric_limits<float>::infinity()};
 }
 

@@ -52,16 +52,25 @@ class FineCells {
     std::size_t find_hiding(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenLine& line, const ScreenBox& box);
     static ScreenBox box_around(glm::dvec2 a, glm::dvec2 b, float low);
 
+    /// First and last column and row of cells.
+    struct Range {
+        int x0, x1, y0, y1;
+    };
+    int cell_along(int subpixel, int first) const { return std::clamp((subpixel - first) >> cell_shift_, 0, cells_ - 1); }
+    Range range_of(const Box& box) const {
+        return {cell_along(box.low.x, corner_.x), cell_along(box.high.x, corner_.x), cell_along(box.low.y, corner_.y),
+                cell_along(box.high.y, corner_.y)};
+    }
     /// Calls visit(cell) for those that a box touches.
     template <typename Visit>
     void for_cells(const Box& box, const Visit& visit) const {
-        const auto cell_at = [&](int subpixel, int first) { return std::clamp((subpixel - first) >> cell_shift_, 0, cells_ - 1); };
-        const int x0 = cell_at(box.low.x, corner_.x), x1 = cell_at(box.high.x, corner_.x);
-        const int y0 = cell_at(box.low.y, corner_.y), y1 = cell_at(box.high.y, corner_.y);
-        for (int y = y0; y <= y1; ++y) {
-            for (int x = x0; x <= x1; ++x) visit(static_cast<std::size_t>(y * cells_ + x));
+        const Range cells = range_of(box);
+        for (int y = cells.y0; y <= cells.y1; ++y) {
+            for (int x = cells.x0; x <= cells.x1; ++x) visit(static_cast<std::size_t>(y * cells_ + x));
         }
     }
+    template <typename Visit>
+    void for_cells_of(const CrossedTriangle& t, const Box& box, const Visit& visit) const;
 
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;

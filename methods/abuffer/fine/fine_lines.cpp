@@ -176,7 +176,8 @@ class FineLines::BlockClipper {
             const double step = kWidthStepPx / candidate.line.length_px();
             // At a vertex rounding says which triangle one gets to.
             const double inset = std::min(0.5, 0.5 * step);
-            const auto is_wide_at = [&](double t) { return is_wide(candidate, std::clamp(t, inset, 1 - inset)); };
+            OpenRange narrow;  // around the last place that was looked at
+            const auto is_wide_at = [&](double t) { return is_wide(candidate, std::clamp(t, inset, 1 - inset), narrow); };
             // A fold that begins narrow is none before it is wide, unless it is a tip of something by itself.
             const auto is_wire_at = [&](double t) { return is_wire(candidate, std::clamp(t, inset, 1 - inset)); };
             if (!is_wide_at(begin) && !is_wire_at(begin)) {
@@ -190,11 +191,17 @@ class FineLines::BlockClipper {
     }
 
     /// Whether both surfaces at a contour go on for more than a negligible fold.
-    bool is_wide(const FineCandidate& candidate, double t) const {
-        const glm::dvec2 at = candidate.line.at(t);
+    bool is_wide(const FineCandidate& candidate, double t, OpenRange& narrow) const {
+        const LayerLine& line = candidate.line;
+        const glm::dvec2 at = line.at(t);
+        const bool is_level = line.from.y == line.to.y, is_upright = line.from.x == line.to.x;
+        const double place = is_level ? at.x : at.y;
+        if (narrow.contains(place)) return false;
         const ScreenMesh& mesh = screen_.mesh(candidate.part.edge.instance);
-        const double nearness = candidate.line.nearness_at(t);
-        return is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness));
+        const double nearness = line.nearness_at(t);
+        if (is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness))) return true;
+        if (is_level || is_upright) narrow = narrow_range(mesh, candidate.part.edge.half_edge, at);
+        return false;
     }
 
     /// Whether the surface closes around at a contour, as a wire's does.

@@ -10,6 +10,10 @@ namespace {
 
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = 256;
+/// In heaps of borders only those are told apart that come near: where there are more than so many pairs of one and another about it.
+constexpr std::size_t kMostPairs = std::size_t{1} << 24, kFewAbout = 256;
+/// In a crowd of borders it is asked what runs along one of them in so many places.
+constexpr int kPartsInCrowd = 8;
 
 /// As walks over a seam ask it.
 bool is_level(const ScreenSurfaces& screen, double nearness_a, double nearness_b, SurfaceId steep) {
@@ -22,10 +26,11 @@ bool is_level(const ScreenSurfaces& screen, double nearness_a, double nearness_b
 
 /// The border of another patch that runs along, nearer than a pixel and level, at a share of edge_on_screen().
 std::optional<HalfEdge> seam_partner(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h, const EdgeOnScreen& edge,
-                                     const BorderIndex::SeamCandidates& candidates, double on_screen) {
+                                     const BorderIndex::SeamCandidates* few, double on_screen) {
     const Mesh& mesh = screen.surfaces().mesh_of(s);
     const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), b = mesh.local_position(end_of(mesh, h));
-    const auto partner = candidates.nearest(glm::mix(a, b, share_in_space(screen, edge, on_screen)));
+    const glm::dvec3 at = glm::mix(a, b, share_in_space(screen, edge, on_screen));
+    const auto partner = few != nullptr ? few->nearest(at) : mesh.borders.seam_partner(h, at);
     if (!partner) return std::nullopt;
     const auto other = edge_on_screen(screen, s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
     if (!other) return std::nullopt;
@@ -58,14 +63,15 @@ bool is_crack_beside(const ScreenSurfaces& screen, std::uint32_t instance, const
 
 std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h, const EdgeOnScreen& edge) {
     const Mesh& mesh = screen.surfaces().mesh_of(s);
-    BorderIndex::SeamCandidates candidates;
-    mesh.borders.find_candidates(h, candidates);
-    if (candidates.segments().empty()) return {{}};
+    BorderIndex::SeamCandidates about, near;
+    const std::size_t most_about = std::max(kMostPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
+    const bool is_crowd = !mesh.borders.find_candidates(h, most_about, about) && !mesh.borders.find_near(h, BorderIndex::kMostNear, about);
+    if (!is_crowd && about.segments().empty()) return {{}};
     const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), along = mesh.local_position(end_of(mesh, h)) - a;
     const double square = glm::dot(along, along);
     std::vector<double> ends;
-    bool has_crack = false;
-    for (const BorderIndex::Segment& other : candidates.segments()) {
+    bool has_crack = is_crowd;
+    for (const BorderIndex::Segment& other : about.segments()) {
         if (!is_crack_beside(screen, s.instance, edge, other.half_edge)) continue;
         has_crack = true;
         for (const glm::dvec3& end : {other.a, other.b}) {
@@ -74,11 +80,18 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
         }
     }
     if (!has_crack) return {{}};
+    for (int k = 1; is_crowd && k < kPartsInCrowd; ++k) ends.push_back(static_cast<double>(k) / kPartsInCrowd);
     std::sort(ends.begin(), ends.end());
+    // Of those about it, few come near. Where these are many, each place is looked up by itself.
+    constexpr std::size_t kFew = 32;
+    const bool has_few = about.segments().size() <= kFew && !is_crowd;
+    const bool has_few_near = !has_few && mesh.borders.find_near(h, kFew, near);
+    if (has_few_near && near.segments().empty()) return {{}};
+    const BorderIndex::SeamCandidates* const few = has_few ? &about : has_few_near ? &near : nullptr;
     const double shortest = kWidestCrackSubpixels / glm::distance(edge.from, edge.to);  // a crack is no part of its own
     std::vector<BorderPart> parts;
     const auto add_part = [&](double begin, double end) {
-        const auto partner = seam_partner(screen, s, h, edge, candidates, 0.5 * (begin + end));
+        const auto partner = seam_partner(screen, s, h, edge, few, 0.5 * (begin + end));
         if (!parts.empty() && parts.back().partner == partner) {
             parts.back().end = end;
         } else {

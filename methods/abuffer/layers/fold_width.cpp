@@ -1,5 +1,6 @@
 #include "methods/abuffer/layers/fold_width.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -45,6 +46,8 @@ EnteredTriangle enter(const ScreenMesh& mesh, HalfEdge h) {
     return {second, third, vertex(h), vertex(second), vertex(third), mesh.facing[h / 3] == off_screen};
 }
 
+constexpr int kMaxTriangles = 64;
+
 /// Goes along rows of pixels (`along_x`) or columns, forwards or backwards: `sign` is 1 or -1.
 template <bool along_x>
 class FoldWalk {
@@ -57,7 +60,6 @@ class FoldWalk {
     /// How far the surface goes on into a triangle: comes_back is to the edge, at another nearness. `is_level`: and stays at its
     /// nearness.
     Reach go(EnteredTriangle t, double sign, double least, bool is_level = false) const {
-        constexpr int kMaxTriangles = 64;
         const auto differs = [&](double nearness) { return std::abs(nearness - from_.nearness) > from_.level; };
         double entered = 0, nearness_there = from_.nearness;
         for (int step = 0; step < kMaxTriangles; ++step) {
@@ -158,6 +160,30 @@ Ring cut_from(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& pla
     return is_steep ? ring_along<true>(mesh, half_edge, place, border) : ring_along<false>(mesh, half_edge, place, border);
 }
 
+/// The way of FoldWalk::go() at a right angle to an edge that runs along a row or a column, where it gets nowhere: through
+/// triangles that are seen as parts of the edge. The range in which the way is the same, or an empty one. `axis`: 0 if the edge runs along x.
+OpenRange range_of_way(const ScreenMesh& mesh, EnteredTriangle t, glm::dvec2 at, int axis) {
+    constexpr double kFar = 1e300;
+    const double place = at[axis], beside = at[1 - axis];
+    OpenRange range{-kFar, kFar};
+    for (int step = 0; step < kMaxTriangles; ++step) {
+        if (t.is_cut) return {};
+        for (const ScreenVertex* const v : {t.a, t.b, t.c}) {
+            const glm::dvec2 p = place_of(v);
+            if (p[1 - axis] != beside || p[axis] == place) return {};
+            (p[axis] < place ? range.low : range.high) = p[axis] < place ? std::max(range.low, p[axis]) : std::min(range.high, p[axis]);
+        }
+        // Out by the edge whose ends lie on either side.
+        const bool is_first = (place_of(t.c)[axis] < place) == (place_of(t.a)[axis] < place);
+        const ScreenVertex *const begin = is_first ? t.b : t.c, *const end = is_first ? t.c : t.a;
+        if ((place_of(begin)[axis] < place) == (place_of(end)[axis] < place)) return {};
+        const HalfEdge exit = is_first ? t.second : t.third, beyond = mesh.partners[exit];
+        if (beyond == exit || mesh.partners[beyond] != exit) return range;
+        t = enter(mesh, beyond);
+    }
+    return range;
+}
+
 }  // namespace
 
 Ring ring_around(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, double nearness, double level) {
@@ -177,6 +203,16 @@ bool is_fold_wide(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, dou
     const EnteredTriangle one = enter(mesh, half_edge), other = enter(mesh, partner);
     const EnteredTriangle* const two = partner != half_edge ? &other : nullptr;
     return FoldWalk<true>(mesh, from).is_fold_wide(one, two) || FoldWalk<false>(mesh, from).is_fold_wide(one, two);
+}
+
+OpenRange narrow_range(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at) {
+    const EnteredTriangle one = enter(mesh, half_edge), other = enter(mesh, mesh.partners[half_edge]);
+    const glm::dvec2 along = place_of(one.b) - place_of(one.a);
+    if (along.x != 0 && along.y != 0) return {};
+    const int axis = along.x != 0 ? 0 : 1;
+    // Ways along the edge end at once: the first triangle has no height for them.
+    const OpenRange range = range_of_way(mesh, one, at, axis);
+    return range.low < range.high ? range : range_of_way(mesh, other, at, axis);
 }
 
 }  // namespace burin

@@ -27,4 +27,15 @@ Ring ring_around(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at, doub
 /// The border on the other side of a strip that is no wider than a wire at a place on its `border`; kNoHalfEdge if there is none.
 HalfEdge other_side_of_strip(const ScreenMesh& mesh, HalfEdge border, glm::dvec2 at);
 
+/// A range of x or y, without its ends, in 1/256 pixel.
+struct OpenRange {
+    double low = 0, high = 0;
+    bool contains(double v) const { return v > low && v < high; }
+};
+
+/// Where on an edge that runs along a row or a column no fold is wide, whatever its nearness: a range of x or y around a place on it.
+/// Surfaces that are seen exactly edge-on may have a hundred triangles in one place, which are gone through once for all of the range.
+/// Empty where it is not so, or not certain.
+OpenRange narrow_range(const ScreenMesh& mesh, HalfEdge half_edge, glm::dvec2 at);
+
 }  // namespace burin

@@ -1,5 +1,9 @@
 #include "methods/abuffer/layers/layer_bins.h"
 
+#include <algorithm>
+#include <array>
+#include <span>
+
 #include "base/parallel.h"
 
 namespace burin {
@@ -10,33 +14,42 @@ constexpr float kNearerThanAll = 3e38f;
 
 using Record = TileLists<std::uint32_t>::Record;
 
-/// Lists a triangle in the tiles that it touches.
+/// Lists a triangle in the tiles that it touches, and perhaps some that it passes within a pixel.
 void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const LineDepths* lines, std::uint32_t instance, std::uint32_t t,
          std::vector<Record>& records) {
     const ScreenMesh& mesh = screen.mesh(instance);
     std::uint32_t value = mesh.first_number + t;
-    glm::ivec2 low, high;
+    ScreenPolygon polygon;
     float nearest = kNearerThanAll;
     if (mesh.facing[t] == off_screen) {
-        const ScreenPolygon polygon = screen.surfaces().screen_polygon({instance, t});
+        polygon = screen.surfaces().screen_polygon({instance, t});
         if (polygon.count == 0) return;
-        low = high = {polygon.corners[0].x, polygon.corners[0].y};
-        for (int i = 1; i < polygon.count; ++i) {
-            const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
-            low = glm::min(low, glm::ivec2(p.x, p.y));
-            high = glm::max(high, glm::ivec2(p.x, p.y));
-        }
         value |= LayerBins::kClipped;
     } else {
         const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
         const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
-        low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
-        high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+        polygon.count = 3;
+        polygon.corners[0] = {a.x, a.y};
+        polygon.corners[1] = {b.x, b.y};
+        polygon.corners[2] = {c.x, c.y};
         nearest = std::max({a.nearness, b.nearness, c.nearness});
     }
+    glm::ivec2 low(polygon.corners[0].x, polygon.corners[0].y), high = low;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(polygon.count); ++i) {
+        const glm::ivec2 p(polygon.corners[i].x, polygon.corners[i].y);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
     const auto add = [&](std::uint32_t tile) { records.push_back({tile, value}); };
+    const glm::ivec2 size = high - low;
+    const bool may_pass_by = std::min(size.x, size.y) > grid.tile_px() * kSubpixelsPerPixel;
+    std::array<PolygonRows::Corner, ScreenPolygon::kMaxCorners> corners;
+    for (std::size_t i = 0; may_pass_by && i < static_cast<std::size_t>(polygon.count); ++i) {
+        corners[i] = {static_cast<double>(polygon.corners[i].x), static_cast<double>(polygon.corners[i].y)};
+    }
+    const PolygonRows rows{std::span(corners).first(static_cast<std::size_t>(polygon.count))};
     if (lines != nullptr) {
-        lines->for_tiles(low, high, nearest, add);
+        lines->for_tiles(low, high, nearest, may_pass_by ? &rows : nullptr, add);
     } else {
         grid.visit(low, high, add);
     }

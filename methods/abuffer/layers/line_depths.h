@@ -1,12 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
+#include "abuffer/polygon_rows.h"
 #include "abuffer/tile_kernels.h"
 #include "methods/abuffer/layers/layer_line.h"
 #include "methods/abuffer/screen/tile_lists.h"
@@ -25,9 +27,21 @@ class LineDepths {
     /// nearest, may hide a line.
     template <typename Visit>
     void for_tiles(glm::ivec2 low, glm::ivec2 high, float highest, const Visit& visit) const {
+        for_tiles(low, high, highest, nullptr, visit);
+    }
+    /// The same, but for tiles that a polygon within the box passes by, farther than a pixel. nullptr: none.
+    template <typename Visit>
+    void for_tiles(glm::ivec2 low, glm::ivec2 high, float highest, const PolygonRows* polygon, const Visit& visit) const {
         const Blocks b = blocks_of(low, high);
         for (int y = b.y0; y <= b.y1; y = (y | kLast) + 1) {
-            for (int x = b.x0; x <= b.x1; x = (x | kLast) + 1) {
+            int first = b.x0, last = b.x1;
+            if (polygon != nullptr) {
+                const PolygonRows::Range range = in_row_of_tiles(*polygon, y);
+                if (range.is_empty()) continue;
+                first = std::max(first, column_at(static_cast<int>(std::floor(range.low)) - kBeside) & ~kLast);
+                last = std::min(last, column_at(static_cast<int>(std::ceil(range.high)) + kBeside));
+            }
+            for (int x = first; x <= last; x = (x | kLast) + 1) {
                 const std::size_t tile = tile_at(x, y);
                 if (highest > of_tile_[tile] && is_nearer(tile, {x, y, std::min(b.x1, x | kLast), std::min(b.y1, y | kLast)}, highest)) {
                     visit(static_cast<std::uint32_t>(tile));
@@ -55,6 +69,14 @@ class LineDepths {
         // The last row of the picture goes on beyond its end, the last one chosen does not.
         return {column_at(low.x), std::max(std::min((low.y - first_.y) >> kBlockShift, rows_ - 1), begin_row_),
                 column_at(high.x), std::min((high.y - first_.y) >> kBlockShift, end_row_ - 1)};
+    }
+    static constexpr int kBeside = 256;  // 1 pixel
+    /// In the row of tiles with a row of blocks. Those at the picture's border stand for what is beyond it.
+    PolygonRows::Range in_row_of_tiles(const PolygonRows& polygon, int y) const {
+        constexpr double kFar = 1e9;
+        const int begin = y & ~kLast, end = (y | kLast) + 1;
+        const double top = begin == 0 ? -kFar : first_.y + (begin << kBlockShift), bottom = end >= rows_ ? kFar : first_.y + (end << kBlockShift);
+        return polygon.between(top - kBeside, bottom + kBeside);
     }
     int column_at(int x) const { return std::clamp((x - first_.x) >> kBlockShift, 0, columns_ - 1); }
     std::size_t tile_at(int x, int y) const {

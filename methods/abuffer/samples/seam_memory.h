@@ -8,7 +8,7 @@
 namespace burin {
 
 /// BorderIndex::seam_partner() for places that are asked for one after the other along the same few edges: remembers
-/// which edges run along each of them.
+/// which edges run along each of them, or in a crowd what is nearest to the last place.
 class SeamMemory {
   public:
     std::optional<HalfEdge> partner(const BorderIndex& borders, HalfEdge half_edge, const glm::dvec3& at);
@@ -21,7 +21,10 @@ class SeamMemory {
         HalfEdge half_edge = 0;
         Use use = Use::once;
         BorderIndex::SeamCandidates candidates;
+        BorderIndex::Neighbourhood neighbourhood;  ///< where many run along an edge
     };
+    static std::optional<HalfEdge> partner_in_crowd(Entry& entry, const glm::dvec3& at);
+
     std::vector<Entry> entries_;
 };
 

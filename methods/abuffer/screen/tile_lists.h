@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "abuffer/polygon_rows.h"
 #include "abuffer/subpixel.h"
 #include "image/image.h"
 
@@ -65,6 +66,26 @@ class PixelTiles {
         const int y1 = std::min(index_along(high.y - region_.y0, rows_.end), chosen_.end - 1);
         for (int y = y0; y <= y1; ++y) {
             for (int x = x0; x <= x1; ++x) visit(static_cast<std::uint32_t>((y - chosen_.begin) * columns_ + x));
+        }
+    }
+
+    /// The same, but for tiles that a polygon within the box passes by, farther than a pixel. Its corners are in units of which
+    /// there are `per_px` in a pixel.
+    template <typename Visit>
+    void visit(glm::dvec2 low, glm::dvec2 high, const PolygonRows& polygon, double per_px, const Visit& visit) const {
+        if (!(high.x >= region_.x0 && high.y >= region_.y0 && low.x <= region_.x1 && low.y <= region_.y1)) return;
+        constexpr double kBesidePx = 1, kFarPx = 1e9;
+        const int x0 = index_along(low.x - region_.x0, columns_), x1 = index_along(high.x - region_.x0, columns_);
+        const int y0 = std::max(index_along(low.y - region_.y0, rows_.end), chosen_.begin);
+        const int y1 = std::min(index_along(high.y - region_.y0, rows_.end), chosen_.end - 1);
+        for (int y = y0; y <= y1; ++y) {
+            // Tiles at the border stand for what is beyond it.
+            const double top = y == 0 ? -kFarPx : region_.y0 + y * tile_px_, bottom = y == rows_.end - 1 ? kFarPx : region_.y0 + (y + 1) * tile_px_;
+            const PolygonRows::Range range = polygon.between((top - kBesidePx) * per_px, (bottom + kBesidePx) * per_px);
+            if (range.is_empty()) continue;
+            const int first = std::max(x0, index_along(range.low / per_px - kBesidePx - region_.x0, columns_));
+            const int last = std::min(x1, index_along(range.high / per_px + kBesidePx - region_.x0, columns_));
+            for (int x = first; x <= last; ++x) visit(static_cast<std::uint32_t>((y - chosen_.begin) * columns_ + x));
         }
     }
 

@@ -1,11 +1,14 @@
 #include "methods/abuffer/screen/triangle_bins.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
 
+#include "abuffer/polygon_rows.h"
 #include "abuffer/polygon_sides.h"
 #include "base/parallel.h"
 
@@ -212,7 +215,7 @@ class Binner {
     void add_small(SurfaceId s, const ScreenTriangle& t, const Box& box, Scratch& scratch) const {
         const bool turned = surfaces_.facing(surfaces_.number_of(s)) == clockwise;
         const float highest = std::max({t.corners[0].nearness, t.corners[1].nearness, t.corners[2].nearness});
-        for_tiles(box, [&](std::uint32_t touched, const SampleBox& samples) {
+        for_tiles(box, nullptr, [&](std::uint32_t touched, const SampleBox& samples) {
             scratch.more_triangles.push_back(in_tile({s.triangle, highest, 0}, touched, samples));
             const TriangleKind kind = samples.is_thin() ? thin : turned ? wound_clockwise : wound_counterclockwise;
             scratch.more_keys.push_back(tile_key(touched, kind));
@@ -243,8 +246,14 @@ class Binner {
     void add_large(const LargePolygon& large, const Box& box, Records& records) const {
         const auto index = static_cast<std::uint32_t>(records.polygons.size());
         const PolygonSides sides(large.polygon);
+        std::array<PolygonRows::Corner, ScreenPolygon::kMaxCorners> corners;
+        const auto count = static_cast<std::size_t>(large.polygon.count);
+        for (std::size_t i = 0; i < count; ++i) {
+            corners[i] = {static_cast<double>(large.polygon.corners[i].x), static_cast<double>(large.polygon.corners[i].y)};
+        }
+        const PolygonRows rows{std::span(corners).first(count)};
         bool touches = false;
-        for_tiles(box, [&](std::uint32_t tile, const SampleBox& samples) {
+        for_tiles(box, &rows, [&](std::uint32_t tile, const SampleBox& samples) {
             if (is_beside(sides, tile)) return;
             (samples.is_thin() ? records.thin_large : records.large).push_back({tile, index});
             touches = true;
@@ -252,7 +261,8 @@ class Binner {
         if (touches) records.polygons.push_back(large);
     }
 
-    /// Also beside all that lies less than a pixel from a tile's samples: what looks for surfaces beside lines.
+    /// What lies less than a pixel from a tile's samples belongs to it, too: what looks for surfaces beside lines.
+    static constexpr std::int32_t kBeside = kSubpixelsPerPixel;
     bool is_beside(const PolygonSides& sides, std::uint32_t tile) const {
         const auto tiles = static_cast<std::uint32_t>(grid_.columns);
         const auto first = [&](std::uint32_t at, std::int32_t origin) {
@@ -260,7 +270,6 @@ class Binner {
         };
         const std::int64_t x = first(tile % tiles, grid_.first_column), y = first(tile / tiles, grid_.first_row);
         const std::int64_t width = std::int64_t{(1 << grid_.tile_shift) + 1} << grid_.pitch_shift;
-        constexpr std::int64_t kBeside = kSubpixelsPerPixel;
         return sides.leave_out(x - kBeside, y - kBeside, x + width + kBeside, y + width + kBeside);
     }
 
@@ -281,9 +290,9 @@ class Binner {
         return t;
     }
 
-    /// Calls visit(tile, samples in the box).
+    /// Calls visit(tile, samples in the box), but for most tiles that a polygon passes by. nullptr: for all.
     template <typename Visit>
-    void for_tiles(const Box& box, const Visit& visit) const {
+    void for_tiles(const Box& box, const PolygonRows* polygon, const Visit& visit) const {
         // The samples in the box, relative to the grid.
         const std::int32_t half = (1 << grid_.pitch_shift) / 2;
         const auto first_from = [&](std::int32_t at) { return (at + half - 1) >> grid_.pitch_shift; };
@@ -293,12 +302,25 @@ class Binner {
         const auto [column0, row0, column1, row1] = samples;
         if (column1 < 0 || row1 < 0 || column0 > grid_.width || row0 > grid_.height) return;
         if (samples.is_thin() && !grid_.keeps_thin) return;
+        const int first_column = std::max(column0 - 1, 0) >> grid_.tile_shift, last_column = std::min(column1, grid_.width - 1) >> grid_.tile_shift;
         for (int row = std::max(row0 - 1, 0) >> grid_.tile_shift; row <= std::min(row1, grid_.height - 1) >> grid_.tile_shift; ++row) {
-            for (int column = std::max(column0 - 1, 0) >> grid_.tile_shift;
-                 column <= std::min(column1, grid_.width - 1) >> grid_.tile_shift; ++column) {
-                visit(static_cast<std::uint32_t>(row * grid_.columns + column), samples);
+            int first = first_column, last = last_column;
+            if (polygon != nullptr && first < last) {
+                const PolygonRows::Range range = in_row_of_tiles(*polygon, row);
+                if (range.is_empty()) continue;
+                const auto column_at = [&](double x) { return ((static_cast<std::int32_t>(std::floor(x)) >> grid_.pitch_shift) - grid_.first_column) >> grid_.tile_shift; };
+                constexpr std::int32_t kOneMore = 1;  // the column of samples that a tile has in addition
+                first = std::max(first, column_at(range.low - kBeside - ((kOneMore + 1) << grid_.pitch_shift)));
+                last = std::min(last, column_at(range.high + kBeside));
             }
+            for (int column = first; column <= last; ++column) visit(static_cast<std::uint32_t>(row * grid_.columns + column), samples);
         }
+    }
+
+    PolygonRows::Range in_row_of_tiles(const PolygonRows& polygon, int row) const {
+        const std::int64_t y = (std::int64_t{grid_.first_row} + (std::int64_t{row} << grid_.tile_shift)) << grid_.pitch_shift;
+        const std::int64_t height = std::int64_t{(1 << grid_.tile_shift) + 1} << grid_.pitch_shift;
+        return polygon.between(static_cast<double>(y - kBeside), static_cast<double>(y + height + kBeside));
     }
 
     ScreenSurfaces& surfaces_;

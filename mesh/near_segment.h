@@ -1,0 +1,36 @@
+#pragma once
+
+#include <algorithm>
+#include <glm/glm.hpp>
+
+namespace burin {
+
+/// Whether a box comes as near to a segment as `margin`; true also for some that do not.
+struct NearSegment {
+    glm::dvec3 a, b;
+    double margin;
+
+    bool operator()(const glm::vec3& low, const glm::vec3& high) const {
+        double begin = -kRounding, end = 1 + kRounding;  // shares of the way from a to b
+        for (int k = 0; k < 3; ++k) {
+            clip(a[k], b[k], static_cast<double>(low[k]) - margin, static_cast<double>(high[k]) + margin, begin, end);
+        }
+        return begin <= end + kRounding;
+    }
+
+  private:
+    static constexpr double kRounding = 1e-9;
+    /// To what lies between two values along one axis.
+    static void clip(double from, double to, double low, double high, double& begin, double& end) {
+        const double way = to - from;
+        if (way == 0) {
+            if (from < low || from > high) end = -1;
+            return;
+        }
+        const double at_low = (low - from) / way, at_high = (high - from) / way;
+        begin = std::max(begin, std::min(at_low, at_high));
+        end = std::min(end, std::max(at_low, at_high));
+    }
+};
+
+}  // namespace burin

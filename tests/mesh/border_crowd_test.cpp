@@ -1,0 +1,198 @@
+// Borders of heaps of long thin polygons, whose boxes lie over each other by the hundred.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/border_index.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using test::Random;
+using Segment = BorderIndex::Segment;
+
+/// Two long borders each, of one polygon: in all directions, or through a point.
+std::vector<Segment> straws(Random& random, int count, bool meet) {
+    std::vector<Segment> segments;
+    HalfEdge h = 0;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 from = meet ? glm::dvec3(0.0) : random.in_box(0.4), along = random.real(0.3, 1) * random.direction();
+        for (int side = 0; side < 2; ++side) {
+            const glm::dvec3 beside = 0.002 * random.direction();
+            h += static_cast<HalfEdge>(random.integer(1, 4));
+            segments.push_back({h, static_cast<std::uint32_t>(i), glm::vec3(meet ? from : from + beside), glm::vec3(from + along + beside)});
+        }
+    }
+    return segments;
+}
+
+double distance_to(const Segment& s, const glm::dvec3& p) {
+    const glm::dvec3 a(s.a), d = glm::dvec3(s.b) - a;
+    return glm::distance(p, a + d * std::clamp(glm::dot(p - a, d) / glm::dot(d, d), 0.0, 1.0));
+}
+
+/// The definition, written down once more.
+std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own, const glm::dvec3& at) {
+    const glm::dvec3 along = glm::dvec3(own.b) - glm::dvec3(own.a);
+    double nearest = glm::length(along) / 20;
+    std::optional<HalfEdge> partner;
+    for (const Segment& s : segments) {
+        const glm::dvec3 d = glm::dvec3(s.b) - glm::dvec3(s.a);
+        const bool is_parallel = std::abs(glm::dot(along, d)) > 0.9 * glm::length(along) * glm::length(d);
+        if (s.polygon == own.polygon || !is_parallel || distance_to(s, at) >= nearest) continue;
+        nearest = distance_to(s, at);
+        partner = s.half_edge;
+    }
+    return partner;
+}
+
+TEST(BorderCrowd, PartnersAreThoseOfASearchThroughAll) {
+    int found = 0, asked = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        Random random(seed);
+        const std::vector<Segment> segments = straws(random, 400, seed % 3 == 0);
+        const BorderIndex index(segments);
+        ASSERT_TRUE(index.has_crowds());
+        for (const Segment& own : segments) {
+            const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), random.real(0, 1));
+            const auto expected = partner_by_search(segments, own, at);
+            ASSERT_EQ(index.seam_partner(own.half_edge, at), expected) << "seed " << seed;
+            found += expected.has_value();
+            ++asked;
+        }
+    }
+    EXPECT_GT(found, asked / 5);
+    EXPECT_LT(found, asked * 9 / 10);
+}
+
+/// Along one edge, most places need no new search, and the answers are the same.
+TEST(BorderCrowd, NeighbourhoodsTellOfPlacesAround) {
+    int asked = 0, searched = 0, changed = 0;
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        Random random(seed);
+        const std::vector<Segment> segments = straws(random, 300, seed % 3 == 0);
+        const BorderIndex index(segments);
+        for (std::size_t i = 0; i < segments.size(); i += 7) {
+            const Segment& own = segments[i];
+            BorderIndex::Neighbourhood around;
+            std::optional<HalfEdge> before;
+            for (int step = 0; step <= 300; ++step) {
+                const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), step / 300.0);
+                auto answer = around.partner_at(at);
+                if (!answer.has_answer) {
+                    around = index.neighbourhood(own.half_edge, at);
+                    answer = around.partner_at(at);
+                    ++searched;
+                }
+                const auto expected = index.seam_partner(own.half_edge, at);
+                if (answer.has_answer) { ASSERT_EQ(answer.partner, expected) << "seed " << seed << " step " << step; }
+                changed += step > 0 && expected != before;
+                before = expected;
+                ++asked;
+            }
+        }
+    }
+    EXPECT_GT(changed, 200);
+    EXPECT_LT(searched, asked / 4);
+}
+
+TEST(BorderCrowd, NearOnesAreAllThatMayBePartnersAnywhere) {
+    int few = 0, many = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        Random random(seed);
+        const std::vector<Segment> segments = straws(random, 500, seed % 4 == 0);
+        const BorderIndex index(segments);
+        BorderIndex::SeamCandidates near;
+        for (std::size_t i = 0; i < segments.size(); i += 5) {
+            const Segment& own = segments[i];
+            const std::size_t most = seed % 2 == 0 ? BorderIndex::kMostNear : 40;
+            // Those within its reach somewhere, by sampling: a few at the limit are missing.
+            std::size_t least = 0;
+            const double reach = glm::distance(own.a, own.b) / 20;
+            for (const Segment& s : segments) {
+                bool is_near = false;
+                for (int step = 0; step <= 40 && !is_near; ++step) {
+                    is_near = distance_to(s, glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), step / 40.0)) < reach;
+                }
+                least += is_near;
+            }
+            if (!index.find_near(own.half_edge, most, near)) {
+                ++many;
+                ASSERT_GT(2 * least, most);
+                ASSERT_TRUE(near.segments().empty());
+                continue;
+            }
+            ++few;
+            ASSERT_LE(least, most);
+            for (int step = 0; step <= 20; ++step) {
+                const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), step / 20.0);
+                ASSERT_EQ(near.nearest(at), index.seam_partner(own.half_edge, at)) << "seed " << seed;
+            }
+        }
+    }
+    EXPECT_GT(few, 100);
+    EXPECT_GT(many, 100);
+}
+
+TEST(BorderCrowd, MoreThanAskedForAreNotListed) {
+    std::vector<Segment> segments;
+    for (HalfEdge h = 0; h < 100; ++h) segments.push_back({h, h, {0, 0, 0}, {1, static_cast<float>(h) / 10000, 0}});
+    const BorderIndex index(segments);
+    BorderIndex::SeamCandidates candidates;
+    EXPECT_TRUE(index.find_candidates(0, 100, candidates));
+    EXPECT_EQ(candidates.segments().size(), 99u);
+    EXPECT_FALSE(index.find_candidates(0, 99, candidates));
+    EXPECT_TRUE(candidates.segments().empty());
+    EXPECT_TRUE(index.find_near(0, 100, candidates));
+    EXPECT_EQ(candidates.segments().size(), 99u);
+    EXPECT_FALSE(index.find_near(0, 99, candidates));
+    EXPECT_TRUE(candidates.segments().empty());
+}
+
+/// Boxes of short segments tell enough by themselves.
+TEST(BorderCrowd, OrdinaryBordersAreNone) {
+    std::vector<Segment> segments;
+    for (HalfEdge h = 0; h < 10000; ++h) {
+        const double a = 0.01 * h, b = 0.01 * (h + 1);
+        segments.push_back({h, h, {std::cos(a), std::sin(a), 0.001 * a}, {std::cos(b), std::sin(b), 0.001 * b}});
+    }
+    EXPECT_FALSE(BorderIndex(segments).has_crowds());
+    EXPECT_FALSE(BorderIndex().has_crowds());
+}
+
+/// A search looks at few pieces of many segments.
+TEST(BorderCrowd, SearchesLookAtFewPieces) {
+    Random random(1);
+    std::vector<SegmentPiece> pieces;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        const glm::vec3 low(random.in_box(1));
+        pieces.push_back({low, low + glm::vec3(0.02f), i});
+    }
+    const SegmentTree tree(pieces);
+    std::size_t visited = 0;
+    for (int i = 0; i < 1000; ++i) {
+        double reach = 0.05;
+        const glm::dvec3 at = random.in_box(1);
+        std::size_t nearest = 0;
+        tree.visit_nearest(at, reach, [&](std::uint32_t p) {
+            ++visited;
+            const glm::dvec3 outside = glm::max(glm::max(glm::dvec3(pieces[p].low) - at, at - glm::dvec3(pieces[p].high)), glm::dvec3(0.0));
+            if (glm::length(outside) < reach) {
+                reach = glm::length(outside);
+                nearest = p + 1;
+            }
+        });
+        double least = 0.05;
+        for (const SegmentPiece& p : pieces) {
+            least = std::min(least, glm::length(glm::max(glm::max(glm::dvec3(p.low) - at, at - glm::dvec3(p.high)), glm::dvec3(0.0))));
+        }
+        ASSERT_EQ(reach, least);
+        ASSERT_EQ(nearest != 0, least < 0.05);
+    }
+    EXPECT_LT(visited, 100u * 1000u);
+}
+
+}  // namespace
+}  // namespace burin
