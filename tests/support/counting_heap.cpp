@@ -39,7 +39,13 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
     const auto a = static_cast<std::size_t>(alignment);
     return counted(std::aligned_alloc(a, (bytes + a - 1) / a * a));
 }
+// A sanitizer's library has these of its own, which would not be counted.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+    void* const memory = std::malloc(bytes);
+    return memory == nullptr ? nullptr : counted(memory);
+}
 void operator delete(void* memory) noexcept { release(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
