@@ -121,8 +121,8 @@ RoundedPositions round_positions(const PolygonSoup& soup) {
     if (has_residuals) result.origin = median_corner(soup);
     if (result.origin == glm::dvec3(0.0) && !has_residuals) return result;
     if (has_residuals) reserve_large(result.residuals, soup.positions.size());
-    const double step =
-        std::ldexp(1.0, std::ilogb(bounds.reach_from(result.origin)) + 1 - kBitsWithResiduals);
+    // Without residuals the model may be a single place, which reaches nowhere.
+    const double step = has_residuals ? std::ldexp(1.0, std::ilogb(bounds.reach_from(result.origin)) + 1 - kBitsWithResiduals) : 0;
     for (std::size_t v = 0; v < soup.positions.size(); ++v) {
         glm::dvec3 place = soup.positions[v] - result.origin;
         if (has_residuals) place = glm::round(place / step) * step;

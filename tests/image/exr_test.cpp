@@ -161,8 +161,7 @@ TEST(Exr, RowsMayComeInAnyOrder) {
             }
             writer.write_chunk(strip_of(part), rows[i]);
         });
-        EXPECT_EQ(folder.names().size(), 2u) << "nothing under the name before the end";
-        EXPECT_FALSE(std::filesystem::exists(folder.file("rows.exr")));
+        EXPECT_FALSE(std::filesystem::exists(folder.file("rows.exr"))) << "nothing under the name before the end";
         writer.finish();
         EXPECT_TRUE(read_file(folder.file("rows.exr")) == read_file(folder.file("whole.exr"))) << threads;
         std::filesystem::remove(folder.file("rows.exr"));

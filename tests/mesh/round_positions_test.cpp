@@ -163,5 +163,15 @@ TEST(RoundPositions, UsualModelsNeedNoResiduals) {
     EXPECT_FALSE(one_mesh(on_ground).has_residuals());
 }
 
+TEST(RoundPositions, AModelInOnePlaceHasItsOriginThere) {
+    PolygonSoup soup;
+    soup.positions = {{5, 6, 7}, {5, 6, 7}, {5, 6, 7}};
+    soup.corners = {0, 1, 2};
+    const RoundedPositions rounded = round_positions(soup);
+    EXPECT_EQ(rounded.origin, glm::dvec3(5, 6, 7));
+    EXPECT_EQ(rounded.positions[0], glm::vec3(0));
+    EXPECT_TRUE(rounded.residuals.empty());
+}
+
 }  // namespace
 }  // namespace burin
