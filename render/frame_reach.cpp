@@ -15,7 +15,7 @@ namespace {
 /// planes of small triangles lose some more. With residuals they are exact to 2^-46. What
 /// transforms lose of a place in double precision comes on top.
 constexpr double kError = 0x1p-21, kErrorWithResiduals = 0x1p-44, kErrorOfPlaces = 0x1p-49;
-/// A scene that is so many times as large as one of its objects is uneven.
+/// A scene is uneven if it is at least this many times as large as one of its objects.
 constexpr double kUneven = 64;
 /// The near plane, as a part of how far the scene reaches: usually, and where a surface comes as
 /// near to the eye as that.

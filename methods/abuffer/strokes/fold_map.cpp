@@ -9,11 +9,11 @@ namespace {
 
 /// An edge is looked at in steps of this, or in so many.
 constexpr double kStepPx = 0.25, kMostSteps = 2048;
-/// A contour is followed from one foot to the next one unless that is so many times as long as the
+/// A contour is followed from one foot to the next one unless that is more than this many times as long as the
 /// straight way, and longer than this: then it goes elsewhere, and comes back.
 constexpr double kLongestDetour = 4, kShortDetourPx = 3;
 /// Where a contour ends beside an edge, the edge goes on: straight to its own end, if that is no
-/// farther than so many times the way over to it.
+/// farther than this many times the way over to it.
 constexpr double kShortRest = 3;
 /// How long a way from a contour over to where an edge ends is on the contour, in lengths of the
 /// step that it replaces.

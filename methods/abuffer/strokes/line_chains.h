@@ -20,7 +20,7 @@ struct LineChains {
 };
 
 /// Lines that alone have a node in common follow each other in a chain; of more, those of one class if they are two, where a class
-/// does not hang on the view. So dashes run on around the corners of a polyline, and start anew where lines branch.
+/// does not depend on the view. So dashes run on around the corners of a polyline, and start anew where lines branch.
 ///
 /// A chain begins at its end, or on a loop at its vertex, that comes first by its coordinates in the mesh: where dashes
 /// begin hangs on neither the view nor the order of triangles. Positions on a loop are scaled so that a whole number of
