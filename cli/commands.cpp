@@ -151,7 +151,6 @@ void note_loose_edges(const Frame& frame, const Method& method) {
 /// What a user should know before the picture surprises.
 void note_limits(const Arguments& a, const Frame& frame, const Method& method, bool has_hidden_lines,
                  const OutputOptions& output) {
-    note_left_out(a, *frame.scene);
     if (a.quiet) return;
     if (a.names_layers && output.format != OutputFormat::exr) {
         std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n",
@@ -274,15 +273,6 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
     json.key("notes").begin_array();
     for (const std::string& note : scene.notes) json.value(note);
     json.end_array();
-    json.key("left_out").begin_array();
-    for (const LeftOut& part : scene.left_out) {
-        json.begin_object();
-        json.key("file").value(part.file);
-        json.key("what").value(part.what);
-        json.key("count").value(part.count);
-        json.end_object();
-    }
-    json.end_array();
     json.key("edges").begin_object();
     json.key("total").value(t.edges.edges);
     json.key("border").value(t.edges.border);
@@ -346,9 +336,6 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
     if (t.repairs.cut_polygons > 0) {
         std::printf("  cut        %llu polygons that pass an edge twice in one direction, into %llu\n", number(t.repairs.cut_polygons),
                     number(t.repairs.cut_pieces));
-    }
-    for (const LeftOut& part : scene.left_out) {
-        std::printf("  left out   %llu %s\n", number(part.count), part.what.c_str());
     }
     for (const std::string& note : scene.notes) std::printf("  note       %s\n", printable(note, 4000).c_str());
     std::printf("  materials  %zu:", scene.materials.size());

@@ -98,7 +98,6 @@ void run_compare(const Arguments& a) {
                                      : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     const Stopwatch total;
     Scene scene = load_input(a, files_in(a.output));
-    note_left_out(a, scene);
     draw_what_all_can(scene, a.quiet);
     View view;
     {

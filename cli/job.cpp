@@ -113,14 +113,6 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
     return scene;
 }
 
-void note_left_out(const Arguments& a, const Scene& scene) {
-    if (a.quiet) return;
-    for (const LeftOut& part : scene.left_out) {
-        std::fprintf(stderr, "burin: note: %s: left out %llu %s\n", printable(part.file, 200).c_str(),
-                     static_cast<unsigned long long>(part.count), part.what.c_str());
-    }
-}
-
 Camera camera_of(const Scene& scene, const Arguments& a) {
     const CameraSettings settings = camera_settings(scene, a);
     const std::string place = settings.where.line > 0 ? to_string(settings.where) : a.input;

@@ -14,9 +14,6 @@ namespace burin {
 /// UsageError; this where one of the outputs is a file that is read, before models are if the scene file names it.
 Scene load_input(const Arguments& arguments, const std::vector<OutputFile>& outputs = {});
 
-/// Names what models have that is not drawn on standard error, unless all is to be quiet.
-void note_left_out(const Arguments& arguments, const Scene& scene);
-
 /// The camera that the arguments ask for. Throws InputError and UsageError.
 Camera camera_of(const Scene& scene, const Arguments& arguments);
 

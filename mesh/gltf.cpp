@@ -29,9 +29,10 @@ struct Pose {
 
 class GltfReader {
   public:
-    GltfReader(const std::string& path, ModelBudget& budget)
+    GltfReader(const std::string& path, ModelBudget& budget, bool strict)
         : path_(path),
           budget_(budget),
+          strict_(strict),
           file_(path),
           container_(split_gltf_container(path, file_.bytes())),
           json_(parse_gltf_json(path, container_.json)),
@@ -53,7 +54,7 @@ class GltfReader {
         place_objects();
         scene_.materials = std::move(materials_.materials);
         scene_.cameras = std::move(nodes_.cameras);
-        list_left_out();
+        note_what_is_left_out();
         buffers_->check_are_whole();
         scene_.buffer_files = buffers_->files();
         return std::move(scene_);
@@ -188,7 +189,7 @@ class GltfReader {
         }
     }
 
-    void list_left_out() {
+    void note_what_is_left_out() {
         std::uint64_t points = 0, without_positions = 0, polygons = 0, lines = 0;
         for (const GltfMeshPlan& plan : plans_) {
             points += plan.skipped_points;
@@ -197,18 +198,24 @@ class GltfReader {
             lines += plan.cut_out_lines;
         }
         scene_.skipped_primitives = points + without_positions;
-        const auto list = [&](const char* what, std::uint64_t count) {
-            if (count > 0) scene_.left_out.push_back({path_, what, count});
+        const auto note = [&](std::uint64_t count, const char* one, const char* more, bool is_unreadable = false) {
+            if (count == 0) return;
+            const std::string what = std::to_string(count) + " " + (count == 1 ? one : more);
+            if (is_unreadable && strict_) {
+                throw InputError(path_ + ": " + what + ", which cannot be drawn; re-export the model without, or leave out --strict");
+            }
+            scene_.notes.push_back("left out " + what);
         };
-        list("primitives of points", points);
-        list("primitives without positions", without_positions);
-        list("polygons that their alphaCutoff makes invisible", polygons);
-        list("lines that their alphaCutoff makes invisible", lines);
-        list("nodes with a mesh that are not visible", nodes_.invisible_mesh_nodes);
+        note(points, "primitive of points", "primitives of points", true);
+        note(without_positions, "primitive without positions", "primitives without positions", true);
+        note(polygons, "polygon that its alphaCutoff makes invisible", "polygons that their alphaCutoff makes invisible");
+        note(lines, "line that its alphaCutoff makes invisible", "lines that their alphaCutoff makes invisible");
+        note(nodes_.invisible_mesh_nodes, "node with a mesh that is not visible", "nodes with a mesh that are not visible");
     }
 
     std::string path_;
     ModelBudget& budget_;
+    bool strict_;
     MappedFile file_;
     GltfContainer container_;
     nlohmann::json json_;
@@ -226,8 +233,8 @@ class GltfReader {
 
 }  // namespace
 
-GltfScene read_gltf(const std::string& path, ModelBudget& budget) {
-    return GltfReader(path, budget).read();
+GltfScene read_gltf(const std::string& path, ModelBudget& budget, bool strict) {
+    return GltfReader(path, budget, strict).read();
 }
 
 GltfScene read_gltf(const std::string& path) {

@@ -7,7 +7,6 @@
 
 #include "base/model_budget.h"
 #include "mesh/gltf_nodes.h"
-#include "mesh/left_out.h"
 #include "mesh/polygon_soup.h"
 
 namespace burin {
@@ -28,8 +27,8 @@ struct GltfScene {
     std::vector<Material> materials;  ///< the last one is the default material
     std::vector<GltfObject> objects;
     std::vector<GltfCamera> cameras;
-    std::uint64_t skipped_primitives = 0;  ///< of points, or without positions
-    std::vector<LeftOut> left_out;         ///< these and all else
+    std::uint64_t skipped_primitives = 0;   ///< of points, or without positions
+    std::vector<std::string> notes;         ///< these, and what the file itself makes invisible, a line each
     std::vector<std::string> buffer_files;  ///< paths of the buffers that are files
 };
 
@@ -40,8 +39,9 @@ struct GltfScene {
 /// Everything is checked before use: numbers of nodes, meshes, accessors and views, the room in
 /// buffers, node cycles. Throws InputError that names the place as glTF writes it,
 /// "meshes[2].primitives[0].indices". What the file makes of its data by naming them again and
-/// again, or has compressed, is counted in `budget` before it is expanded.
-GltfScene read_gltf(const std::string& path, ModelBudget& budget);
+/// again, or has compressed, is counted in `budget` before it is expanded. `strict` refuses a file
+/// with skipped primitives.
+GltfScene read_gltf(const std::string& path, ModelBudget& budget, bool strict = false);
 GltfScene read_gltf(const std::string& path);
 
 }  // namespace burin

@@ -23,11 +23,15 @@ std::vector<Mesh> build_meshes_of(const std::string& path, PolygonSoup soup,
     }
 }
 
+void add_notes(const std::string& path, const std::vector<std::string>& notes, Model& model) {
+    for (const std::string& note : notes) model.notes.push_back(path + ": " + note);
+}
+
 Model model_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     Model model;
     model.materials = std::move(soup.materials);
     model.non_finite_polygons = soup.non_finite_polygons;
-    for (const std::string& note : soup.notes) model.notes.push_back(path + ": " + note);
+    add_notes(path, soup.notes, model);
     model.meshes = build_meshes_of(path, std::move(soup), options);
     for (std::uint32_t i = 0; i < model.meshes.size(); ++i) {
         model.objects.push_back({model.meshes[i].name, i, glm::dmat4(1.0)});
@@ -55,7 +59,7 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     model.materials = std::move(scene.materials);
     model.skipped_primitives = scene.skipped_primitives;
     model.other_files = std::move(scene.buffer_files);
-    model.left_out = std::move(scene.left_out);
+    add_notes(path, scene.notes, model);
     return model;
 }
 
@@ -72,7 +76,7 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
     if (extension == ".off") return model_of(path, read_off(path), options);
     if (extension == ".gltf" || extension == ".glb") {
         ModelBudget by_default;
-        return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default), options);
+        return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict), options);
     }
     throw InputError(path + ": unknown kind of model '" + extension +
                      "'; burin reads .obj .ply .stl .off .gltf .glb");

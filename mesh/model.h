@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mesh/build_meshes.h"
-#include "mesh/left_out.h"
 #include "mesh/mesh.h"
 #include "mesh/polygon_soup.h"
 
@@ -36,7 +35,6 @@ struct Model {
     std::vector<ModelCamera> cameras;
     std::uint64_t skipped_primitives = 0;   ///< of a glTF: points, and what has no positions
     std::uint64_t non_finite_polygons = 0;  ///< left out, of an STL
-    std::vector<LeftOut> left_out;          ///< these primitives, and all else that a glTF has and is not drawn
     std::vector<std::string> notes;  ///< what the user should know of how the file was read: "path: what", a line each
     std::vector<std::string> other_files;  ///< that were read beside the model's own: materials, buffers
 };

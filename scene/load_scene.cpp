@@ -78,10 +78,17 @@ class SceneLoader {
         scene_.camera_is_default = scene_.cameras.empty();
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
         check_highlights();
+        draw_lines_without_polygons();
         return std::move(scene_);
     }
 
   private:
+    /// What has no polygon has marks only: they are drawn unless the scene file wants other classes than those by default.
+    void draw_lines_without_polygons() {
+        const bool has_polygons = std::any_of(scene_.meshes.begin(), scene_.meshes.end(), [](const Mesh& mesh) { return !mesh.triangles.empty(); });
+        if (!has_polygons && scene_.lines.classes == kDefaultLineClasses) scene_.lines.classes |= LineClass::mark;
+    }
+
     void check_highlights() const {
         const ObjectNames names(scene_.zbuffer.highlight_objects);
         std::set<std::string_view> found;
@@ -199,9 +206,6 @@ class SceneLoader {
         for (std::string& note : model.notes) {
             // A file that is read twice, with and without subdivision, says the same twice.
             if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end()) scene_.notes.push_back(std::move(note));
-        }
-        for (LeftOut& part : model.left_out) {
-            if (std::find(scene_.left_out.begin(), scene_.left_out.end(), part) == scene_.left_out.end()) scene_.left_out.push_back(std::move(part));
         }
         return loaded;
     }

@@ -8,7 +8,6 @@
 
 #include "lines/crease_fade.h"
 #include "lines/surface_set.h"
-#include "mesh/left_out.h"
 #include "mesh/material_list.h"
 #include "mesh/mesh.h"
 #include "mesh/subdivide.h"
@@ -80,7 +79,6 @@ struct Scene {
     WireSettings wire;
     std::uint64_t skipped_primitives = 0;
     std::uint64_t non_finite_polygons = 0;
-    std::vector<LeftOut> left_out;   ///< of the models
     std::vector<std::string> notes;  ///< of the models' readers, "path: what", each once
 };
 

@@ -20,7 +20,7 @@ constexpr const char* kModel = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh
     "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
 const std::string kNotes = "burin: note: part.gltf: left out 2 primitives of points\n"
-                           "burin: note: part.gltf: left out 1 nodes with a mesh that are not visible\n";
+                           "burin: note: part.gltf: left out 1 node with a mesh that is not visible\n";
 
 TEST(LeftOut, IsNamedOnceWhenAPictureIsMade) {
     const TemporaryFolder folder;
@@ -43,14 +43,26 @@ TEST(LeftOut, IsCountedByInfo) {
     const TemporaryFolder folder;
     folder.write("part.gltf", kModel);
     const ProgramResult text = run_burin(folder.path(), {"info", "part.gltf"});
-    EXPECT_NE(text.out.find("  left out   2 primitives of points\n"), std::string::npos) << text.out;
-    EXPECT_NE(text.out.find("  left out   1 nodes with a mesh that are not visible\n"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("  note       part.gltf: left out 2 primitives of points\n"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("  note       part.gltf: left out 1 node with a mesh that is not visible\n"), std::string::npos) << text.out;
     const Json info = Json::parse(run_burin(folder.path(), {"info", "--json", "part.gltf"}).out);
     EXPECT_EQ(info.at("repairs").at("skipped_primitives"), 2);
-    ASSERT_EQ(info.at("left_out").size(), 2u);
-    EXPECT_EQ(info.at("left_out").at(0).at("file"), "part.gltf");
-    EXPECT_EQ(info.at("left_out").at(0).at("what"), "primitives of points");
-    EXPECT_EQ(info.at("left_out").at(0).at("count"), 2);
+    EXPECT_EQ(info.at("notes"), Json::array({"part.gltf: left out 2 primitives of points", "part.gltf: left out 1 node with a mesh that is not visible"}));
+}
+
+TEST(LeftOut, IsRefusedWithStrictUnlessTheFileMeansIt) {
+    const TemporaryFolder folder;
+    folder.write("part.gltf", kModel);
+    const ProgramResult points = run_burin(folder.path(), {"info", "part.gltf", "--strict"});
+    EXPECT_EQ(points.status, 1);
+    EXPECT_EQ(points.err, "part.gltf: 2 primitives of points, which cannot be drawn; re-export the model without, or leave out --strict\n");
+    const std::string primitive = R"(, {"attributes": {"POSITION": 0}, "mode": 0})";
+    std::string invisible = kModel;
+    for (std::size_t at; (at = invisible.find(primitive)) != std::string::npos;) invisible.erase(at, primitive.size());
+    folder.write("part.gltf", invisible);
+    const ProgramResult node = run_burin(folder.path(), {"info", "part.gltf", "--strict"});
+    EXPECT_EQ(node.status, 0) << node.err;
+    EXPECT_NE(node.out.find("left out 1 node"), std::string::npos) << node.out;
 }
 
 }  // namespace

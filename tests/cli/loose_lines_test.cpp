@@ -45,6 +45,14 @@ TEST_F(LooseLinesOfFiles, WhatIsLeftOutIsNamedOnce) {
     EXPECT_EQ(other.err, "burin: note: method simple draws edges of polygons only, and leaves out 2 lines of the input; abuffer draws them\n");
 }
 
+TEST_F(LooseLinesOfFiles, AreDrawnByDefaultWhereNoPolygonIs) {
+    EXPECT_EQ(run({"render", "lines.obj", "-o", "default.png", "-r", "40x40"}).err, "");
+    EXPECT_EQ(run({"render", "lines.obj", "-o", "marks.png", "-r", "40x40", "--lines", "mark"}).err, "");
+    EXPECT_EQ(run({"render", "lines.obj", "-q", "-o", "creases.png", "-r", "40x40", "--lines", "crease"}).err, "");
+    EXPECT_EQ(read_file(folder_.file("default.png")), read_file(folder_.file("marks.png")));
+    EXPECT_NE(read_file(folder_.file("default.png")), read_file(folder_.file("creases.png")));
+}
+
 TEST_F(LooseLinesOfFiles, NoMethodFailsWithoutPolygons) {
     for (const Method& method : methods()) {
         const ProgramResult result = run({"render", "lines.obj", "-q", "-m", std::string(method.name), "-o", "a.png", "-r", "40x40", "--lines", "mark"});

@@ -76,9 +76,7 @@ TEST_F(GltfMarks, LinesOfInvisibleMaterialsAreNoMarks) {
     parts.materials = R"([{"alphaMode": "MASK", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0]}}])";
     const GltfScene scene = read_gltf(folder_.write("part.gltf", parts.json()));
     EXPECT_TRUE(scene.meshes.at(0).marked_edges.empty());
-    ASSERT_EQ(scene.left_out.size(), 1u);
-    EXPECT_EQ(scene.left_out[0].what, "lines that their alphaCutoff makes invisible");
-    EXPECT_EQ(scene.left_out[0].count, 4u);
+    EXPECT_EQ(scene.notes, std::vector<std::string>{"left out 4 lines that their alphaCutoff makes invisible"});
 }
 
 TEST_F(GltfMarks, LinesMustUseVerticesThatExist) {

@@ -222,12 +222,9 @@ TEST_F(ReadGltf, PointsAndWhatHasNoPositionsAreSkippedAndCounted) {
     parts.meshes = R"([{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}, {"mode": 0, "attributes": {"POSITION": 0}},
                       {"attributes": {"NORMAL": 0}}, {"attributes": {"POSITION": 0}, "indices": 1}]}])";
     const Model model = read_as_model(parts);
+    const std::string path = folder_.path() + "/part.gltf";
     EXPECT_EQ(model.skipped_primitives, 3u);
-    ASSERT_EQ(model.left_out.size(), 2u);
-    EXPECT_EQ(model.left_out[0].what, "primitives of points");
-    EXPECT_EQ(model.left_out[0].count, 2u);
-    EXPECT_EQ(model.left_out[1].what, "primitives without positions");
-    EXPECT_EQ(model.left_out[1].count, 1u);
+    EXPECT_EQ(model.notes, (std::vector<std::string>{path + ": left out 2 primitives of points", path + ": left out 1 primitive without positions"}));
     EXPECT_EQ(model.meshes[0].triangles.size(), 2u);
 }
 
