@@ -64,8 +64,8 @@ SurfaceOrder SurfaceSet::compare(SurfaceId s, SurfaceId t, const glm::dvec2* pla
     // A thin sheet has two sides. Bodies that are flush with each other may be wound either way.
     const bool s_faces_eye = faces_eye(projection, corners_s), t_faces_eye = faces_eye(projection, corners_t);
     const bool face_alike = s_faces_eye == t_faces_eye;
-    if (are_wound_alike(mesh_of(s), s.triangle, t.triangle)) return face_alike ? order : exact;
     const BodySides& sides = *instance_of(s).body_sides;
+    if (sides.are_same(s.triangle, t.triangle)) return face_alike ? order : exact;
     const int of_s = sides.of(s.triangle), of_t = sides.of(t.triangle);
     const bool are_on_one_side = of_s == 0 || of_t == 0 ? face_alike : (s_faces_eye ? of_s : -of_s) == (t_faces_eye ? of_t : -of_t);
     return are_on_one_side ? order : exact;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_set>
 
 namespace burin {
 namespace {
@@ -54,22 +55,44 @@ std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
     return sides;
 }
 
-bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
-    constexpr std::size_t kMost = 64;
-    std::array<std::uint32_t, kMost> near;  // wound as the first one
+bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::size_t most) {
+    constexpr std::size_t kFew = 64;
+    std::array<std::uint32_t, kFew> few;  // wound as the first one
+    std::vector<std::uint32_t> all;       // these and all else, once they are more
+    std::unordered_set<std::uint32_t> known;
     std::size_t count = 0;
-    near[count++] = a;
+    const auto add = [&](std::uint32_t t) {
+        if (count < kFew) {
+            if (std::find(few.data(), few.data() + count, t) == few.data() + count) few[count++] = t;
+            return;
+        }
+        if (all.empty()) {
+            all.assign(few.begin(), few.end());
+            known.insert(few.begin(), few.end());
+        }
+        if (!known.insert(t).second) return;
+        all.push_back(t);
+        ++count;
+    };
+    add(a);
     for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t t = near[i];
+        const std::uint32_t t = i < kFew ? few[i] : all[i];
         if (t == b) return true;
         for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
             const HalfEdge g = mesh.next_on_edge[h];
             const bool is_alike = g != h && mesh.next_on_edge[g] == h && mesh.triangles[g / 3][g % 3] != mesh.triangles[t][h - 3 * t];
-            const bool is_known = std::find(near.data(), near.data() + count, g / 3) != near.data() + count;
-            if (is_alike && !is_known && count < kMost) near[count++] = g / 3;
+            if (is_alike && count < most) add(g / 3);
         }
     }
     return false;
+}
+
+bool BodySides::are_same(std::uint32_t a, std::uint32_t b) const {
+    if (are_wound_alike(mesh_, a, b)) return true;
+    // A few long ways are less work than the whole mesh.
+    constexpr std::size_t kMost = 4096;
+    if (visited_.fetch_add(kMost, std::memory_order_relaxed) < mesh_.triangles.size() / 4 && are_wound_alike(mesh_, a, b, kMost)) return true;
+    return of(a) == of(b);
 }
 
 }  // namespace burin

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <vector>
@@ -17,8 +19,8 @@ namespace burin {
 std::vector<std::int8_t> find_body_sides(const Mesh& mesh);
 
 /// Whether two triangles are near each other on one body, and wound alike: then its side is the same for both. False also
-/// where more than a few triangles lie between them.
-bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b);
+/// where `b` is not among the `most` first triangles that are met from `a`.
+bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::size_t most = 64);
 
 /// find_body_sides() of a mesh that stays, found when it is first asked for, by whichever thread.
 class BodySides {
@@ -29,8 +31,12 @@ class BodySides {
         return sides_[triangle];
     }
 
+    /// Whether the side is the same for both. Where the way from one to the other is short, no other triangle is looked at.
+    bool are_same(std::uint32_t a, std::uint32_t b) const;
+
   private:
     const Mesh& mesh_;
+    mutable std::atomic<std::size_t> visited_ = 0;  // triangles on long ways
     mutable std::once_flag is_found_;
     mutable std::vector<std::int8_t> sides_;
 };

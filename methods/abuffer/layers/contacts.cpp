@@ -113,9 +113,9 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
             if (rises_in_front(surfaces, own, FacePlane(surfaces, other))) return false;
             continue;
         }
-        if (on_one_side && side_of_body(own) != side_of_body(other)) return false;
         if (!(contact_classes(surfaces, own, other, place, criteria) & criteria.classes).empty()) return false;
         if (laps_narrowly(line, own, {other, covered}, middle)) return false;
+        if (on_one_side && !have_bodies_on_one_side(own, other)) return false;
         is_any_flush = true;
     }
     return is_any_flush;
@@ -160,12 +160,18 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
     return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
 }
 
-/// On which side of a face its body is: 1 = towards the eye, -1 = away from it, 0 = it is a sheet.
-int Contacts::side_of_body(SurfaceId s) const {
-    const SurfaceInstance& instance = screen_.surfaces().instance_of(s);
-    const bool is_mirrored = glm::determinant(glm::dmat3(instance.to_view)) < 0;
-    const int side = instance.body_sides->of(s.triangle);
-    return FacePlane(screen_.surfaces(), s).is_counterclockwise != is_mirrored ? side : -side;
+/// Whether the bodies of two faces are both towards the eye, both away from it, or both faces are sheets. Of faces near each other
+/// on one surface this is told without looking at their whole body.
+bool Contacts::have_bodies_on_one_side(SurfaceId a, SurfaceId b) const {
+    const SurfaceSet& surfaces = screen_.surfaces();
+    const auto faces_eye = [&](SurfaceId s) {
+        const bool is_mirrored = glm::determinant(glm::dmat3(surfaces.instance_of(s).to_view)) < 0;
+        return FacePlane(surfaces, s).is_counterclockwise != is_mirrored;
+    };
+    const bool faces_alike = faces_eye(a) == faces_eye(b);
+    if (faces_alike && a.instance == b.instance && surfaces.instance_of(a).body_sides->are_same(a.triangle, b.triangle)) return true;
+    const auto side = [&](SurfaceId s) -> int { return surfaces.instance_of(s).body_sides->of(s.triangle); };
+    return side(a) == (faces_alike ? side(b) : -side(b));
 }
 
 /// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place. Of what is cut,

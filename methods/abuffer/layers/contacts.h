@@ -43,7 +43,7 @@ class Contacts {
                                              double level) const;
     std::optional<glm::dvec2> place_beside(SurfaceId s, std::uint32_t owner, glm::dvec2 at) const;
     bool laps_narrowly(const LayerLine& line, SurfaceId own, const FacePlace& other, glm::dvec2 middle) const;
-    int side_of_body(SurfaceId s) const;
+    bool have_bodies_on_one_side(SurfaceId a, SurfaceId b) const;
     enum class Over { any_edge, plain_edges };
     std::optional<LayerTriangle> what_covers(glm::dvec2 place, const LayerTriangle& t, Over over, const LineCriteria* criteria = nullptr) const;
     std::optional<LayerTriangle> what_covers_in_plane(glm::dvec2 place, SurfaceId own, HalfEdge h, const LineCriteria& criteria) const;
