@@ -183,29 +183,22 @@ void FineBlocks::add_large(const LargePolygon& large) {
     add(triangle, box, std::span(corners).first(count));
 }
 
-/// It may fill the tile, or cross it and touch few of the blocks in its box.
 void FineBlocks::add(const CrossedTriangle& triangle, const Box& box, std::span<const PolygonRows::Corner> corners) {
-    const int x0 = grid_.at(box.x0 - kReach) - first_x_, x1 = grid_.at(box.x1 + kReach) - first_x_;
-    const int y0 = grid_.at(box.y0 - kReach) - first_y_, y1 = grid_.at(box.y1 + kReach) - first_y_;
-    const int left = std::max(x0, 0), right = std::min(x1, columns_ - 1), top = std::max(y0, 0), bottom = std::min(y1, rows_ - 1);
-    const bool fills_box = x0 == x1 || y0 == y1;
-    const PolygonRows rows(corners);
-    constexpr int kAround = kReach + 1;  // with rounding
-    for (int y = top; y <= bottom; ++y) {
-        int first = left, last = right;
-        if (!fills_box) {
-            const PolygonRows::Range range = rows.between(grid_.begin(first_y_ + y) - kAround, grid_.begin(first_y_ + y + 1) + kAround);
-            if (range.is_empty()) continue;
-            first = std::max(left, grid_.at(static_cast<int>(std::floor(range.low)) - kAround) - first_x_);
-            last = std::min(right, grid_.at(static_cast<int>(std::ceil(range.high)) + kAround) - first_x_);
-        }
-        for (int x = first; x <= last; ++x) add_to_block(triangle, box, x, y);
+    const int left = grid_.at(box.x0 - kReach) - first_x_, right = grid_.at(box.x1 + kReach) - first_x_;
+    const int top = grid_.at(box.y0 - kReach) - first_y_, bottom = grid_.at(box.y1 + kReach) - first_y_;
+    const bool fills_box = left == right || top == bottom;
+    // A long one touches few of the blocks in its box.
+    const auto touches = [&](glm::ivec2 block) {
+        constexpr int kAround = kReach + 1;  // with rounding
+        const int y = first_y_ + block.y, x = first_x_ + block.x;
+        const PolygonRows::Range range = PolygonRows(corners).between(grid_.begin(y) - kAround, grid_.begin(y + 1) + kAround);
+        return range.low - kAround <= grid_.begin(x + 1) && range.high + kAround >= grid_.begin(x);
+    };
+    for (std::size_t i = 0; i < count_; ++i) {
+        const glm::ivec2 at = places_[i];
+        const bool is_in_box = at.x >= left && at.x <= right && at.y >= top && at.y <= bottom;
+        if (is_in_box && hides_something(box, triangle.highest, at.x, at.y) && (fills_box || touches(at))) triangles_[i].push_back(triangle);
     }
-}
-
-void FineBlocks::add_to_block(const CrossedTriangle& triangle, const Box& box, int block_x, int block_y) {
-    const std::uint32_t index = index_[block_at(block_x, block_y)];
-    if (index != kNone && hides_something(box, triangle.highest, block_x, block_y)) triangles_[index].push_back(triangle);
 }
 
 bool FineBlocks::hides_something(const Box& box, float highest, int block_x, int block_y) const {

@@ -69,7 +69,6 @@ class FineBlocks {
     void add_large(const LargePolygon& large);
     void sort_triangles(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count);
     void add(const CrossedTriangle& triangle, const Box& box, std::span<const PolygonRows::Corner> corners);
-    void add_to_block(const CrossedTriangle& triangle, const Box& box, int block_x, int block_y);
     bool hides_something(const Box& box, float highest, int block_x, int block_y) const;
 
     const ScreenSurfaces& screen_;
