@@ -25,8 +25,8 @@ struct SampleView {
     Contest* contests;
     std::uint32_t* contest_count;
     std::uint32_t contest_capacity;
-    /// Per sample the nearness and the id of the last loser that is of interest: one that is farther, or as near with a larger id,
-    /// is not noted. nullptr: all are.
+    /// Per sample the nearness and the id of the last loser that is of interest: one that is
+    /// farther, or as near with a larger id, is not noted. nullptr: all are.
     const float* last_nearness = nullptr;
     const std::uint32_t* last_ids = nullptr;
 };

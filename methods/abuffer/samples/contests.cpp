@@ -10,7 +10,8 @@ namespace burin {
 
 namespace {
 
-/// Near ones first, of equally near ones the one with the smaller number. Ids have a bit more, which does not count.
+/// Near ones first, of equally near ones the one with the smaller number. Ids have a bit more,
+/// which does not count.
 bool is_nearer(const Contest& a, const Contest& b) {
     return a.nearness != b.nearness ? a.nearness > b.nearness : a.loser >> 1 < b.loser >> 1;
 }
@@ -40,10 +41,12 @@ void Contests::keep_nearest() {
     for (std::uint32_t i = 0; i < count_; ++i) ++first_of_sample_[noted_[i].sample + 1];
     std::partial_sum(first_of_sample_.begin(), first_of_sample_.end(), first_of_sample_.begin());
     by_sample_.resize(noted_.size());
-    for (std::uint32_t i = 0; i < count_; ++i) by_sample_[first_of_sample_[noted_[i].sample]++] = noted_[i];  // up to where they end
+    for (std::uint32_t i = 0; i < count_; ++i)
+        by_sample_[first_of_sample_[noted_[i].sample]++] = noted_[i];  // up to where they end
     auto kept = noted_.begin();
     for (auto begin = by_sample_.begin(); begin != by_sample_.begin() + count_;) {
-        const auto end = by_sample_.begin() + first_of_sample_[begin->sample], end_of_nearest = select_nearest(begin, end);
+        const auto end = by_sample_.begin() + first_of_sample_[begin->sample],
+                   end_of_nearest = select_nearest(begin, end);
         if (end_of_nearest - begin == static_cast<std::ptrdiff_t>(kMostAtSample)) {
             const Contest& last = *std::max_element(begin, end_of_nearest, is_nearer);
             last_nearness_[last.sample] = last.nearness;
@@ -70,14 +73,18 @@ void Contests::settle(SampleTile& samples) {
     const auto end_of_open = std::remove_if(noted_.begin(), noted_.begin() + count_,
                                             [&](const Contest& c) { return is_open_[c.sample] == 0; });
     // After keep_nearest() those of a sample follow each other.
-    const auto is_before = [](const Contest& a, const Contest& b) { return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser); };
+    const auto is_before = [](const Contest& a, const Contest& b) {
+        return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser);
+    };
     if (!is_selecting_) std::sort(noted_.begin(), end_of_open, is_before);
     for (auto begin = noted_.begin(), end = begin; begin != end_of_open; begin = end) {
         const std::uint32_t sample = begin->sample;
         std::uint32_t winner = samples.ids[sample] >> 1;
         while (end != end_of_open && end->sample == sample) ++end;
         const auto end_of_nearest = select_nearest(begin, end);
-        if (end_of_nearest != end || is_selecting_) std::sort(begin, end_of_nearest, [](const Contest& a, const Contest& b) { return a.loser < b.loser; });
+        if (end_of_nearest != end || is_selecting_)
+            std::sort(begin, end_of_nearest,
+                      [](const Contest& a, const Contest& b) { return a.loser < b.loser; });
         const auto for_losers = [&](const auto& wins) {  // in the order of their numbers
             for (auto contest = begin; contest != end_of_nearest; ++contest) {
                 const std::uint32_t loser = contest->loser >> 1;

@@ -15,11 +15,11 @@ namespace burin {
 /// Samples of a tile where surfaces are level, noted while they are drawn, and which of them is seen. Buffers are used again.
 class Contests {
   public:
-    /// Where more are level with what is seen at a sample, the nearest of them take part, and of equally near ones the first.
-    /// Six were the most in all scenes and models tried.
+    /// Where more are level with what is seen at a sample, the nearest of them take part, and of
+    /// equally near ones the first. Six were the most in all scenes and models tried.
     static constexpr std::size_t kMostAtSample = 32;
-    /// So many of a tile are noted before they are selected, unless more are allowed: 3 MB. While they are selected, 13 MB, and as
-    /// much again to sort them.
+    /// So many of a tile are noted before they are selected, unless more are allowed: 3 MB. While
+    /// they are selected, 13 MB, and as much again to sort them.
     static constexpr std::size_t kMostNoted = std::size_t{1} << 18;
 
     explicit Contests(const ScreenSurfaces& screen, std::size_t most = kMostNoted) : screen_(screen), most_(most), noted_(std::min(std::size_t{1} << 14, most)) {}
@@ -29,7 +29,8 @@ class Contests {
         count_ = 0;
         is_selecting_ = false;
     }
-    /// The same of a tile with so many samples where that are too many: from now on those that take part are kept.
+    /// The same of a tile with so many samples where that are too many: from now on those that take
+    /// part are kept.
     void begin_selecting(std::size_t sample_count);
     bool is_selecting() const { return is_selecting_; }
     std::size_t count() const { return count_; }
@@ -56,8 +57,9 @@ class Contests {
     }
     /// How many more there is room for.
     std::size_t room_left() const { return noted_.size() - count_; }
-    /// While it is selecting, per sample: the nearness of the last one that takes part, if there are kMostAtSample; else minus
-    /// infinity. What is farther can neither be seen nor take part. And its id.
+    /// While it is selecting, per sample: the nearness of the last one that takes part, if there
+    /// are kMostAtSample; else minus infinity. What is farther can neither be seen nor take part.
+    /// And its id.
     const float* last_nearness() const { return last_nearness_.data(); }
     const std::uint32_t* last_ids() const { return last_ids_.data(); }
     /// On the edge of a surface that ends at another one, and where two faces fold over, both are level, and rounding says which
@@ -86,7 +88,7 @@ class Contests {
     bool is_selecting_ = false;
     std::vector<float> last_nearness_;
     std::vector<std::uint32_t> last_ids_;
-    std::vector<Contest> by_sample_;            // room to sort in
+    std::vector<Contest> by_sample_;  // room to sort in
     std::vector<std::uint32_t> first_of_sample_;
     std::vector<std::uint8_t> is_open_;  // per sample: whether a loser may win after all
     std::vector<Relation> relations_;    // some that are known, by a hash

@@ -79,10 +79,12 @@ void SurfaceTile::draw_all() {
     draw_runs(!large_.empty());
 }
 
-bool SurfaceTile::is_in_vain() const { return contests_.are_too_many() && !contests_.has_room(); }
+bool SurfaceTile::is_in_vain() const {
+    return contests_.are_too_many() && !contests_.has_room();
+}
 
-/// What cannot be seen, by what was drawn so far, and is not level with what is; where there is enough that is level, what is
-/// farther than all that.
+/// What cannot be seen, by what was drawn so far, and is not level with what is; where there is
+/// enough that is level, what is farther than all that.
 void SurfaceTile::find_farthest() {
     SampleView samples = view();
     if (contests_.is_selecting()) {
@@ -91,8 +93,10 @@ void SurfaceTile::find_farthest() {
         for (std::size_t i = 0; i < left_out_.size(); ++i) {
             left_out_[i] = samples_.nearness[i];
             if (!(last[i] > -std::numeric_limits<float>::infinity())) continue;
-            // What is farther than the last one is less near than this, in either way that it is asked.
-            const float level = std::min(highest_level_with(last[i], samples), highest_level_with_hidden(last[i]));
+            // What is farther than the last one is less near than this, in either way that it is
+            // asked.
+            const float level =
+                std::min(highest_level_with(last[i], samples), highest_level_with_hidden(last[i]));
             left_out_[i] = std::max(left_out_[i], level);
         }
         samples.nearness = left_out_.data();
@@ -189,7 +193,8 @@ void SurfaceTile::order_large_ones(std::size_t tile) {
 }
 
 void SurfaceTile::draw_large_ones() {
-    const int worth_a_look = samples_.columns * samples_.rows / 2 * (contests_.is_selecting() ? 8 : 1);  // it takes longer then
+    const int worth_a_look = samples_.columns * samples_.rows / 2 *
+                             (contests_.is_selecting() ? 8 : 1);  // it takes longer then
     int since_look = 0;
     bool has_look = false;
     const SampleView samples = view();
@@ -201,7 +206,8 @@ void SurfaceTile::draw_large_ones() {
             since_look = 0;
             has_look = true;
         }
-        if (is_in_vain() || highest_level_with(placed.highest, samples) < farthest) break;  // and so are all that come
+        if (is_in_vain() || highest_level_with(placed.highest, samples) < farthest)
+            break;  // and so are all that come
         const LargePolygon& large = bins_.large(placed.number);
         since_look += draw_large(large, screen_.is_plain(large.plane.id >> 1), has_look);
     }
@@ -264,7 +270,8 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
         }
         const int least = std::max(first_column, begin << kBlockShift), most = std::min(end_column, end << kBlockShift);
         if (least >= most) continue;
-        if (contests_.is_selecting()) contests_.make_room_for(static_cast<std::size_t>(kBlockSamples * samples_.stride));
+        if (contests_.is_selecting())
+            contests_.make_room_for(static_cast<std::size_t>(kBlockSamples * samples_.stride));
         if (scan.fits_doubles()) {
             drawn += kernels_.draw_polygon(tile, scan.edges().data(), scan.edges().size(), {least, first_row, most, end_row}, plane);
             continue;

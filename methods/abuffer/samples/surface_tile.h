@@ -39,7 +39,9 @@ class SurfaceTile {
     bool is_in_vain() const;
     void find_farthest();
     /// As find_nearer() has it.
-    float highest_level_with_hidden(float nearness) const { return nearness + (nearness * hidden_level_per_nearness_ + hidden_level_); }
+    float highest_level_with_hidden(float nearness) const {
+        return nearness + (nearness * hidden_level_per_nearness_ + hidden_level_);
+    }
     void draw_runs(bool is_worth_a_look);
     void find_seen(const TriangleRun& run, bool has_look);
     void draw_seen();
@@ -73,8 +75,10 @@ class SurfaceTile {
         float highest;         // its plane, in the tile
     };
     std::vector<PlacedPolygon> large_;  // in the order of drawing
-    std::vector<float> farthest_;       // per block of samples: what is less near by more than what is level can be left out
-    std::vector<float, CacheLineAllocator<float>> left_out_;  // the same per sample, where much is level
+    std::vector<float> farthest_;  // per block of samples: what is less near by more than what is
+                                   // level can be left out
+    std::vector<float, CacheLineAllocator<float>>
+        left_out_;  // the same per sample, where much is level
     std::uint64_t drawn_ = 0;
 };
 
