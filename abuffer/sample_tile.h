@@ -41,12 +41,6 @@ struct SampleTile {
         fill(nearness, size, -std::numeric_limits<float>::infinity());
         fill(ids, size, kBackground);
     }
-    /// Some rows as after reset(), and as many more as kernels may write.
-    void clear_rows(int begin, int end) {
-        const auto from = static_cast<std::ptrdiff_t>(begin) * stride, to = static_cast<std::ptrdiff_t>(end + kPadding) * stride;
-        std::fill(nearness.begin() + from, nearness.begin() + to, -std::numeric_limits<float>::infinity());
-        std::fill(ids.begin() + from, ids.begin() + to, kBackground);
-    }
     /// Block after block as a copy of the first one: memcpy() has wider vectors than what is compiled here.
     template <typename List>
     static void fill(List& list, std::size_t size, const typename List::value_type& value) {

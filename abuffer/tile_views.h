@@ -11,6 +11,7 @@ namespace burin {
 struct Contest {
     std::uint32_t sample;  ///< index in the tile
     std::uint32_t loser;   ///< id
+    float nearness;        ///< the loser's
 };
 
 /// A SampleTile as the kernels see it.
@@ -24,6 +25,10 @@ struct SampleView {
     Contest* contests;
     std::uint32_t* contest_count;
     std::uint32_t contest_capacity;
+    /// Per sample the nearness and the id of the last loser that is of interest: one that is
+    /// farther, or as near with a larger id, is not noted. nullptr: all are.
+    const float* last_nearness = nullptr;
+    const std::uint32_t* last_ids = nullptr;
 };
 
 /// Nearness of a polygon of any size: `nearness` at the position (x, y) in 1/256 pixel, changes per

@@ -23,6 +23,7 @@
 #include "methods/gbuffer.h"
 #include "methods/patel.h"
 #include "render/close_cracks.h"
+#include "render/copied_objects.h"
 #include "render/output.h"
 
 namespace burin {
@@ -395,6 +396,7 @@ void run_render(const Arguments& a) {
     Scene scene = load_input(a, outputs);
     const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
     const Camera camera = camera_of(scene, a);
+    empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     if (method.name == "abuffer") prepare_for_abuffer(scene, a.threads, a.memory_bytes > 0);
     const Frame frame = frame_of(scene, camera, a);
@@ -468,6 +470,7 @@ void run_explain(const Arguments& a) {
     }
     Scene scene = load_input(a);
     const Camera camera = camera_of(scene, a);
+    empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     const Frame frame = frame_of(scene, camera, a);
     const auto [x, y] = *a.pixel;

@@ -10,6 +10,7 @@
 #include "compare/run_comparison.h"
 #include "compare/truth.h"
 #include "render/close_cracks.h"
+#include "render/copied_objects.h"
 
 namespace burin {
 namespace {
@@ -102,6 +103,7 @@ void run_compare(const Arguments& a) {
     View view;
     {
         const Camera camera = camera_of(scene, a);
+        empty_copied_objects(scene);
         close_cracks(scene, camera, scene.picture.width, scene.picture.height);
         const Frame frame = frame_of(scene, camera, a);
         view = {frame.camera, frame.width, frame.height, frame.crop};

@@ -79,7 +79,7 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
     std::vector<bool> is_in_pile(sides.segments().size());
     std::size_t asked = 0;
     for (const std::uint32_t i : sides.mesh().borders.by_place()) {
-        if ((asked++ & 0xFFF) == 0) throw_if_interrupted();
+        if ((asked++ & 0xF) == 0) throw_if_interrupted();
         const double widest = sides.widest(i, sides.length(i));
         if (!(widest > 0)) continue;
         const Segment& s = sides.segments()[i];

@@ -136,7 +136,7 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
     std::vector<std::uint32_t> near;
     std::size_t asked = 0;
     for (const std::uint32_t i : mesh.borders.by_place()) {
-        if ((asked++ & 0xFFF) == 0) throw_if_interrupted();
+        if ((asked++ & 0xF) == 0) throw_if_interrupted();
         find_cuts(sides, corners, i, near, cuts);
         if (cuts.size() > most_cuts) return std::nullopt;
     }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "abuffer/sample_tile.h"
 #include "abuffer/scan_convert.h"
@@ -149,6 +150,51 @@ TEST(TileKernels, WhatIsLevelHangsOnNoOrder) {
     }
     EXPECT_GT(plain, 100);
     EXPECT_GT(level, 100);
+}
+
+/// Losers that are farther than the last one of interest, or as near with a larger id, are not
+/// noted; the winner is no longer plain all the same.
+TEST(TileKernels, LosersBehindTheLastOneAreNotNoted) {
+    constexpr int kColumns = 8;
+    const std::vector<float> nearness(kColumns, 1.0f);
+    for (const TileKernels* kernels : all_kernels()) {
+        for (const auto& [loser, id, is_noted] :
+             {std::tuple(1.01f, 40u, true), std::tuple(1.0f, 20u, true),
+              std::tuple(1.0f, 22u, false), std::tuple(0.99f, 4u, false)}) {
+            for (const bool loser_is_first : {false, true}) {
+                SampleTile tile;
+                tile.reset(0, 0, kColumns, 1, 2);
+                std::vector<Contest> contests(64);
+                std::uint32_t contest_count = 0;
+                // Samples without a last one note all.
+                std::vector<float> last(tile.ids.size(), -std::numeric_limits<float>::infinity());
+                std::copy(nearness.begin(), nearness.end() - 1, last.begin());
+                const std::vector<std::uint32_t> last_ids(tile.ids.size(), 21);
+                SampleView view = view_of(tile);
+                view.level = 0.1f;
+                view.contests = contests.data();
+                view.contest_count = &contest_count;
+                view.contest_capacity = static_cast<std::uint32_t>(contests.size());
+                view.last_nearness = last.data();
+                view.last_ids = last_ids.data();
+                const auto plane_of = [](float z, std::uint32_t plane_id) {
+                    return SpanPlane{0, 0, z, 0, 0, z, z, plane_id};
+                };
+                const SpanPlane far = plane_of(loser, id), near = plane_of(1.05f, 31);
+                kernels->draw_span(view, 0, 0, kColumns, loser_is_first ? far : near);
+                kernels->draw_span(view, 0, 0, kColumns, loser_is_first ? near : far);
+                ASSERT_EQ(contest_count, is_noted ? 8u : 1u)
+                    << kernels->name << " " << loser << " " << id;
+                for (std::uint32_t i = 0; i < contest_count; ++i) {
+                    EXPECT_EQ(contests[i].loser, id);
+                    EXPECT_EQ(contests[i].nearness, loser);
+                    EXPECT_EQ(contests[i].sample, is_noted ? i : 7u);
+                }
+                for (int i = 0; i < kColumns; ++i)
+                    EXPECT_EQ(tile.ids[static_cast<std::size_t>(i)], 30u);
+            }
+        }
+    }
 }
 
 TEST(TileKernels, EdgesThatMayBeLinesAreFound) {

@@ -2,16 +2,68 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace burin {
 
-void Contests::settle(SampleTile& samples, std::size_t end_of_samples) {
+namespace {
+
+/// Near ones first, of equally near ones the one with the smaller number. Ids have a bit more,
+/// which does not count.
+bool is_nearer(const Contest& a, const Contest& b) {
+    return a.nearness != b.nearness ? a.nearness > b.nearness : a.loser >> 1 < b.loser >> 1;
+}
+
+/// Leaves those of one sample that take part, in no order. Returns where they end.
+template <typename Iterator>
+Iterator select_nearest(Iterator begin, Iterator end) {
+    constexpr auto kMost = static_cast<std::ptrdiff_t>(Contests::kMostAtSample);
+    if (end - begin <= kMost) return end;
+    std::nth_element(begin, begin + (kMost - 1), end, is_nearer);
+    return begin + kMost;
+}
+
+}  // namespace
+
+void Contests::begin_selecting(std::size_t sample_count) {
+    count_ = 0;
+    is_selecting_ = true;
+    noted_.resize(std::max({noted_.size(), most_, 2 * kMostAtSample * sample_count}));
+    last_nearness_.assign(sample_count, -std::numeric_limits<float>::infinity());
+    last_ids_.assign(sample_count, ~0u);
+}
+
+/// Forgets those that take no part.
+void Contests::keep_nearest() {
+    first_of_sample_.assign(last_ids_.size() + 1, 0);
+    for (std::uint32_t i = 0; i < count_; ++i) ++first_of_sample_[noted_[i].sample + 1];
+    std::partial_sum(first_of_sample_.begin(), first_of_sample_.end(), first_of_sample_.begin());
+    by_sample_.resize(noted_.size());
+    for (std::uint32_t i = 0; i < count_; ++i)
+        by_sample_[first_of_sample_[noted_[i].sample]++] = noted_[i];  // up to where they end
+    auto kept = noted_.begin();
+    for (auto begin = by_sample_.begin(); begin != by_sample_.begin() + count_;) {
+        const auto end = by_sample_.begin() + first_of_sample_[begin->sample],
+                   end_of_nearest = select_nearest(begin, end);
+        if (end_of_nearest - begin == static_cast<std::ptrdiff_t>(kMostAtSample)) {
+            const Contest& last = *std::max_element(begin, end_of_nearest, is_nearer);
+            last_nearness_[last.sample] = last.nearness;
+            last_ids_[last.sample] = last.loser | 1;
+        }
+        kept = std::copy(begin, end_of_nearest, kept);
+        begin = end;
+    }
+    count_ = static_cast<std::uint32_t>(kept - noted_.begin());
+}
+
+void Contests::settle(SampleTile& samples) {
+    if (is_selecting_) keep_nearest();
     // Mostly nothing is to be done: those of samples where nothing takes the winner's place are left out.
     if (is_open_.size() < samples.ids.size()) is_open_.assign(samples.ids.size(), 0);
     bool has_open = false;
     for (std::uint32_t i = 0; i < count_; ++i) {
-        if (noted_[i].sample >= end_of_samples) continue;
         const std::uint32_t winner = samples.ids[noted_[i].sample] >> 1, loser = noted_[i].loser >> 1;
         if (loser == winner || !relation(loser, winner).any()) continue;
         is_open_[noted_[i].sample] = 1;
@@ -20,15 +72,21 @@ void Contests::settle(SampleTile& samples, std::size_t end_of_samples) {
     if (!has_open) return;
     const auto end_of_open = std::remove_if(noted_.begin(), noted_.begin() + count_,
                                             [&](const Contest& c) { return is_open_[c.sample] == 0; });
-    std::sort(noted_.begin(), end_of_open, [](const Contest& a, const Contest& b) {
+    // After keep_nearest() those of a sample follow each other.
+    const auto is_before = [](const Contest& a, const Contest& b) {
         return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser);
-    });
+    };
+    if (!is_selecting_) std::sort(noted_.begin(), end_of_open, is_before);
     for (auto begin = noted_.begin(), end = begin; begin != end_of_open; begin = end) {
         const std::uint32_t sample = begin->sample;
         std::uint32_t winner = samples.ids[sample] >> 1;
         while (end != end_of_open && end->sample == sample) ++end;
+        const auto end_of_nearest = select_nearest(begin, end);
+        if (end_of_nearest != end || is_selecting_)
+            std::sort(begin, end_of_nearest,
+                      [](const Contest& a, const Contest& b) { return a.loser < b.loser; });
         const auto for_losers = [&](const auto& wins) {  // in the order of their numbers
-            for (auto contest = begin; contest != end; ++contest) {
+            for (auto contest = begin; contest != end_of_nearest; ++contest) {
                 const std::uint32_t loser = contest->loser >> 1;
                 if (loser == winner || !wins(loser)) continue;
                 winner = loser;

@@ -15,12 +15,24 @@ namespace burin {
 /// Samples of a tile where surfaces are level, noted while they are drawn, and which of them is seen. Buffers are used again.
 class Contests {
   public:
-    /// So many are noted at a time, unless more are allowed: 32 MB.
-    static constexpr std::size_t kMostNoted = std::size_t{1} << 22;
+    /// Where more are level with what is seen at a sample, the nearest of them take part, and of
+    /// equally near ones the first. Six were the most in all scenes and models tried.
+    static constexpr std::size_t kMostAtSample = 32;
+    /// So many of a tile are noted before they are selected, unless more are allowed: 3 MB. While
+    /// they are selected, 13 MB, and as much again to sort them.
+    static constexpr std::size_t kMostNoted = std::size_t{1} << 18;
 
     explicit Contests(const ScreenSurfaces& screen, std::size_t most = kMostNoted) : screen_(screen), most_(most), noted_(std::min(std::size_t{1} << 14, most)) {}
 
-    void clear() { count_ = 0; }
+    /// Before a tile is drawn. All that are level are noted.
+    void clear() {
+        count_ = 0;
+        is_selecting_ = false;
+    }
+    /// The same of a tile with so many samples where that are too many: from now on those that take
+    /// part are kept.
+    void begin_selecting(std::size_t sample_count);
+    bool is_selecting() const { return is_selecting_; }
     std::size_t count() const { return count_; }
     std::size_t room() const { return noted_.size(); }
     /// Where kernels note them.
@@ -28,6 +40,8 @@ class Contests {
         view.contests = noted_.data();
         view.contest_count = &count_;
         view.contest_capacity = static_cast<std::uint32_t>(noted_.size());
+        view.last_nearness = is_selecting_ ? last_nearness_.data() : nullptr;
+        view.last_ids = is_selecting_ ? last_ids_.data() : nullptr;
     }
     bool has_room() const { return count_ <= noted_.size(); }
     /// Whether there are more than are to be noted at a time.
@@ -37,14 +51,20 @@ class Contests {
         noted_ = {};
         noted_.resize(std::size_t{count_} + count_ / 8);
     }
-    /// Those from `first` on were noted in a view that begins with the sample `offset`.
-    void move_from(std::size_t first, std::size_t offset) {
-        for (std::size_t i = first; i < std::min(std::size_t{count_}, noted_.size()); ++i) noted_[i].sample += static_cast<std::uint32_t>(offset);
+    /// While it is selecting: room for so many more, at most as many as the tile has samples.
+    void make_room_for(std::size_t more) {
+        if (count_ + more > noted_.size()) keep_nearest();
     }
+    /// How many more there is room for.
+    std::size_t room_left() const { return noted_.size() - count_; }
+    /// While it is selecting, per sample: the nearness of the last one that takes part, if there
+    /// are kMostAtSample; else minus infinity. What is farther can neither be seen nor take part.
+    /// And its id.
+    const float* last_nearness() const { return last_nearness_.data(); }
+    const std::uint32_t* last_ids() const { return last_ids_.data(); }
     /// On the edge of a surface that ends at another one, and where two faces fold over, both are level, and rounding says which
     /// is seen. Of those the one in front wins, and of coincident surfaces the first one, as in resolve_visibility().
-    /// Only of samples before `end`.
-    void settle(SampleTile& samples, std::size_t end);
+    void settle(SampleTile& samples);
 
   private:
     /// How a triangle that is level with what is seen lies to it.
@@ -55,6 +75,7 @@ class Contests {
         bool comes_first = false;  // they coincide, and it is the first one
         bool any() const { return is_in_front || folds_over || comes_first; }
     };
+    void keep_nearest();
     const Relation& relation(std::uint32_t loser, std::uint32_t winner);
     bool is_fold_over(std::uint32_t front, std::uint32_t back) const;
     bool may_be_in_front(std::uint32_t front, std::uint32_t back) const;
@@ -64,6 +85,11 @@ class Contests {
     std::size_t most_;
     std::vector<Contest> noted_;
     std::uint32_t count_ = 0;
+    bool is_selecting_ = false;
+    std::vector<float> last_nearness_;
+    std::vector<std::uint32_t> last_ids_;
+    std::vector<Contest> by_sample_;  // room to sort in
+    std::vector<std::uint32_t> first_of_sample_;
     std::vector<std::uint8_t> is_open_;  // per sample: whether a loser may win after all
     std::vector<Relation> relations_;    // some that are known, by a hash
     std::size_t forgotten_ = 0;          // how often one took another's place

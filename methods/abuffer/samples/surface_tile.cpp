@@ -49,64 +49,60 @@ SampleView SurfaceTile::view() {
     return view;
 }
 
-/// The rows that are drawn, as a tile of their own.
-SampleView SurfaceTile::view_of_rows() {
-    SampleView view = this->view();
-    view.nearness += offset_of_rows();
-    view.ids += offset_of_rows();
-    view.first_row += first_row_;
-    view.rows = end_row_ - first_row_;
-    return view;
-}
-
 void SurfaceTile::draw(std::size_t tile) {
     rect_ = bins_.tile(tile);
-    samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
-                   rect_.height() * per_pixel_ + 1, per_pixel_);
     farthest_.resize(BlockTable::kSize);
+    clear_samples();
     order_large_ones(tile);
     order_runs(tile);
-    draw_rows(0, samples_.rows);
-    if (contests_.has_room()) return contests_.settle(samples_, samples_.ids.size());
-    draw_in_bands();
-}
-
-/// Some rows after the other, as many as there is room for what is level there: where surfaces lie in a heap, each of them is in
-/// every sample. The samples are the same.
-void SurfaceTile::draw_in_bands() {
-    int most_rows = samples_.rows;
-    for (int row = 0; row < samples_.rows;) {
-        if (!contests_.has_room()) {
-            if (most_rows > 1 && contests_.are_too_many()) {
-                most_rows = std::clamp(static_cast<int>(most_rows * share_looked_at()), 1, most_rows / 2);
-            } else {
-                contests_.make_room();
-            }
-        }
-        const int end = std::min(row + most_rows, samples_.rows);
-        samples_.clear_rows(row, end);
-        draw_rows(row, end);
-        if (!contests_.has_room()) continue;
-        const bool is_last = end == samples_.rows;
-        contests_.settle(samples_, is_last ? samples_.ids.size() : static_cast<std::size_t>(end) * static_cast<std::size_t>(samples_.stride));
-        row = end;
-    }
-}
-
-/// Of cleared samples. Ends early where there is no use in going on, because too many are level.
-void SurfaceTile::draw_rows(int first, int end) {
-    first_row_ = first;
-    end_row_ = end;
     contests_.clear();
-    looked_at_ = 0;
+    for (draw_all(); !contests_.has_room(); draw_all()) {
+        clear_samples();
+        if (contests_.are_too_many()) {
+            contests_.begin_selecting(samples_.ids.size());
+        } else {
+            contests_.make_room();
+            contests_.clear();
+        }
+    }
+    contests_.settle(samples_);
+}
+
+void SurfaceTile::clear_samples() {
+    samples_.reset(rect_.x0 * per_pixel_, rect_.y0 * per_pixel_, rect_.width() * per_pixel_ + 1,
+                   rect_.height() * per_pixel_ + 1, per_pixel_);
+}
+
+/// Ends early where there is no use in going on, because too many are level.
+void SurfaceTile::draw_all() {
     draw_large_ones();
     draw_runs(!large_.empty());
 }
 
-/// Of what is to be drawn, polygons and runs.
-double SurfaceTile::share_looked_at() const { return static_cast<double>(looked_at_) / static_cast<double>(large_.size() + runs_.size()); }
+bool SurfaceTile::is_in_vain() const {
+    return contests_.are_too_many() && !contests_.has_room();
+}
 
-bool SurfaceTile::is_in_vain() const { return contests_.are_too_many() && !contests_.has_room() && end_row_ - first_row_ > 1; }
+/// What cannot be seen, by what was drawn so far, and is not level with what is; where there is
+/// enough that is level, what is farther than all that.
+void SurfaceTile::find_farthest() {
+    SampleView samples = view();
+    if (contests_.is_selecting()) {
+        left_out_.resize(samples_.nearness.size());
+        const float* const last = contests_.last_nearness();
+        for (std::size_t i = 0; i < left_out_.size(); ++i) {
+            left_out_[i] = samples_.nearness[i];
+            if (!(last[i] > -std::numeric_limits<float>::infinity())) continue;
+            // What is farther than the last one is less near than this, in either way that it is
+            // asked.
+            const float level =
+                std::min(highest_level_with(last[i], samples), highest_level_with_hidden(last[i]));
+            left_out_[i] = std::max(left_out_[i], level);
+        }
+        samples.nearness = left_out_.data();
+    }
+    kernels_.find_farthest(samples, farthest_.data());
+}
 
 /// What is hidden by what was drawn so far need not be drawn. The picture does not depend on the order, only the time does.
 /// Runs are short, so those between two looks are drawn together: what comes next is on its way meanwhile.
@@ -115,18 +111,17 @@ void SurfaceTile::draw_runs(bool is_worth_a_look) {
     std::size_t since_look = is_worth_a_look ? kWorthALook : 0;
     bool has_look = false;
     const auto is_hidden = [&](const TriangleRun& run) {
-        return has_look && run.is_behind(farthest_.data(), run.highest + (run.highest * hidden_level_per_nearness_ + hidden_level_));
+        return has_look && run.is_behind(farthest_.data(), highest_level_with_hidden(run.highest));
     };
     for (std::size_t i = 0, next = 0; i < runs_.size() && !is_in_vain(); i = next) {
         for (++next; next < runs_.size() && is_hidden(*runs_[next].run);) ++next;
         if (next < runs_.size()) prefetch(*runs_[next].run);
         const TriangleRun& run = *runs_[i].run;
-        ++looked_at_;
         if (since_look >= kWorthALook) {
             const ScreenMesh& mesh = screen_.mesh(run.instance);
             for (std::size_t k = 0; k < run.count && k < kTrianglesAhead; ++k) prefetch(mesh, run.triangles[k].triangle);
             draw_seen();
-            kernels_.find_farthest(view(), farthest_.data());
+            find_farthest();
             since_look = 0;
             has_look = true;
         }
@@ -156,9 +151,15 @@ void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
 
 void SurfaceTile::draw_seen() {
     if (seen_count_ == 0) return;
-    const std::size_t noted = contests_.count();
-    kernels_.draw_small(view_of_rows(), screen_.mesh(seen_of_), seen_.data(), seen_count_);
-    contests_.move_from(noted, offset_of_rows());
+    const ScreenMesh& mesh = screen_.mesh(seen_of_);
+    const std::size_t sample_count = samples_.ids.size();
+    for (std::size_t begin = 0, end = seen_count_; begin < seen_count_; begin = end) {
+        if (contests_.is_selecting()) {
+            contests_.make_room_for(sample_count);
+            end = std::min(begin + contests_.room_left() / sample_count, seen_count_);
+        }
+        kernels_.draw_small(view(), mesh, seen_.data() + begin, end - begin);
+    }
     drawn_ += seen_count_;
     seen_count_ = 0;
 }
@@ -192,20 +193,21 @@ void SurfaceTile::order_large_ones(std::size_t tile) {
 }
 
 void SurfaceTile::draw_large_ones() {
-    const int worth_a_look = samples_.columns * samples_.rows / 2;
+    const int worth_a_look = samples_.columns * samples_.rows / 2 *
+                             (contests_.is_selecting() ? 8 : 1);  // it takes longer then
     int since_look = 0;
     bool has_look = false;
     const SampleView samples = view();
     float farthest = -std::numeric_limits<float>::infinity();  // of all samples
     for (const PlacedPolygon& placed : large_) {
         if (since_look >= worth_a_look) {
-            kernels_.find_farthest(samples, farthest_.data());
+            find_farthest();
             farthest = farthest_in_blocks();
             since_look = 0;
             has_look = true;
         }
-        if (is_in_vain() || highest_level_with(placed.highest, samples) < farthest) break;  // and so are all that come
-        ++looked_at_;
+        if (is_in_vain() || highest_level_with(placed.highest, samples) < farthest)
+            break;  // and so are all that come
         const LargePolygon& large = bins_.large(placed.number);
         since_look += draw_large(large, screen_.is_plain(large.plane.id >> 1), has_look);
     }
@@ -249,8 +251,8 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
     plane.id |= plain && !is_steep ? 1u : 0u;
     const int left = std::max(scan.first_column() - samples_.first_column, 0);
     const int right = std::min(scan.end_column() - samples_.first_column, samples_.columns);
-    const int top = std::max(scan.first_row() - samples_.first_row, first_row_);
-    const int bottom = std::min(scan.end_row() - samples_.first_row, end_row_);
+    const int top = std::max(scan.first_row() - samples_.first_row, 0);
+    const int bottom = std::min(scan.end_row() - samples_.first_row, samples_.rows);
     int drawn = 0;
     if (left >= right) return drawn;
     for (int strip = top & -kBlockSamples; strip < bottom; strip += kBlockSamples) {
@@ -268,6 +270,8 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
         }
         const int least = std::max(first_column, begin << kBlockShift), most = std::min(end_column, end << kBlockShift);
         if (least >= most) continue;
+        if (contests_.is_selecting())
+            contests_.make_room_for(static_cast<std::size_t>(kBlockSamples * samples_.stride));
         if (scan.fits_doubles()) {
             drawn += kernels_.draw_polygon(tile, scan.edges().data(), scan.edges().size(), {least, first_row, most, end_row}, plane);
             continue;

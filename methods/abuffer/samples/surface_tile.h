@@ -34,12 +34,14 @@ class SurfaceTile {
     std::uint64_t sample_tests() const { return drawn_; }
 
   private:
-    SampleView view_of_rows();
-    std::size_t offset_of_rows() const { return static_cast<std::size_t>(first_row_) * static_cast<std::size_t>(samples_.stride); }
-    void draw_in_bands();
-    void draw_rows(int first, int end);
+    void draw_all();
+    void clear_samples();
     bool is_in_vain() const;
-    double share_looked_at() const;
+    void find_farthest();
+    /// As find_nearer() has it.
+    float highest_level_with_hidden(float nearness) const {
+        return nearness + (nearness * hidden_level_per_nearness_ + hidden_level_);
+    }
     void draw_runs(bool is_worth_a_look);
     void find_seen(const TriangleRun& run, bool has_look);
     void draw_seen();
@@ -58,8 +60,6 @@ class SurfaceTile {
     float hidden_level_, hidden_level_per_nearness_;  // the same with level_reach(): what is farther behind is level with nothing
     PixelRect rect_;
     SampleTile samples_;
-    int first_row_ = 0, end_row_ = 0;  // those that are drawn
-    std::size_t looked_at_ = 0;        // polygons and runs
     Contests contests_;
     struct PlacedRun {
         const TriangleRun* run;
@@ -75,7 +75,10 @@ class SurfaceTile {
         float highest;         // its plane, in the tile
     };
     std::vector<PlacedPolygon> large_;  // in the order of drawing
-    std::vector<float> farthest_;       // per block of samples
+    std::vector<float> farthest_;  // per block of samples: what is less near by more than what is
+                                   // level can be left out
+    std::vector<float, CacheLineAllocator<float>>
+        left_out_;  // the same per sample, where much is level
     std::uint64_t drawn_ = 0;
 };
 
