@@ -7,6 +7,8 @@ namespace {
 
 /// Corners are snapped after they were projected, and moved a trifle.
 constexpr double kAroundPx = 1.5 * kWidestCrackPx;
+/// Among fewer borders, what is in reach is found as fast by place alone.
+constexpr std::size_t kManyBorders = std::size_t{1} << 14;
 
 /// By how much a matrix lengthens what lies in the plane of x and y, at most.
 double most_lengthened(const glm::dmat3& m) {
@@ -35,7 +37,7 @@ std::optional<BorderIndex::Sight> sight_through(const SurfaceSet& surfaces, std:
 
 std::optional<HalfEdge> seam_partner_seen(const SurfaceSet& surfaces, std::uint32_t instance, HalfEdge border, const glm::dvec3& at) {
     const BorderIndex& borders = surfaces.instances[instance].mesh->borders;
-    if (!borders.has_crowds()) return borders.seam_partner(border, at);
+    if (!borders.has_crowds() || borders.segments().size() < kManyBorders) return borders.seam_partner(border, at);
     const auto sight = sight_through(surfaces, instance, at);
     return sight ? borders.seam_partner(border, at, *sight) : borders.seam_partner(border, at);
 }
