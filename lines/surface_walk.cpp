@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lines/circle_finder.h"
+#include "lines/seam_sight.h"
 #include "lines/sharp_edges.h"
 
 namespace burin {
@@ -253,15 +254,13 @@ class Walker {
         const auto& t = mesh.triangles[from.surface.triangle];
         const glm::dvec3 a = mesh.local_position(t[from.exit.half_edge % 3]);
         const glm::dvec3 b = mesh.local_position(t[(from.exit.half_edge + 1) % 3]);
-        const auto partner =
-            mesh.borders.seam_partner(from.exit.half_edge, glm::mix(a, b, from.exit.along_edge));
+        const auto partner = seam_partner_seen(surfaces_, from.surface.instance, from.exit.half_edge, glm::mix(a, b, from.exit.along_edge));
         if (!partner) return none;
         const SurfaceId neighbour{from.surface.instance, *partner / 3};
         const Slice slice = slice_of(neighbour);
         if (!slice.crosses(*partner)) return none;
         const Crossing& entry = slice.at(*partner);
         const Crossing& exit = slice.other_than(*partner);
-        constexpr double kWidestCrackPx = 1;
         if (std::abs(entry.fraction - from.exit.fraction) * length_ > kWidestCrackPx ||
             !is_level_at(from.exit.fraction, from.surface, neighbour)) {
             return none;

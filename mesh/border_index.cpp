@@ -22,24 +22,13 @@ constexpr double kReachPart = 0.05;
 
 glm::dvec3 direction_of(const BorderIndex::Segment& s) { return s.b - s.a; }
 
+/// Of the angle between two edges that run along each other, at least.
+constexpr double kCosParallel = 0.9;
+
 bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderIndex::Segment& other) {
     const glm::dvec3 way = direction_of(other);
-    return std::abs(glm::dot(along, way)) > 0.9 * length * glm::length(way);
+    return std::abs(glm::dot(along, way)) > kCosParallel * length * glm::length(way);
 }
-
-/// The segment nearest to a point so far, the first one of several, and how near others must be.
-struct Nearest {
-    double reach;
-    std::optional<HalfEdge> partner;
-
-    void offer(const BorderIndex::Segment& other, const glm::dvec3& at) {
-        const double distance = distance_to_segment(at, other.a, other.b);
-        if (distance < reach || (distance == reach && partner && other.half_edge < *partner)) {
-            reach = distance;
-            partner = other.half_edge;
-        }
-    }
-};
 
 /// Whether a box touches another one.
 struct TouchedBox {
@@ -123,6 +112,20 @@ class NumberSet {
 
 }  // namespace
 
+/// The segment nearest to a point so far, the first one of several, and how near others must be.
+struct BorderIndex::Nearest {
+    double reach;
+    std::optional<HalfEdge> partner;
+
+    void offer(const Segment& other, const glm::dvec3& at) {
+        const double distance = distance_to_segment(at, other.a, other.b);
+        if (distance < reach || (distance == reach && partner && other.half_edge < *partner)) {
+            reach = distance;
+            partner = other.half_edge;
+        }
+    }
+};
+
 BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(segments)) {
     std::vector<SegmentPiece> all;
     all.reserve(segments_.size());
@@ -161,12 +164,49 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     const Segment* const own = find(half_edge);
     if (own == nullptr) return std::nullopt;
     Nearest nearest{kReachPart * glm::length(direction_of(*own)), {}};
-    const glm::dvec3 along = direction_of(*own);
+    find_nearest(*own, at, nearest);
+    return nearest.partner;
+}
+
+/// The nearest one, if it is nearer than the one that is known, or that far and comes first.
+void BorderIndex::find_nearest(const Segment& own, const glm::dvec3& at, Nearest& nearest) const {
+    const glm::dvec3 along = direction_of(own);
     const double length = glm::length(along);
     finest().visit_nearest(at, nearest.reach, [&](std::uint32_t i) {  // a look at its box would take as long as its distance
         const Segment& other = segments_[i];
-        if (other.polygon != own->polygon && are_nearly_parallel(along, length, other)) nearest.offer(other, at);
+        if (other.polygon != own.polygon && are_nearly_parallel(along, length, other)) nearest.offer(other, at);
     });
+}
+
+std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at, const Sight& sight) const {
+    const Segment* const own = find(half_edge);
+    if (own == nullptr) return std::nullopt;
+    const glm::dvec3 along = direction_of(*own);
+    const double length = glm::length(along);
+    Nearest nearest{kReachPart * length, {}};
+    // What is nearly parallel to the edge, passes within `reach` of the place, and within `radius` of the line of sight, does so at a
+    // distance of at most (reach + radius) / sine from the place: the sine of the least angle between it and the line of sight.
+    constexpr double kLeastSine = 1.0 / 8, kSineOfParallel = 0.436;  // a trifle more than sqrt(1 - kCosParallel^2)
+    const double cosine = std::min(std::abs(glm::dot(along, sight.direction)) / length, 1.0);
+    const double sine = std::sqrt(1 - cosine * cosine) * kCosParallel - cosine * kSineOfParallel;
+    const double per_radius = 1 - sight.growth / sine;
+    if (!(sine > kLeastSine) || !(per_radius > 0.5)) {  // seen end-on
+        find_nearest(*own, at, nearest);
+        return nearest.partner;
+    }
+    const double radius = (sight.radius + sight.growth * nearest.reach / sine) / per_radius;
+    const double along_sight = (nearest.reach + radius) / sine;
+    const glm::dvec3 from = at - along_sight * sight.direction, to = at + along_sight * sight.direction;
+    double farthest = along_sight + radius;
+    finest().visit_nearest(at, farthest, NearSegment{from, to, radius}, [&](std::uint32_t i) {
+        const Segment& other = segments_[i];
+        if (other.polygon == own->polygon || !are_nearly_parallel(along, length, other)) return;
+        if (!(distance_to_segment(at, other.a, other.b) <= nearest.reach) || !are_near(from, to, other.a, other.b, radius)) return;
+        nearest.offer(other, at);
+        farthest = (nearest.reach + radius) / sine + radius;
+    });
+    // One that is seen elsewhere may be nearer.
+    if (nearest.partner) find_nearest(*own, at, nearest);
     return nearest.partner;
 }
 

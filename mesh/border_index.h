@@ -38,6 +38,16 @@ class BorderIndex {
     /// gaps between two different tessellations of one curve.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at) const;
 
+    /// A straight line through a place, and what is seen near it: nearer than `radius` at the place, and than `radius` + d * `growth`
+    /// at the distance d from it.
+    struct Sight {
+        glm::dvec3 direction{0.0};  ///< its length is 1
+        double radius = 0, growth = 0;
+    };
+    /// The same for whoever has no use for a partner that is not seen near the place: nothing, if it is not; it may be nothing only then.
+    /// Where borders lie in a heap, that is much faster: of all borders in reach, few are seen near the place.
+    std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at, const Sight& sight) const;
+
     /// The same with what it says of places near `at`.
     class Neighbourhood;
     Neighbourhood neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const;
@@ -67,6 +77,8 @@ class BorderIndex {
 
   private:
     const Segment* find(HalfEdge half_edge) const;
+    struct Nearest;
+    void find_nearest(const Segment& own, const glm::dvec3& at, Nearest& nearest) const;
     bool is_crowded() const;
     const SegmentTree& finest() const { return pieces_.is_empty() ? whole_ : pieces_; }
 

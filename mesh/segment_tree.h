@@ -51,6 +51,11 @@ class SegmentTree {
     /// Nearer boxes mostly come first.
     template <typename Visit>
     void visit_nearest(const glm::dvec3& at, const double& reach, const Visit& visit) const {
+        visit_nearest(at, reach, [](const glm::vec3&, const glm::vec3&) { return true; }, visit);
+    }
+    /// The same for pieces in boxes that also may_be_near(low, high).
+    template <typename MayBeNear, typename Visit>
+    void visit_nearest(const glm::dvec3& at, const double& reach, const MayBeNear& may_be_near, const Visit& visit) const {
         if (nodes_.empty()) return;
         struct Waiting {
             std::uint32_t node;
@@ -66,6 +71,7 @@ class SegmentTree {
             const Waiting next = stack[--top];
             if (!is_near(next.square, reach)) continue;
             const Node& node = nodes_[next.node];
+            if (!may_be_near(node.low, node.high)) continue;
             if (node.count == 0) {
                 Waiting nearer{node.first, square_of_distance(at, nodes_[node.first])};
                 Waiting farther{node.first + 1, square_of_distance(at, nodes_[node.first + 1])};

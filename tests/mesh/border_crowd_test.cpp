@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesh/border_index.h"
@@ -65,6 +66,50 @@ TEST(BorderCrowd, PartnersAreThoseOfASearchThroughAll) {
     }
     EXPECT_GT(found, asked / 5);
     EXPECT_LT(found, asked * 9 / 10);
+}
+
+/// Where the partner passes near a line of sight it is found; where it does not, there is the same
+/// one or none.
+TEST(BorderCrowd, WhatIsSeenNearAPlaceIsFoundAlongTheLineOfSight) {
+    int seen = 0, unseen = 0, left_out = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        Random random(seed);
+        const std::vector<Segment> segments = straws(random, 400, seed % 3 == 0);
+        const BorderIndex index(segments);
+        for (const Segment& own : segments) {
+            const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), random.real(0, 1));
+            BorderIndex::Sight sight;
+            sight.direction = random.direction();
+            sight.radius = random.real(0.002, 0.02);
+            sight.growth = random.integer(0, 1) == 0 ? 0 : random.real(0, 0.01);
+            const auto expected = partner_by_search(segments, own, at),
+                       partner = index.seam_partner(own.half_edge, at, sight);
+            if (partner) {
+                ASSERT_EQ(partner, expected) << "seed " << seed;
+            }
+            if (!expected) continue;
+            const Segment& other =
+                *std::find_if(segments.begin(), segments.end(),
+                              [&](const Segment& s) { return s.half_edge == *expected; });
+            bool is_seen = false;
+            for (int step = 0; step <= 2000 && !is_seen; ++step) {
+                const glm::dvec3 off =
+                    glm::mix(glm::dvec3(other.a), glm::dvec3(other.b), step / 2000.0) - at;
+                const double away = glm::dot(off, sight.direction);
+                is_seen = glm::length(off - away * sight.direction) <
+                          sight.radius + sight.growth * std::abs(away);
+            }
+            if (is_seen) {
+                ASSERT_EQ(partner, expected) << "seed " << seed;
+            }
+            seen += is_seen;
+            unseen += !is_seen;
+            left_out += !partner;
+        }
+    }
+    EXPECT_GT(seen, 300);
+    EXPECT_GT(left_out, unseen / 2);
+    EXPECT_GT(left_out, 300);
 }
 
 /// Along one edge, most places need no new search, and the answers are the same.

@@ -22,6 +22,9 @@ constexpr double kFar = 1e300;
 /// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many layers, lines are left to
 /// the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 22;
+/// Where so many triangles lie over each other that cells do not tell them apart, each pair is looked at more closely, and far fewer are
+/// too many: meshes of small triangles and piles of a few hundred large ones stay far below.
+constexpr std::size_t kManyInCell = 256, kMostLooksInHeap = std::size_t{1} << 18;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 
@@ -326,7 +329,8 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
 void FineLines::find_in_block(std::size_t block, std::vector<LineSegment>& segments) {
     const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
     const auto are_few = [&](std::size_t count) {
-        return count * clipper_->triangles_per_cell() <= kMostLooks;
+        const std::size_t per_cell = clipper_->triangles_per_cell();
+        return count * per_cell <= (per_cell > kManyInCell ? kMostLooksInHeap : kMostLooks);
     };
     if (are_few(numbers.size())) {
         for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], segments);
@@ -372,7 +376,7 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
 
 /// Those that an edge is, until the next call.
 std::span<const LayerLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
-    constexpr std::size_t kKnownBorders = 1 << 14;
+    constexpr std::size_t kKnownBorders = 1 << 17;
     const SurfaceId s{instance, h / 3};
     if (is_loose({instance, h})) {
         lines_.clear();

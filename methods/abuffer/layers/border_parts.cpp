@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lines/seam_sight.h"
 #include "methods/abuffer/layers/edge_sides.h"
 
 namespace burin {
 namespace {
 
 /// Wider gaps between patches are no seams. 1 pixel.
-constexpr double kWidestCrackSubpixels = 256;
+constexpr double kWidestCrackSubpixels = kWidestCrackPx * kSubpixelsPerPixel;
 /// In heaps of borders only those are told apart that come near: where there are more than so many pairs of one and another about it.
 constexpr std::size_t kMostPairs = std::size_t{1} << 24, kFewAbout = 256;
 /// In a crowd of borders it is asked what runs along one of them in so many places.
-constexpr int kPartsInCrowd = 8;
+/// In fewer where a mesh has more than 2^16 borders, so that all of them together are asked for a limited number of places.
+constexpr std::size_t kPartsInCrowd = 8, kPlacesInCrowd = std::size_t{1} << 19;
 
 /// As walks over a seam ask it.
 bool is_level(const ScreenSurfaces& screen, double nearness_a, double nearness_b, SurfaceId steep) {
@@ -30,7 +32,7 @@ std::optional<HalfEdge> seam_partner(const ScreenSurfaces& screen, SurfaceId s, 
     const Mesh& mesh = screen.surfaces().mesh_of(s);
     const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), b = mesh.local_position(end_of(mesh, h));
     const glm::dvec3 at = glm::mix(a, b, share_in_space(screen, edge, on_screen));
-    const auto partner = few != nullptr ? few->nearest(at) : mesh.borders.seam_partner(h, at);
+    const auto partner = few != nullptr ? few->nearest(at) : seam_partner_seen(screen.surfaces(), s.instance, h, at);
     if (!partner) return std::nullopt;
     const auto other = edge_on_screen(screen, s.instance, start_of(mesh, *partner), end_of(mesh, *partner));
     if (!other) return std::nullopt;
@@ -80,7 +82,8 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
         }
     }
     if (!has_crack) return {{}};
-    for (int k = 1; is_crowd && k < kPartsInCrowd; ++k) ends.push_back(static_cast<double>(k) / kPartsInCrowd);
+    const std::size_t part_count = std::clamp<std::size_t>(kPlacesInCrowd / mesh.borders.segments().size(), 1, kPartsInCrowd);
+    for (std::size_t k = 1; is_crowd && k < part_count; ++k) ends.push_back(static_cast<double>(k) / static_cast<double>(part_count));
     std::sort(ends.begin(), ends.end());
     // Of those about it, few come near. Where these are many, each place is looked up by itself.
     constexpr std::size_t kFew = 32;
