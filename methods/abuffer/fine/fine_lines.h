@@ -34,6 +34,7 @@ class FineLines {
     void find_in_block(std::size_t block, std::vector<LineSegment>& segments);
 
     const ScreenSurfaces& screen_;
+    bool draws_each_;  ///< edge of a mesh, for dashes and smooth contours
     SampleBlocks grid_;
     LayerEdgeFinder finder_;
     FineBlocks blocks_;
