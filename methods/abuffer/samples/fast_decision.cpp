@@ -160,6 +160,20 @@ bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
     return are_flush(pair.surfaces[0], pair.surfaces[1]);
 }
 
+/// The surface of the first sample ends exactly at the second one, which lies a trifle further and sees the background. As outlines do
+/// all along where a part is seen along an axis. The line is at the edge itself, as decide_line() has it.
+bool FastDecision::ends_at_sample(const NeighbourSamples& pair, LineDecision& decision, double& nearness) {
+    constexpr bool kBackwards = false, kPassesGoal = true;
+    FastWalk& w = made_[0];
+    walker_.walk(pair, kBackwards, w, kPassesGoal);
+    if (!w.is_end_of_surface()) return false;
+    const double trifle = (pair.down ? kTrifleY : kTrifleX) * kSubpixelsPerPixel / pair.pitch;
+    nearness = nearness_at({pair.surfaces[0].instance, w.triangle}, pair.place(w.fraction));
+    w.fraction = std::max(w.fraction - trifle, 0.0);
+    end_of_surface(pair, 0, w, nullptr, decision);
+    return true;
+}
+
 bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known) {
     decision = LineDecision{};
     const auto nearness_of = [&](int i, const FastWalk& w) {
@@ -177,7 +191,7 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
         const FastWalk& w = *walks_[i];
         if (w.end == FastWalk::unsure) return false;
         if (w.end == FastWalk::arrived) {
-            if (other.is_background()) return false;
+            if (other.is_background()) return i == 0 && w.fraction == 1 && ends_at_sample(pair, decision, nearness);
             if (SurfaceId{pair.surfaces[i].instance, w.triangle} != other) continue;
             decision.classes = w.crossed;
             decision.crease_cosine = w.crease_cosine;

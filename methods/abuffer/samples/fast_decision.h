@@ -41,6 +41,7 @@ class FastDecision {
     };
     End look_behind(const NeighbourSamples& pair, int i) const;
     void end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched, LineDecision& decision);
+    bool ends_at_sample(const NeighbourSamples& pair, LineDecision& decision, double& nearness);
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
     bool may_be_wall(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const;
     bool are_beside(SurfaceId a, SurfaceId b) const;

@@ -107,7 +107,7 @@ FastWalk::Stop FastWalk::stop_at(double goal) const {
     return {true, step->triangle, goal};
 }
 
-void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& result) {
+void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& result, bool passes_goal) {
     const SurfaceId start = pair.surfaces[backwards ? 1 : 0];
     const std::uint32_t instance = start.instance;
     const ScreenMesh& mesh = screen_.mesh(instance);
@@ -136,7 +136,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         result.fraction = at.left;
     };
     for (result.step_count = 1; result.step_count < FastWalk::kMaxSteps; ++result.step_count) {
-        if (current->left >= 1) {
+        if (current->left > 1 || (current->left == 1 && !passes_goal)) {
             end_at(FastWalk::arrived, *current);
             // Elsewhere nobody asks for lines.
             if (SurfaceId{instance, current->triangle} == pair.surfaces[backwards ? 0 : 1]) note_lines(pair, backwards, result);

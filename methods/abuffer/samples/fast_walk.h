@@ -11,6 +11,9 @@
 
 namespace burin {
 
+/// A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken a trifle further there. Pixels.
+constexpr double kTrifleX = 0x1p-14, kTrifleY = 0x1p-20;
+
 /// Two samples next to each other, in 1/256 pixel, and what is visible there.
 struct NeighbourSamples {
     std::int32_t x, y;  ///< the left or upper one
@@ -82,7 +85,8 @@ class FastWalker {
 
     /// From the first sample to the second, or `backwards`. Unsure where triangles reach off the screen, more than
     /// two meet at an edge, or there are very many. The steps are good until the next walk in the same direction.
-    void walk(const NeighbourSamples& pair, bool backwards, FastWalk& result);
+    /// `passes_goal`: a walk arrives only beyond the other sample, not at it.
+    void walk(const NeighbourSamples& pair, bool backwards, FastWalk& result, bool passes_goal = false);
 
     /// For many walks at once, TileKernels::walk_over_mesh().
     WalkLimits limits(std::int32_t pitch) const;
