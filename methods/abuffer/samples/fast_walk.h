@@ -12,7 +12,7 @@
 namespace burin {
 
 /// A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken a trifle further there. Pixels.
-constexpr double kTrifleX = 0x1p-14, kTrifleY = 0x1p-20;
+constexpr double kSampleTrifleX = 0x1p-14, kSampleTrifleY = 0x1p-20;
 
 /// Two samples next to each other, in 1/256 pixel, and what is visible there.
 struct NeighbourSamples {
