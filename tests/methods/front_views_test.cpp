@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "lines/line_decision.h"
 #include "methods/abuffer/fine/drawn_parts.h"
 #include "methods/abuffer/samples/fast_decision.h"
 #include "methods/abuffer/samples/surface_tile.h"
+#include "methods/abuffer/surface_pass.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
@@ -126,6 +128,37 @@ TEST(FrontViews, NothingIsLeftToSlowDecisions) {
     }
     EXPECT_GT(sum.asked, 2000);
     EXPECT_GT(sum.lines, 2000);
+}
+
+std::size_t segment_count(const Scene& scene, const Camera& camera) {
+    const Frame frame = make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize});
+    ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
+    SurfacePass pass(frame, screen, best_kernels(), 1, nullptr);
+    std::vector<std::vector<LineSegment>> segments;
+    Film film({0, 0, kSize, kSize}, {0, 0, kSize, kSize}, LayerSet{}, frame.criteria.classes);
+    RenderStats stats;
+    pass.draw({0, 0, kSize, kSize}, TileGrid::kTileSamples, nullptr, segments, film, stats);
+    std::size_t count = 0;
+    for (const std::vector<LineSegment>& list : segments) count += list.size();
+    return count;
+}
+
+/// All edges of a wall are on one line of the picture: one of them is drawn there, however many rows it has. Dashes need each.
+TEST(FrontViews, EdgesOfAWallAreOneLine) {
+    Camera camera = perspective_camera({0, 0, 4}, {0, 0, 0});
+    camera.orthographic = true;
+    camera.height = 2;
+    const auto count_of = [&](int rows, bool has_dashes) {
+        Random random(3);
+        Scene scene = scene_of({deep_box(random, rows, 2, false, false)});
+        scene.lines.classes = LineClass::silhouette | LineClassSet(LineClass::border) | LineClassSet(LineClass::polygon);
+        if (has_dashes) scene.lines.style.dash_px = std::array{5.0, 3.0};
+        return segment_count(scene, camera);
+    };
+    const std::size_t few = count_of(2, false), many = count_of(120, false), each = count_of(120, true);
+    EXPECT_GT(few, 20u);
+    EXPECT_LT(many, 4 * few);
+    EXPECT_GT(each, 4 * many);
 }
 
 LayerLine random_line(Random& random) {
