@@ -9,7 +9,6 @@
 #include "methods/abuffer/layers/contacts.h"
 #include "methods/abuffer/layers/fold_width.h"
 #include "methods/abuffer/layers/layer_triangle.h"
-#include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/screen/edge_on_screen.h"
 #include "methods/abuffer/screen/sampling.h"
 
@@ -335,9 +334,9 @@ class FineLines::BlockClipper {
 };
 
 FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
-                     const TileKernels& kernels, PixelRect region)
+                     const TileKernels& kernels, PixelRect region, bool draws_each)
     : screen_(screen),
-      draws_each_(needs_all_visible_lines(frame)),
+      draws_each_(draws_each),
       grid_(samples_per_pixel_of(*frame.scene)),
       // The last blocks reach half a sample beyond the region (SampleBlocks).
       finder_(frame, screen, {region.x0, region.y0, region.x1 + 1, region.y1 + 1}, kHasBothOfSeam),
