@@ -87,7 +87,8 @@ class Walker {
             bool goes_on = reached > before_wall.exit.fraction + kNoAdvance, is_farthest = reached >= farthest.exit.fraction;
             if (std::abs(reached - before_wall.exit.fraction) < snapping &&
                 is_deep(surfaces_.projection, distance_at(before_wall), distance_at(next.place))) {
-                goes_on = is_beyond(surfaces_, start.instance, from_, to_, next.place.exit.half_edge, before_wall.exit.half_edge).value_or(goes_on);
+                const auto part = unsnapped_part(next.place), wall = unsnapped_part(before_wall);
+                if (part && wall) goes_on = is_beyond(*part, *wall, along_);
                 is_farthest = is_farthest || goes_on;
             }
             ++(std::abs(reached - current.exit.fraction) <= kNoAdvance ? steps_on_wall : steps);
@@ -277,6 +278,15 @@ class Walker {
         const auto depth = [&](HalfEdge corner) { return -surfaces_.view_position(place.surface.instance, t[corner % 3]).z; };
         return glm::mix(depth(k), depth(k + 1), place.exit.along_edge);
     }
+    /// Where the walk leaves a triangle, with corners where they are, not snapped. Nothing if they are off the screen.
+    std::optional<double> unsnapped_part(const Place& place) const {
+        const Projection& p = surfaces_.projection;
+        const auto& t = surfaces_.mesh_of(place.surface).triangles[place.surface.triangle];
+        const HalfEdge k = place.exit.half_edge % 3;
+        const glm::dvec3 a = surfaces_.view_position(place.surface.instance, t[k]), b = surfaces_.view_position(place.surface.instance, t[(k + 1) % 3]);
+        if (!needs_no_clipping(p, a) || !needs_no_clipping(p, b)) return std::nullopt;
+        return part_of_way(along_, p.to_pixel(a) - from_, p.to_pixel(b) - from_);
+    }
     /// On the way from where one triangle is left to where the next one is.
     double distance_between(const Place& entry, const Place& exit, double fraction) const {
         const Projection& p = surfaces_.projection;
@@ -356,25 +366,6 @@ LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b, double* 
 }
 
 }  // namespace
-
-std::optional<bool> is_beyond(const SurfaceSet& surfaces, std::uint32_t instance, glm::dvec2 from, glm::dvec2 to, HalfEdge edge,
-                              HalfEdge other_edge) {
-    const glm::dvec2 along = to - from;
-    const Mesh& mesh = *surfaces.instances[instance].mesh;
-    const auto place_of = [&](HalfEdge h) -> std::optional<double> {
-        const auto& t = mesh.triangles[h / 3];
-        const glm::dvec3 a = surfaces.view_position(instance, t[h % 3]), b = surfaces.view_position(instance, t[(h + 1) % 3]);
-        if (!needs_no_clipping(surfaces.projection, a) || !needs_no_clipping(surfaces.projection, b)) return std::nullopt;
-        const glm::dvec2 p = surfaces.projection.to_pixel(a) - from, q = surfaces.projection.to_pixel(b) - from;
-        const double at_p = along.x * p.y - along.y * p.x, at_q = along.x * q.y - along.y * q.x;
-        if ((at_p >= 0) == (at_q >= 0)) return std::nullopt;
-        return glm::dot(glm::mix(p, q, at_p / (at_p - at_q)), along) / glm::dot(along, along);
-    };
-    const auto place = place_of(edge), other = place_of(other_edge);
-    if (!place || !other) return std::nullopt;
-    constexpr double kCertainPx = 0x1p-14;  // coordinates are not exact
-    return (*place - *other) * glm::length(along) > kCertainPx;
-}
 
 SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
                          const LineCriteria& criteria, int most_triangles) {

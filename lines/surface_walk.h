@@ -109,11 +109,19 @@ constexpr double kSnappingPx = 4.0 / 256;
 inline bool is_deep(const Projection& projection, double distance, double other) {
     return std::abs(distance - other) > 2 * projection.pixel_size(std::min(distance, other));
 }
-/// Whether a walk from one place to another comes to one edge of a mesh behind another one, with corners taken where they
-/// are: as the view changes, a wall passes the edge-on position once, where snapping would let it blink. Nothing if an edge
-/// is not on the way, or corners are off the screen.
-std::optional<bool> is_beyond(const SurfaceSet& surfaces, std::uint32_t instance, glm::dvec2 from, glm::dvec2 to, HalfEdge edge,
-                              HalfEdge other_edge);
+/// Where the way from a place, `along` as long as it is, crosses an edge: a part of the way. Nothing if it does not. `p`, `q`: the edge's
+/// ends, seen from that place.
+inline std::optional<double> part_of_way(glm::dvec2 along, glm::dvec2 p, glm::dvec2 q) {
+    const double at_p = along.x * p.y - along.y * p.x, at_q = along.x * q.y - along.y * q.x;
+    if ((at_p >= 0) == (at_q >= 0)) return std::nullopt;
+    return glm::dot(glm::mix(p, q, at_p / (at_p - at_q)), along) / glm::dot(along, along);
+}
+/// Whether a way comes to one edge of a mesh behind another one, by part_of_way() with corners taken where they are: as the view
+/// changes, a wall passes the edge-on position once, where snapping would let it blink.
+inline bool is_beyond(double part, double other, glm::dvec2 along) {
+    constexpr double kCertainPx = 0x1p-14;  // coordinates are not exact
+    return (part - other) * glm::length(along) > kCertainPx;
+}
 
 /// Two surfaces that are further apart than this many pixels' widths, in depth_tolerance(), are so for
 /// certain, not by rounding.

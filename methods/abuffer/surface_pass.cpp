@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "methods/abuffer/fine/fine_lines.h"
+#include "methods/abuffer/lines_of_crop.h"
 #include "methods/abuffer/samples/line_tile.h"
 #include "methods/abuffer/samples/pixel_fill.h"
 #include "methods/abuffer/screen/sampling.h"
@@ -123,7 +124,7 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
         }
         if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame_, screen_, kernels_);
         if (has_edges && !fine_lines[w])
-            fine_lines[w] = std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region);
+            fine_lines[w] = std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region, needs_all_visible_lines(frame_));
         std::vector<LineSegment>& lines = lines_of[w];
         lines.clear();
         const auto add_fine_lines = [&] {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
+#include "methods/abuffer/fine/drawn_parts.h"
 #include "methods/abuffer/fine/fine_cells.h"
 #include "methods/abuffer/layers/contacts.h"
 #include "methods/abuffer/layers/fold_width.h"
@@ -25,6 +27,8 @@ constexpr std::size_t kMostLooks = std::size_t{1} << 22;
 /// Where so many triangles lie over each other that cells do not tell them apart, each pair is looked at more closely, and far fewer are
 /// too many: meshes of small triangles and piles of a few hundred large ones stay far below.
 constexpr std::size_t kManyInCell = 256, kMostLooksInHeap = std::size_t{1} << 18;
+/// In a block with more candidates, those behind others on the same straight line are left out.
+constexpr std::size_t kFewCandidates = 12;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRounding = 1.0 / 64;
 
@@ -42,8 +46,24 @@ class FineLines::BlockClipper {
         cells_.set(triangles, corner, line_count);
         places_.assign(triangles.size(), {});
         set_up_.clear();
+        drawn_.clear();
     }
     std::size_t triangles_per_cell() const { return cells_.triangles_per_cell(); }
+
+    /// add_visible() of all, but for what is surely covered by strokes of others that are nearer: those first.
+    void add_not_covered(std::span<const FineCandidate> candidates, std::span<const std::uint32_t> numbers, std::vector<LineSegment>& segments) {
+        order_.clear();
+        for (const std::uint32_t i : numbers) {
+            const FineCandidate& c = candidates[i];
+            order_.emplace_back(-std::max(c.line.nearness_at(c.part.begin), c.line.nearness_at(c.part.end)), i);
+        }
+        std::sort(order_.begin(), order_.end());
+        notes_drawn_ = true;
+        for (const auto& [far, i] : order_) {
+            if (!is_covered(candidates[i])) add_visible(candidates[i], segments);
+        }
+        notes_drawn_ = false;
+    }
 
     void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
         const LayerLine& line = candidate.line;
@@ -172,6 +192,16 @@ class FineLines::BlockClipper {
         places_[i].count = static_cast<std::uint32_t>(set_up_.size()) - places_[i].first;
     }
 
+    /// A border may be a contact where it is seen, which is not known before; what fades is drawn below the rest.
+    bool is_covered(const FineCandidate& candidate) const {
+        const LayerLine& line = candidate.line;
+        const bool may_be_contact = line.classes.has(LineClass::border) && !line.is_wire;
+        if (may_be_contact || line.opacity < 255 || line.classes.empty()) return false;
+        const bool occludes = line.classes.has(LineClass::silhouette) || line.classes.has(LineClass::border);
+        return drawn_.cover(line, candidate.part.begin, candidate.part.end, {*line.classes.first(), occludes, is_front_on_left(candidate)},
+                            level_slack(screen_.surfaces(), line.nearness_at(candidate.part.begin), kCertainPx));
+    }
+
     /// Adds what is no negligible fold.
     void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
                   std::vector<LineSegment>& segments) {
@@ -238,6 +268,7 @@ class FineLines::BlockClipper {
         s.occludes = occludes;
         s.front_on_left = is_front_on_left(candidate);
         segments.push_back(s);
+        if (notes_drawn_ && line.opacity == 255) drawn_.add(line, begin, end, {s.drawn_as, s.occludes, s.front_on_left});
     }
 
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
@@ -300,11 +331,15 @@ class FineLines::BlockClipper {
     std::vector<Place> places_;  // of given triangles in set_up_
     std::vector<LayerTriangle> set_up_;
     std::vector<Interval> hidden_;
+    std::vector<std::pair<double, std::uint32_t>> order_;  // of candidates, the nearest first
+    DrawnParts drawn_;
+    bool notes_drawn_ = false;
 };
 
 FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
-                     const TileKernels& kernels, PixelRect region)
+                     const TileKernels& kernels, PixelRect region, bool draws_each)
     : screen_(screen),
+      draws_each_(draws_each),
       grid_(samples_per_pixel_of(*frame.scene)),
       // The last blocks reach half a sample beyond the region (SampleBlocks).
       finder_(frame, screen, {region.x0, region.y0, region.x1 + 1, region.y1 + 1}, kHasBothOfSeam),
@@ -333,6 +368,7 @@ void FineLines::find_in_block(std::size_t block, std::vector<LineSegment>& segme
         return count * per_cell <= (per_cell > kManyInCell ? kMostLooksInHeap : kMostLooks);
     };
     if (are_few(numbers.size())) {
+        if (numbers.size() > kFewCandidates && !draws_each_) return clipper_->add_not_covered(candidates_, numbers, segments);
         for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], segments);
         return;
     }

@@ -16,9 +16,10 @@ namespace burin {
 /// tile; buffers are used again.
 class FineLines {
   public:
-    /// `region`: of `bins`, which must have kept thin triangles.
+    /// `region`: of `bins`, which must have kept thin triangles. `draws_each`: also edges behind others on the same line of the
+    /// picture, which dashes and smooth contours need.
     FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, const TileKernels& kernels,
-              PixelRect region);
+              PixelRect region, bool draws_each);
     ~FineLines();
 
     /// Adds what is visible of the parts that are lines, all of one tile.
@@ -34,6 +35,7 @@ class FineLines {
     void find_in_block(std::size_t block, std::vector<LineSegment>& segments);
 
     const ScreenSurfaces& screen_;
+    bool draws_each_;
     SampleBlocks grid_;
     LayerEdgeFinder finder_;
     FineBlocks blocks_;

@@ -92,20 +92,35 @@ bool EdgeSides::is_beside(std::uint32_t instance, HalfEdge edge, std::uint32_t v
 }
 
 HalfEdge EdgeSides::solid_behind(std::uint32_t instance, HalfEdge h) const {
-    const Mesh& mesh = *surfaces_.instances[instance].mesh;
-    const HalfEdge edge = h;
+    // A wall may have a hundred triangles on the way, so that of each only the new corner is looked at.
+    const ScreenMesh& mesh = screen_.mesh(instance);
+    const auto next = [](HalfEdge e) { return e % 3 == 2 ? e - 2 : e + 1; };
+    const auto corner = [&](HalfEdge e) -> const ScreenVertex& { return mesh.vertices[mesh.corners[e]]; };
+    const ScreenVertex &from = corner(h), &to = corner(next(h));
+    if (is_off_screen(from) || is_off_screen(to)) return h;
+    const std::int64_t length = square(from, to);
+    const bool is_long = length > kSubpixelsPerPixel * kSubpixelsPerPixel;
     HalfEdge last = h;
+    std::int64_t entered = length;  // squares of edges' lengths
     for (int step = 0; step < kMostTrianglesToWall; ++step) {
-        const HalfEdge base = base_of_thin({instance, h / 3});
-        if (base == kNoHalfEdge) return h;
+        const HalfEdge one = next(h), two = next(one);
+        const ScreenVertex &p = corner(h), &q = corner(one), &apex = corner(two);
+        if (is_off_screen(apex)) return h;
+        const std::int64_t first = square(q, apex), second = square(apex, p), longest = std::max(std::max(entered, first), second);
+        if (!is_thin(doubled_area(p, q, apex), longest)) return h;
         // A wall of many rows may be no wider than one of a single row, if something lies behind it.
-        if (step >= kMostSlivers && !is_beside(instance, edge, apex_of(mesh, h))) return last;
-        const HalfEdge exit = base == h ? longer_of_others(instance, h) : base;
-        const HalfEdge g = mesh.next_on_edge[exit];
-        const bool is_pair = g != exit && mesh.next_on_edge[g] == exit;
+        if (step >= kMostSlivers && !(is_long && is_thin(doubled_area(from, to, apex), length))) return last;
+        HalfEdge base = kNoHalfEdge;  // of several longest edges the first one of the triangle
+        if (entered == longest) base = h;
+        if (first == longest) base = std::min(base, one);
+        if (second == longest) base = std::min(base, two);
+        const HalfEdge exit = base != h ? base : second > first ? two : one;
+        const HalfEdge g = mesh.partners[exit];
+        const bool is_pair = g != exit && mesh.partners[g] == exit;
         if (base == h && step == 0 && !(is_pair && face_alike(instance, exit, g))) return kNoHalfEdge;
         if (!is_pair) return last;
         h = g;
+        entered = exit == one ? first : second;
         if (step < kMostSlivers) last = h;
     }
     return last;

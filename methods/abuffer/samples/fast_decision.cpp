@@ -160,6 +160,18 @@ bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
     return are_flush(pair.surfaces[0], pair.surfaces[1]);
 }
 
+/// Where the surface of the first sample ends exactly at the second one, which lies a trifle further and sees something else, as
+/// outlines do all along where a part is seen along an axis: its walk becomes one that ends at the edge itself.
+void FastDecision::end_at_sample(const NeighbourSamples& pair) {
+    constexpr bool kBackwards = false, kPassesGoal = true;
+    FastWalk& beyond = made_beyond_;
+    walker_.walk(pair, kBackwards, beyond, kPassesGoal);
+    if (!beyond.is_end_of_surface()) return;
+    const double trifle = (pair.down ? kSampleTrifleY : kSampleTrifleX) * kSubpixelsPerPixel / pair.pitch;
+    beyond.fraction = std::max(beyond.fraction - trifle, 0.0);
+    walks_[0] = &beyond;
+}
+
 bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known) {
     decision = LineDecision{};
     const auto nearness_of = [&](int i, const FastWalk& w) {
@@ -174,11 +186,14 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
             walker_.walk(pair, i == 1, made_[i]);
             walks_[i] = &made_[i];
         }
+        if (walks_[i]->end == FastWalk::unsure) return false;
+        const bool is_through = walks_[i]->end == FastWalk::arrived && SurfaceId{pair.surfaces[i].instance, walks_[i]->triangle} == other;
+        const bool may_end = i == 0 && walks_[0]->end == FastWalk::arrived && walks_[0]->fraction == 1 && !is_through;
+        if (may_end) end_at_sample(pair);
         const FastWalk& w = *walks_[i];
-        if (w.end == FastWalk::unsure) return false;
         if (w.end == FastWalk::arrived) {
             if (other.is_background()) return false;
-            if (SurfaceId{pair.surfaces[i].instance, w.triangle} != other) continue;
+            if (!is_through) continue;
             decision.classes = w.crossed;
             decision.crease_cosine = w.crease_cosine;
             decision.reason = w.crossed.empty() ? LineReason::smooth : LineReason::feature_edge;

@@ -41,6 +41,7 @@ class FastDecision {
     };
     End look_behind(const NeighbourSamples& pair, int i) const;
     void end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched, LineDecision& decision);
+    void end_at_sample(const NeighbourSamples& pair);
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
     bool may_be_wall(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const;
     bool are_beside(SurfaceId a, SurfaceId b) const;
@@ -50,7 +51,7 @@ class FastDecision {
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
     FastWalker walker_;
-    FastWalk made_[2];
+    FastWalk made_[2], made_beyond_;
     const FastWalk* walks_[2];  // from either sample
     float level_, level_per_nearness_;  // nearness changes by so much where distance does by two pixels' widths
 };

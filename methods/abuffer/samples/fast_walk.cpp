@@ -107,7 +107,7 @@ FastWalk::Stop FastWalk::stop_at(double goal) const {
     return {true, step->triangle, goal};
 }
 
-void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& result) {
+void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& result, bool passes_goal) {
     const SurfaceId start = pair.surfaces[backwards ? 1 : 0];
     const std::uint32_t instance = start.instance;
     const ScreenMesh& mesh = screen_.mesh(instance);
@@ -123,7 +123,10 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     if (current->exit == kNoHalfEdge) return;
     const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
     const FastWalk::Step* before_wall = current;  // where it last got farther at all
+    const FastWalk::Step* known_wall = nullptr;   // the last one whose place was asked for
+    std::optional<double> wall_part;              // and that
     const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
+    const HalfEdge first_exit = current->exit;
     Slivers slivers{start.triangle};
     const double snapping = kSnappingPx * kSubpixelsPerPixel / pair.pitch;
     const auto end_at = [&result](FastWalk::End end, const FastWalk::Step& at) {
@@ -133,7 +136,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         result.fraction = at.left;
     };
     for (result.step_count = 1; result.step_count < FastWalk::kMaxSteps; ++result.step_count) {
-        if (current->left >= 1) {
+        if (current->left > 1 || (current->left == 1 && !passes_goal)) {
             end_at(FastWalk::arrived, *current);
             // Elsewhere nobody asks for lines.
             if (SurfaceId{instance, current->triangle} == pair.surfaces[backwards ? 0 : 1]) note_lines(pair, backwards, result);
@@ -167,8 +170,11 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         bool goes_on = next.left > before_wall->left + kNoAdvance, is_farthest = next.left >= farthest->left;
         if (std::abs(next.left - before_wall->left) < snapping) {
             if (are_apart(way.nearness_at(before_wall->exit), way.nearness_at(next.exit))) {
-                const glm::dvec2 from = way.at(0) / double{kSubpixelsPerPixel}, to = way.at(1) / double{kSubpixelsPerPixel};
-                goes_on = is_beyond(surfaces_, instance, from, to, next.exit, before_wall->exit).value_or(goes_on);
+                const glm::dvec2 from = way.at(0) / double{kSubpixelsPerPixel}, along = way.at(1) / double{kSubpixelsPerPixel} - from;
+                if (known_wall != before_wall) wall_part = unsnapped_part(instance, before_wall->exit, from, along);
+                known_wall = before_wall;
+                const auto part = unsnapped_part(instance, next.exit, from, along);
+                if (part && wall_part) goes_on = is_beyond(*part, *wall_part, along);
                 is_farthest = is_farthest || goes_on;
             }
         }
@@ -180,6 +186,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         current = &next;
         if (is_farthest) farthest = current;
         if (goes_on) before_wall = current;
+        if (current->exit == first_exit) return;  // around a wire
     }
 }
 
@@ -309,6 +316,15 @@ DepthPlane FastWalker::plane(SurfaceId s) const {
     plane.at_origin = surfaces_.farthest_nearness + qa -
                       (plane.per_x * a.x + plane.per_y * a.y) / kSubpixelsPerPixel;
     return plane;
+}
+
+/// Where a walk crosses an edge, with its ends where they are, not snapped. Nothing if they are off the screen.
+std::optional<double> FastWalker::unsnapped_part(std::uint32_t instance, HalfEdge edge, glm::dvec2 from, glm::dvec2 along) {
+    const std::uint32_t* const corners = screen_.mesh(instance).corners;
+    const UnsnappedPlaces::Place a = places_.of(surfaces_, instance, corners[edge]);
+    const UnsnappedPlaces::Place& b = places_.of(surfaces_, instance, corners[edge % 3 == 2 ? edge - 2 : edge + 1]);
+    if (a.needs_clipping || b.needs_clipping) return std::nullopt;
+    return part_of_way(along, a.pixel - from, b.pixel - from);
 }
 
 /// is_deep() between two places. Mostly their nearness says that it is not so, which takes no division.

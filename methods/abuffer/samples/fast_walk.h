@@ -6,9 +6,13 @@
 #include "abuffer/mesh_walks.h"
 #include "lines/line_decision.h"
 #include "methods/abuffer/samples/seam_memory.h"
+#include "methods/abuffer/samples/unsnapped_places.h"
 #include "methods/abuffer/screen/screen_surfaces.h"
 
 namespace burin {
+
+/// A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken a trifle further there. Pixels.
+constexpr double kSampleTrifleX = 0x1p-14, kSampleTrifleY = 0x1p-20;
 
 /// Two samples next to each other, in 1/256 pixel, and what is visible there.
 struct NeighbourSamples {
@@ -38,7 +42,7 @@ inline std::uint32_t exit_edge(const bool (&side)[3], bool from_side) {
 /// SurfaceWalk between two neighbours, in one instance.
 struct FastWalk {
     enum End : std::uint8_t { arrived, fold, border, crack, unsure };
-    static constexpr int kMaxSteps = 24;
+    static constexpr int kMaxSteps = 1 << 10;
     static constexpr double kBefore = -1e300;  ///< where its first triangle is entered
     /// A triangle on the way. Fractions: 0 = the sample where the walk began, 1 = the other one.
     struct Step {
@@ -81,7 +85,8 @@ class FastWalker {
 
     /// From the first sample to the second, or `backwards`. Unsure where triangles reach off the screen, more than
     /// two meet at an edge, or there are very many. The steps are good until the next walk in the same direction.
-    void walk(const NeighbourSamples& pair, bool backwards, FastWalk& result);
+    /// `passes_goal`: a walk arrives only beyond the other sample, not at it.
+    void walk(const NeighbourSamples& pair, bool backwards, FastWalk& result, bool passes_goal = false);
 
     /// For many walks at once, TileKernels::walk_over_mesh().
     WalkLimits limits(std::int32_t pitch) const;
@@ -117,6 +122,7 @@ class FastWalker {
                       FastWalk& result) const;
     void note(LineClassSet classes, SurfaceEdge edge, double fraction, FastWalk& result) const;
     std::optional<HalfEdge> seam_beyond(std::uint32_t instance, HalfEdge border, double along);
+    std::optional<double> unsnapped_part(std::uint32_t instance, HalfEdge edge, glm::dvec2 from, glm::dvec2 along);
     bool are_apart(double nearness_a, double nearness_b) const;
     bool is_level(double nearness_a, double nearness_b, SurfaceId steep) const;
 
@@ -124,6 +130,7 @@ class FastWalker {
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
     SeamMemory seams_;
+    UnsnappedPlaces places_;
     FastWalk::Step steps_[2][FastWalk::kMaxSteps];
     struct KnownEdge {
         SurfaceEdge edge;

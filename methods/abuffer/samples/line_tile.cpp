@@ -37,10 +37,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       merger_(kernels) {}
 
 glm::dvec2 LineTile::position(int column, int row) const {
-    // A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken
-    // a trifle further there.
-    constexpr double kTrifleX = 0x1p-14, kTrifleY = 0x1p-20;
-    return {(samples_.first_column + column + 0.5) * pitch_px_ + kTrifleX, (samples_.first_row + row + 0.5) * pitch_px_ + kTrifleY};
+    return {(samples_.first_column + column + 0.5) * pitch_px_ + kSampleTrifleX, (samples_.first_row + row + 0.5) * pitch_px_ + kSampleTrifleY};
 }
 
 /// Whether there is a line between two samples that are not known to lie on one smooth surface.
