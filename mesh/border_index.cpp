@@ -17,8 +17,8 @@ double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::
     return glm::distance(p, a + t * d);
 }
 
-/// How near a seam's other side must be, in lengths of the edge.
-constexpr double kReachPart = 0.05;
+/// How near a seam's other side must be, in lengths of the edge, unless borders lie in a heap.
+constexpr double kWidestReachPart = 0.05;
 
 glm::dvec3 direction_of(const BorderIndex::Segment& s) { return s.b - s.a; }
 
@@ -28,6 +28,11 @@ constexpr double kCosParallel = 0.9;
 bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderIndex::Segment& other) {
     const glm::dvec3 way = direction_of(other);
     return std::abs(glm::dot(along, way)) > kCosParallel * length * glm::length(way);
+}
+
+/// Whether one may be a partner of the other, wherever it is.
+bool may_be_partners(const BorderIndex::Segment& own, const glm::dvec3& along, double length, const BorderIndex::Segment& other) {
+    return other.polygon != own.polygon && are_nearly_parallel(along, length, other);
 }
 
 /// Whether a box touches another one.
@@ -132,6 +137,38 @@ BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(se
     for (std::uint32_t i = 0; i < segments_.size(); ++i) all.push_back(whole_of(segments_[i], i));
     whole_ = SegmentTree(all);
     if (is_crowded()) pieces_ = SegmentTree(pieces_of(segments_));
+    reach_part_ = has_several_polygons() ? (has_crowds() ? reach_part_in_crowd() : kWidestReachPart) : 0;
+}
+
+bool BorderIndex::has_several_polygons() const {
+    return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) { return s.polygon != segments_.front().polygon; });
+}
+
+/// Of many borders in reach the nearest one is a partner or none is: the reach is halved until few are left, as seen from the
+/// middles of some segments all over the mesh.
+double BorderIndex::reach_part_in_crowd() const {
+    constexpr std::size_t kAsked = 64, kFew = 8;
+    constexpr int kMostHalvings = 24;
+    double part = kWidestReachPart;
+    for (int halvings = 0; halvings < kMostHalvings; ++halvings, part /= 2) {
+        std::size_t in_reach = 0;
+        std::vector<std::uint32_t> seen;
+        for (std::size_t i = 0; i < kAsked && in_reach <= kFew * kAsked; ++i) {
+            seen.clear();
+            const Segment& own = segments_[by_place()[i * segments_.size() / kAsked]];
+            const glm::dvec3 along = direction_of(own), middle = 0.5 * (own.a + own.b);
+            const double length = glm::length(along), reach = part * length;
+            finest().visit_leaves(TouchedBox{middle - reach, middle + reach}, [&](std::uint32_t k) {
+                const Segment& other = segments_[k];
+                if (!may_be_partners(own, along, length, other)) return true;
+                if (distance_to_segment(middle, other.a, other.b) > reach || std::find(seen.begin(), seen.end(), k) != seen.end()) return true;
+                seen.push_back(k);
+                return ++in_reach <= kFew * kAsked;
+            });
+        }
+        if (in_reach <= kFew * kAsked) break;
+    }
+    return part;
 }
 
 /// Whether long segments run through each other's boxes, so that these tell little: asked of some segments all over the mesh.
@@ -163,7 +200,7 @@ void BorderIndex::find_in_box(const glm::dvec3& low, const glm::dvec3& high, std
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
     const Segment* const own = find(half_edge);
     if (own == nullptr) return std::nullopt;
-    Nearest nearest{kReachPart * glm::length(direction_of(*own)), {}};
+    Nearest nearest{reach_part_ * glm::length(direction_of(*own)), {}};
     find_nearest(*own, at, nearest);
     return nearest.partner;
 }
@@ -174,7 +211,7 @@ void BorderIndex::find_nearest(const Segment& own, const glm::dvec3& at, Nearest
     const double length = glm::length(along);
     finest().visit_nearest(at, nearest.reach, [&](std::uint32_t i) {  // a look at its box would take as long as its distance
         const Segment& other = segments_[i];
-        if (other.polygon != own.polygon && are_nearly_parallel(along, length, other)) nearest.offer(other, at);
+        if (may_be_partners(own, along, length, other)) nearest.offer(other, at);
     });
 }
 
@@ -183,7 +220,7 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     if (own == nullptr) return std::nullopt;
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
-    Nearest nearest{kReachPart * length, {}};
+    Nearest nearest{reach_part_ * length, {}};
     // What is nearly parallel to the edge, passes within `reach` of the place, and within `radius` of the line of sight, does so at a
     // distance of at most (reach + radius) / sine from the place: the sine of the least angle between it and the line of sight.
     constexpr double kLeastSine = 1.0 / 8, kSineOfParallel = 0.436;  // a trifle more than sqrt(1 - kCosParallel^2)
@@ -200,7 +237,7 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     double farthest = along_sight + radius;
     finest().visit_nearest(at, farthest, NearSegment{from, to, radius}, [&](std::uint32_t i) {
         const Segment& other = segments_[i];
-        if (other.polygon == own->polygon || !are_nearly_parallel(along, length, other)) return;
+        if (!may_be_partners(*own, along, length, other)) return;
         if (!(distance_to_segment(at, other.a, other.b) <= nearest.reach) || !are_near(from, to, other.a, other.b, radius)) return;
         nearest.offer(other, at);
         farthest = (nearest.reach + radius) / sine + radius;
@@ -212,18 +249,18 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
 
 BorderIndex::Neighbourhood BorderIndex::neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const {
     // Others are looked for somewhat farther away, so that the answer holds for some places around.
-    constexpr double kFarther = 1.25;
+    constexpr double kFarther = 0.25 * kWidestReachPart;
     Neighbourhood found;
     found.at_ = at;
     const Segment* const own = find(half_edge);
     if (own == nullptr) return found;
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
-    found.reach_ = kReachPart * length;
-    found.others_ = kFarther * found.reach_;
+    found.reach_ = reach_part_ * length;
+    found.others_ = found.reach_ + kFarther * length;
     finest().visit_nearest(at, found.others_, [&](std::uint32_t i) {
         const Segment& other = segments_[i];
-        if (other.polygon == own->polygon || !are_nearly_parallel(along, length, other)) return;
+        if (!may_be_partners(*own, along, length, other)) return;
         const double distance = distance_to_segment(at, other.a, other.b);
         if (distance < found.others_) found.offer(other, distance);
     });
@@ -265,7 +302,7 @@ bool BorderIndex::find_candidates(HalfEdge half_edge, std::size_t most, SeamCand
     if (own == nullptr) return true;
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
-    candidates.reach_ = kReachPart * length;
+    candidates.reach_ = reach_part_ * length;
     const double margin = candidates.reach_ * (1 + 1e-6);
     const TouchedBox may_be_near{glm::min(own->a, own->b) - margin, glm::max(own->a, own->b) + margin};
     std::size_t count = 0;
@@ -273,7 +310,7 @@ bool BorderIndex::find_candidates(HalfEdge half_edge, std::size_t most, SeamCand
         const Segment& other = segments_[i];
         if (!may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b))) return true;
         if (++count > most) return false;
-        if (other.polygon != own->polygon && are_nearly_parallel(along, length, other)) candidates.segments_.push_back(other);
+        if (may_be_partners(*own, along, length, other)) candidates.segments_.push_back(other);
         return true;
     });
     if (count > most) candidates.segments_.clear();
@@ -286,7 +323,7 @@ bool BorderIndex::find_near(HalfEdge half_edge, std::size_t most, SeamCandidates
     if (own == nullptr) return true;
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
-    candidates.reach_ = kReachPart * length;
+    candidates.reach_ = reach_part_ * length;
     const double margin = candidates.reach_ * (1 + 1e-3);  // a trifle more, for rounding
     const glm::dvec3 &a = own->a, &b = own->b;
     const NearSegment may_be_near{a, b, margin};
@@ -296,7 +333,7 @@ bool BorderIndex::find_near(HalfEdge half_edge, std::size_t most, SeamCandidates
         const Segment& other = segments_[i];
         if (!are_near(a, b, other.a, other.b, margin) || !seen.add(i)) return true;
         if (seen.count() > most) return false;
-        if (other.polygon != own->polygon && are_nearly_parallel(along, length, other)) candidates.segments_.push_back(other);
+        if (may_be_partners(*own, along, length, other)) candidates.segments_.push_back(other);
         return true;
     });
     if (seen.count() > most) candidates.segments_.clear();

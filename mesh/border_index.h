@@ -35,7 +35,9 @@ class BorderIndex {
 
     /// The border edge of another polygon that runs along `half_edge` at the point `at` on it, if
     /// there is one: nearly parallel, and nearer than 1/20 of the edge's length, which covers the
-    /// gaps between two different tessellations of one curve.
+    /// gaps between two different tessellations of one curve. Where borders lie in a heap, so that
+    /// more than eight of other polygons are in that reach of an edge on average, the reach is halved
+    /// until they are fewer.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at) const;
 
     /// A straight line through a place, and what is seen near it: nearer than `radius` at the place, and than `radius` + d * `growth`
@@ -47,6 +49,9 @@ class BorderIndex {
     /// The same for whoever has no use for a partner that is not seen near the place: nothing, if it is not; it may be nothing only then.
     /// Where borders lie in a heap, that is much faster: of all borders in reach, few are seen near the place.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at, const Sight& sight) const;
+
+    /// How near a partner must be, in lengths of the edge.
+    double reach_part() const { return reach_part_; }
 
     /// The same with what it says of places near `at`.
     class Neighbourhood;
@@ -80,9 +85,12 @@ class BorderIndex {
     struct Nearest;
     void find_nearest(const Segment& own, const glm::dvec3& at, Nearest& nearest) const;
     bool is_crowded() const;
+    bool has_several_polygons() const;
+    double reach_part_in_crowd() const;
     const SegmentTree& finest() const { return pieces_.is_empty() ? whole_ : pieces_; }
 
     std::vector<Segment> segments_;  // by half-edge
+    double reach_part_ = 0;          // how near a partner must be, in lengths of the edge
     SegmentTree whole_;              // of whole segments
     SegmentTree pieces_;             // of short pieces, where boxes around whole ones lie over each other by the dozen; else empty
 };

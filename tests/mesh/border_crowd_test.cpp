@@ -35,9 +35,9 @@ double distance_to(const Segment& s, const glm::dvec3& p) {
 }
 
 /// The definition, written down once more.
-std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own, const glm::dvec3& at) {
+std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own, const glm::dvec3& at, double reach_part = 0.05) {
     const glm::dvec3 along = glm::dvec3(own.b) - glm::dvec3(own.a);
-    double nearest = glm::length(along) / 20;
+    double nearest = reach_part * glm::length(along);
     std::optional<HalfEdge> partner;
     for (const Segment& s : segments) {
         const glm::dvec3 d = glm::dvec3(s.b) - glm::dvec3(s.a);
@@ -58,7 +58,7 @@ TEST(BorderCrowd, PartnersAreThoseOfASearchThroughAll) {
         ASSERT_TRUE(index.has_crowds());
         for (const Segment& own : segments) {
             const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), random.real(0, 1));
-            const auto expected = partner_by_search(segments, own, at);
+            const auto expected = partner_by_search(segments, own, at, index.reach_part());
             ASSERT_EQ(index.seam_partner(own.half_edge, at), expected) << "seed " << seed;
             found += expected.has_value();
             ++asked;
@@ -82,7 +82,7 @@ TEST(BorderCrowd, WhatIsSeenNearAPlaceIsFoundAlongTheLineOfSight) {
             sight.direction = random.direction();
             sight.radius = random.real(0.002, 0.02);
             sight.growth = random.integer(0, 1) == 0 ? 0 : random.real(0, 0.01);
-            const auto expected = partner_by_search(segments, own, at),
+            const auto expected = partner_by_search(segments, own, at, index.reach_part()),
                        partner = index.seam_partner(own.half_edge, at, sight);
             if (partner) {
                 ASSERT_EQ(partner, expected) << "seed " << seed;
@@ -155,7 +155,8 @@ TEST(BorderCrowd, NearOnesAreAllThatMayBePartnersAnywhere) {
             const std::size_t most = seed % 2 == 0 ? BorderIndex::kMostNear : 40;
             // Those within its reach somewhere, by sampling: a few at the limit are missing.
             std::size_t least = 0;
-            const double reach = glm::distance(own.a, own.b) / 20;
+            const glm::dvec3 along = glm::dvec3(own.b) - glm::dvec3(own.a);
+            const double reach = index.reach_part() * glm::length(along);
             for (const Segment& s : segments) {
                 bool is_near = false;
                 for (int step = 0; step <= 40 && !is_near; ++step) {
@@ -183,17 +184,49 @@ TEST(BorderCrowd, NearOnesAreAllThatMayBePartnersAnywhere) {
 
 TEST(BorderCrowd, MoreThanAskedForAreNotListed) {
     std::vector<Segment> segments;
-    for (HalfEdge h = 0; h < 100; ++h) segments.push_back({h, h, {0, 0, 0}, {1, static_cast<float>(h) / 10000, 0}});
+    for (HalfEdge h = 0; h < 60; ++h) segments.push_back({h, h, {0, 0, 0}, {1, static_cast<float>(h) / 10000, 0}});
     const BorderIndex index(segments);
     BorderIndex::SeamCandidates candidates;
-    EXPECT_TRUE(index.find_candidates(0, 100, candidates));
-    EXPECT_EQ(candidates.segments().size(), 99u);
-    EXPECT_FALSE(index.find_candidates(0, 99, candidates));
+    EXPECT_TRUE(index.find_candidates(0, 60, candidates));
+    EXPECT_EQ(candidates.segments().size(), 59u);
+    EXPECT_FALSE(index.find_candidates(0, 59, candidates));
     EXPECT_TRUE(candidates.segments().empty());
-    EXPECT_TRUE(index.find_near(0, 100, candidates));
-    EXPECT_EQ(candidates.segments().size(), 99u);
-    EXPECT_FALSE(index.find_near(0, 99, candidates));
+    EXPECT_TRUE(index.find_near(0, 60, candidates));
+    EXPECT_EQ(candidates.segments().size(), 59u);
+    EXPECT_FALSE(index.find_near(0, 59, candidates));
     EXPECT_TRUE(candidates.segments().empty());
+}
+
+/// However many borders lie over each other, few are in reach of one; equal ones are.
+TEST(BorderCrowd, ReachIsHalvedUntilFewAreInReach) {
+    for (const double jitter : {1e-2, 1e-4, 1e-6, 0.0}) {
+        Random random(2);
+        std::vector<Segment> segments;
+        for (HalfEdge h = 0; h < 500; ++h) {
+            const glm::dvec3 a = jitter * random.in_box(1), b = glm::dvec3(1, 2, 3) + jitter * random.in_box(1);
+            segments.push_back({h, h, a, b});
+        }
+        const BorderIndex index(segments);
+        EXPECT_LE(index.reach_part(), 0.025);
+        double in_reach = 0;
+        for (const Segment& own : segments) {
+            const glm::dvec3 middle = 0.5 * (own.a + own.b);
+            for (const Segment& s : segments) in_reach += s.polygon != own.polygon && distance_to(s, middle) <= index.reach_part() * glm::distance(own.a, own.b);
+        }
+        if (jitter > 0) {
+            EXPECT_LE(in_reach / 500, 12) << jitter;
+            EXPECT_GE(in_reach / 500, 1) << jitter;
+        } else {
+            EXPECT_EQ(index.seam_partner(5, {0.5, 1, 1.5}), HalfEdge{0});
+        }
+    }
+}
+
+TEST(BorderCrowd, OnePolygonHasNoPartners) {
+    std::vector<Segment> segments;
+    for (HalfEdge h = 0; h < 100; ++h) segments.push_back({h, 7, {0, 0, 0}, {1, 0, 0}});
+    EXPECT_EQ(BorderIndex(segments).reach_part(), 0);
+    EXPECT_EQ(BorderIndex(segments).seam_partner(0, {0.5, 0, 0}), std::nullopt);
 }
 
 /// Boxes of short segments tell enough by themselves.

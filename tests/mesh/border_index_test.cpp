@@ -17,9 +17,9 @@ using test::soup_of;
 using Segment = BorderIndex::Segment;
 
 /// The definition, written down once more.
-std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own, const glm::dvec3& at) {
+std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own, const glm::dvec3& at, double reach_part = 0.05) {
     const glm::dvec3 along = glm::dvec3(own.b) - glm::dvec3(own.a);
-    double nearest = glm::length(along) / 20;
+    double nearest = reach_part * glm::length(along);
     std::optional<HalfEdge> partner;
     for (const Segment& s : segments) {
         const glm::dvec3 a(s.a), d = glm::dvec3(s.b) - a;
@@ -54,7 +54,7 @@ TEST(BorderIndex, AgreesWithASearchThroughAllSegments) {
         const BorderIndex index(segments);
         for (const Segment& own : segments) {
             const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), random.real(0, 1));
-            const auto expected = partner_by_search(segments, own, at);
+            const auto expected = partner_by_search(segments, own, at, index.reach_part());
             ASSERT_EQ(index.seam_partner(own.half_edge, at), expected) << "seed " << seed << ", half-edge " << own.half_edge;
             ASSERT_TRUE(index.find_candidates(own.half_edge, kAll, candidates));
             ASSERT_EQ(candidates.nearest(at), expected) << "seed " << seed << ", half-edge " << own.half_edge;
