@@ -147,7 +147,7 @@ bool BorderIndex::has_several_polygons() const {
 /// Of many borders in reach the nearest one is a partner or none is: the reach is halved until few are left, as seen from the
 /// middles of some segments all over the mesh.
 double BorderIndex::reach_part_in_crowd() const {
-    constexpr std::size_t kAsked = 64, kFew = 8;
+    constexpr std::size_t kAsked = 64, kFew = 4;
     constexpr int kMostHalvings = 24;
     double part = kWidestReachPart;
     for (int halvings = 0; halvings < kMostHalvings; ++halvings, part /= 2) {

@@ -36,7 +36,7 @@ class BorderIndex {
     /// The border edge of another polygon that runs along `half_edge` at the point `at` on it, if
     /// there is one: nearly parallel, and nearer than 1/20 of the edge's length, which covers the
     /// gaps between two different tessellations of one curve. Where borders lie in a heap, so that
-    /// more than eight of other polygons are in that reach of an edge on average, the reach is halved
+    /// more than four of other polygons are in that reach of an edge on average, the reach is halved
     /// until they are fewer.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at) const;
 

@@ -214,7 +214,7 @@ TEST(BorderCrowd, ReachIsHalvedUntilFewAreInReach) {
             for (const Segment& s : segments) in_reach += s.polygon != own.polygon && distance_to(s, middle) <= index.reach_part() * glm::distance(own.a, own.b);
         }
         if (jitter > 0) {
-            EXPECT_LE(in_reach / 500, 12) << jitter;
+            EXPECT_LE(in_reach / 500, 6) << jitter;
             EXPECT_GE(in_reach / 500, 1) << jitter;
         } else {
             EXPECT_EQ(index.seam_partner(5, {0.5, 1, 1.5}), HalfEdge{0});

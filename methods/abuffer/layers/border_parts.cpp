@@ -11,11 +11,12 @@ namespace {
 
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = kWidestCrackPx * kSubpixelsPerPixel;
-/// In heaps of borders only those are told apart that come near: where there are more than so many pairs of one and another about it.
-constexpr std::size_t kMostPairs = std::size_t{1} << 24, kFewAbout = 256;
-/// In a crowd of borders it is asked what runs along one of them in so many places.
-/// In fewer where a mesh has more than 2^16 borders, so that all of them together are asked for a limited number of places.
-constexpr std::size_t kPartsInCrowd = 8, kPlacesInCrowd = std::size_t{1} << 19;
+/// In heaps of borders only those are told apart that come near: where a mesh has more than kMostPairs pairs of a border and one about
+/// it. Where more than kMostNear come near, the border lies in a crowd.
+constexpr std::size_t kMostPairs = std::size_t{1} << 24, kFewAbout = 256, kMostNear = 32;
+/// What runs along a border in a crowd is looked up at this many places, and at fewer in meshes of more than 2^13 borders, so that
+/// all lookups of a mesh are limited.
+constexpr std::size_t kPartsInCrowd = 8, kPlacesInCrowd = std::size_t{1} << 16;
 
 /// As walks over a seam ask it.
 bool is_level(const ScreenSurfaces& screen, double nearness_a, double nearness_b, SurfaceId steep) {
@@ -67,7 +68,7 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     const Mesh& mesh = screen.surfaces().mesh_of(s);
     BorderIndex::SeamCandidates about, near;
     const std::size_t most_about = std::max(kMostPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
-    const bool is_crowd = !mesh.borders.find_candidates(h, most_about, about) && !mesh.borders.find_near(h, BorderIndex::kMostNear, about);
+    const bool is_crowd = !mesh.borders.find_candidates(h, most_about, about) && !mesh.borders.find_near(h, kMostNear, about);
     if (!is_crowd && about.segments().empty()) return {{}};
     const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), along = mesh.local_position(end_of(mesh, h)) - a;
     const double square = glm::dot(along, along);
