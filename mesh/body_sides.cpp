@@ -89,9 +89,12 @@ bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::si
 
 bool BodySides::are_same(std::uint32_t a, std::uint32_t b) const {
     if (are_wound_alike(mesh_, a, b)) return true;
-    // A few long ways are less work than the whole mesh.
+    // A few long ways, though they lead nowhere, are less work than the whole mesh.
     constexpr std::size_t kMost = 4096;
-    if (visited_.fetch_add(kMost, std::memory_order_relaxed) < mesh_.triangles.size() / 4 && are_wound_alike(mesh_, a, b, kMost)) return true;
+    if (visited_.load(std::memory_order_relaxed) < mesh_.triangles.size() / 4) {
+        if (are_wound_alike(mesh_, a, b, kMost)) return true;
+        visited_.fetch_add(kMost, std::memory_order_relaxed);
+    }
     return of(a) == of(b);
 }
 

@@ -36,7 +36,7 @@ class BodySides {
 
   private:
     const Mesh& mesh_;
-    mutable std::atomic<std::size_t> visited_ = 0;  // triangles on long ways
+    mutable std::atomic<std::size_t> visited_ = 0;  // triangles on long ways that led nowhere
     mutable std::once_flag is_found_;
     mutable std::vector<std::int8_t> sides_;
 };

@@ -68,9 +68,12 @@ void FineParts::for_blocks(const SampleTile& samples, const EdgeOnScreen& edge,
     const int first_y = samples.first_row >> shift,
               last_y = (samples.first_row + samples.rows - 2) >> shift;
     for (int y = std::max(range.y0, first_y); y <= std::min(range.y1, last_y); ++y) {
-        const auto [left, right] = columns_beside(edge, blocks.begin(y), blocks.begin(y + 1));
-        const int from = std::max({range.x0, first_x, blocks.at(left)}),
-                  to = std::min({range.x1, last_x, blocks.at(right)});
+        int from = std::max(range.x0, first_x), to = std::min(range.x1, last_x);
+        if (to - from > 2) {  // long edges touch few of the blocks in their boxes
+            const auto [left, right] = columns_beside(edge, blocks.begin(y), blocks.begin(y + 1));
+            from = std::max(from, blocks.at(left));
+            to = std::min(to, blocks.at(right));
+        }
         for (int x = from; x <= to; ++x) {
             double begin = 0, end = 1;
             if (!range.is_one()) {
