@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "abuffer/edges/intersecting_pairs.h"
 #include "base/heap.h"
 #include "base/json_writer.h"
 #include "base/stopwatch.h"
@@ -31,10 +32,9 @@
 #include "bench/embree_view.h"
 #include "bench/statistics.h"
 #include "mesh/build_meshes.h"
-#include "methods/abuffer/abuffer.h"
-#include "methods/abuffer/layers/intersecting_pairs.h"
+#include "methods/abuffer.h"
+#include "output/film_files.h"
 #include "render/close_cracks.h"
-#include "render/output.h"
 #include "scene/scene_description.h"
 
 namespace burin::bench {

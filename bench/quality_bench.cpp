@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "abuffer/screen/sampling.h"
 #include "base/json_writer.h"
 #include "bench/supersampled_lines.h"
 #include "compare/chart_metrics.h"
@@ -16,7 +17,6 @@
 #include "compare/metrics_temporal.h"
 #include "compare/moving_frames.h"
 #include "compare/test_chart.h"
-#include "methods/abuffer/screen/sampling.h"
 #include "methods/method_table.h"
 #include "scene/scene_description.h"
 

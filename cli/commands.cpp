@@ -18,13 +18,13 @@
 #include "cli/job.h"
 #include "image/image_io.h"
 #include "mesh/text_scan.h"
-#include "methods/abuffer/abuffer.h"
-#include "methods/explain.h"
-#include "methods/gbuffer.h"
-#include "methods/patel.h"
+#include "methods/abuffer.h"
+#include "methods/gbuffer/gbuffer.h"
+#include "methods/patel/explain.h"
+#include "methods/patel/patel.h"
+#include "output/film_files.h"
 #include "render/close_cracks.h"
 #include "render/copied_objects.h"
-#include "render/output.h"
 
 namespace burin {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "lines/line_segment.h"
+#include "lines/line_piece.h"
 
 namespace burin {
 

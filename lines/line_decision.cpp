@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "lines/narrow_lap.h"
-#include "lines/rounded_copies.h"
+#include "view/rounded_copies.h"
 
 namespace burin {
 namespace {

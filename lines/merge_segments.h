@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "abuffer/tile_kernels.h"
-#include "lines/line_segment.h"
+#include "kernels/tile_kernels.h"
+#include "lines/line_piece.h"
 
 namespace burin {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "lines/surface_set.h"
+#include "view/surface_set.h"
 
 namespace burin {
 

@@ -6,9 +6,9 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <numeric>
 
-#include "abuffer/tile_kernels.h"
 #include "base/parallel.h"
 #include "base/unfilled_vector.h"
+#include "kernels/tile_kernels.h"
 
 namespace burin {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "abuffer/screen_triangle.h"
+#include "kernels/screen_triangle.h"
 #include "lines/surface_walk.h"
 
 namespace burin {

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "lines/line_class.h"
-#include "lines/surface_set.h"
+#include "view/surface_set.h"
 
 namespace burin {
 

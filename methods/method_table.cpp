@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 
-#include "methods/abuffer/abuffer.h"
+#include "methods/abuffer.h"
 #include "methods/feature_edges.h"
-#include "methods/gbuffer.h"
-#include "methods/id_buffer.h"
-#include "methods/patel.h"
-#include "methods/reference.h"
-#include "methods/single_pass.h"
+#include "methods/gbuffer/gbuffer.h"
+#include "methods/patel/patel.h"
+#include "methods/reference/reference.h"
+#include "methods/wire/id_buffer.h"
+#include "methods/wire/single_pass.h"
 #include "methods/zbuffer/methods.h"
 
 namespace burin {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "lines/surface_set.h"
 #include "image/image.h"
+#include "view/surface_set.h"
 
 namespace burin {
 

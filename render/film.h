@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "abuffer/tile_kernels.h"
 #include "image/image.h"
 #include "image/image_strip.h"
+#include "kernels/tile_kernels.h"
 #include "lines/line_class.h"
 #include "render/drawn_spans.h"
 

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "image/image.h"
-#include "lines/surface_set.h"
 #include "lines/surface_walk.h"
 #include "scene/scene.h"
+#include "view/surface_set.h"
 
 namespace burin {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "abuffer/screen_polygon.h"
+#include "view/screen_polygon.h"
 
 namespace burin {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "lines/surface_set.h"
 #include "mesh/box.h"
+#include "view/surface_set.h"
 
 namespace burin {
 

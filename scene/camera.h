@@ -6,9 +6,9 @@
 #include <span>
 #include <string>
 
-#include "abuffer/projection.h"
 #include "base/error.h"
 #include "mesh/box.h"
+#include "view/projection.h"
 
 namespace burin {
 

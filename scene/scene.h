@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lines/crease_fade.h"
-#include "lines/surface_set.h"
 #include "mesh/material_list.h"
 #include "mesh/mesh.h"
 #include "mesh/subdivide.h"
@@ -15,6 +14,7 @@
 #include "scene/method_settings.h"
 #include "shading/line_style.h"
 #include "shading/surface_shader.h"
+#include "view/surface_set.h"
 
 namespace burin {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lines/pen.h"
+#include "shading/pen.h"
 
 namespace burin {
 namespace {

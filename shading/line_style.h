@@ -7,10 +7,25 @@
 #include <optional>
 
 #include "lines/line_class.h"
-#include "lines/mask_stroke.h"
-#include "lines/pixel_filter.h"
 
 namespace burin {
+
+/// Which side of the boundary a stroke is drawn on.
+enum class StrokeSide : std::uint8_t {
+    both,
+    inside,   ///< on the nearer surface only
+    outside,  ///< on the farther one only
+};
+
+/// What a pixel sees of the lines around its centre. Separable in x and y.
+enum class PixelFilter : std::uint8_t {
+    box,       ///< its own square
+    gaussian,  ///< standard deviation 1/2 pixel
+    mitchell,  ///< Mitchell and Netravali 1988, B = C = 1/3; has negative lobes
+};
+
+/// How far beyond a pixel's own square its filter reaches. Whole pixels.
+constexpr int reach_px(PixelFilter filter) { return filter == PixelFilter::box ? 0 : 2; }
 
 enum class HiddenStyle : std::uint8_t { none, solid, dashed };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "abuffer/scan_convert.h"
+#include "view/scan_convert.h"
 
 namespace burin {
 namespace {

@@ -6,7 +6,7 @@
 #include <bit>
 #include <vector>
 
-#include "abuffer/mask_grid.h"
+#include "abuffer/masks/mask_grid.h"
 #include "tests/support/random.h"
 
 namespace burin {

@@ -1,4 +1,4 @@
-#include "abuffer/fragment_lists.h"
+#include "abuffer/masks/fragment_lists.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "abuffer/halo_shape.h"
+#include "abuffer/masks/halo_shape.h"
 
 #include <gtest/gtest.h>
 

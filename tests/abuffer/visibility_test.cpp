@@ -1,4 +1,4 @@
-#include "abuffer/visibility.h"
+#include "abuffer/masks/visibility.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Distances to edges: all ways of finding them agree, and what goes wrong without their tricks.
 
-#include "methods/edge_distance.h"
+#include "methods/wire/edge_distance.h"
 
 #include <gtest/gtest.h>
 

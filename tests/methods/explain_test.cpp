@@ -1,4 +1,4 @@
-#include "methods/explain.h"
+#include "methods/patel/explain.h"
 
 #include <gtest/gtest.h>
 

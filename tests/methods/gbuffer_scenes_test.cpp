@@ -10,7 +10,7 @@
 #include <set>
 
 #include "mesh/shapes.h"
-#include "methods/gbuffer.h"
+#include "methods/gbuffer/gbuffer.h"
 #include "tests/support/drawing.h"
 #include "tests/support/minimal_scenes.h"
 

@@ -1,6 +1,6 @@
 // What the ID buffer method must show, and must not, on the minimal scenes.
 
-#include "methods/id_buffer.h"
+#include "methods/wire/id_buffer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "mesh/shapes.h"
-#include "methods/wire_profile.h"
+#include "methods/wire/wire_profile.h"
 #include "tests/methods/wire_checks.h"
 #include "tests/support/random.h"
 

@@ -8,7 +8,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "mesh/shapes.h"
-#include "methods/reference.h"
+#include "methods/reference/reference.h"
 #include "scene/scene_description.h"
 #include "tests/support/drawing.h"
 #include "tests/support/oracle.h"

@@ -1,11 +1,11 @@
 // What the single-pass method must show, and must not, on the minimal scenes.
 
-#include "methods/single_pass.h"
+#include "methods/wire/single_pass.h"
 
 #include <gtest/gtest.h>
 
 #include "methods/method_table.h"
-#include "methods/wire_profile.h"
+#include "methods/wire/wire_profile.h"
 #include "tests/methods/wire_checks.h"
 
 namespace burin {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/wire_profile.h"
+#include "methods/wire/wire_profile.h"
 #include "tests/methods/wire_checks.h"
 
 namespace burin {

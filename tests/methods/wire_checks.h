@@ -1,8 +1,8 @@
 #pragma once
 
-#include "methods/edge_distance.h"
-#include "methods/id_buffer.h"
-#include "methods/single_pass.h"
+#include "methods/wire/edge_distance.h"
+#include "methods/wire/id_buffer.h"
+#include "methods/wire/single_pass.h"
 #include "tests/support/drawing.h"
 #include "tests/support/minimal_scenes.h"
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "methods/wire_profile.h"
+#include "methods/wire/wire_profile.h"
 #include "tests/support/random.h"
 
 namespace burin {

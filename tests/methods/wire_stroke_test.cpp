@@ -1,6 +1,6 @@
 // What varies a line along its edge and with depth: dashes, dots, squeeze, dual strokes, thinning.
 
-#include "methods/wire_stroke.h"
+#include "methods/wire/wire_stroke.h"
 
 #include <gtest/gtest.h>
 

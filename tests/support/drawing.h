@@ -8,7 +8,7 @@
 
 #include "image/image.h"
 #include "mesh/polygon_soup.h"
-#include "methods/patel.h"
+#include "methods/patel/patel.h"
 #include "scene/scene.h"
 
 namespace burin::test {

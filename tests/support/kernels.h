@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "abuffer/tile_kernels.h"
+#include "kernels/tile_kernels.h"
 
 namespace burin::test {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "methods/abuffer/abuffer.h"
-#include "methods/abuffer/layer_pass.h"
-#include "methods/abuffer/screen/triangle_bins.h"
+#include "abuffer/hidden_pass.h"
+#include "abuffer/screen/triangle_bins.h"
+#include "methods/abuffer.h"
 #include "tests/support/drawing.h"
 
 /// What tests of hidden lines and of transparent surfaces have in common: all layers of a square picture.

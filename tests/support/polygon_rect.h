@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "abuffer/screen_polygon.h"
+#include "view/screen_polygon.h"
 
 namespace burin::test {
 

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "abuffer/screen/screen_surfaces.h"
+#include "image/image.h"
+#include "lines/whole_line.h"
+#include "render/frame.h"
+
+namespace burin {
+
+/// Whether an edge belongs to exactly two triangles, as its side alone tells: an edge that is not sharp does. False for some that
+/// do, too.
+inline bool is_surely_pair(const ScreenMesh& mesh, HalfEdge h) { return mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0; }
+
+/// The edges of the instances shown that may be lines in this view, in chunks of triangles. Edges of two triangles are there once,
+/// as the smaller of their half-edges. The facing of all triangles must be known.
+struct PossibleLines {
+    PossibleLines(const ScreenSurfaces& screen, int threads);
+
+    std::vector<TriangleChunk> chunks;
+    std::vector<std::vector<HalfEdge>> edges;  ///< of each
+};
+
+/// Tells which edges are lines in this view: contours, borders that are no seams, and edges with another
+/// class asked for.
+class LayerEdgeFinder {
+  public:
+    /// `has_both_of_seam`: where two borders run along each other, both are found, not the longer one only.
+    LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+                    bool has_both_of_seam = false);
+    ~LayerEdgeFinder();
+
+    /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
+    void find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const;
+    /// The same of a loose edge of an instance, by its number (Mesh::loose_number()).
+    void find_loose(std::uint32_t instance, HalfEdge number, std::vector<LayerLine>& lines) const;
+
+    /// What counts where a border of triangle `s` is in contact with another surface: the triangle, or behind a sliver the next
+    /// one. Nothing if it is a needle.
+    std::optional<SurfaceId> solid_at_border(SurfaceId s, HalfEdge h) const;
+
+  private:
+    class Rules;
+    std::unique_ptr<const Rules> rules_;
+};
+
+/// Where edges can be on the screen at all: dashes must not begin at the picture's border.
+constexpr PixelRect anywhere_on_screen() {
+    constexpr int kFarPx = 1 << 20;
+    return {-kFarPx, -kFarPx, kFarPx, kFarPx};
+}
+
+/// Of the mesh of an instance, the loose edges [begin, end), by their numbers.
+struct LooseChunk {
+    std::uint32_t instance;
+    HalfEdge begin, end;
+};
+/// All loose edges of the instances shown, in chunks; none if marks are not asked for.
+std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, LineClassSet classes);
+
+/// All lines among the edges of the instances shown, be they seen or not.
+std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
+                                        PixelRect region, int threads);
+
+}  // namespace burin

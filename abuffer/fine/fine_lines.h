@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "abuffer/edges/edge_lines.h"
+#include "abuffer/fine/fine_blocks.h"
+#include "lines/line_piece.h"
+#include "render/frame.h"
+
+namespace burin {
+
+/// The lines that samples miss: features thinner than a sample, and meshes with several triangles to a
+/// sample. Of parts of edges, those that are lines are clipped against all triangles in front of them. Tile by
+/// tile; buffers are used again.
+class FineLines {
+  public:
+    /// `region`: of `bins`, which must have kept thin triangles. `draws_each`: also edges behind others on the same line of the
+    /// picture, which dashes and smooth contours need.
+    FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, const TileKernels& kernels,
+              PixelRect region, bool draws_each);
+    ~FineLines();
+
+    /// Adds what is visible of the parts that are lines, all of one tile.
+    void find(std::size_t tile, std::span<const FinePart> parts, std::vector<LineSegment>& segments);
+
+  private:
+    class BlockClipper;
+    void find_candidates(std::span<const FinePart> parts);
+    std::span<const LayerLine> lines_of(std::uint32_t instance, HalfEdge h);
+    bool is_loose(const FineEdge& edge) const {
+        return edge.half_edge >= 3 * screen_.mesh(edge.instance).triangle_count;
+    }
+    void find_in_block(std::size_t block, std::vector<LineSegment>& segments);
+
+    const ScreenSurfaces& screen_;
+    bool draws_each_;
+    SampleBlocks grid_;
+    LayerEdgeFinder finder_;
+    FineBlocks blocks_;
+    std::unique_ptr<BlockClipper> clipper_;
+    std::vector<FineCandidate> candidates_;
+    std::vector<LayerLine> lines_;
+    /// What was found for borders: long ones are in many tiles, and may have many others beside them.
+    struct KnownBorder {
+        std::uint32_t instance = 0;
+        HalfEdge half_edge = kNoHalfEdge;
+        std::vector<LayerLine> lines;
+    };
+    std::vector<KnownBorder> known_borders_;
+};
+
+}  // namespace burin

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/tile_kernels.h"
+#include "lines/whole_line.h"
+
+namespace burin {
+
+/// The layers in front of a line, counted from one end to the other. Buffers are used again.
+class LayerSweep {
+  public:
+    explicit LayerSweep(const TileKernels& kernels) : kernels_(kernels) {}
+
+    /// For the part [begin, end] of a line, with up to `most` triangles in front. `joins_parts`: triangles may be added in several
+    /// parts, which are one layer, or be transparent.
+    void clear(double begin, double end, std::size_t most, bool joins_parts);
+    bool is_empty() const { return count_ == 0; }
+    /// A triangle, by its number, is in front of the line between two shares of it. `transmission`: 0 = opaque.
+    void add(std::uint32_t triangle, double begin, double end, double transmission) {
+        ++count_;
+        if (!joins_parts_) return add_opaque(begin, end);
+        intervals_.push_back({triangle, begin, end, transmission});
+        has_transparent_ = has_transparent_ || transmission > 0;
+    }
+    /// Adds the pieces of the part that something is in front of.
+    void find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces);
+
+  private:
+    struct Interval {
+        std::uint32_t triangle;
+        double begin, end;
+        double transmission;
+    };
+    struct Event {
+        double at;
+        int opaque;
+    };
+    void add_opaque(double begin, double end) {
+        // Whether layers begin and end within the part is a guess, so without branches.
+        opaque_ += begin <= begin_ ? 1 : 0;
+        begins_[begin_count_] = begin;
+        begin_count_ += begin <= begin_ ? 0 : 1;
+        ends_[end_count_] = end;
+        end_count_ += end < end_ ? 1 : 0;
+    }
+    void merge_intervals();
+    void sort(std::vector<double>& values, std::size_t count);
+    void find_events();
+
+    const TileKernels& kernels_;
+    double begin_ = 0, end_ = 1;
+    std::size_t count_ = 0;
+    bool joins_parts_ = false, has_transparent_ = false;
+    std::vector<Interval> intervals_;  // if parts are joined
+    int opaque_ = 0;                   // in front where the part begins
+    std::size_t begin_count_ = 0, end_count_ = 0;
+    std::vector<double> begins_, ends_, sorted_;  // of opaque layers, within the part, and room for more
+    std::vector<Event> events_;
+};
+
+}  // namespace burin

@@ -1,0 +1,211 @@
+#include "abuffer/hiding/transparent_fill.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "abuffer/edges/occluder.h"
+#include "abuffer/samples/sample_tile.h"
+#include "abuffer/screen/sampling.h"
+#include "base/parallel.h"
+#include "kernels/tile_kernels.h"
+#include "shading/surface_shader.h"
+#include "view/scan_convert.h"
+
+namespace burin {
+namespace {
+
+/// A transparent triangle at a sample.
+struct LayerSample {
+    std::uint32_t sample;
+    float nearness;
+    std::uint32_t number;
+    bool operator<(const LayerSample& o) const {
+        if (sample != o.sample) return sample < o.sample;
+        if (nearness != o.nearness) return nearness > o.nearness;
+        return number < o.number;
+    }
+};
+
+/// A polygon on the screen and its plane.
+struct Layer {
+    ScreenPolygon polygon;
+    SpanPlane plane;
+};
+
+class TransparentTile {
+  public:
+    TransparentTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const PixelTiles& grid)
+        : frame_(frame), screen_(screen), bins_(bins), grid_(grid), kernels_(best_kernels()) {}
+
+    void fill(std::size_t tile, Film& film) {
+        const auto numbers = bins_.triangles(tile);
+        const bool any = std::any_of(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return opacity(n) < 1; });
+        if (!any) return;
+        rect_ = grid_.tile(tile);
+        const int s = samples_per_pixel_of(*frame_.scene);
+        samples_.reset(rect_.x0 * s, rect_.y0 * s, rect_.width() * s, rect_.height() * s, s);
+        layers_.clear();
+        for (const std::uint32_t n : numbers) {
+            if (opacity(n) == 1) draw_opaque(n);
+        }
+        for (const std::uint32_t n : numbers) {
+            if (opacity(n) < 1) draw_transparent(n);
+        }
+        std::sort(layers_.begin(), layers_.end());
+        composite(film);
+    }
+
+  private:
+    SurfaceId surface(std::uint32_t value) const { return screen_.surface_of(value & ~LayerBins::kClipped); }
+    float opacity(std::uint32_t value) const { return frame_.material_of(surface(value)).opacity; }
+    SampleView view() {
+        return {samples_.nearness.data(), samples_.ids.data(), samples_.first_column, samples_.first_row,
+                samples_.columns, samples_.rows, samples_.stride, samples_.samples_per_pixel, 0, 0, nullptr, nullptr, 0};
+    }
+
+    Layer layer(std::uint32_t value) const {
+        const SurfaceSet& surfaces = frame_.surfaces;
+        const SurfaceId s = surface(value);
+        Layer layer;
+        layer.polygon = surfaces.screen_polygon(s);
+        const DepthPlane plane = surfaces.plane(s);
+        const SubpixelPoint at = layer.polygon.corners[0];
+        const double zero = surfaces.farthest_nearness;
+        layer.plane = {at.x,
+                       at.y,
+                       static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero),
+                       static_cast<float>(plane.per_x / kSubpixelsPerPixel),
+                       static_cast<float>(plane.per_y / kSubpixelsPerPixel),
+                       static_cast<float>(plane.lowest - zero),
+                       static_cast<float>(plane.highest - zero),
+                       (value & ~LayerBins::kClipped) << 1};
+        return layer;
+    }
+
+    /// Calls visit(row, first column, end column), counted in the tile.
+    template <typename Visit>
+    void for_spans(const ScreenPolygon& polygon, const Visit& visit) const {
+        if (polygon.count == 0) return;
+        const ScanConverter scan(polygon, samples_.samples_per_pixel);
+        const int end_row = std::min(scan.end_row(), samples_.first_row + samples_.rows);
+        for (int row = std::max(scan.first_row(), samples_.first_row); row < end_row; ++row) {
+            const SampleSpan span = scan.span(row);
+            const int begin = std::max(span.begin - samples_.first_column, 0);
+            const int end = std::min(span.end - samples_.first_column, samples_.columns);
+            if (begin < end) visit(row - samples_.first_row, begin, end);
+        }
+    }
+
+    void draw_opaque(std::uint32_t value) {
+        const Layer l = layer(value);
+        for_spans(l.polygon, [&](int row, int begin, int end) { kernels_.draw_span(view(), row, begin, end, l.plane); });
+    }
+
+    void draw_transparent(std::uint32_t value) {
+        const Layer l = layer(value);
+        const std::int32_t pitch = kSubpixelsPerPixel / samples_.samples_per_pixel;
+        for_spans(l.polygon, [&](int row, int begin, int end) {
+            const auto y = static_cast<float>((samples_.first_row + row) * pitch + pitch / 2 - l.plane.y);
+            for (int column = begin; column < end; ++column) {
+                const auto x = static_cast<float>((samples_.first_column + column) * pitch + pitch / 2 - l.plane.x);
+                const float nearness = std::clamp(x * l.plane.per_x + l.plane.nearness + y * l.plane.per_y,
+                                                  l.plane.low, l.plane.high);
+                const auto i = static_cast<std::uint32_t>(row * samples_.stride + column);
+                const float gap = nearness - samples_.nearness[i];
+                const double level = level_slack(frame_.surfaces, static_cast<double>(nearness));
+                const bool is_level = static_cast<double>(std::abs(gap)) <= level;
+                const bool is_seen = is_level ? is_in_front(l.plane.id >> 1, samples_.ids[i] >> 1, gap) : gap > 0;
+                if (is_seen) layers_.push_back({i, nearness, l.plane.id >> 1});
+            }
+        });
+    }
+
+    /// Of two surfaces at about one depth, of which the first is nearer by `gap` at a sample. Asked of the same two for one
+    /// sample after the other.
+    bool is_in_front(std::uint32_t number, std::uint32_t opaque, float gap) {
+        if (compared_[0] != number || compared_[1] != opaque) {
+            compared_[0] = number;
+            compared_[1] = opaque;
+            order_ = frame_.surfaces.order(screen_.surface_of(number), screen_.surface_of(opaque));
+        }
+        if (order_.are_coincident()) return number < opaque;
+        return order_.is_in_front() || (gap > 0 && !order_.is_behind());
+    }
+
+    void composite(Film& film) {
+        const int s = samples_.samples_per_pixel;
+        // Where each row of pixels begins in layers_; sorted by sample, so rows of samples follow each other.
+        for (int y = std::max(rect_.y0, frame_.crop.y0); y < std::min(rect_.y1, frame_.crop.y1); ++y) {
+            for (int x = std::max(rect_.x0, frame_.crop.x0); x < std::min(rect_.x1, frame_.crop.x1); ++x) {
+                glm::vec4 sum(0.0f);
+                bool any = false;
+                last_number_ = ~0u;
+                for (int row = (y - rect_.y0) * s; row < (y - rect_.y0 + 1) * s; ++row) {
+                    for (int column = (x - rect_.x0) * s; column < (x - rect_.x0 + 1) * s; ++column) {
+                        sum += sample_color(static_cast<std::uint32_t>(row * samples_.stride + column), x, y, any);
+                    }
+                }
+                if (any) film.replace_surface(x, y, sum / static_cast<float>(s * s));
+            }
+        }
+    }
+
+    glm::vec4 sample_color(std::uint32_t sample, int x, int y, bool& any) {
+        auto at = std::lower_bound(layers_.begin(), layers_.end(), sample,
+                                   [](const LayerSample& l, std::uint32_t i) { return l.sample < i; });
+        glm::vec4 color(0.0f);
+        float left = 1;
+        for (; at != layers_.end() && at->sample == sample; ++at) {
+            any = true;
+            const float o = opacity(at->number);
+            color += surface_at(at->number, x, y) * (left * o);
+            left *= 1 - o;
+        }
+        const std::uint32_t id = samples_.ids[sample];
+        if (id != SampleTile::kBackground) color += surface_at(id >> 1, x, y) * left;
+        return color;
+    }
+
+    /// The colour of a surface as if it were opaque.
+    glm::vec4 surface_at(std::uint32_t number, int x, int y) {
+        const Scene& scene = *frame_.scene;
+        if (scene.surfaces.shading == SurfaceShading::none) return glm::vec4(0.0f);
+        if (scene.surfaces.shading == SurfaceShading::paper) return glm::vec4(scene.surfaces.paper_color, 1.0f);
+        if (number == last_number_) return last_color_;
+        const SurfaceId s = screen_.surface_of(number);
+        const glm::dvec2 pixel(x + 0.5, y + 0.5);
+        glm::dvec3 origin, ray;
+        frame_.surfaces.projection.view_ray(pixel, origin, ray);
+        last_number_ = number;
+        last_color_ = surface_color(scene.surfaces, frame_.material_of(s), frame_.surfaces.normal_towards_eye(s, pixel),
+                                    -glm::normalize(ray));
+        return last_color_;
+    }
+
+    const Frame& frame_;
+    const ScreenSurfaces& screen_;
+    const LayerBins& bins_;
+    const PixelTiles& grid_;
+    const TileKernels& kernels_;
+    PixelRect rect_;
+    SampleTile samples_;
+    std::vector<LayerSample> layers_;
+    std::uint32_t compared_[2] = {~0u, ~0u};
+    SurfaceOrder order_;  // of these two
+    std::uint32_t last_number_ = ~0u;
+    glm::vec4 last_color_{0.0f};
+};
+
+}  // namespace
+
+void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins,
+                      const PixelTiles& grid, int threads, Film& film) {
+    std::vector<std::unique_ptr<TransparentTile>> tiles(static_cast<std::size_t>(threads));
+    parallel_for(grid.count(), threads, [&](std::size_t index, int worker) {
+        auto& tile = tiles[static_cast<std::size_t>(worker)];
+        if (!tile) tile = std::make_unique<TransparentTile>(frame, screen, bins, grid);
+        tile->fill(index, film);
+    });
+}
+
+}  // namespace burin

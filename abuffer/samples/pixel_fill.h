@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "abuffer/samples/surface_tile.h"
+#include "render/film.h"
+
+namespace burin {
+
+/// Fills the pixels of a tile from its samples, without lines. One per thread; buffers are used again.
+class PixelFiller {
+  public:
+    PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels);
+
+    /// Puts the pixels of a tile that lie in the frame's crop.
+    void fill(const SurfaceTile& tile, Film& film);
+    /// Puts the background there.
+    void clear(PixelRect rect, Film& film) const;
+
+  private:
+    PixelRect in_crop(PixelRect rect) const;
+
+    static constexpr int kWidth = TileGrid::kTileSamples / 2;  // the widest tile, in pixels
+
+    /// The sample next to a pixel's centre stands for the pixel in depth, normal and numbers: finds the
+    /// triangles there, and their looks.
+    void find_looks(const SampleTile& samples, PixelRect rect);
+    void make_looks();
+    TriangleLook look_of(std::uint32_t number) const;
+    void fill_ids(std::uint32_t number, TriangleLook& look) const;
+
+    /// The same, of a part that has anything but background.
+    void fill_part(const SampleTile& samples, PixelRect part, Film& film);
+    void put_geometry(PixelRect rect, int y, Film& film);
+    void put_paper(const SampleTile& samples, PixelRect rect, Film& film);
+    void put_shaded(const SampleTile& samples, PixelRect rect, int y, Film& film);
+    glm::vec4 color(std::uint32_t number, int x, int y);
+
+    const Frame& frame_;
+    const ScreenSurfaces& screen_;
+    const TileKernels& kernels_;
+    std::vector<std::uint32_t> numbers_;  // of triangles; the first one is none
+    std::vector<TriangleLook> looks_;     // of them
+    std::vector<std::uint16_t> look_at_;  // per pixel of the tile, which of them
+    std::vector<HalfColor> paper_;               // by the number of covered samples
+    std::uint32_t shaded_number_ = 0xFFFFFFFFu;  // whose look is:
+    TriangleLook shaded_look_{};
+    struct Row {
+        std::uint16_t color[4][kWidth];
+        static_assert(kWidth % 4 == 0);  // see GeometryRow
+        float distance[kWidth], normal[3][kWidth];
+        std::uint32_t ids[3][kWidth];
+    } row_;
+};
+
+}  // namespace burin

@@ -1,0 +1,29 @@
+#include "kernels/level_reach.h"
+#include "kernels/mesh_walks.h"
+#include "kernels/tile_kernels.h"
+
+// As tile_kernels_avx2.cpp. Most vectors stay eight wide; what helps are comparisons into mask registers.
+#ifdef __AVX512VL__
+
+#include "kernels/tile_kernels.inc"
+
+namespace burin {
+
+const TileKernels* avx512_kernels() {
+    static constexpr TileKernels kernels = kernels_named("avx512");
+    const bool has_all = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("popcnt");
+    return has_all ? &kernels : nullptr;
+}
+
+}  // namespace burin
+
+#else
+
+namespace burin {
+
+const TileKernels* avx512_kernels() { return nullptr; }
+
+}  // namespace burin
+
+#endif

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "image/image.h"
+#include "lines/course_index.h"
+#include "lines/line_piece.h"
+#include "lines/whole_line.h"
+#include "view/surface_set.h"
+
+namespace burin {
+
+/// Cuts visible lines into dashes of [on, off] pixels, in a picture of this size. `on` includes the round ends of a pen of this width.
+///
+/// `features` are edges of the mesh that are lines from anywhere, such as creases, whole, be they seen or not: dashes along
+/// them depend on them alone (chains_of()), so they stay where they are when a camera moves or something
+/// passes in front.
+///
+/// Of all other lines, contours above all, the pieces that meet follow each other in a chain, over tiles and over edges of
+/// the mesh. Where more than two meet, those of one edge belong together, else those of one class if they are two; the
+/// others end there. A chain's first dash begins at the end that is higher on the screen (of two level ones, the left one).
+/// A closed chain begins at its highest point and runs clockwise, and its dashes are stretched or squeezed so that a whole
+/// number of them fits: there is no seam. Open chains shorter than a pixel or than the pen is wide, and loops shorter than
+/// 1/16 pixel, are left out: hooks of facets would dot the gaps of the lines that they hang on.
+///
+/// Lines that lie on each other share their dashes (SharedDashes): features first.
+///
+/// All of that depends on nothing but where the lines are, if all of the picture's are given.
+std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
+                                             std::array<double, 2> dash_px, double width_px, PixelRect picture,
+                                             std::span<const LayerLine> features, const SurfaceSet& surfaces);
+
+/// Where solid lines would be drawn whose dashes hidden ones must leave alone, in a picture of this size.
+CourseIndex courses_of(const std::vector<std::vector<LineSegment>>& segments, PixelRect picture, double reach_px);
+
+}  // namespace burin

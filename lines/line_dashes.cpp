@@ -1,0 +1,22 @@
+#include "lines/line_dashes.h"
+
+#include "lines/chains.h"
+
+namespace burin {
+
+bool is_feature(const LayerLine& line) { return !(line.classes == LineClassSet(LineClass::silhouette)); }
+
+LineDashes::LineDashes(std::span<const LayerLine> lines, const SurfaceSet& surfaces, double period_px, SharedDashes& shared)
+    : piece_of_line_(lines.size()) {
+    const LineChains chains = chains_of(lines, surfaces, period_px);
+    std::vector<DashPiece> pieces;
+    pieces.reserve(lines.size());
+    for (const std::uint32_t line : chains.lines) {
+        piece_of_line_[line] = static_cast<std::uint32_t>(pieces.size());
+        const auto& [at_from, at_to] = chains.positions[line];
+        pieces.push_back({lines[line].from / 256.0, lines[line].to / 256.0, at_from, at_to});
+    }
+    places_ = shared.lay_out(std::move(pieces), chains.chain_ends);
+}
+
+}  // namespace burin

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "kernels/tile_kernels.h"
+#include "lines/line_class.h"
+
+namespace burin {
+
+/// A straight line on the screen, seen or not: an edge of a mesh, or where two triangles pass through
+/// each other.
+struct LayerLine {
+    /// An end that no other line has in common.
+    static constexpr std::uint64_t kNoNode = ~std::uint64_t{0};
+
+    glm::dvec2 from{0.0}, to{0.0};  ///< in 1/256 pixel
+    /// At either end, less SurfaceSet::farthest_nearness.
+    double nearness_from = 0, nearness_to = 0;
+    /// Numbers of the triangles that the line lies on; they do not hide it. A loose edge has none.
+    std::array<std::uint32_t, 2> owners{};
+    static constexpr std::uint32_t kNoOwner = 0xFFFFFFFFu;
+    bool is_loose() const { return owners[0] == kNoOwner; }
+    bool is_wire = false;  ///< the edge in front of a wire, or of a strip as narrow, whose triangles say nothing about what is in front
+    /// Surfaces hide it only where they are in front for certain, and not where they touch it, unless it is flush with them.
+    bool is_by_itself() const { return is_wire || is_loose(); }
+    /// Others have the edge's two vertices in common, too.
+    bool has_more_owners = false;
+    /// Of a contour, on which side of the way the surface in front is, as side_of_edge() counts. 0: elsewhere.
+    std::int8_t front_side = 0;
+    /// Of a border that is a seam elsewhere, the part of edge_on_screen() that the line is, as shares.
+    double edge_begin = 0, edge_end = 1;
+    static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
+    std::uint64_t line_key = kNoKey;  ///< of an edge: LineCrossing::line_key
+    bool is_edge() const { return line_key != kNoKey; }
+    LineClassSet classes;  ///< all that apply, among those asked for
+    LineClass drawn_as = LineClass::silhouette;
+    std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades
+    /// Lines that meet at an end have equal nodes there. For edges: instance and vertex.
+    std::array<std::uint64_t, 2> nodes{kNoNode, kNoNode};
+
+    /// Opacity of a line behind what lets through so much, 255 = all.
+    std::uint8_t opacity_behind(std::uint8_t transmission) const {
+        return static_cast<std::uint8_t>((opacity * transmission + 127) / 255);
+    }
+    /// Of a level line all places are exactly on it; and those of one that runs the other way are the same.
+    glm::dvec2 at(double t) const { return t < 0.5 ? from + (to - from) * t : to - (to - from) * (1 - t); }
+    double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
+    /// The least nearness in a part of it.
+    double lowest_in(double begin, double end) const { return std::min(nearness_at(begin), nearness_at(end)); }
+    double length_px() const { return glm::distance(from, to) / 256; }
+    /// Whether kernels may take all of it as ScreenLine::is_exact.
+    bool is_exact() const {
+        const glm::dvec2 along = glm::abs(to - from);
+        return along.x + along.y <= double{kLongestExact} && glm::floor(from) == from && glm::floor(to) == to;
+    }
+};
+
+/// A part of a line with the same surfaces in front of it all along.
+struct LayerPiece {
+    std::uint32_t line = 0;   ///< number of the line
+    double begin = 0, end = 1;  ///< as shares of the way from `from` to `to`
+    /// Quantitative invisibility (Appel 1967): how many opaque layers are in front. 255: so many or more.
+    std::uint8_t invisibility = 0;
+    /// What transparent layers in front let through, 255 = all.
+    std::uint8_t transmission = 255;
+};
+
+}  // namespace burin

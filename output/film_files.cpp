@@ -1,0 +1,47 @@
+#include "output/film_files.h"
+
+#include "image/image_io.h"
+
+namespace burin {
+namespace {
+
+ExrOptions exr_options(const OutputOptions& options) {
+    ExrOptions exr;
+    exr.threads = options.threads;
+    exr.texts = {{"software", "burin 0.1.0"}};
+    return exr;
+}
+
+}  // namespace
+
+void write_output(const Frame& frame, const Film& film, const OutputOptions& options) {
+    if (options.format == OutputFormat::exr) {
+        write_exr(options.path, film.image(), exr_options(options));
+        return;
+    }
+    const PictureSettings& picture = frame.scene->picture;
+    std::optional<glm::vec3> background = picture.background;
+    if (!background && !picture.transparent) background = glm::vec3(1.0f);  // white paper
+    write_display_image(options.path, to_display(film.image(), background), options.bits);
+}
+
+BandWriter::BandWriter(Film& film, const OutputOptions& options)
+    : film_(film),
+      exr_(std::make_unique<ExrWriter>(options.path, film.display(), film.crop(), film.channels(), exr_options(options))) {}
+
+void BandWriter::write(std::size_t band) {
+    try {
+        const ImageStrip rows = film_.band(band);
+        for (int y = rows.data.y0; y < rows.data.y1; y += ExrWriter::kChunkRows) exr_->write_chunk(rows, y);
+    } catch (...) {
+        has_failed_ = true;
+        throw;
+    }
+    film_.close(band);
+}
+
+BandWriter::~BandWriter() = default;
+
+void BandWriter::finish() { exr_->finish(); }
+
+}  // namespace burin

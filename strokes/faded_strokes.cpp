@@ -1,0 +1,41 @@
+#include "strokes/faded_strokes.h"
+
+#include <algorithm>
+
+namespace burin {
+
+void FadedStrokes::draw(std::span<const LineSegment* const> segments, PixelRect rect,
+                        const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke) {
+    masks_.clear();
+    width_ = (rect.width() + 7) / 8 * 8;
+    std::vector<std::uint8_t> opacities;
+    for (const LineSegment* s : segments) {
+        if (s->is_drawn && s->opacity < 255) opacities.push_back(s->opacity);
+    }
+    if (opacities.empty()) return;
+    std::sort(opacities.rbegin(), opacities.rend());
+    opacities.erase(std::unique(opacities.begin(), opacities.end()), opacities.end());
+    touched_.assign(static_cast<std::size_t>(width_ * rect.height()), 0);
+    for (const std::uint8_t opacity : opacities) {
+        canvas_.reset(rect.x0, rect.y0, rect.width(), rect.height());
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            if (segments[i]->is_drawn && segments[i]->opacity == opacity) draw_stroke(i, canvas_);
+        }
+        canvas_.for_touched([&](int column, int row) {
+            const auto pixel = static_cast<std::uint32_t>(row * width_ + column);
+            masks_.push_back({pixel, opacity, canvas_.at(column, row)});
+            touched_[pixel] = 1;
+        });
+    }
+    std::stable_sort(masks_.begin(), masks_.end(),
+                     [](const PixelMask& a, const PixelMask& b) { return a.pixel < b.pixel; });
+}
+
+std::span<const FadedStrokes::PixelMask> FadedStrokes::masks_of(int column, int row) const {
+    const auto pixel = static_cast<std::uint32_t>(row * width_ + column);
+    const auto is_before = [](const PixelMask& m, std::uint32_t p) { return m.pixel < p; };
+    const auto first = std::lower_bound(masks_.begin(), masks_.end(), pixel, is_before);
+    return {first, std::lower_bound(first, masks_.end(), pixel + 1, is_before)};
+}
+
+}  // namespace burin

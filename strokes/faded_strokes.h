@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "image/image.h"
+#include "lines/line_piece.h"
+#include "strokes/stroke_mask.h"
+
+namespace burin {
+
+/// The strokes of one tile that are not fully opaque: lines that fade in or out. They lie below all others,
+/// and where two overlap, the more opaque one counts. So a line that has become opaque looks as if it
+/// had never faded. Buffers are used again.
+class FadedStrokes {
+  public:
+    explicit FadedStrokes(const TileKernels& kernels) : canvas_(kernels) {}
+
+    /// Draws those of the segments that are not opaque, by draw_stroke(index, canvas).
+    void draw(std::span<const LineSegment* const> segments, PixelRect rect,
+              const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke);
+
+    /// Whether there is any in a pixel of the rectangle.
+    bool is_touched(int column, int row) const {
+        return !masks_.empty() && touched_[static_cast<std::size_t>(row * width_ + column)] != 0;
+    }
+    /// As StrokeCanvas::eight_touched().
+    std::uint64_t eight_touched(int column, int row) const {
+        return masks_.empty() ? 0 : StrokeCanvas::eight_bytes(&touched_[static_cast<std::size_t>(row * width_ + column)]);
+    }
+    /// Calls use(mask, samples taken, opacity 0..1) for what there is in a pixel, the most opaque one first.
+    template <typename Use>
+    void for_masks(int column, int row, StrokeMask taken, const Use& use) const {
+        for (const PixelMask& m : masks_of(column, row)) {
+            use(m.mask, taken, static_cast<float>(m.opacity) / 255.0f);
+            for (std::size_t r = 0; r < taken.rows.size(); ++r) taken.rows[r] |= m.mask.rows[r];
+        }
+    }
+
+  private:
+    struct PixelMask {
+        std::uint32_t pixel;
+        std::uint8_t opacity;
+        StrokeMask mask;
+    };
+    std::span<const PixelMask> masks_of(int column, int row) const;
+
+    StrokeCanvas canvas_;
+    std::vector<PixelMask> masks_;  // by pixel, and in each the most opaque ones first
+    std::vector<std::uint8_t> touched_;  // pixels that have masks, and room to read eight at once
+    int width_ = 0;                      // of the rectangle, rounded up to eights
+};
+
+}  // namespace burin

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernels/tile_kernels.h"
+#include "lines/line_piece.h"
+#include "render/film.h"
+#include "render/frame.h"
+#include "strokes/hidden_strokes.h"
+#include "strokes/pixel_filter.h"
+
+namespace burin {
+
+/// Draws pieces of visible lines as strokes over a film, and those of lines behind surfaces with them.
+class StrokePass {
+  public:
+    /// Pieces of lines, list after list.
+    using Lists = std::span<const std::vector<LineSegment>>;
+
+    StrokePass(const Frame& frame, const TileKernels& kernels, int threads, Film& film);
+    ~StrokePass();
+
+    /// Draws a part of the picture, on all threads. `lines`: all whose strokes reach it; `behind`: nullptr or those behind
+    /// surfaces in the same part.
+    void draw(PixelRect part, Lists lines, LayerStrokes* behind = nullptr);
+    /// Draws it on one thread, while others draw other parts. `worker`: which thread, [0, threads).
+    void draw_as(int worker, PixelRect part, Lists lines);
+
+  private:
+    class Bins;
+    class Printer;
+    Bins sort(PixelRect part, Lists lines) const;
+    void print(int worker, const Bins& bins, std::size_t tile, LayerStrokes* behind);
+
+    const Frame& frame_;
+    Film& film_;
+    std::unique_ptr<const FilterTable> filter_;  // nullptr: each pixel sees its own square
+    std::vector<Printer> printers_;  // of each thread
+};
+
+}  // namespace burin

@@ -1,0 +1,64 @@
+// Lines behind surfaces: hidden ones by themselves beside all kinds together.
+
+#include "strokes/hidden_strokes.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/drawing.h"
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+constexpr int kSize = LayerStrokes::kTilePx;
+
+TEST(LayerStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
+    const Scene scene = scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})});
+    const PixelRect rect{0, 0, kSize, kSize};
+    const Frame frame = make_frame(scene, pixel_camera(kSize, kSize), kSize, kSize, rect);
+    VisibleStrokes visible(frame);
+    LayerSet layers;
+    layers.lines_hidden = true;
+    Random random(5);
+    const auto place = [&] { return glm::dvec2(random.real(-2, kSize + 2), random.real(-2, kSize + 2)); };
+    for (int round = 0; round < 40; ++round) {
+        std::vector<LineSegment> in_front(5);
+        std::vector<const LineSegment*> listed;
+        for (LineSegment& s : in_front) {
+            s.from = place();
+            s.to = place();
+            listed.push_back(&s);
+        }
+        visible.draw(listed, rect);
+        std::vector<std::vector<LayerSegment>> hidden(1);
+        for (int i = 0; i < 8; ++i) {
+            LayerSegment s;
+            s.from = place();
+            s.to = place();
+            s.is_hidden = true;
+            s.transmission = round % 2 == 0 ? 255 : 100;
+            hidden[0].push_back(s);
+        }
+        const auto drawn = [&] {
+            Film film(rect, rect, layers, LineClassSet::all());
+            for (int y = 0; y < kSize; ++y) film.put_background(0, kSize, y);
+            LayerStrokes strokes(frame, best_kernels(), 1, rect, hidden);
+            EXPECT_TRUE(strokes.has_any(0));
+            strokes.draw_below(0, 0, visible, film);
+            return film;
+        };
+        const Film alone = drawn();
+        // One more, of another kind, that ends beside the tile.
+        LayerSegment beside = hidden[0].front();
+        beside.from = {kSize + 1.2, 3};
+        beside.to = {kSize + 1.3, 5};
+        beside.transmission = 50;
+        hidden[0].push_back(beside);
+        EXPECT_TRUE(same_bits(alone.image(), drawn().image())) << round;
+    }
+}
+
+}  // namespace
+}  // namespace burin
