@@ -41,7 +41,7 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
 }
 
 /// Brings the lines that tiles have found behind `lines`, each one once, and renumbers their pieces.
-void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, std::vector<LayerPiece>& pieces) {
+void join(std::vector<HidingTileResult>& results, std::vector<WholeLine>& lines, std::vector<LinePart>& pieces) {
     struct Found {
         std::size_t tile;
         std::uint32_t index;
@@ -50,7 +50,7 @@ void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, 
     for (std::size_t tile = 0; tile < results.size(); ++tile) {
         for (std::uint32_t i = 0; i < results[tile].intersections.size(); ++i) found.push_back({tile, i});
     }
-    const auto line = [&](const Found& f) -> const LayerLine& { return results[f.tile].intersections[f.index]; };
+    const auto line = [&](const Found& f) -> const WholeLine& { return results[f.tile].intersections[f.index]; };
     const auto is_before = [&](const Found& a, const Found& b) { return IntersectionLines::is_before(line(a), line(b)); };
     std::stable_sort(found.begin(), found.end(), is_before);
     std::vector<std::vector<std::uint32_t>> number(results.size());
@@ -60,31 +60,31 @@ void join(std::vector<LayerTileResult>& results, std::vector<LayerLine>& lines, 
         number[found[i].tile][found[i].index] = static_cast<std::uint32_t>(lines.size() - 1);
     }
     std::size_t count = pieces.size();
-    for (const LayerTileResult& result : results) count += result.pieces.size();
+    for (const HidingTileResult& result : results) count += result.pieces.size();
     pieces.reserve(count);
     for (std::size_t tile = 0; tile < results.size(); ++tile) {
         const auto first = pieces.insert(pieces.end(), results[tile].pieces.begin(), results[tile].pieces.end());
         if (number[tile].empty()) continue;
-        for (LayerPiece& piece : std::span(first, pieces.end())) {
+        for (LinePart& piece : std::span(first, pieces.end())) {
             if ((piece.line & kOfTile) != 0) piece.line = number[tile][piece.line & ~kOfTile];
         }
     }
 }
 
 /// Whether one piece of a line is drawn as the one before, behind however many layers they are.
-bool goes_on_alike(const LayerPiece& before, const LayerPiece& piece) {
+bool goes_on_alike(const LinePart& before, const LinePart& piece) {
     return piece.line == before.line && piece.begin == before.end && (piece.invisibility > 0) == (before.invisibility > 0) &&
            piece.transmission == before.transmission;
 }
 
 /// Early, since they lie anywhere.
-void ask_for(const LayerLine& line) {
+void ask_for(const WholeLine& line) {
     const char* const at = reinterpret_cast<const char*>(&line);
     for (std::size_t byte = 0; byte < sizeof line; byte += 64) __builtin_prefetch(at + byte);
 }
 
 /// The numbers of the lines that touch each tile.
-TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const PixelTiles& grid) {
+TileLists<std::uint32_t> sort_by_tile(const std::vector<WholeLine>& lines, const PixelTiles& grid) {
     std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
         const glm::dvec2 a = lines[i].from / 256.0, b = lines[i].to / 256.0;
@@ -96,22 +96,22 @@ TileLists<std::uint32_t> sort_by_tile(const std::vector<LayerLine>& lines, const
 
 }  // namespace
 
-bool LayerPass::is_needed(const Scene& scene) {
+bool HiddenPass::is_needed(const Scene& scene) {
     return scene.lines.style.hidden.style != HiddenStyle::none || has_transparent_surfaces(scene);
 }
 
-PixelTiles LayerPass::tiles_of(const Frame& frame) {
+PixelTiles HiddenPass::tiles_of(const Frame& frame) {
     // Tiles end at the same places in any crop: the shortest parts of lines hang on it.
     const PixelRect r = region_of_lines(frame);
     const auto before = [](int px) { return px & -kTilePx; };
     return {{before(r.x0), before(r.y0), before(r.x1 + kTilePx - 1), before(r.y1 + kTilePx - 1)}, kTilePx};
 }
 
-bool LayerPass::needs_all_lines(const Frame& frame) {
+bool HiddenPass::needs_all_lines(const Frame& frame) {
     return hidden_dashes(frame.scene->lines.style).dash_px || needs_all_visible_lines(frame);
 }
 
-LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
+HiddenPass::HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
                      const SmoothContours* contours)
     : frame_(frame),
       screen_(screen),
@@ -124,9 +124,9 @@ LayerPass::LayerPass(const Frame& frame, const ScreenSurfaces& screen, const Til
     if (IntersectionLines::are_wanted(frame.criteria.classes) && !knows_pairs()) may_intersect_.emplace(*frame.scene);
 }
 
-bool LayerPass::knows_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
+bool HiddenPass::knows_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
 
-void LayerPass::find_lines(TileRows rows, const PossibleLines* possible) {
+void HiddenPass::find_lines(TileRows rows, const PossibleLines* possible) {
     const LineStyle& style = frame_.scene->lines.style;
     const bool is_dashed = hidden_dashes(style).dash_px || visible_dashes(style).dash_px;
     const PixelRect region = is_dashed                 ? anywhere_on_screen()
@@ -134,7 +134,7 @@ void LayerPass::find_lines(TileRows rows, const PossibleLines* possible) {
                                                        : all_tiles_.only(rows).rect();
     std::optional<PossibleLines> own;
     if (possible == nullptr) possible = &own.emplace(screen_, threads_);
-    std::vector<LayerLine> found = find_layer_edges(frame_, screen_, *possible, region, threads_);
+    std::vector<WholeLine> found = find_edge_lines(frame_, screen_, *possible, region, threads_);
     if (lines_.empty()) {
         lines_ = std::move(found);
     } else {
@@ -145,35 +145,35 @@ void LayerPass::find_lines(TileRows rows, const PossibleLines* possible) {
     lines_.insert(lines_.end(), found.begin(), found.end());
 }
 
-void LayerPass::sort(TileRows rows) {
+void HiddenPass::sort(TileRows rows) {
     tiles_ = all_tiles_.only(rows);
-    bins_ = LayerBins();  // before there are new ones
+    bins_ = OccluderBins();  // before there are new ones
     const bool needs_all = may_intersect_ || has_transparent_surfaces(*frame_.scene);
     std::optional<LineDepths> depths;
-    const auto slack_of = [&](const LayerLine& line) {  // a border asks for what is behind it, too
+    const auto slack_of = [&](const WholeLine& line) {  // a border asks for what is behind it, too
         return line_slack(frame_.surfaces, line, 0, 1, line.classes.has(LineClass::border) ? kContactPx : kLevelPx);
     };
     if (!needs_all) depths.emplace(lines_, tiles_, slack_of);
-    bins_ = LayerBins(screen_, kernels_, tiles_, threads_, depths ? &*depths : nullptr);
+    bins_ = OccluderBins(screen_, kernels_, tiles_, threads_, depths ? &*depths : nullptr);
 }
 
-void LayerPass::composite(Film& film) const {
+void HiddenPass::composite(Film& film) const {
     if (has_transparent_surfaces(*frame_.scene)) fill_transparent(frame_, screen_, bins_, tiles_, threads_, film);
 }
 
-void LayerPass::find_pieces() {
+void HiddenPass::find_pieces() {
     const TileLists<std::uint32_t> lines_in = sort_by_tile(lines_, tiles_);
     const PixelRect drawn = region_of(frame_);
     const std::size_t before = results_.size();
     results_.resize(before + tiles_.count());
-    std::vector<std::unique_ptr<LayerTile>> tiles(static_cast<std::size_t>(threads_));
+    std::vector<std::unique_ptr<HidingTile>> tiles(static_cast<std::size_t>(threads_));
     parallel_for(tiles_.count(), threads_, [&](std::size_t index, int worker) {
         const bool is_drawn = overlap(tiles_.tile(index), drawn);
         if (bins_.triangles(index).empty() || (!is_drawn && !may_intersect_)) return;
         auto& tile = tiles[static_cast<std::size_t>(worker)];
-        if (!tile) tile = std::make_unique<LayerTile>(frame_, screen_, kernels_, bins_, tiles_, may_intersect_.has_value());
+        if (!tile) tile = std::make_unique<HidingTile>(frame_, screen_, kernels_, bins_, tiles_, may_intersect_.has_value());
         tile->fill(index);
-        LayerTileResult& result = results_[before + index];
+        HidingTileResult& result = results_[before + index];
         if (may_intersect_) tile->find_intersections(*may_intersect_, intersections_, result.intersections);
         if (!is_drawn) return;
         const std::span<const std::uint32_t> numbers = lines_in.of(index);
@@ -191,9 +191,9 @@ void LayerPass::find_pieces() {
     }
 }
 
-void LayerPass::leave_out_dashes_along(CourseIndex& visible) { visible_courses_ = &visible; }
+void HiddenPass::leave_out_dashes_along(CourseIndex& visible) { visible_courses_ = &visible; }
 
-void LayerPass::find() {
+void HiddenPass::find() {
     lines_.clear();
     find_lines(all_tiles_.rows());
     sort(all_tiles_.rows());
@@ -201,13 +201,13 @@ void LayerPass::find() {
     join_results();
 }
 
-void LayerPass::join_results() {
+void HiddenPass::join_results() {
     pieces_.clear();
     join(results_, lines_, pieces_);
     results_.clear();
 }
 
-std::vector<LayerSegment> LayerPass::take_segments() {
+std::vector<LayerSegment> HiddenPass::take_segments() {
     join_results();
     std::vector<LayerSegment> segments = make_segments();
     lines_.clear();
@@ -216,7 +216,7 @@ std::vector<LayerSegment> LayerPass::take_segments() {
 }
 
 /// Adds a part of a line, moved to the smooth contour if it is one.
-void LayerPass::add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const {
+void HiddenPass::add(const WholeLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const {
     if (contours_ == nullptr) return segments.push_back(segment);
     std::vector<LineSegment> moved(1);
     moved[0].from = segment.from;
@@ -232,13 +232,13 @@ void LayerPass::add(const LayerLine& line, LayerSegment segment, std::vector<Lay
 }
 
 /// Where the dashes of all lines are: those of features by themselves first, as of visible lines.
-class LayerPass::Dashes {
+class HiddenPass::Dashes {
   public:
-    Dashes(const std::vector<LayerLine>& lines, const Frame& frame, std::array<double, 2> dash_px, double width_px)
+    Dashes(const std::vector<WholeLine>& lines, const Frame& frame, std::array<double, 2> dash_px, double width_px)
         : pen(dash_px, width_px), group_(lines.size()), number_(lines.size()) {
         SharedDashes shared({0, 0, frame.width, frame.height}, SharedDashes::reach_of_pen_px(width_px));
         for (const bool are_features : {true, false}) {
-            std::vector<LayerLine> chosen;
+            std::vector<WholeLine> chosen;
             for (std::size_t i = 0; i < lines.size(); ++i) {
                 if (is_feature(lines[i]) != are_features) continue;
                 group_[i] = static_cast<std::uint8_t>(groups_.size());
@@ -261,8 +261,8 @@ class LayerPass::Dashes {
     std::vector<std::uint32_t> number_;  // in its group
 };
 
-void LayerPass::add_dashes(const LayerPiece& piece, const Dashes& dashes, std::vector<LayerSegment>& segments) const {
-    const LayerLine& line = lines_[piece.line];
+void HiddenPass::add_dashes(const LinePart& piece, const Dashes& dashes, std::vector<LayerSegment>& segments) const {
+    const WholeLine& line = lines_[piece.line];
     LayerSegment segment;
     segment.drawn_as = line.drawn_as;
     segment.is_hidden = piece.invisibility > 0;
@@ -288,7 +288,7 @@ void LayerPass::add_dashes(const LayerPiece& piece, const Dashes& dashes, std::v
     for_uncovered(covers, [&](double from, double to) { add_between(piece.begin + length * from, piece.begin + length * to); });
 }
 
-std::vector<LayerSegment> LayerPass::make_segments() const {
+std::vector<LayerSegment> HiddenPass::make_segments() const {
     const LineStyle& look = frame_.scene->lines.style;
     const HiddenStyle style = look.hidden.style;
     std::optional<Dashes> of_hidden, seen_through;
@@ -300,11 +300,11 @@ std::vector<LayerSegment> LayerPass::make_segments() const {
     for (std::size_t i = 0; i < pieces_.size();) {
         constexpr std::size_t kAhead = 16;
         if (i + kAhead < pieces_.size()) {
-            const LayerLine& soon = lines_[pieces_[i + kAhead].line];
+            const WholeLine& soon = lines_[pieces_[i + kAhead].line];
             __builtin_prefetch(&soon.from);
             __builtin_prefetch(&soon.drawn_as);
         }
-        LayerPiece piece = pieces_[i];
+        LinePart piece = pieces_[i];
         while (++i < pieces_.size() && goes_on_alike(piece, pieces_[i])) piece.end = pieces_[i].end;
         const bool is_hidden = piece.invisibility > 0;
         if (piece.transmission == 0 || (is_hidden && style == HiddenStyle::none)) continue;
@@ -313,7 +313,7 @@ std::vector<LayerSegment> LayerPass::make_segments() const {
             add_dashes(piece, *dashes, segments);
             continue;
         }
-        const LayerLine& line = lines_[piece.line];
+        const WholeLine& line = lines_[piece.line];
         LayerSegment segment;
         segment.from = line.at(piece.begin) / 256.0;
         segment.to = line.at(piece.end) / 256.0;

@@ -14,19 +14,19 @@
 namespace burin {
 
 /// What one tile has found.
-struct LayerTileResult {
-    std::vector<LayerLine> intersections;
-    std::vector<LayerPiece> pieces;
+struct HidingTileResult {
+    std::vector<WholeLine> intersections;
+    std::vector<LinePart> pieces;
 };
 
 /// What is behind the first surface: keeps all layers of all tiles in turn, composites transparent
 /// surfaces, and finds hidden lines and lines seen through transparent surfaces.
 ///
 /// A picture is made in one or more pieces, each some rows of tiles: find_lines(), sort(), composite()
-/// and find_pieces() for one, with what touches it shown; then its lines are drawn (LayerStrokes).
+/// and find_pieces() for one, with what touches it shown; then its lines are drawn (HiddenStrokes).
 /// Intersections are found from the scene's pairs of triangles if it has them and all instances are shown, else tile by
 /// tile; they are the same.
-class LayerPass {
+class HiddenPass {
   public:
     /// Whether a picture of a scene shows anything of it.
     static bool is_needed(const Scene& scene);
@@ -38,14 +38,14 @@ class LayerPass {
 
     /// The facing of all triangles must be known to `screen`.
     /// `contours`: nullptr where they follow the mesh.
-    LayerPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
+    HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
               const SmoothContours* contours = nullptr);
 
     /// All lines of a picture in one piece. The facing of all triangles must be known to `screen`.
     void find();
     /// After find().
-    const std::vector<LayerLine>& lines() const { return lines_; }
-    const std::vector<LayerPiece>& pieces() const { return pieces_; }
+    const std::vector<WholeLine>& lines() const { return lines_; }
+    const std::vector<LinePart>& pieces() const { return pieces_; }
 
     /// Adds the edges that are lines, of the instances shown, as far as they touch these rows; and intersections.
     /// `possible`: of these instances, where they are known already.
@@ -70,8 +70,8 @@ class LayerPass {
     void join_results();
     /// Whether intersections are found from the scene's pairs.
     bool knows_pairs() const;
-    void add(const LayerLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const;
-    void add_dashes(const LayerPiece& piece, const Dashes& dashes, std::vector<LayerSegment>& segments) const;
+    void add(const WholeLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const;
+    void add_dashes(const LinePart& piece, const Dashes& dashes, std::vector<LayerSegment>& segments) const;
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
@@ -81,10 +81,10 @@ class LayerPass {
     PixelTiles all_tiles_, tiles_;
     IntersectionLines intersections_;
     std::optional<IntersectionTest> may_intersect_;  // where tiles look for intersections
-    LayerBins bins_;
-    std::vector<LayerLine> lines_;
-    std::vector<LayerTileResult> results_;  // tile by tile, not joined yet
-    std::vector<LayerPiece> pieces_;
+    OccluderBins bins_;
+    std::vector<WholeLine> lines_;
+    std::vector<HidingTileResult> results_;  // tile by tile, not joined yet
+    std::vector<LinePart> pieces_;
     CourseIndex* visible_courses_ = nullptr;
     std::uint64_t fragment_count_ = 0;
 };

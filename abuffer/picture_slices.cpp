@@ -57,7 +57,7 @@ std::uint64_t lasting_bytes(const Frame& frame, const PixelTiles& tiles, int thr
 /// The most that the edges along which dashes run may take. All are needed at once, with where they stand along their chains and which
 /// of them lie on each other.
 std::uint64_t feature_bytes(const Frame& frame, const ScreenSurfaces& screen) {
-    constexpr std::uint64_t kBytes = sizeof(LayerLine) + 384;
+    constexpr std::uint64_t kBytes = sizeof(WholeLine) + 384;
     std::uint64_t sides = 0;
     for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
         const std::size_t count = frame.surfaces.instances[i].mesh->triangles.size();
@@ -95,7 +95,7 @@ std::vector<std::uint32_t> instances_in(const Rows& rows, TileRows of) {
 }
 
 /// Cuts rows into as few pieces as fit into `cap_bytes`; `least_bytes` becomes what the largest row takes.
-std::vector<PicturePiece> cut(const Frame& frame, const Rows& rows, std::uint64_t cap_bytes, std::uint64_t& least_bytes) {
+std::vector<PictureSlice> cut(const Frame& frame, const Rows& rows, std::uint64_t cap_bytes, std::uint64_t& least_bytes) {
     const auto count = static_cast<int>(rows.bytes.size());
     // Vertices of instances that begin in a row, and of those that touch it.
     std::vector<std::uint64_t> begin(rows.bytes.size(), 0), touch(rows.bytes.size(), 0);
@@ -105,10 +105,10 @@ std::vector<PicturePiece> cut(const Frame& frame, const Rows& rows, std::uint64_
         begin[static_cast<std::size_t>(r.begin)] += vertex_bytes(frame, i);
         for (int row = r.begin; row < r.end; ++row) touch[static_cast<std::size_t>(row)] += vertex_bytes(frame, i);
     }
-    std::vector<PicturePiece> pieces;
+    std::vector<PictureSlice> pieces;
     for (int row = 0; row < count;) {
         auto at = static_cast<std::size_t>(row);
-        PicturePiece piece{{row, row + 1}, {}};
+        PictureSlice piece{{row, row + 1}, {}};
         std::uint64_t bytes = touch[at] + rows.bytes[at];
         least_bytes = std::max(least_bytes, bytes);
         for (++row, ++at; row < count; ++row, ++at) {
@@ -125,26 +125,26 @@ std::vector<PicturePiece> cut(const Frame& frame, const Rows& rows, std::uint64_
 
 }  // namespace
 
-PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTiles& tiles, std::uint64_t cap_bytes,
+SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTiles& tiles, std::uint64_t cap_bytes,
                       int threads) {
-    PiecePlan plan;
+    SlicePlan plan;
     plan.groups = group_instances(frame);
-    const bool has_layers = LayerPass::is_needed(*frame.scene);
-    const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
+    const bool has_layers = HiddenPass::is_needed(*frame.scene);
+    const PixelTiles layer_tiles = HiddenPass::tiles_of(frame);
     const PixelRect a = tiles.rect(), b = layer_tiles.rect();
     const PixelRect picture{std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
     const std::size_t instance_count = frame.surfaces.instances.size();
     Rows visible, layers;
     visible.of_instance.resize(instance_count);
     layers.of_instance.resize(instance_count);
-    PieceCosts costs(tiles, has_layers ? &layer_tiles : nullptr, samples_per_pixel_of(*frame.scene),
+    SliceCosts costs(tiles, has_layers ? &layer_tiles : nullptr, samples_per_pixel_of(*frame.scene),
                      frame.scene->abuffer.draws_fine_lines(), threads);
     std::uint64_t least = 0;
     for (const std::vector<std::uint32_t>& group : plan.groups) {
         screen.show(group, threads);
         costs.add(screen);
         parallel_for(group.size(), threads, [&](std::size_t i, int) {
-            const InstanceExtent extent = PieceCosts::extent_of(screen, group[i]);
+            const InstanceExtent extent = SliceCosts::extent_of(screen, group[i]);
             visible.of_instance[group[i]] = rows_of(tiles, extent, picture, tiles.tile_px());
             if (has_layers) layers.of_instance[group[i]] = rows_of(layer_tiles, extent, picture, layer_tiles.tile_px());
         });
@@ -163,7 +163,7 @@ PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTil
         return bytes;
     };
     visible.bytes = split(costs.visible(), has_layers || needs_all_visible_lines(frame));
-    layers.bytes = split(costs.layers(), LayerPass::needs_all_lines(frame));
+    layers.bytes = split(costs.layers(), HiddenPass::needs_all_lines(frame));
     const std::uint64_t left = cap_bytes > lasting ? cap_bytes - lasting : 0;
     plan.visible = cut(frame, visible, left, least);
     plan.layers = cut(frame, layers, left, least);

@@ -10,22 +10,22 @@
 namespace burin {
 
 /// Some rows of tiles of a picture, and the instances that touch them, in ascending order.
-struct PicturePiece {
+struct PictureSlice {
     TileRows rows;
     std::vector<std::uint32_t> instances;
 };
 
 /// In which pieces a picture is rendered, from top to bottom. They do not change it.
-struct PiecePlan {
-    std::vector<PicturePiece> visible;  ///< rows of the tiles of visible surfaces
-    std::vector<PicturePiece> layers;   ///< rows of LayerPass's tiles
+struct SlicePlan {
+    std::vector<PictureSlice> visible;  ///< rows of the tiles of visible surfaces
+    std::vector<PictureSlice> layers;   ///< rows of HiddenPass's tiles
     /// All instances, so many at a time as can be shown at once.
     std::vector<std::vector<std::uint32_t>> groups;
 };
 
 /// The largest pieces within `cap_bytes` of memory. It takes a look at all triangles to know what they
 /// will need, a group of instances at a time. Throws InputError with the least cap if this one is less.
-PiecePlan plan_pieces(const Frame& frame, ScreenSurfaces& screen, const PixelTiles& tiles, std::uint64_t cap_bytes,
+SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTiles& tiles, std::uint64_t cap_bytes,
                       int threads);
 
 }  // namespace burin

@@ -24,7 +24,7 @@ constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
 // Lines that samples miss, in one tile: a triangle that may hide some, and a half-edge that may be one. Estimated: few are.
 constexpr std::uint64_t kPerHidingInTile = 40, kPerEdgeInTile = 50;
 constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
-constexpr std::uint64_t kPerLayerInTile = 500;  // a triangle in a LayerTile and its cells, set up
+constexpr std::uint64_t kPerLayerInTile = 500;  // a triangle in a HidingTile and its cells, set up
 // Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.
 constexpr std::uint64_t kLinesPerVisible = 256, kLinesPerPixel = 32, kLinesPerLayer = 100;
 
@@ -73,7 +73,7 @@ std::uint64_t possible_lines(const ScreenMesh& mesh, std::uint32_t triangle) {
 
 }  // namespace
 
-PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, bool has_fine, int threads)
+SliceCosts::SliceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, bool has_fine, int threads)
     : visible_(visible), layers_(layers), sample_px_(1.0 / samples_per_pixel), has_fine_(has_fine), threads_(threads) {
     counts_.visible_bytes.assign(static_cast<std::size_t>(visible.rows().end), 0);
     counts_.visible_touches = counts_.visible_bytes;
@@ -83,7 +83,7 @@ PieceCosts::PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int 
     layer_tile_touches_.assign(layers->count(), 0);
 }
 
-void PieceCosts::add(ScreenSurfaces& screen) {
+void SliceCosts::add(ScreenSurfaces& screen) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     if (has_fine_) find_edges(screen, chunks);
     add_loose_edges(screen);
@@ -148,7 +148,7 @@ void PieceCosts::add(ScreenSurfaces& screen) {
 }
 
 /// As if marks were asked for, whether they are or not.
-void PieceCosts::add_loose_edges(const ScreenSurfaces& screen) {
+void SliceCosts::add_loose_edges(const ScreenSurfaces& screen) {
     const auto row_of = [](const PixelTiles& tiles, std::uint32_t tile) {
         return tile / static_cast<std::uint32_t>(tiles.columns());
     };
@@ -174,7 +174,7 @@ void PieceCosts::add_loose_edges(const ScreenSurfaces& screen) {
     }
 }
 
-void PieceCosts::find_edges(ScreenSurfaces& screen, const std::vector<TriangleChunk>& chunks) const {
+void SliceCosts::find_edges(ScreenSurfaces& screen, const std::vector<TriangleChunk>& chunks) const {
     parallel_for_parts(chunks.size(), threads_, [&](std::size_t c, int) {
         for (std::uint32_t t = chunks[c].begin; t < chunks[c].end; ++t) {
             const SurfaceId s{chunks[c].instance, t};
@@ -187,7 +187,7 @@ void PieceCosts::find_edges(ScreenSurfaces& screen, const std::vector<TriangleCh
     parallel_for_parts(chunks.size(), threads_, [&](std::size_t c, int) { screen.find_line_edges(chunks[c]); });
 }
 
-RowCosts PieceCosts::visible() const {
+RowCosts SliceCosts::visible() const {
     RowCosts costs{counts_.visible_bytes, {}};
     const std::uint64_t row_px = static_cast<std::uint64_t>(visible_.rect().width()) * static_cast<std::uint64_t>(visible_.tile_px());
     for (const std::uint64_t touches : counts_.visible_touches) {
@@ -196,7 +196,7 @@ RowCosts PieceCosts::visible() const {
     return costs;
 }
 
-RowCosts PieceCosts::layers() const {
+RowCosts SliceCosts::layers() const {
     RowCosts costs;
     for (const std::uint64_t touches : counts_.layer_touches) {
         costs.bins.push_back(kPerLayer * touches);
@@ -205,17 +205,17 @@ RowCosts PieceCosts::layers() const {
     return costs;
 }
 
-std::uint64_t PieceCosts::largest_layer_tile() const {
+std::uint64_t SliceCosts::largest_layer_tile() const {
     const auto largest = std::max_element(layer_tile_touches_.begin(), layer_tile_touches_.end());
     return largest == layer_tile_touches_.end() ? 0 : kPerLayerInTile * *largest;
 }
 
-std::uint64_t PieceCosts::largest_fine_tile() const {
+std::uint64_t SliceCosts::largest_fine_tile() const {
     const auto largest = std::max_element(fine_tile_bytes_.begin(), fine_tile_bytes_.end());
     return largest == fine_tile_bytes_.end() ? 0 : *largest;
 }
 
-InstanceExtent PieceCosts::extent_of(const ScreenSurfaces& screen, std::uint32_t instance) {
+InstanceExtent SliceCosts::extent_of(const ScreenSurfaces& screen, std::uint32_t instance) {
     const std::size_t count = screen.surfaces().instances[instance].mesh->positions.size();
     const ScreenVertex* const v = screen.vertices(instance);
     ScreenExtent box;

@@ -20,17 +20,17 @@ struct InstanceExtent {
 };
 
 /// What the tiles of a picture cost.
-class PieceCosts {
+class SliceCosts {
   public:
     /// `layers`: nullptr where nothing behind the first surface is drawn. `has_fine`: lines that samples miss are.
-    PieceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, bool has_fine, int threads);
+    SliceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, bool has_fine, int threads);
 
     /// Adds the instances shown. Finds the facing of their triangles on the way, and which edges may be lines.
     void add(ScreenSurfaces& screen);
     /// Of visible surfaces, and of all layers; the latter are empty where there are none.
     RowCosts visible() const;
     RowCosts layers() const;
-    /// Of a LayerTile with the most triangles that there are in one: a thread has one.
+    /// Of a HidingTile with the most triangles that there are in one: a thread has one.
     std::uint64_t largest_layer_tile() const;
     /// Of the tile whose search for lines that samples miss takes most: a thread has one.
     std::uint64_t largest_fine_tile() const;

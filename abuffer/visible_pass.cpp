@@ -70,7 +70,7 @@ class CompleteRows {
 
 }  // namespace
 
-StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinisher* finisher,
+StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPrinter* finisher,
                                     std::vector<std::vector<LineSegment>>& segments, Film& film, RenderStats& stats) {
     Stopwatch watch;
     const int per_pixel = samples_per_pixel_of(*frame_.scene);
@@ -112,7 +112,7 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
         if (finisher == nullptr || complete == 0 || complete * columns == grid.count()) return 0.0;
         const PixelRect part = finisher->take(grid.tile((complete - 1) * columns).y1, kMostBandsAtOnce);
         if (part.height() == 0) return 0.0;
-        return finisher->finish_as(worker, part, StrokePass::Lists(segments).first(before + complete * columns).subspan(first_reaching(part.y0)));
+        return finisher->finish_as(worker, part, StrokePrinter::Lists(segments).first(before + complete * columns).subspan(first_reaching(part.y0)));
     };
     const std::size_t most_rows = kRowsAhead + 2 * workers + kMostInARow * workers / static_cast<std::size_t>(grid.columns());
     const bool has_limit = finisher != nullptr && finisher->hands_on();
@@ -180,7 +180,7 @@ StrokePass::Lists SurfacePass::draw(PixelRect region, int tile_samples, RowFinis
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
     stats.write_s += sum.write * scale;
-    return StrokePass::Lists(segments).subspan(finisher == nullptr ? 0 : std::min(first_reaching(finisher->taken_y()), segments.size()));
+    return StrokePrinter::Lists(segments).subspan(finisher == nullptr ? 0 : std::min(first_reaching(finisher->taken_y()), segments.size()));
 }
 
 }  // namespace burin

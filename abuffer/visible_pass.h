@@ -18,15 +18,15 @@ namespace burin {
 
 /// What is visible: fills pixels and finds visible lines, tile by tile, in one or more pieces of a
 /// picture.
-class SurfacePass {
+class VisiblePass {
   public:
-    SurfacePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads,
+    VisiblePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads,
                 Progress* progress)
         : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress) {}
 
     /// Draws the tiles of `region`, adds their lines and the time it took. Rows whose lines are known by then are
     /// finished, except for the last ones; nullptr: none. Returns the lists of `segments` that may reach rows that are not.
-    StrokePass::Lists draw(PixelRect region, int tile_samples, RowFinisher* finisher, std::vector<std::vector<LineSegment>>& segments,
+    StrokePrinter::Lists draw(PixelRect region, int tile_samples, RowPrinter* finisher, std::vector<std::vector<LineSegment>>& segments,
                            Film& film, RenderStats& stats);
     /// Of all instances, if they are shown always and it looked for lines that samples miss.
     const PossibleLines* possible_lines() const { return possible_lines_ ? &*possible_lines_ : nullptr; }

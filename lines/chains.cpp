@@ -12,11 +12,11 @@ constexpr std::uint32_t kNoEnd = 0xFFFFFFFFu;
 /// Lines with their ends linked. End 2i is the start of line i, end 2i + 1 its end.
 class Chains {
   public:
-    Chains(std::span<const LayerLine> lines, const SurfaceSet& surfaces)
+    Chains(std::span<const WholeLine> lines, const SurfaceSet& surfaces)
         : lines_(lines), surfaces_(surfaces), link_(2 * lines.size(), kNoEnd) {
         std::vector<std::uint32_t> ends;
         for (std::uint32_t end = 0; end < link_.size(); ++end) {
-            if (node(end) != LayerLine::kNoNode) ends.push_back(end);
+            if (node(end) != WholeLine::kNoNode) ends.push_back(end);
         }
         std::sort(ends.begin(), ends.end(),
                   [&](std::uint32_t a, std::uint32_t b) { return node(a) != node(b) ? node(a) < node(b) : a < b; });
@@ -74,7 +74,7 @@ class Chains {
   private:
     /// Of a whole edge, however much of it the line is: the same in all views. 0 of what is no edge.
     double length_in_mesh(std::uint32_t end) const {
-        const LayerLine& line = lines_[end / 2];
+        const WholeLine& line = lines_[end / 2];
         if (!line.is_edge()) return 0;
         const Mesh& mesh = *surfaces_.instances[static_cast<std::uint32_t>(line.line_key >> 32)].mesh;
         const auto h = static_cast<HalfEdge>(line.line_key & 0xFFFFFFFFu);
@@ -87,7 +87,7 @@ class Chains {
     }
     /// Tells lines apart that cover each other: by their edge, and by how near they are.
     std::tuple<std::uint64_t, double, double> depth_of(std::uint32_t end) const {
-        const LayerLine& line = lines_[end / 2];
+        const WholeLine& line = lines_[end / 2];
         const bool is_forwards = end % 2 == 0;
         return {line.line_key, is_forwards ? line.nearness_from : line.nearness_to, is_forwards ? line.nearness_to : line.nearness_from};
     }
@@ -125,7 +125,7 @@ class Chains {
     bool is_before(std::uint32_t a, std::uint32_t b) const {
         const auto key = [&](std::uint32_t end) {
             const std::uint64_t own = node(end);
-            const bool has_vertex = own != LayerLine::kNoNode && lines_[end / 2].is_edge();
+            const bool has_vertex = own != WholeLine::kNoNode && lines_[end / 2].is_edge();
             const auto instance = static_cast<std::uint32_t>(own >> 32);
             const glm::dvec3 p = has_vertex ? surfaces_.instances[instance].mesh->local_position(own & 0xFFFFFFFFu)
                                             : glm::dvec3(end % 2 == 0 ? lines_[end / 2].from : lines_[end / 2].to, 0);
@@ -146,14 +146,14 @@ class Chains {
         }
     }
 
-    std::span<const LayerLine> lines_;
+    std::span<const WholeLine> lines_;
     const SurfaceSet& surfaces_;
     std::vector<std::uint32_t> link_;
 };
 
 }  // namespace
 
-LineChains chains_of(std::span<const LayerLine> lines, const SurfaceSet& surfaces, double period_px) {
+LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px) {
     LineChains chains;
     chains.positions.resize(lines.size());
     Chains(lines, surfaces).for_chains([&](std::span<const std::uint32_t> chain, bool is_loop) {

@@ -25,6 +25,6 @@ struct LineChains {
 /// A chain begins at its end, or on a loop at its vertex, that comes first by its coordinates in the mesh: where dashes
 /// begin hangs on neither the view nor the order of triangles. Positions on a loop are scaled so that a whole number of
 /// periods fits.
-LineChains chains_of(std::span<const LayerLine> lines, const SurfaceSet& surfaces, double period_px);
+LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px);
 
 }  // namespace burin

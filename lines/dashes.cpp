@@ -138,7 +138,7 @@ class Chains {
 /// Which edge of the mesh a piece lies on, of those that are features.
 class Features {
   public:
-    Features(std::span<const LayerLine> lines, const SurfaceSet& surfaces) : lines_(lines) {
+    Features(std::span<const WholeLine> lines, const SurfaceSet& surfaces) : lines_(lines) {
         for (std::uint32_t i = 0; i < lines.size(); ++i) {
             keys_.push_back({lines[i].line_key, i});
             if (!lines[i].has_more_owners) continue;
@@ -166,13 +166,13 @@ class Features {
         return nearest;
     }
     /// Where along a line a place is, in pixels.
-    static double share_of(const LayerLine& line, glm::dvec2 place) {
+    static double share_of(const WholeLine& line, glm::dvec2 place) {
         const glm::dvec2 from = line.from / 256.0, along = (line.to - line.from) / 256.0;
         return glm::dot(place - from, along) / glm::dot(along, along);
     }
 
   private:
-    std::span<const LayerLine> lines_;
+    std::span<const WholeLine> lines_;
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys_;  // number of a line
 };
 
@@ -230,7 +230,7 @@ void add_pieces(const Chains& chains, const Chains::Chain& chain, double period_
 
 std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
                                              std::array<double, 2> dash_px, double width_px, PixelRect picture,
-                                             std::span<const LayerLine> features, const SurfaceSet& surfaces) {
+                                             std::span<const WholeLine> features, const SurfaceSet& surfaces) {
     std::vector<std::vector<LineSegment>> result(1);
     const DashPen pen(dash_px, width_px);
     SharedDashes shared(picture, SharedDashes::reach_of_pen_px(width_px));

@@ -11,13 +11,13 @@
 namespace burin {
 
 /// Whether a line of the mesh is one from anywhere.
-bool is_feature(const LayerLine& line);
+bool is_feature(const WholeLine& line);
 
 /// Where the dashes of lines of the mesh are, laid out along their chains.
 class LineDashes {
   public:
     /// After those that `shared` has laid out already.
-    LineDashes(std::span<const LayerLine> lines, const SurfaceSet& surfaces, double period_px, SharedDashes& shared);
+    LineDashes(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px, SharedDashes& shared);
 
     /// Calls visit(part) for the parts of a line.
     template <typename Visit>

@@ -12,7 +12,7 @@ namespace burin {
 
 /// A straight line on the screen, seen or not: an edge of a mesh, or where two triangles pass through
 /// each other.
-struct LayerLine {
+struct WholeLine {
     /// An end that no other line has in common.
     static constexpr std::uint64_t kNoNode = ~std::uint64_t{0};
 
@@ -59,7 +59,7 @@ struct LayerLine {
 };
 
 /// A part of a line with the same surfaces in front of it all along.
-struct LayerPiece {
+struct LinePart {
     std::uint32_t line = 0;   ///< number of the line
     double begin = 0, end = 1;  ///< as shares of the way from `from` to `to`
     /// Quantitative invisibility (Appel 1967): how many opaque layers are in front. 255: so many or more.

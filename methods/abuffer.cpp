@@ -42,8 +42,8 @@ void drop_above(double y, std::vector<std::vector<Segment>>& lists) {
 }
 
 /// Edges that are lines from anywhere, wherever they are on the screen.
-void add_features(const Frame& frame, const ScreenSurfaces& screen, int threads, std::vector<LayerLine>& features) {
-    const std::vector<LayerLine> lines = find_layer_edges(frame, screen, PossibleLines(screen, threads), anywhere_on_screen(), threads);
+void add_features(const Frame& frame, const ScreenSurfaces& screen, int threads, std::vector<WholeLine>& features) {
+    const std::vector<WholeLine> lines = find_edge_lines(frame, screen, PossibleLines(screen, threads), anywhere_on_screen(), threads);
     std::copy_if(lines.begin(), lines.end(), std::back_inserter(features), is_feature);
 }
 
@@ -67,13 +67,13 @@ void prepare_for_abuffer(Scene& scene, int threads, bool saves_memory) {
         scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, has_many ? 1 : threads);
     });
     scene.intersecting_pairs.reset();
-    if (!saves_memory && LayerPass::is_needed(scene) && IntersectionLines::are_wanted(scene.lines.classes)) {
+    if (!saves_memory && HiddenPass::is_needed(scene) && IntersectionLines::are_wanted(scene.lines.classes)) {
         scene.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), threads);
     }
 }
 
 /// Hidden lines are drawn below visible ones.
-bool abuffer_finishes_in_bands(const Frame& frame) { return !LayerPass::is_needed(*frame.scene) && !needs_all_visible_lines(frame); }
+bool abuffer_finishes_in_bands(const Frame& frame) { return !HiddenPass::is_needed(*frame.scene) && !needs_all_visible_lines(frame); }
 
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
     Frame frame = given;
@@ -90,8 +90,8 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     ScreenSurfaces screen(frame.surfaces, frame.criteria, kernels, stats.threads, !has_cap);
     const PixelRect region = region_around(rect_with_lines(frame), lines.style.reach_px());
     const PixelTiles tiles(region, tile_samples / per_pixel);
-    PiecePlan plan{{{tiles.rows(), {}}}, {{LayerPass::tiles_of(frame).rows(), {}}}, {{}}};
-    if (has_cap) plan = plan_pieces(frame, screen, tiles, options.memory_bytes, stats.threads);
+    SlicePlan plan{{{tiles.rows(), {}}}, {{HiddenPass::tiles_of(frame).rows(), {}}}, {{}}};
+    if (has_cap) plan = plan_slices(frame, screen, tiles, options.memory_bytes, stats.threads);
     const auto show = [&](const std::vector<std::uint32_t>& instances) {
         if (has_cap) screen.show(instances, stats.threads);
     };
@@ -102,21 +102,21 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     stats.prepare_s = watch.lap();
     if (options.progress != nullptr) options.progress->begin("rendering", tiles.count());
 
-    const bool has_layers = LayerPass::is_needed(*frame.scene);
+    const bool has_layers = HiddenPass::is_needed(*frame.scene);
     std::vector<std::vector<LineSegment>> segments;
     std::optional<CourseIndex> visible_courses;  // before they are dashed
-    RowFinisher finisher(frame, kernels, stats.threads, options, film);
-    SurfacePass surfaces(frame, screen, kernels, stats.threads, options.progress);
+    RowPrinter finisher(frame, kernels, stats.threads, options, film);
+    VisiblePass surfaces(frame, screen, kernels, stats.threads, options.progress);
     const bool waits = !abuffer_finishes_in_bands(frame);
     const auto hand_on = [&](PixelRect part) {
         stats.lines_s += watch.lap();
         finisher.hand_on(part);
         stats.write_s += watch.lap();
     };
-    for (const PicturePiece& piece : plan.visible) {
+    for (const PictureSlice& piece : plan.visible) {
         show(piece.instances);
         const PixelRect rows = tiles.only(piece.rows).rect();
-        StrokePass::Lists unfinished = surfaces.draw(rows, tile_samples, waits ? nullptr : &finisher, segments, film, stats);
+        StrokePrinter::Lists unfinished = surfaces.draw(rows, tile_samples, waits ? nullptr : &finisher, segments, film, stats);
         const bool is_last = &piece == &plan.visible.back();
         if (waits && !is_last) continue;
         watch.lap();
@@ -125,7 +125,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
             unfinished = segments;
         }
         if (const auto dash_px = visible_dashes(lines.style).dash_px) {
-            std::vector<LayerLine> features;
+            std::vector<WholeLine> features;
             for (const std::vector<std::uint32_t>& group : plan.groups) {
                 show(group);
                 add_features(frame, screen, stats.threads, features);
@@ -151,10 +151,10 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         return stats;
     }
 
-    LayerPass layers(frame, screen, kernels, stats.threads, contours.get());
+    HiddenPass layers(frame, screen, kernels, stats.threads, contours.get());
     if (visible_courses) layers.leave_out_dashes_along(*visible_courses);
-    const PixelTiles layer_tiles = LayerPass::tiles_of(frame);
-    const bool needs_all = LayerPass::needs_all_lines(frame);
+    const PixelTiles layer_tiles = HiddenPass::tiles_of(frame);
+    const bool needs_all = HiddenPass::needs_all_lines(frame);
     const PossibleLines* const possible = surfaces.possible_lines();
     for (const std::vector<std::uint32_t>& group : plan.groups) {
         if (!needs_all) break;
@@ -162,7 +162,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         layers.find_lines(layer_tiles.rows(), possible);
     }
     std::vector<std::vector<LayerSegment>> layer_segments;
-    for (const PicturePiece& piece : plan.layers) {
+    for (const PictureSlice& piece : plan.layers) {
         const bool is_last = &piece == &plan.layers.back();
         show(piece.instances);
         if (!needs_all) layers.find_lines(piece.rows, possible);
@@ -173,7 +173,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
         layer_segments.push_back(layers.take_segments());
         const PixelRect part = is_last ? finisher.take_rest() : finisher.take(layer_tiles.only(piece.rows).rect().y1);
         if (part.height() == 0) continue;
-        LayerStrokes behind(frame, kernels, stats.threads, part, layer_segments);
+        HiddenStrokes behind(frame, kernels, stats.threads, part, layer_segments);
         finisher.draw(part, segments, &behind);
         hand_on(part);
         if (!has_cap) continue;

@@ -172,7 +172,7 @@ HiddenInk hidden_ink(const LineStyle& style, float ink, const glm::vec4& seen_th
 
 }  // namespace
 
-class LayerStrokes::Worker {
+class HiddenStrokes::Worker {
   public:
     Worker(const LineStyle& style, const FilterTable* filter, const TileKernels& kernels)
         : style_(style), filter_(filter), reach_(reach_px(style.filter)), 
@@ -279,7 +279,7 @@ class LayerStrokes::Worker {
     std::vector<Touched> touched_;
 };
 
-LayerStrokes::LayerStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
+HiddenStrokes::HiddenStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
                            std::span<const std::vector<LayerSegment>> layers)
     : filter_(FilterTable::make(frame.scene->lines.style.filter)), grid_(part, kTilePx) {
     // What is not in front of all is drawn on both sides.
@@ -289,12 +289,12 @@ LayerStrokes::LayerStrokes(const Frame& frame, const TileKernels& kernels, int t
     for (int i = 0; i < threads; ++i) workers_.emplace_back(style, filter_.get(), kernels);
 }
 
-LayerStrokes::~LayerStrokes() = default;
+HiddenStrokes::~HiddenStrokes() = default;
 
-void LayerStrokes::draw_below(int worker, std::size_t tile, const VisibleStrokes& visible, Film& film) {
+void HiddenStrokes::draw_below(int worker, std::size_t tile, const VisibleStrokes& visible, Film& film) {
     workers_[static_cast<std::size_t>(worker)].draw_below(lists_.of(tile), grid_.tile(tile), visible, film);
 }
 
-void LayerStrokes::draw_above(int worker, Film& film) const { workers_[static_cast<std::size_t>(worker)].draw_above(film); }
+void HiddenStrokes::draw_above(int worker, Film& film) const { workers_[static_cast<std::size_t>(worker)].draw_above(film); }
 
 }  // namespace burin

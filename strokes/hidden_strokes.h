@@ -24,14 +24,14 @@ struct LayerSegment {
 /// Draws lines behind surfaces in one part of the picture: below the visible lines into the beauty, hidden ones into their
 /// own channels, and those seen through transparent surfaces into the channels of the visible lines. Tile by tile, together
 /// with the visible strokes, which cover them.
-class LayerStrokes {
+class HiddenStrokes {
   public:
     static constexpr int kTilePx = 32;
 
     /// `layers` must outlive it.
-    LayerStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
+    HiddenStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
                  std::span<const std::vector<LayerSegment>> layers);
-    ~LayerStrokes();
+    ~HiddenStrokes();
 
     bool has_any(std::size_t tile) const { return !lists_.of(tile).empty(); }
     /// Before the visible lines of this tile are drawn, which are given: what they will cover stays free.

@@ -13,12 +13,12 @@
 namespace burin {
 namespace {
 
-constexpr int kTilePx = LayerStrokes::kTilePx;
+constexpr int kTilePx = HiddenStrokes::kTilePx;
 
 }  // namespace
 
 /// The segments whose strokes reach each tile, in the order of the lists.
-class StrokePass::Bins {
+class StrokePrinter::Bins {
   public:
     Bins(Lists segments, PixelRect region, double reach_px)
         : region_(region),
@@ -107,7 +107,7 @@ void clamp(Coverages& coverages) {
 }  // namespace
 
 /// Puts the strokes of one tile after the other over a film.
-class StrokePass::Printer {
+class StrokePrinter::Printer {
   public:
     Printer(const Frame& frame, const TileKernels& kernels)
         : style_(frame.scene->lines.style), kernels_(kernels), strokes_(frame, kernels) {}
@@ -212,19 +212,19 @@ class StrokePass::Printer {
     std::array<std::vector<LineInk>, kLineClassCount> inks_;
 };
 
-StrokePass::StrokePass(const Frame& frame, const TileKernels& kernels, int threads, Film& film)
+StrokePrinter::StrokePrinter(const Frame& frame, const TileKernels& kernels, int threads, Film& film)
     : frame_(frame),
       film_(film),
       filter_(FilterTable::make(frame.scene->lines.style.filter)),
       printers_(static_cast<std::size_t>(threads), Printer(frame, kernels)) {}
-StrokePass::~StrokePass() = default;
+StrokePrinter::~StrokePrinter() = default;
 
-StrokePass::Bins StrokePass::sort(PixelRect part, Lists lines) const {
+StrokePrinter::Bins StrokePrinter::sort(PixelRect part, Lists lines) const {
     const LineStyle& style = frame_.scene->lines.style;
     return {lines, part, Pen(style.width_px, style.side).radius_px + reach_px(style.filter) + 1.0};
 }
 
-void StrokePass::print(int worker, const Bins& bins, std::size_t index, LayerStrokes* behind) {
+void StrokePrinter::print(int worker, const Bins& bins, std::size_t index, HiddenStrokes* behind) {
     const auto lines = bins.segments(index);
     const bool has_behind = behind != nullptr && behind->has_any(index);
     if (lines.empty() && !has_behind) return;
@@ -240,13 +240,13 @@ void StrokePass::print(int worker, const Bins& bins, std::size_t index, LayerStr
     if (has_behind) behind->draw_above(worker, film_);
 }
 
-void StrokePass::draw(PixelRect part, Lists lines, LayerStrokes* behind) {
+void StrokePrinter::draw(PixelRect part, Lists lines, HiddenStrokes* behind) {
     const Bins bins = sort(part, lines);
     parallel_for(bins.tile_count(), static_cast<int>(printers_.size()),
                  [&](std::size_t i, int worker) { print(worker, bins, i, behind); });
 }
 
-void StrokePass::draw_as(int worker, PixelRect part, Lists lines) {
+void StrokePrinter::draw_as(int worker, PixelRect part, Lists lines) {
     const Bins bins = sort(part, lines);
     for (std::size_t i = 0; i < bins.tile_count(); ++i) print(worker, bins, i, nullptr);
 }

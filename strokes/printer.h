@@ -14,17 +14,17 @@
 namespace burin {
 
 /// Draws pieces of visible lines as strokes over a film, and those of lines behind surfaces with them.
-class StrokePass {
+class StrokePrinter {
   public:
     /// Pieces of lines, list after list.
     using Lists = std::span<const std::vector<LineSegment>>;
 
-    StrokePass(const Frame& frame, const TileKernels& kernels, int threads, Film& film);
-    ~StrokePass();
+    StrokePrinter(const Frame& frame, const TileKernels& kernels, int threads, Film& film);
+    ~StrokePrinter();
 
     /// Draws a part of the picture, on all threads. `lines`: all whose strokes reach it; `behind`: nullptr or those behind
     /// surfaces in the same part.
-    void draw(PixelRect part, Lists lines, LayerStrokes* behind = nullptr);
+    void draw(PixelRect part, Lists lines, HiddenStrokes* behind = nullptr);
     /// Draws it on one thread, while others draw other parts. `worker`: which thread, [0, threads).
     void draw_as(int worker, PixelRect part, Lists lines);
 
@@ -32,7 +32,7 @@ class StrokePass {
     class Bins;
     class Printer;
     Bins sort(PixelRect part, Lists lines) const;
-    void print(int worker, const Bins& bins, std::size_t tile, LayerStrokes* behind);
+    void print(int worker, const Bins& bins, std::size_t tile, HiddenStrokes* behind);
 
     const Frame& frame_;
     Film& film_;

@@ -9,7 +9,7 @@
 
 namespace burin {
 
-RowFinisher::RowFinisher(const Frame& frame, const TileKernels& kernels, int threads, const RunOptions& options, Film& film)
+RowPrinter::RowPrinter(const Frame& frame, const TileKernels& kernels, int threads, const RunOptions& options, Film& film)
     : options_(options),
       threads_(threads),
       crop_(frame.crop),
@@ -17,7 +17,7 @@ RowFinisher::RowFinisher(const Frame& frame, const TileKernels& kernels, int thr
       strokes_(frame, kernels, threads, film),
       taken_y_(frame.crop.y0) {}
 
-PixelRect RowFinisher::take(int known_y, int most_bands) {
+PixelRect RowPrinter::take(int known_y, int most_bands) {
     const int bands = std::max(known_y - static_cast<int>(std::ceil(reach_px_)) - crop_.y0, 0) / Film::kBandRows;
     const std::lock_guard lock(taking_);
     PixelRect part = crop_;
@@ -28,7 +28,7 @@ PixelRect RowFinisher::take(int known_y, int most_bands) {
     return part;
 }
 
-PixelRect RowFinisher::take_rest() {
+PixelRect RowPrinter::take_rest() {
     const std::lock_guard lock(taking_);
     PixelRect part = crop_;
     part.y0 = taken_y_;
@@ -36,15 +36,15 @@ PixelRect RowFinisher::take_rest() {
     return part;
 }
 
-std::size_t RowFinisher::first_band(PixelRect rows) const {
+std::size_t RowPrinter::first_band(PixelRect rows) const {
     return static_cast<std::size_t>((rows.y0 - crop_.y0) / Film::kBandRows);
 }
 
-std::size_t RowFinisher::band_count(PixelRect rows) const {
+std::size_t RowPrinter::band_count(PixelRect rows) const {
     return static_cast<std::size_t>((rows.height() + Film::kBandRows - 1) / Film::kBandRows);
 }
 
-double RowFinisher::finish_as(int worker, PixelRect rows, StrokePass::Lists lines) {
+double RowPrinter::finish_as(int worker, PixelRect rows, StrokePrinter::Lists lines) {
     strokes_.draw_as(worker, rows, lines);
     if (!options_.finished_band) return 0;
     const Stopwatch watch;
@@ -55,7 +55,7 @@ double RowFinisher::finish_as(int worker, PixelRect rows, StrokePass::Lists line
     return watch.seconds();
 }
 
-void RowFinisher::hand_on(PixelRect rows) const {
+void RowPrinter::hand_on(PixelRect rows) const {
     if (!options_.finished_band) return;
     parallel_for(band_count(rows), threads_, [&](std::size_t i, int) { options_.finished_band(first_band(rows) + i); });
 }

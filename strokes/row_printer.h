@@ -9,12 +9,12 @@ namespace burin {
 
 /// Rows of pixels, from the top: as soon as all lines that reach them are known they get their strokes, and finished
 /// bands of the film are handed on.
-class RowFinisher {
+class RowPrinter {
   public:
     static constexpr int kAllBands = 1 << 20;
 
     /// `options` and `film` must outlive it.
-    RowFinisher(const Frame& frame, const TileKernels& kernels, int threads, const RunOptions& options, Film& film);
+    RowPrinter(const Frame& frame, const TileKernels& kernels, int threads, const RunOptions& options, Film& film);
 
     /// How far from a line its stroke may reach, and a bit.
     double reach_px() const { return reach_px_; }
@@ -30,10 +30,10 @@ class RowFinisher {
 
     /// Strokes over rows that were taken, and what the next one does: on one thread, while others do the same with other
     /// rows. Returns the seconds that the latter took.
-    double finish_as(int worker, PixelRect rows, StrokePass::Lists lines);
+    double finish_as(int worker, PixelRect rows, StrokePrinter::Lists lines);
 
     /// The same in two steps, each on all threads.
-    void draw(PixelRect rows, StrokePass::Lists lines, LayerStrokes* behind = nullptr) { strokes_.draw(rows, lines, behind); }
+    void draw(PixelRect rows, StrokePrinter::Lists lines, HiddenStrokes* behind = nullptr) { strokes_.draw(rows, lines, behind); }
     void hand_on(PixelRect rows) const;
 
   private:
@@ -45,7 +45,7 @@ class RowFinisher {
     int threads_;
     PixelRect crop_;
     double reach_px_;
-    StrokePass strokes_;
+    StrokePrinter strokes_;
     std::mutex taking_;
     int taken_y_;
 };

@@ -99,7 +99,7 @@ PossibleLines::PossibleLines(const ScreenSurfaces& screen, int threads) : chunks
     });
 }
 
-class LayerEdgeFinder::Rules {
+class EdgeLineFinder::Rules {
   public:
     Rules(const Frame& frame, const ScreenSurfaces& screen, PixelRect region, bool has_both_of_seam)
         : surfaces_(frame.surfaces),
@@ -111,7 +111,7 @@ class LayerEdgeFinder::Rules {
           low_(glm::dvec2(region.x0, region.y0) * 256.0),
           high_(glm::dvec2(region.x1, region.y1) * 256.0) {}
 
-    void visit(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+    void visit(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const HalfEdge g = mesh.next_on_edge[h];
         if (g == h) {
@@ -123,12 +123,12 @@ class LayerEdgeFinder::Rules {
         }
     }
 
-    void visit_loose(std::uint32_t instance, HalfEdge number, std::vector<LayerLine>& lines) const {
+    void visit_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const {
         const auto [a, b] = surfaces_.instances[instance].mesh->loose_edge(number);
-        LayerLine* const line =
+        WholeLine* const line =
             add_on_screen(instance, ends_in_order(screen_, instance, a, b), lines);
         if (line == nullptr) return;
-        line->owners = {LayerLine::kNoOwner, LayerLine::kNoOwner};
+        line->owners = {WholeLine::kNoOwner, WholeLine::kNoOwner};
         line->classes = line->drawn_as = LineClass::mark;
         line->line_key = std::uint64_t{instance} << 32 | number;
     }
@@ -145,7 +145,7 @@ class LayerEdgeFinder::Rules {
         return screen_.vertices(instance)[vertex].x != ScreenVertex::kOffScreen;
     }
 
-    void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<LayerLine>& lines) const {
+    void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<WholeLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
         LineClassSet classes;
@@ -192,7 +192,7 @@ class LayerEdgeFinder::Rules {
 
     /// Where more than two triangles meet, those that are in front on either side of the edge make the line, as walks over it
     /// take them: bodies that stand flush have none on their common face.
-    void visit_ring(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+    void visit_ring(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
         struct Front {
@@ -233,7 +233,7 @@ class LayerEdgeFinder::Rules {
         add(s, h, classes, crease_cosine, {number, number}, true, 0, lines);
     }
 
-    void visit_border(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const {
+    void visit_border(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         if (!mesh.is_marked(h) && sides_.is_needle_on_edge(s, h)) return;
         const auto edge = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
@@ -241,7 +241,7 @@ class LayerEdgeFinder::Rules {
         for (const BorderPart& part : parts_of_border(screen_, s, h, *edge)) visit_border_part(s, h, *edge, part, lines);
     }
 
-    void visit_border_part(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, const BorderPart& part, std::vector<LayerLine>& lines) const {
+    void visit_border_part(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, const BorderPart& part, std::vector<WholeLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         LineClassSet classes;
         double crease_cosine = 1;
@@ -288,19 +288,19 @@ class LayerEdgeFinder::Rules {
         cut(lines.back(), is_reversed ? 1 - part.end : part.begin, is_reversed ? 1 - part.begin : part.end);
     }
 
-    static void cut(LayerLine& line, double begin, double end) {
-        const LayerLine whole = line;
+    static void cut(WholeLine& line, double begin, double end) {
+        const WholeLine whole = line;
         line.edge_begin = begin;
         line.edge_end = end;
         if (begin > 0) {
             line.from = whole.at(begin);
             line.nearness_from = whole.nearness_at(begin);
-            line.nodes[0] = LayerLine::kNoNode;
+            line.nodes[0] = WholeLine::kNoNode;
         }
         if (end < 1) {
             line.to = whole.at(end);
             line.nearness_to = whole.nearness_at(end);
-            line.nodes[1] = LayerLine::kNoNode;
+            line.nodes[1] = WholeLine::kNoNode;
         }
     }
 
@@ -316,7 +316,7 @@ class LayerEdgeFinder::Rules {
 
     /// `front_side`: of the way from the half-edge's start.
     void add(SurfaceId s, HalfEdge h, LineClassSet classes, double crease_cosine, std::array<std::uint32_t, 2> owners,
-             bool has_more, int front_side, std::vector<LayerLine>& lines, bool is_wire = false) const {
+             bool has_more, int front_side, std::vector<WholeLine>& lines, bool is_wire = false) const {
         classes = classes & criteria_.classes;
         if (classes.empty()) return;
         const std::uint8_t opacity = fade_.opacity(classes, crease_cosine);
@@ -325,9 +325,9 @@ class LayerEdgeFinder::Rules {
         // One direction, whichever triangle asks.
         const auto vertices =
             ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
-        LayerLine* const added = add_on_screen(s.instance, vertices, lines);
+        WholeLine* const added = add_on_screen(s.instance, vertices, lines);
         if (added == nullptr) return;
-        LayerLine& line = *added;
+        WholeLine& line = *added;
         line.owners = owners;
         line.has_more_owners = has_more;
         line.is_wire = is_wire;
@@ -340,9 +340,9 @@ class LayerEdgeFinder::Rules {
     }
 
     /// A line between two vertices. nullptr if it does not touch the region or is a dot.
-    LayerLine* add_on_screen(std::uint32_t instance,
+    WholeLine* add_on_screen(std::uint32_t instance,
                              std::pair<std::uint32_t, std::uint32_t> vertices,
-                             std::vector<LayerLine>& lines) const {
+                             std::vector<WholeLine>& lines) const {
         const auto [a, b] = vertices;
         const auto ends = edge_on_screen(screen_, instance, a, b);
         if (!ends) return nullptr;
@@ -351,7 +351,7 @@ class LayerEdgeFinder::Rules {
         if (ends->from == ends->to || high.x < low_.x || high.y < low_.y || low.x > high_.x ||
             low.y > high_.y)
             return nullptr;
-        LayerLine& line = lines.emplace_back();
+        WholeLine& line = lines.emplace_back();
         line.from = ends->from;
         line.to = ends->to;
         line.nearness_from = ends->nearness_from;
@@ -370,20 +370,20 @@ class LayerEdgeFinder::Rules {
     glm::dvec2 low_, high_;
 };
 
-LayerEdgeFinder::LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+EdgeLineFinder::EdgeLineFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                                  bool has_both_of_seam)
     : rules_(std::make_unique<const Rules>(frame, screen, region, has_both_of_seam)) {}
 
-LayerEdgeFinder::~LayerEdgeFinder() = default;
+EdgeLineFinder::~EdgeLineFinder() = default;
 
-void LayerEdgeFinder::find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const { rules_->visit(s, h, lines); }
+void EdgeLineFinder::find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const { rules_->visit(s, h, lines); }
 
-void LayerEdgeFinder::find_loose(std::uint32_t instance, HalfEdge number,
-                                 std::vector<LayerLine>& lines) const {
+void EdgeLineFinder::find_loose(std::uint32_t instance, HalfEdge number,
+                                 std::vector<WholeLine>& lines) const {
     rules_->visit_loose(instance, number, lines);
 }
 
-std::optional<SurfaceId> LayerEdgeFinder::solid_at_border(SurfaceId s, HalfEdge h) const { return rules_->solid_at_border(s, h); }
+std::optional<SurfaceId> EdgeLineFinder::solid_at_border(SurfaceId s, HalfEdge h) const { return rules_->solid_at_border(s, h); }
 
 std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, LineClassSet classes) {
     std::vector<LooseChunk> chunks;
@@ -401,13 +401,13 @@ std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, Line
     return chunks;
 }
 
-std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
+std::vector<WholeLine> find_edge_lines(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
                                         PixelRect region, int threads) {
-    const LayerEdgeFinder finder(frame, screen, region);
+    const EdgeLineFinder finder(frame, screen, region);
     const std::vector<LooseChunk> loose = chunks_of_loose_edges(screen, frame.criteria.classes);
-    std::vector<std::vector<LayerLine>> found(possible.chunks.size() + loose.size());
+    std::vector<std::vector<WholeLine>> found(possible.chunks.size() + loose.size());
     parallel_for(loose.size(), threads, [&](std::size_t c, int) {
-        std::vector<LayerLine>& lines = found[possible.chunks.size() + c];
+        std::vector<WholeLine>& lines = found[possible.chunks.size() + c];
         for (HalfEdge number = loose[c].begin; number < loose[c].end; ++number)
             finder.find_loose(loose[c].instance, number, lines);
     });
@@ -429,7 +429,7 @@ std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces
                 finder.find({instance, edges[i - kAhead] / 3}, edges[i - kAhead], found[c]);
         }
     });
-    std::vector<LayerLine> lines;
+    std::vector<WholeLine> lines;
     std::size_t count = 0;
     for (const auto& list : found) count += list.size();
     lines.reserve(count);

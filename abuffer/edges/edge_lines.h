@@ -27,17 +27,17 @@ struct PossibleLines {
 
 /// Tells which edges are lines in this view: contours, borders that are no seams, and edges with another
 /// class asked for.
-class LayerEdgeFinder {
+class EdgeLineFinder {
   public:
     /// `has_both_of_seam`: where two borders run along each other, both are found, not the longer one only.
-    LayerEdgeFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
+    EdgeLineFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
                     bool has_both_of_seam = false);
-    ~LayerEdgeFinder();
+    ~EdgeLineFinder();
 
     /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
-    void find(SurfaceId s, HalfEdge h, std::vector<LayerLine>& lines) const;
+    void find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const;
     /// The same of a loose edge of an instance, by its number (Mesh::loose_number()).
-    void find_loose(std::uint32_t instance, HalfEdge number, std::vector<LayerLine>& lines) const;
+    void find_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const;
 
     /// What counts where a border of triangle `s` is in contact with another surface: the triangle, or behind a sliver the next
     /// one. Nothing if it is a needle.
@@ -63,7 +63,7 @@ struct LooseChunk {
 std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, LineClassSet classes);
 
 /// All lines among the edges of the instances shown, be they seen or not.
-std::vector<LayerLine> find_layer_edges(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
+std::vector<WholeLine> find_edge_lines(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
                                         PixelRect region, int threads);
 
 }  // namespace burin

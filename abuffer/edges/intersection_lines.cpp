@@ -15,7 +15,7 @@ constexpr std::size_t kChunkPairs = 256;
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// Names the place where an edge of one triangle passes through another one.
-std::uint64_t node_of(const LayerTriangle& edge_owner, std::size_t edge, const LayerTriangle& other) {
+std::uint64_t node_of(const Occluder& edge_owner, std::size_t edge, const Occluder& other) {
     const auto mix = [](std::uint64_t h, std::uint64_t value) {  // splitmix64
         h += value + 0x9E3779B97F4A7C15u;
         h = (h ^ h >> 30) * 0xBF58476D1CE4E5B9u;
@@ -58,46 +58,46 @@ bool IntersectionLines::are_wanted(const LineClassSet& classes) {
     return !(classes & (LineClass::intersection | LineClassSet(LineClass::object) | LineClass::material)).empty();
 }
 
-bool IntersectionLines::is_before(const LayerLine& a, const LayerLine& b) {
-    const auto key = [](const LayerLine& l) {
+bool IntersectionLines::is_before(const WholeLine& a, const WholeLine& b) {
+    const auto key = [](const WholeLine& l) {
         return std::tuple(l.owners[0], l.owners[1], l.from.x, l.from.y, l.to.x, l.to.y);
     };
     return key(a) < key(b);
 }
 
-std::vector<LayerLine> IntersectionLines::of_pairs(std::span<const SurfacePair> pairs, int threads) const {
-    std::vector<std::vector<LayerLine>> found((pairs.size() + kChunkPairs - 1) / kChunkPairs);
+std::vector<WholeLine> IntersectionLines::of_pairs(std::span<const SurfacePair> pairs, int threads) const {
+    std::vector<std::vector<WholeLine>> found((pairs.size() + kChunkPairs - 1) / kChunkPairs);
     parallel_for(found.size(), threads, [&](std::size_t chunk, int) {
         const std::size_t first = chunk * kChunkPairs;
         for (const SurfacePair& pair : pairs.subspan(first, std::min(kChunkPairs, pairs.size() - first))) {
             add_pair(pair, found[chunk]);
         }
     });
-    std::vector<LayerLine> lines;
+    std::vector<WholeLine> lines;
     for (const auto& list : found) lines.insert(lines.end(), list.begin(), list.end());
     // Only parts of triangles that are cut are out of order, or equal.
     std::stable_sort(lines.begin(), lines.end(), is_before);
-    const auto is_same = [](const LayerLine& one, const LayerLine& next) { return !is_before(one, next); };
+    const auto is_same = [](const WholeLine& one, const WholeLine& next) { return !is_before(one, next); };
     lines.erase(std::unique(lines.begin(), lines.end(), is_same), lines.end());
     return lines;
 }
 
-void IntersectionLines::add_pair(const SurfacePair& pair, std::vector<LayerLine>& lines) const {
+void IntersectionLines::add_pair(const SurfacePair& pair, std::vector<WholeLine>& lines) const {
     const std::uint32_t a = screen_.number_of(pair.first), b = screen_.number_of(pair.second);
     if (screen_.facing(a) == edge_on || screen_.facing(b) == edge_on) return;
     const ScreenTriangle on_screen_a = screen_.triangle(pair.first), on_screen_b = screen_.triangle(pair.second);
     const bool is_a_off = is_off_screen(on_screen_a), is_b_off = is_off_screen(on_screen_b);
     if (!is_a_off && !is_b_off) {
         if (!overlap(on_screen_a, on_screen_b)) return;
-        return add(layer_triangle(screen_, pair.first, a), layer_triangle(screen_, pair.second, b), lines);
+        return add(occluder_of(screen_, pair.first, a), occluder_of(screen_, pair.second, b), lines);
     }
     const auto parts = [&](SurfaceId s, std::uint32_t number, bool is_off) {
-        return is_off ? clipped_layer_triangles(screen_, s, number)
-                      : std::vector<LayerTriangle>{layer_triangle(screen_, s, number)};
+        return is_off ? clipped_occluders(screen_, s, number)
+                      : std::vector<Occluder>{occluder_of(screen_, s, number)};
     };
-    const std::vector<LayerTriangle> parts_of_b = parts(pair.second, b, is_b_off);
-    for (const LayerTriangle& part_of_a : parts(pair.first, a, is_a_off)) {
-        for (const LayerTriangle& part_of_b : parts_of_b) add(part_of_a, part_of_b, lines);
+    const std::vector<Occluder> parts_of_b = parts(pair.second, b, is_b_off);
+    for (const Occluder& part_of_a : parts(pair.first, a, is_a_off)) {
+        for (const Occluder& part_of_b : parts_of_b) add(part_of_a, part_of_b, lines);
     }
 }
 
@@ -110,7 +110,7 @@ struct IntersectionLines::Passage {
     bool is_cut() const { return is_behind && is_in_front; }
 };
 
-IntersectionLines::Passage IntersectionLines::passage(const LayerTriangle& plane, const LayerTriangle& corners) const {
+IntersectionLines::Passage IntersectionLines::passage(const Occluder& plane, const Occluder& corners) const {
     Passage result;
     std::size_t certain_count = 0, certain = 0;
     const auto gap_at = [&](glm::dvec2 p, double nearness) {  // 0: not certain
@@ -139,9 +139,9 @@ IntersectionLines::Passage IntersectionLines::passage(const LayerTriangle& plane
     return result;
 }
 
-void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const {
+void IntersectionLines::add(const Occluder& a, const Occluder& b, std::vector<WholeLine>& lines) const {
     const Passage of_b = passage(a, b), of_a = passage(b, a);
-    LayerLine line;
+    WholeLine line;
     bool has_line = false;
     if (of_a.is_cut() && of_b.is_cut()) {
         has_line = cut(a, b, line);
@@ -167,7 +167,7 @@ void IntersectionLines::add(const LayerTriangle& a, const LayerTriangle& b, std:
 }
 
 /// The part of an edge of one triangle within another one, in whose plane it lies.
-bool IntersectionLines::cut_edge(const LayerTriangle& owner, std::size_t corner, const LayerTriangle& other, LayerLine& line) {
+bool IntersectionLines::cut_edge(const Occluder& owner, std::size_t corner, const Occluder& other, WholeLine& line) {
     const std::size_t second = (corner + 1) % 3;
     const glm::dvec2 from(owner.x[corner], owner.y[corner]), to(owner.x[second], owner.y[second]);
     double begin = 0, end = 1;
@@ -189,7 +189,7 @@ bool IntersectionLines::cut_edge(const LayerTriangle& owner, std::size_t corner,
 }
 
 /// The line in which two triangles pass through each other.
-bool IntersectionLines::cut(const LayerTriangle& a, const LayerTriangle& b, LayerLine& line) {
+bool IntersectionLines::cut(const Occluder& a, const Occluder& b, WholeLine& line) {
     // Both planes meet where gap(p) = offset + slope.p = 0; from there, the part within both triangles.
     const glm::dvec2 slope(a.per_x - b.per_x, a.per_y - b.per_y);
     const glm::dvec2 origin(a.x[0], a.y[0]);
@@ -199,9 +199,9 @@ bool IntersectionLines::cut(const LayerTriangle& a, const LayerTriangle& b, Laye
     const glm::dvec2 along = glm::dvec2(-slope.y, slope.x) / std::sqrt(square);
     double begin = -1e300, end = 1e300;
     struct Edge {
-        const LayerTriangle *owner = nullptr, *other = nullptr;
+        const Occluder *owner = nullptr, *other = nullptr;
         std::size_t corner = 0;
-        std::uint64_t node() const { return owner != nullptr ? node_of(*owner, corner, *other) : LayerLine::kNoNode; }
+        std::uint64_t node() const { return owner != nullptr ? node_of(*owner, corner, *other) : WholeLine::kNoNode; }
     } first, last;  // between which the line runs
     for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
         for (std::size_t k = 0; k < 3; ++k) {

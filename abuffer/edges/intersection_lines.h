@@ -19,19 +19,19 @@ class IntersectionLines {
     static bool are_wanted(const LineClassSet& classes);
 
     /// Adds the line of two triangles, the one with the smaller number first, if there is one.
-    void add(const LayerTriangle& a, const LayerTriangle& b, std::vector<LayerLine>& lines) const;
+    void add(const Occluder& a, const Occluder& b, std::vector<WholeLine>& lines) const;
     /// Those of many, in order, each once. All instances must be shown and the facing of their triangles known.
-    std::vector<LayerLine> of_pairs(std::span<const SurfacePair> pairs, int threads) const;
+    std::vector<WholeLine> of_pairs(std::span<const SurfacePair> pairs, int threads) const;
 
     /// Orders lines by their triangles and ends.
-    static bool is_before(const LayerLine& a, const LayerLine& b);
+    static bool is_before(const WholeLine& a, const WholeLine& b);
 
   private:
     struct Passage;
-    Passage passage(const LayerTriangle& plane, const LayerTriangle& corners) const;
-    void add_pair(const SurfacePair& pair, std::vector<LayerLine>& lines) const;
-    static bool cut(const LayerTriangle& a, const LayerTriangle& b, LayerLine& line);
-    static bool cut_edge(const LayerTriangle& owner, std::size_t corner, const LayerTriangle& other, LayerLine& line);
+    Passage passage(const Occluder& plane, const Occluder& corners) const;
+    void add_pair(const SurfacePair& pair, std::vector<WholeLine>& lines) const;
+    static bool cut(const Occluder& a, const Occluder& b, WholeLine& line);
+    static bool cut_edge(const Occluder& owner, std::size_t corner, const Occluder& other, WholeLine& line);
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;

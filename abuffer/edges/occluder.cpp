@@ -15,7 +15,7 @@ bool owns_edge(double along_x, double along_y) { return (along_y < 0) | ((along_
 
 /// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for
 /// triangles without area.
-bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
+bool set_corners(Occluder& triangle, const glm::dvec2 (&corners)[3]) {
     const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     // Without a branch: it would be a guess.
     const std::size_t second = area < 0 ? 2 : 1;
@@ -32,7 +32,7 @@ bool set_corners(LayerTriangle& triangle, const glm::dvec2 (&corners)[3]) {
 }
 
 /// The half-edge of the triangle itself after a corner.
-HalfEdge half_edge_at(const ScreenSurfaces& screen, const LayerTriangle& t, std::size_t k) {
+HalfEdge half_edge_at(const ScreenSurfaces& screen, const Occluder& t, std::size_t k) {
     const std::uint32_t from = t.vertices[k], to = t.vertices[k == 2 ? 0 : k + 1];
     const SurfaceId s = screen.surface_of(t.number);
     const auto& corners = screen.surfaces().mesh_of(s).triangles[s.triangle];
@@ -47,7 +47,7 @@ HalfEdge half_edge_at(const ScreenSurfaces& screen, const LayerTriangle& t, std:
 
 /// Whether the surface goes on beyond the edge after a corner, so that it hides what lies along the edge. The triangle must lie
 /// on the screen.
-bool goes_on_beyond(const ScreenSurfaces& screen, const LayerTriangle& t, std::size_t k) {
+bool goes_on_beyond(const ScreenSurfaces& screen, const Occluder& t, std::size_t k) {
     const std::uint32_t from = t.vertices[k], to = t.vertices[k == 2 ? 0 : k + 1];
     const ScreenVertex* const v = screen.vertices(t.instance);
     const Mesh& mesh = *screen.surfaces().instances[t.instance].mesh;
@@ -84,7 +84,7 @@ bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm:
            clip_where_positive(high.y - line_from.y, high.y - line_to.y, begin, end);
 }
 
-void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, LayerTriangle& triangle) {
+void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle) {
     const ScreenMesh& mesh = screen.mesh(s.instance);
     const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
     const ScreenVertex &a = mesh.vertices[corner[0]], &first = mesh.vertices[corner[1]], &second = mesh.vertices[corner[2]];
@@ -112,15 +112,15 @@ void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint3
     set_corner(2, c, a);
 }
 
-LayerTriangle layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
-    LayerTriangle triangle;
+Occluder occluder_of(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
+    Occluder triangle;
     set_up_layer_triangle(screen, s, number, triangle);
     return triangle;
 }
 
-std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen, SurfaceId s,
+std::vector<Occluder> clipped_occluders(const ScreenSurfaces& screen, SurfaceId s,
                                                    std::uint32_t number) {
-    std::vector<LayerTriangle> parts;
+    std::vector<Occluder> parts;
     const SurfaceSet& surfaces = screen.surfaces();
     const ScreenPolygon polygon = surfaces.screen_polygon(s);
     const DepthPlane plane = surfaces.plane(s);
@@ -128,7 +128,7 @@ std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen,
         const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
         return glm::dvec2(p.x, p.y);
     };
-    LayerTriangle triangle;
+    Occluder triangle;
     triangle.number = number;
     triangle.instance = s.instance;
     triangle.per_x = plane.per_x / kSubpixelsPerPixel;
@@ -142,14 +142,14 @@ std::vector<LayerTriangle> clipped_layer_triangles(const ScreenSurfaces& screen,
     return parts;
 }
 
-std::optional<HalfEdge> partner_over(const ScreenSurfaces& screen, const LayerTriangle& t, std::size_t k) {
+std::optional<HalfEdge> partner_over(const ScreenSurfaces& screen, const Occluder& t, std::size_t k) {
     const Mesh& mesh = *screen.surfaces().instances[t.instance].mesh;
     const HalfEdge own = half_edge_at(screen, t, k), partner = mesh.next_on_edge[own];
     if (partner == own || mesh.next_on_edge[partner] != own) return std::nullopt;
     return partner;
 }
 
-bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {
+bool lies_on(const WholeLine& line, const Occluder& triangle) {
     if (is_owner(line, triangle.number)) return true;
     if (!line.has_more_owners) return false;
     int common = 0;
@@ -161,7 +161,7 @@ bool lies_on(const LayerLine& line, const LayerTriangle& triangle) {
     return common == 2;
 }
 
-bool is_grazed_at_end(const ScreenSurfaces& screen, const LayerLine& line, const LayerTriangle& t) {
+bool is_grazed_at_end(const ScreenSurfaces& screen, const WholeLine& line, const Occluder& t) {
     if (screen.facing(t.number) == off_screen) return false;  // a part of it
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;
@@ -180,15 +180,15 @@ double level_slack(const SurfaceSet& surfaces, double nearness, double level_px)
     return absolute * (level_px / p.focal_px + surfaces.coordinate_error * absolute);
 }
 
-double snapping_slack(const LayerLine& line) {
+double snapping_slack(const WholeLine& line) {
     return std::abs(line.nearness_to - line.nearness_from) / glm::distance(line.from, line.to);
 }
 
-double line_slack(const SurfaceSet& surfaces, const LayerLine& line, double begin, double end, double level_px) {
+double line_slack(const SurfaceSet& surfaces, const WholeLine& line, double begin, double end, double level_px) {
     return level_slack(surfaces, std::max(line.nearness_at(begin), line.nearness_at(end)), level_px) + snapping_slack(line);
 }
 
-bool clip_where_hidden(const LayerLine& line, double slack, const LayerTriangle& t, double& begin,
+bool clip_where_hidden(const WholeLine& line, double slack, const Occluder& t, double& begin,
                        double& end, bool with_edges) {
     if (!clip_where_positive(t.nearness_at(line.from) - line.nearness_from - slack,
                              t.nearness_at(line.to) - line.nearness_to - slack, begin, end)) {

@@ -15,7 +15,7 @@ int axis_of(glm::dvec2 way) { return std::abs(way.x) >= std::abs(way.y) ? 0 : 1;
 
 }  // namespace
 
-DrawnParts::Part DrawnParts::part_of(const LayerLine& line, double begin, double end, Kind kind) {
+DrawnParts::Part DrawnParts::part_of(const WholeLine& line, double begin, double end, Kind kind) {
     const int axis = axis_of(line.to - line.from);
     Part part{line.from, line.to, line.at(begin)[axis], line.at(end)[axis], line.nearness_at(begin), line.nearness_at(end), kind};
     if (part.end < part.begin) {
@@ -26,7 +26,7 @@ DrawnParts::Part DrawnParts::part_of(const LayerLine& line, double begin, double
     return part;
 }
 
-void DrawnParts::add(const LayerLine& line, double begin, double end, Kind kind) {
+void DrawnParts::add(const WholeLine& line, double begin, double end, Kind kind) {
     if (parts_.size() < kMostParts) parts_.push_back(part_of(line, begin, end, kind));
 }
 
@@ -40,7 +40,7 @@ bool DrawnParts::is_behind(const Part& part, const Part& other, double level) {
     return is_behind_at(std::max(part.begin, other.begin)) && is_behind_at(std::min(part.end, other.end));
 }
 
-bool DrawnParts::cover(const LayerLine& line, double begin, double end, Kind kind, double level) const {
+bool DrawnParts::cover(const WholeLine& line, double begin, double end, Kind kind, double level) const {
     if (parts_.empty()) return false;
     const Part part = part_of(line, begin, end, kind);
     const glm::dvec2 along = part.to - part.from;

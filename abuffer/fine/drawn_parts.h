@@ -23,9 +23,9 @@ class DrawnParts {
     };
 
     void clear() { parts_.clear(); }
-    void add(const LayerLine& line, double begin, double end, Kind kind);
+    void add(const WholeLine& line, double begin, double end, Kind kind);
     /// Whether parts of one kind that are nearer than a part of a line, or by at most `level` farther, lie on all of it.
-    bool cover(const LayerLine& line, double begin, double end, Kind kind, double level) const;
+    bool cover(const WholeLine& line, double begin, double end, Kind kind, double level) const;
 
   private:
     /// Of a line, from a place to another one along x or y, whichever changes more.
@@ -35,7 +35,7 @@ class DrawnParts {
         double nearness_begin, nearness_end;
         Kind kind;
     };
-    static Part part_of(const LayerLine& line, double begin, double end, Kind kind);
+    static Part part_of(const WholeLine& line, double begin, double end, Kind kind);
     static bool is_behind(const Part& part, const Part& other, double level);
 
     std::vector<Part> parts_;

@@ -75,7 +75,7 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
     beyond_low_ = glm::ivec2(std::numeric_limits<int>::max());
     beyond_high_ = glm::ivec2(std::numeric_limits<int>::min());
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-        const LayerLine& line = candidates[i].line;
+        const WholeLine& line = candidates[i].line;
         const FinePart& part = candidates[i].part;
         const int block_x = part.block_x - first_x_, block_y = part.block_y - first_y_;
         std::uint32_t& index = index_[block_at(block_x, block_y)];

@@ -18,10 +18,10 @@ constexpr int kBeyondSubpixels = 4;
 /// of the edge itself.
 struct FineCandidate {
     FineCandidate() = default;
-    FineCandidate(const FinePart& on_line, const LayerLine& whole) : part(on_line), line(whole) {}
+    FineCandidate(const FinePart& on_line, const WholeLine& whole) : part(on_line), line(whole) {}
 
     FinePart part;
-    LayerLine line;
+    WholeLine line;
 };
 
 /// The blocks of a tile that have candidates, and the triangles that may hide them there, or that borders may be in contact

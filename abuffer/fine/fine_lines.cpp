@@ -37,7 +37,7 @@ constexpr double kRounding = 1.0 / 64;
 /// Finds what is visible in one block after the other. Buffers are used again.
 class FineLines::BlockClipper {
   public:
-    BlockClipper(const ScreenSurfaces& screen, const LayerEdgeFinder& finder, const TileKernels& kernels, const LineCriteria& criteria)
+    BlockClipper(const ScreenSurfaces& screen, const EdgeLineFinder& finder, const TileKernels& kernels, const LineCriteria& criteria)
         : screen_(screen), finder_(finder), kernels_(kernels), contacts_(screen), criteria_(criteria), cells_(screen, kernels) {}
 
     /// `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
@@ -66,7 +66,7 @@ class FineLines::BlockClipper {
     }
 
     void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
-        const LayerLine& line = candidate.line;
+        const WholeLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
         const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)), by_snapping = snapping_slack(line);
         const auto slack_of = [&](double level_px) { return level_slack(screen_.surfaces(), nearest, level_px) + by_snapping; };
@@ -85,7 +85,7 @@ class FineLines::BlockClipper {
                                 end,
                                 slack};
         for_triangles(line, a, b, part_or_line(line, a, b, line.lowest_in(begin, end) - slack),
-                      [&](const LayerTriangle& t) {
+                      [&](const Occluder& t) {
                           // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
                           // apart.
                           const bool is_own_mesh = t.instance == candidate.part.edge.instance;
@@ -157,7 +157,7 @@ class FineLines::BlockClipper {
     }
     /// A part of a line from a to b; or all of it, where that is short and its ends are whole numbers: what only touches it is
     /// told exactly then.
-    static ScreenLine part_or_line(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, double least) {
+    static ScreenLine part_or_line(const WholeLine& line, glm::dvec2 a, glm::dvec2 b, double least) {
         if (!line.is_exact()) return screen_line(a, b, least);
         ScreenLine whole = screen_line(line.from, line.to, least);
         whole.is_exact = true;
@@ -167,12 +167,12 @@ class FineLines::BlockClipper {
     /// Calls use(triangle) for those that may hide `part` of a line, from a to b, and that the line is no edge of, until it says
     /// false.
     template <typename Use>
-    void for_triangles(const LayerLine& line, glm::dvec2 a, glm::dvec2 b, const ScreenLine& part, const Use& use) {
+    void for_triangles(const WholeLine& line, glm::dvec2 a, glm::dvec2 b, const ScreenLine& part, const Use& use) {
         cells_.for_hiding(part, a, b, [&](std::uint32_t i) {
             if (is_owner(line, (*given_)[i].number)) return true;
             if (places_[i].count == 0) set_up(i);
             for (std::uint32_t k = 0; k < places_[i].count; ++k) {
-                const LayerTriangle& t = set_up_[places_[i].first + k];
+                const Occluder& t = set_up_[places_[i].first + k];
                 if (!lies_on(line, t) && !use(t)) return false;
             }
             return true;
@@ -184,17 +184,17 @@ class FineLines::BlockClipper {
         const SurfaceId s = screen_.surface_of(given.number);
         places_[i].first = static_cast<std::uint32_t>(set_up_.size());
         if (screen_.facing(given.number) == off_screen) {
-            const auto parts = clipped_layer_triangles(screen_, s, given.number);
+            const auto parts = clipped_occluders(screen_, s, given.number);
             set_up_.insert(set_up_.end(), parts.begin(), parts.end());
         } else {
-            set_up_.push_back(layer_triangle(screen_, s, given.number));
+            set_up_.push_back(occluder_of(screen_, s, given.number));
         }
         places_[i].count = static_cast<std::uint32_t>(set_up_.size()) - places_[i].first;
     }
 
     /// A border may be a contact where it is seen, which is not known before; what fades is drawn below the rest.
     bool is_covered(const FineCandidate& candidate) const {
-        const LayerLine& line = candidate.line;
+        const WholeLine& line = candidate.line;
         const bool may_be_contact = line.classes.has(LineClass::border) && !line.is_wire;
         if (may_be_contact || line.opacity < 255 || line.classes.empty()) return false;
         const bool occludes = line.classes.has(LineClass::silhouette) || line.classes.has(LineClass::border);
@@ -225,7 +225,7 @@ class FineLines::BlockClipper {
 
     /// Whether both surfaces at a contour go on for more than a negligible fold.
     bool is_wide(const FineCandidate& candidate, double t, OpenRange& narrow) const {
-        const LayerLine& line = candidate.line;
+        const WholeLine& line = candidate.line;
         const glm::dvec2 at = line.at(t);
         const bool is_level = line.from.y == line.to.y, is_upright = line.from.x == line.to.x;
         const double place = is_level ? at.x : at.y;
@@ -239,12 +239,12 @@ class FineLines::BlockClipper {
 
     /// Whether the surface closes around at a contour, as a wire's does.
     bool is_wire(const FineCandidate& candidate, double t) const {
-        const LayerLine& line = candidate.line;
+        const WholeLine& line = candidate.line;
         return ring_around(screen_.mesh(candidate.part.edge.instance), candidate.part.edge.half_edge, line.at(t), line.nearness_at(t), 0) != Ring::none;
     }
 
     void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
-        const LayerLine& line = candidate.line;
+        const WholeLine& line = candidate.line;
         LineClassSet classes = line.classes;
         bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
         if (classes.has(LineClass::border) && !line.is_wire) {
@@ -273,12 +273,12 @@ class FineLines::BlockClipper {
 
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
     std::optional<LineClassSet> contact_behind(const FineCandidate& candidate, double t) {
-        const LayerLine& line = candidate.line;
+        const WholeLine& line = candidate.line;
         const glm::dvec2 at = line.at(t), beyond = at + outward(candidate);
         const double nearness = line.nearness_at(t);
-        std::optional<LayerTriangle> behind;
+        std::optional<Occluder> behind;
         double nearest = -kFar;
-        for_triangles(line, beyond, beyond, screen_line(beyond, beyond, -kFar), [&](const LayerTriangle& triangle) {
+        for_triangles(line, beyond, beyond, screen_line(beyond, beyond, -kFar), [&](const Occluder& triangle) {
             const double other = triangle.nearness_at(at);
             const bool is_nearest = other > nearest || (behind && other == nearest && triangle.number < behind->number);
             if (!triangle.covers(beyond) || !is_nearest) return true;
@@ -305,7 +305,7 @@ class FineLines::BlockClipper {
 
     /// Of the way from the line's beginning to its end.
     bool is_front_on_left(const FineCandidate& candidate) const {
-        const LayerLine& line = candidate.line;
+        const WholeLine& line = candidate.line;
         const int side =
             line.front_side != 0 || line.is_loose() ? line.front_side : owner_side(candidate);
         // Of a loose edge, or a surface that is seen edge-on, either side will do, but the same one
@@ -322,14 +322,14 @@ class FineLines::BlockClipper {
     }
 
     const ScreenSurfaces& screen_;
-    const LayerEdgeFinder& finder_;
+    const EdgeLineFinder& finder_;
     const TileKernels& kernels_;
     Contacts contacts_;
     const LineCriteria& criteria_;
     const std::vector<CrossedTriangle>* given_ = nullptr;
     FineCells cells_;
     std::vector<Place> places_;  // of given triangles in set_up_
-    std::vector<LayerTriangle> set_up_;
+    std::vector<Occluder> set_up_;
     std::vector<Interval> hidden_;
     std::vector<std::pair<double, std::uint32_t>> order_;  // of candidates, the nearest first
     DrawnParts drawn_;
@@ -389,14 +389,14 @@ void FineLines::find_in_block(std::size_t block, std::vector<LineSegment>& segme
 void FineLines::find_candidates(std::span<const FinePart> parts) {
     candidates_.clear();
     const FinePart* before = nullptr;
-    std::span<const LayerLine> lines;
+    std::span<const WholeLine> lines;
     for (const FinePart& part : parts) {
         const std::uint32_t instance = part.edge.instance;
         const HalfEdge h = part.edge.half_edge;
         const bool is_same = before != nullptr && before->edge.instance == instance && before->edge.half_edge == h;
         if (!is_same) lines = lines_of(instance, h);
         before = &part;
-        for (const LayerLine& line : lines) {
+        for (const WholeLine& line : lines) {
             const double begin = (std::max(part.begin, line.edge_begin) - line.edge_begin) / (line.edge_end - line.edge_begin);
             const double end = (std::min(part.end, line.edge_end) - line.edge_begin) / (line.edge_end - line.edge_begin);
             if (begin >= end) continue;
@@ -411,7 +411,7 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
 }
 
 /// Those that an edge is, until the next call.
-std::span<const LayerLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
+std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
     constexpr std::size_t kKnownBorders = 1 << 17;
     const SurfaceId s{instance, h / 3};
     if (is_loose({instance, h})) {

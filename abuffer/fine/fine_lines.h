@@ -28,7 +28,7 @@ class FineLines {
   private:
     class BlockClipper;
     void find_candidates(std::span<const FinePart> parts);
-    std::span<const LayerLine> lines_of(std::uint32_t instance, HalfEdge h);
+    std::span<const WholeLine> lines_of(std::uint32_t instance, HalfEdge h);
     bool is_loose(const FineEdge& edge) const {
         return edge.half_edge >= 3 * screen_.mesh(edge.instance).triangle_count;
     }
@@ -37,16 +37,16 @@ class FineLines {
     const ScreenSurfaces& screen_;
     bool draws_each_;
     SampleBlocks grid_;
-    LayerEdgeFinder finder_;
+    EdgeLineFinder finder_;
     FineBlocks blocks_;
     std::unique_ptr<BlockClipper> clipper_;
     std::vector<FineCandidate> candidates_;
-    std::vector<LayerLine> lines_;
+    std::vector<WholeLine> lines_;
     /// What was found for borders: long ones are in many tiles, and may have many others beside them.
     struct KnownBorder {
         std::uint32_t instance = 0;
         HalfEdge half_edge = kNoHalfEdge;
-        std::vector<LayerLine> lines;
+        std::vector<WholeLine> lines;
     };
     std::vector<KnownBorder> known_borders_;
 };

@@ -26,7 +26,7 @@ bool may_cover(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, double turn, glm::dvec2
 
 }  // namespace
 
-bool Contacts::is_seen_instead(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const {
+bool Contacts::is_seen_instead(const WholeLine& line, double begin, double end, const Occluder& t, double level) const {
     const auto at = touching_place(line, begin, end, t, level);
     if (!at) return false;
     const bool is_border = line.owners[0] == line.owners[1];
@@ -42,7 +42,7 @@ bool Contacts::is_seen_instead(const LayerLine& line, double begin, double end, 
     return true;
 }
 
-bool Contacts::is_in_front(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level) const {
+bool Contacts::is_in_front(const WholeLine& line, double begin, double end, const Occluder& t, double level) const {
     for (const std::uint32_t owner : line.owners) {
         if (have_vertex_in_common(screen_.surface_of(owner), t)) return false;
     }
@@ -72,7 +72,7 @@ bool Contacts::is_in_front(const LayerLine& line, double begin, double end, cons
     return is_any_behind;
 }
 
-bool Contacts::is_flush(const LayerLine& line, double begin, double end, const LayerTriangle& t, double level,
+bool Contacts::is_flush(const WholeLine& line, double begin, double end, const Occluder& t, double level,
                         const LineCriteria& criteria, bool on_one_side) const {
     if (line.classes.has(LineClass::mark)) return false;
     const auto touching = touching_place(line, begin, end, t, level);
@@ -83,7 +83,7 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
     // Mostly one side is not covered: the triangle itself tells which it may be, before those at the line are looked at.
     const glm::dvec2 places[2] = {middle - right, middle + right};
     const std::size_t first = t.covers(places[0]) ? 1 : 0;
-    std::optional<LayerTriangle> covers[2];
+    std::optional<Occluder> covers[2];
     for (const std::size_t side : {first, 1 - first}) {
         covers[side] = what_covers(places[side], t, Over::plain_edges, &criteria);
         if (!covers[side]) return false;
@@ -100,7 +100,7 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
         const auto beside = place_beside(s, owner, *touching);
         if (!beside) continue;
         const std::size_t side = glm::dot(*beside - *touching, right) < 0 ? 0 : 1;
-        const LayerTriangle& cover = *covers[side];
+        const Occluder& cover = *covers[side];
         const double gap = screen_.nearness_of(owner, *beside) - cover.nearness_at(*beside);
         if (gap > level) return false;
         if (gap >= -level) levels[level_count++] = {s, screen_.surface_of(cover.number), *beside / double{kSubpixelsPerPixel}, places[side] / double{kSubpixelsPerPixel}};
@@ -122,13 +122,13 @@ bool Contacts::is_flush(const LayerLine& line, double begin, double end, const L
 }
 
 /// Whether a face that ends at a line laps over another one there by a narrow strip alone.
-bool Contacts::laps_narrowly(const LayerLine& line, SurfaceId own, const FacePlace& other, glm::dvec2 middle) const {
+bool Contacts::laps_narrowly(const WholeLine& line, SurfaceId own, const FacePlace& other, glm::dvec2 middle) const {
     if (!line.is_edge()) return false;
     const auto edge = static_cast<HalfEdge>(line.line_key);
     return burin::laps_narrowly(screen_.surfaces(), own, edge, other, middle / double{kSubpixelsPerPixel});
 }
 
-std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, const LayerTriangle& t, const LineCriteria& criteria,
+std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, const Occluder& t, const LineCriteria& criteria,
                                                          double& begin, double& end) const {
     const std::uint32_t owner = line.owners[0];
     const SurfaceId own = screen_.surface_of(owner), other = screen_.surface_of(t.number);
@@ -136,7 +136,7 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const LayerLine& line, 
     if (!centre) return std::nullopt;
     const glm::dvec2 along = glm::normalize(line.to - line.from), right(-along.y, along.x);
     const glm::dvec2 beyond = kToOneSideSubpixels * (glm::dot(*centre - line.from, right) < 0 ? right : -right);
-    LayerLine beside = line;
+    WholeLine beside = line;
     beside.from += beyond;
     beside.to += beyond;
     constexpr double kAnyDepth = -1e300;
@@ -176,7 +176,7 @@ bool Contacts::have_bodies_on_one_side(SurfaceId a, SurfaceId b) const {
 
 /// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place. Of what is cut,
 /// as a floor that reaches behind the eye, all parts.
-std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const LayerTriangle& t, Over over, const LineCriteria* criteria) const {
+std::optional<Occluder> Contacts::what_covers(glm::dvec2 place, const Occluder& t, Over over, const LineCriteria* criteria) const {
     if (t.covers(place)) return t;
     const ScreenMesh& mesh = screen_.mesh(t.instance);
     const SurfaceId own = screen_.surface_of(t.number);
@@ -207,7 +207,7 @@ std::optional<LayerTriangle> Contacts::what_covers(glm::dvec2 place, const Layer
 
 /// What is at a place of the faces beyond an edge of more than two polygons that go on in the plane of one of them: bodies that
 /// stand flush and share corners have no line between them.
-std::optional<LayerTriangle> Contacts::what_covers_in_plane(glm::dvec2 place, SurfaceId own, HalfEdge h, const LineCriteria& criteria) const {
+std::optional<Occluder> Contacts::what_covers_in_plane(glm::dvec2 place, SurfaceId own, HalfEdge h, const LineCriteria& criteria) const {
     const ScreenMesh& mesh = screen_.mesh(own.instance);
     if (mesh.partners[mesh.partners[h]] == h) return std::nullopt;
     const glm::dvec2 at = place / double{kSubpixelsPerPixel};
@@ -221,24 +221,24 @@ std::optional<LayerTriangle> Contacts::what_covers_in_plane(glm::dvec2 place, Su
 }
 
 /// A triangle where it covers a place, or the part of it that does if it is cut.
-std::optional<LayerTriangle> Contacts::part_at(glm::dvec2 place, SurfaceId s) const {
+std::optional<Occluder> Contacts::part_at(glm::dvec2 place, SurfaceId s) const {
     const std::uint32_t number = screen_.number_of(s);
     const Facing facing = screen_.facing(number);
     if (facing == edge_on) return std::nullopt;
     if (facing == off_screen) {
-        for (const LayerTriangle& part : clipped_layer_triangles(screen_, s, number)) {
+        for (const Occluder& part : clipped_occluders(screen_, s, number)) {
             if (part.covers(place)) return part;
         }
         return std::nullopt;
     }
     const auto& [a, b, c] = screen_.triangle(s).corners;
     if (!may_cover(place_of(a), place_of(b), place_of(c), facing == clockwise ? 1 : -1, place)) return std::nullopt;
-    const LayerTriangle triangle = layer_triangle(screen_, s, number);
+    const Occluder triangle = occluder_of(screen_, s, number);
     return triangle.covers(place) ? std::optional(triangle) : std::nullopt;
 }
 
 /// Where a line comes nearest to the plane of `t`, if it is level with it there.
-std::optional<glm::dvec2> Contacts::touching_place(const LayerLine& line, double begin, double end, const LayerTriangle& t,
+std::optional<glm::dvec2> Contacts::touching_place(const WholeLine& line, double begin, double end, const Occluder& t,
                                                    double level) const {
     const auto gap_at = [&](double part) {
         return std::abs(t.nearness_at(line.at(part)) - line.nearness_at(part));
@@ -257,7 +257,7 @@ std::optional<glm::dvec2> Contacts::place_beside(SurfaceId s, std::uint32_t owne
     return at + inward * std::min(1.0, kBesideSubpixels / glm::length(inward));
 }
 
-bool Contacts::have_vertex_in_common(SurfaceId s, const LayerTriangle& t) const {
+bool Contacts::have_vertex_in_common(SurfaceId s, const Occluder& t) const {
     if (s.instance != t.instance) return false;
     const auto& v = screen_.surfaces().mesh_of(s).triangles[s.triangle];
     return std::find_first_of(v.begin(), v.end(), t.vertices.begin(), t.vertices.end()) != v.end();

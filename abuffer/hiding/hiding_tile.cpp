@@ -14,8 +14,8 @@ constexpr double kShortestRestPx = 1.0 / 32;
 
 }  // namespace
 
-LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
-                     const LayerBins& bins, const PixelTiles& grid, bool finds_pairs)
+HidingTile::HidingTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
+                     const OccluderBins& bins, const PixelTiles& grid, bool finds_pairs)
     : frame_(frame),
       screen_(screen),
       contacts_(screen),
@@ -28,7 +28,7 @@ LayerTile::LayerTile(const Frame& frame, const ScreenSurfaces& screen, const Til
       pairs_(screen, kernels),
       sweep_(kernels) {}
 
-void LayerTile::fill(std::size_t tile) {
+void HidingTile::fill(std::size_t tile) {
     rect_ = grid_.tile(tile);
     cells_.clear(rect_);
     triangles_.clear();
@@ -39,7 +39,7 @@ void LayerTile::fill(std::size_t tile) {
     std::uint32_t first = 0, end = 0;  // numbers of its instance
     const std::span<const std::uint32_t> list = bins_.triangles(tile);
     for (std::size_t i = 0, next; i < list.size(); i = next) {
-        const std::uint32_t number = list[i] & ~LayerBins::kClipped;
+        const std::uint32_t number = list[i] & ~OccluderBins::kClipped;
         if (number >= end) {
             s = screen_.surface_of(number);
             first = number - s.triangle;
@@ -59,7 +59,7 @@ void LayerTile::fill(std::size_t tile) {
     fragment_count_ += cells_.places().size();
 }
 
-void LayerTile::add(std::uint32_t instance, std::span<const std::uint32_t> numbers) {
+void HidingTile::add(std::uint32_t instance, std::span<const std::uint32_t> numbers) {
     const ScreenMesh& mesh = screen_.mesh(instance);
     const glm::ivec2 corner = cells_.corner();
     kernels_.put_crossed(mesh, numbers.data(), numbers.size(), corner.x, corner.y, cells_.add(numbers.size()));
@@ -73,21 +73,21 @@ void LayerTile::add(std::uint32_t instance, std::span<const std::uint32_t> numbe
     }
 }
 
-double LayerTile::transmission_of(SurfaceId s) const {
+double HidingTile::transmission_of(SurfaceId s) const {
     return has_transparent_ ? 1 - static_cast<double>(frame_.material_of(s).opacity) : 0;
 }
 
-void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
+void HidingTile::add_clipped(SurfaceId s, std::uint32_t number) {
     has_clipped_ = true;
     const DepthPlane plane = frame_.surfaces.plane(s);
     const double zero = frame_.surfaces.farthest_nearness;
     const auto first_vertex = static_cast<std::uint32_t>(screen_.vertices(s.instance) - screen_.vertices(0));
-    for (LayerTriangle& triangle : clipped_layer_triangles(screen_, s, number)) {
+    for (Occluder& triangle : clipped_occluders(screen_, s, number)) {
         triangle.transmission = transmission_of(s);
         triangles_.push_back(triangle);
         set_up_.push_back(static_cast<std::uint32_t>(triangles_.size() - 1));
         CrossedTriangle& entry = *cells_.add(1);
-        LayerPairs::Corners vertices;
+        OccluderPairs::Corners vertices;
         for (std::size_t k = 0; k < 3; ++k) {
             entry.x[k] = static_cast<float>(triangle.x[k] - cells_.corner().x);
             entry.y[k] = static_cast<float>(triangle.y[k] - cells_.corner().y);
@@ -99,7 +99,7 @@ void LayerTile::add_clipped(SurfaceId s, std::uint32_t number) {
     }
 }
 
-void LayerTile::set_up(std::uint32_t i) {
+void HidingTile::set_up(std::uint32_t i) {
     const std::uint32_t number = cells_[i].number;
     const SurfaceId s = screen_.surface_of(number);
     set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
@@ -108,7 +108,7 @@ void LayerTile::set_up(std::uint32_t i) {
 }
 
 /// Notes where in a part of a line triangles are in front of it.
-void LayerTile::hide(const LayerLine& line, std::span<const std::uint32_t> near, const PartInTile& part) {
+void HidingTile::hide(const WholeLine& line, std::span<const std::uint32_t> near, const PartInTile& part) {
     planes_.clear();
     for (const std::uint32_t i : near) triangle(i);  // all before any is looked at: setting up moves them
     for (const std::uint32_t i : near) planes_.push_back(&triangle(i));
@@ -120,11 +120,11 @@ void LayerTile::hide(const LayerLine& line, std::span<const std::uint32_t> near,
                                certain_slack_};
     parts_.resize(std::max(parts_.size(), near.size()));
     const std::size_t count = kernels_.clip_hidden(planes_.data(), near.size(), plane_line, parts_.data());
-    for (std::size_t k = 0; k < count; ++k) hide(line, near[parts_[k].triangle], static_cast<const LayerTriangle&>(*planes_[parts_[k].triangle]), parts_[k]);
+    for (std::size_t k = 0; k < count; ++k) hide(line, near[parts_[k].triangle], static_cast<const Occluder&>(*planes_[parts_[k].triangle]), parts_[k]);
 }
 
 /// Notes a part in which a triangle, entry `i`, is in front.
-void LayerTile::hide(const LayerLine& line, std::uint32_t i, const LayerTriangle& t, const HiddenPart& hidden) {
+void HidingTile::hide(const WholeLine& line, std::uint32_t i, const Occluder& t, const HiddenPart& hidden) {
     if (line.has_more_owners && lies_on(line, t)) return;
     // What is level with the line is in front where it is seen instead: what that is, is asked last.
     if (hidden.is_level && line.drawn_as != LineClass::intersection) {
@@ -142,7 +142,7 @@ void LayerTile::hide(const LayerLine& line, std::uint32_t i, const LayerTriangle
     if (hidden.is_any && !only_grazes(screen_, line, t)) sweep_.add(t.number, hidden.begin, hidden.end, t.transmission);
 }
 
-void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces) {
+void HidingTile::find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {
     const glm::dvec2 corner = glm::dvec2(rect_.x0, rect_.y0) * 256.0;
     double begin = 0, end = 1;
     if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
@@ -167,11 +167,11 @@ void LayerTile::find_pieces(const LayerLine& line, std::uint32_t line_number, st
 }
 
 /// Where a border ends in contact with a surface that goes on beyond it without any line.
-void LayerTile::find_contacts(const LayerLine& line, const PartInTile& part) {
+void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
     if (line.classes.has(LineClass::mark)) return;
     const double slack = line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx);
     cells_.for_crossed(line, part.begin, part.end, slack, kToOneSideSubpixels, [&](std::uint32_t entry) {
-        const LayerTriangle& t = triangle(entry);
+        const Occluder& t = triangle(entry);
         if (lies_on(line, t)) return;
         Contact contact{part.begin, part.end, entry, false};
         const auto classes = contacts_.classes_of_contact(line, t, frame_.criteria, contact.begin, contact.end);
@@ -195,13 +195,13 @@ void LayerTile::find_contacts(const LayerLine& line, const PartInTile& part) {
 }
 
 /// Cuts them out of the pieces of a line, from `first` on. What is left is no dot: contacts with neighbours meet but for rounding.
-void LayerTile::drop_contacts(const LayerLine& line, std::size_t first, std::vector<LayerPiece>& pieces) {
+void HidingTile::drop_contacts(const WholeLine& line, std::size_t first, std::vector<LinePart>& pieces) {
     if (contacts_of_line_.empty()) return;
     const double shortest = kShortestRestPx / line.length_px();
     std::sort(contacts_of_line_.begin(), contacts_of_line_.end(), [](const Contact& a, const Contact& b) { return a.begin < b.begin; });
-    const std::vector<LayerPiece> whole(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end());
+    const std::vector<LinePart> whole(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end());
     pieces.resize(first);
-    for (LayerPiece piece : whole) {
+    for (LinePart piece : whole) {
         const double begin = piece.begin, end = piece.end;
         const auto keep_up_to = [&](double last) {
             piece.end = last;
@@ -216,8 +216,8 @@ void LayerTile::drop_contacts(const LayerLine& line, std::size_t first, std::vec
     }
 }
 
-void LayerTile::find_intersections(const IntersectionTest& may_intersect, const IntersectionLines& intersections,
-                                   std::vector<LayerLine>& lines) {
+void HidingTile::find_intersections(const IntersectionTest& may_intersect, const IntersectionLines& intersections,
+                                   std::vector<WholeLine>& lines) {
     const auto surface_of = [this](std::uint32_t i) { return screen_.surface_of(cells_[i].number); };
     for (const auto& [own, other] : pairs_.find(cells_, rect_)) {
         if (!may_intersect.may_intersect(surface_of(own), surface_of(other))) continue;

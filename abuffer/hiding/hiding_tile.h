@@ -18,26 +18,26 @@ namespace burin {
 
 /// All layers of surfaces in one tile, found by place: the tile is cut into square cells, and each has
 /// a list of the triangles that touch it. Buffers are used again from tile to tile.
-class LayerTile {
+class HidingTile {
   public:
     /// `finds_pairs`: find_intersections() is wanted, too.
-    LayerTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const LayerBins& bins,
+    HidingTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const OccluderBins& bins,
               const PixelTiles& grid, bool finds_pairs);
 
     void fill(std::size_t tile);
 
     /// Adds the lines in which triangles of this tile pass through each other.
     void find_intersections(const IntersectionTest& may_intersect, const IntersectionLines& intersections,
-                            std::vector<LayerLine>& lines);
+                            std::vector<WholeLine>& lines);
 
     /// Adds the parts of a line within the tile that something is in front of.
-    void find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces);
+    void find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces);
 
     /// How many pairs of cell and triangle were kept so far.
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
-    /// Of a line, with its ends as LayerLine has them.
+    /// Of a line, with its ends as WholeLine has them.
     struct PartInTile {
         double begin, end;
         glm::dvec2 from, to;
@@ -53,32 +53,32 @@ class LayerTile {
     void add_clipped(SurfaceId s, std::uint32_t number);
     /// Triangles of one instance by their numbers, all on the screen.
     void add(std::uint32_t instance, std::span<const std::uint32_t> numbers);
-    const LayerTriangle& triangle(std::uint32_t i) {
+    const Occluder& triangle(std::uint32_t i) {
         if (set_up_[i] == kNotSetUp) set_up(i);
         return triangles_[set_up_[i]];
     }
     void set_up(std::uint32_t i);
     double transmission_of(SurfaceId s) const;
-    void hide(const LayerLine& line, std::span<const std::uint32_t> near, const PartInTile& part);
-    void hide(const LayerLine& line, std::uint32_t i, const LayerTriangle& t, const HiddenPart& hidden);
-    void find_contacts(const LayerLine& line, const PartInTile& part);
-    void drop_contacts(const LayerLine& line, std::size_t first, std::vector<LayerPiece>& pieces);
+    void hide(const WholeLine& line, std::span<const std::uint32_t> near, const PartInTile& part);
+    void hide(const WholeLine& line, std::uint32_t i, const Occluder& t, const HiddenPart& hidden);
+    void find_contacts(const WholeLine& line, const PartInTile& part);
+    void drop_contacts(const WholeLine& line, std::size_t first, std::vector<LinePart>& pieces);
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     Contacts contacts_;
     const TileKernels& kernels_;
-    const LayerBins& bins_;
+    const OccluderBins& bins_;
     const PixelTiles& grid_;
     bool has_transparent_, finds_pairs_;
     PixelRect rect_;
-    LayerCells cells_;  // its entries are the triangles of the tile
-    LayerPairs pairs_;  // of the same entries, where pairs are wanted
-    LayerSweep sweep_;
+    OccluderCells cells_;  // its entries are the triangles of the tile
+    OccluderPairs pairs_;  // of the same entries, where pairs are wanted
+    HidingSweep sweep_;
     // What it takes to clip with an entry is set up when first needed.
     std::vector<std::uint32_t> set_up_;   // per entry: which of triangles_, or kNotSetUp
     bool has_clipped_ = false;  // triangles in several parts
-    std::vector<LayerTriangle> triangles_;
+    std::vector<Occluder> triangles_;
     std::vector<std::uint32_t> near_;          // entries that a line may cross
     std::vector<const TrianglePlane*> planes_;  // theirs
     std::vector<HiddenPart> parts_;

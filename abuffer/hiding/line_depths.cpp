@@ -11,8 +11,8 @@ constexpr float kNoLine = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-LineDepths::LineDepths(std::span<const LayerLine> lines, const PixelTiles& tiles,
-                       const std::function<double(const LayerLine&)>& slack_of) {
+LineDepths::LineDepths(std::span<const WholeLine> lines, const PixelTiles& tiles,
+                       const std::function<double(const WholeLine&)>& slack_of) {
     const PixelRect all = tiles.all_rows().rect();
     first_ = glm::ivec2(all.x0, all.y0) * kSubpixelsPerPixel;
     last_ = glm::ivec2(all.x1, all.y1) * kSubpixelsPerPixel;
@@ -23,7 +23,7 @@ LineDepths::LineDepths(std::span<const LayerLine> lines, const PixelTiles& tiles
     end_row_ = tiles.rows().end * per_tile;
     of_tile_.assign(tiles.count(), kNoLine);
     of_block_.assign(tiles.count() << (2 * kTileShift), kNoLine);
-    for (const LayerLine& line : lines) add(line, slack_of(line));
+    for (const WholeLine& line : lines) add(line, slack_of(line));
     combine_blocks();
 }
 
@@ -51,7 +51,7 @@ void LineDepths::combine_blocks() {
     }
 }
 
-void LineDepths::add(const LayerLine& line, double slack) {
+void LineDepths::add(const WholeLine& line, double slack) {
     const float least = std::nextafter(static_cast<float>(line.lowest_in(0, 1) - slack), -kNoLine);
     // Ends of lines that are cut lie about the guard band's border, as exactly as the line is long.
     const auto whole = [](glm::dvec2 p) { return glm::ivec2(glm::clamp(p, -kFarthest, kFarthest)); };

@@ -20,8 +20,8 @@ namespace burin {
 class LineDepths {
   public:
     /// `slack_of`: how much farther than a line, in nearness, something may be that is in front of it all the same.
-    LineDepths(std::span<const LayerLine> lines, const PixelTiles& tiles,
-               const std::function<double(const LayerLine&)>& slack_of);
+    LineDepths(std::span<const WholeLine> lines, const PixelTiles& tiles,
+               const std::function<double(const WholeLine&)>& slack_of);
 
     /// Calls visit(tile) for the tiles in which what fills a box, in 1/256 pixel, with the nearness `highest` at its
     /// nearest, may hide a line.
@@ -94,7 +94,7 @@ class LineDepths {
         }
         return false;
     }
-    void add(const LayerLine& line, double slack);
+    void add(const WholeLine& line, double slack);
     void note(const Blocks& blocks, float nearness);
     void combine_blocks();
 

@@ -24,7 +24,7 @@ void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const LineDepths*
     if (mesh.facing[t] == off_screen) {
         polygon = screen.surfaces().screen_polygon({instance, t});
         if (polygon.count == 0) return;
-        value |= LayerBins::kClipped;
+        value |= OccluderBins::kClipped;
     } else {
         const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
         const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
@@ -88,7 +88,7 @@ void bin_in_front(const ScreenSurfaces& screen, const TileKernels& kernels, cons
 
 }  // namespace
 
-LayerBins::LayerBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
+OccluderBins::OccluderBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
                      const LineDepths* lines) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     std::vector<std::vector<Record>> records(chunks.size());

@@ -10,13 +10,13 @@ namespace burin {
 /// and in ascending order if no lines are given.
 /// Triangles that are seen exactly edge-on hide nothing and are left out, as are those in front of none of the lines,
 /// if these are given.
-class LayerBins {
+class OccluderBins {
   public:
     /// In front of the number of a triangle that is cut by the near plane or the guard band.
     static constexpr std::uint32_t kClipped = 1u << 31;
 
-    LayerBins() = default;
-    LayerBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
+    OccluderBins() = default;
+    OccluderBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
               const LineDepths* lines = nullptr);
     std::span<const std::uint32_t> triangles(std::size_t tile) const { return lists_.of(tile); }
 

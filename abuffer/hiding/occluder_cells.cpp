@@ -15,27 +15,27 @@ constexpr float kFar = 1e30f;
 
 }  // namespace
 
-void LayerCells::clear(PixelRect rect) {
+void OccluderCells::clear(PixelRect rect) {
     rect_ = rect;
     corner_ = glm::ivec2(rect.x0, rect.y0) * 256;
     count_ = 0;
 }
 
-ScreenBox LayerCells::box_of(const CrossedTriangle& t) {
+ScreenBox OccluderCells::box_of(const CrossedTriangle& t) {
     const auto low = [](const float (&v)[3]) { return std::min(std::min(v[0], v[1]), v[2]); };
     const auto high = [](const float (&v)[3]) { return std::max(std::max(v[0], v[1]), v[2]); };
     return {low(t.x), low(t.y), high(t.x), high(t.y), -kFar, t.highest};
 }
 
-int LayerCells::cell_along(float offset, int count) const {
+int OccluderCells::cell_along(float offset, int count) const {
     return static_cast<int>(std::clamp(offset * cells_per_subpixel_, 0.0f, static_cast<float>(count - 1)));
 }
 
-LayerCells::Range LayerCells::range_of(glm::vec2 low, glm::vec2 high) const {
+OccluderCells::Range OccluderCells::range_of(glm::vec2 low, glm::vec2 high) const {
     return {cell_along(low.x, columns_), cell_along(high.x, columns_), cell_along(low.y, rows_), cell_along(high.y, rows_)};
 }
 
-void LayerCells::sort(double per_cell) {
+void OccluderCells::sort(double per_cell) {
     const int largest = std::max(rect_.width(), rect_.height());
     const double area = static_cast<double>(rect_.width()) * rect_.height();
     const double wanted = std::sqrt(area * per_cell / std::max(1.0, static_cast<double>(count_)));
@@ -53,7 +53,7 @@ void LayerCells::sort(double per_cell) {
     }
 }
 
-void LayerCells::fill() {
+void OccluderCells::fill() {
     const auto for_cells = [&](const CrossedTriangle& t, const auto& visit) {
         const ScreenBox box = box_of(t);
         const Range range = range_of({box.x0, box.y0}, {box.x1, box.y1});
@@ -71,7 +71,7 @@ void LayerCells::fill() {
     }
 }
 
-void LayerCells::make_indices() {
+void OccluderCells::make_indices() {
     ScreenBox bounds{0, 0, 0, 0, kFar, -kFar};
     for (std::size_t i = 0; i < count_; ++i) {
         bounds.low = std::min(bounds.low, triangles_[i].highest);
@@ -99,7 +99,7 @@ void LayerCells::make_indices() {
 }
 
 /// Of a cell's triangles, those that may hide the part of a line in it. Returns their number in found_.
-std::size_t LayerCells::find_crossed(std::size_t cell, const LayerLine& line, double from, double to, double slack, float reach) {
+std::size_t OccluderCells::find_crossed(std::size_t cell, const WholeLine& line, double from, double to, double slack, float reach) {
     const glm::dvec2 corner(corner_), along = line.to - line.from;
     const auto low = static_cast<float>(line.lowest_in(from, to) - slack);
     const TriangleIndex& index = indices_[cell];

@@ -16,14 +16,14 @@ namespace burin {
 
 /// The triangles of a square on the screen by place: where there are very many it is cut into square cells, and each has an
 /// index of the triangles that touch it. Buffers are used again.
-class LayerCells {
+class OccluderCells {
   public:
     /// A cell's list: [begin, end) of places().
     struct Cell {
         std::size_t begin, end;
     };
 
-    explicit LayerCells(const TileKernels& kernels) : kernels_(kernels) {}
+    explicit OccluderCells(const TileKernels& kernels) : kernels_(kernels) {}
 
     void clear(PixelRect rect);
     /// Where triangles are measured from, in 1/256 pixel.
@@ -51,7 +51,7 @@ class LayerCells {
     /// Calls use(number) once for each triangle that is near the part [begin, end] of a line within the square, with a corner in front of it, or
     /// behind it by no more than `slack`. `reach`: how far beside the line a triangle may lie. 1/256 pixel.
     template <typename Use>
-    void for_crossed(const LayerLine& line, double begin, double end, double slack, float reach, const Use& use) {
+    void for_crossed(const WholeLine& line, double begin, double end, double slack, float reach, const Use& use) {
         if (columns_ * rows_ == 1) {
             const std::size_t count = find_crossed(0, line, begin, end, slack, reach);
             for (std::size_t i = 0; i < count; ++i) use(found_[i]);
@@ -84,7 +84,7 @@ class LayerCells {
     Range range_of(glm::vec2 low, glm::vec2 high) const;
     int cell_along(float offset, int count) const;
     void fill();
-    std::size_t find_crossed(std::size_t cell, const LayerLine& line, double from, double to, double slack, float reach);
+    std::size_t find_crossed(std::size_t cell, const WholeLine& line, double from, double to, double slack, float reach);
 
     const TileKernels& kernels_;
     PixelRect rect_;

@@ -16,13 +16,13 @@ constexpr float kFar = 1e30f;
 }  // namespace
 
 /// Places of those that touch a box.
-std::span<const std::uint32_t> LayerPairs::touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
+std::span<const std::uint32_t> OccluderPairs::touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
                                                     float least_y0) {
     return {found_.data(),
             kernels_.find_touching(boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
 }
 
-std::span<const LayerPairs::Pair> LayerPairs::find(const LayerCells& triangles, PixelRect rect) {
+std::span<const OccluderPairs::Pair> OccluderPairs::find(const OccluderCells& triangles, PixelRect rect) {
     pairs_.clear();
     cells_.clear(rect);
     CrossedTriangle* const to = cells_.add(entries_.size());
@@ -33,7 +33,7 @@ std::span<const LayerPairs::Pair> LayerPairs::find(const LayerCells& triangles, 
     vertices_.resize(places.size());
     found_.resize(places.size());
     for (std::size_t at = 0; at < places.size(); ++at) {
-        ScreenBox box = LayerCells::box_of(triangles[places[at]]);
+        ScreenBox box = OccluderCells::box_of(triangles[places[at]]);
         box.low = entries_[places[at]].lowest;
         boxes_.set(at, box);
         vertices_[at] = entries_[places[at]].vertices;
@@ -44,7 +44,7 @@ std::span<const LayerPairs::Pair> LayerPairs::find(const LayerCells& triangles, 
     return pairs_;
 }
 
-void LayerPairs::find_in_cell(int column, int row) {
+void OccluderPairs::find_in_cell(int column, int row) {
     // Of all cells that both triangles touch, the one with the corner where their boxes begin to overlap
     // is responsible.
     const float left = column == 0 ? -kFar : cells_.pitch() * static_cast<float>(column);
@@ -56,7 +56,7 @@ void LayerPairs::find_in_cell(int column, int row) {
         const auto is_in_b = [&b](std::uint32_t v) { return (v == b[0]) | (v == b[1]) | (v == b[2]); };
         return (is_in_b(a[0]) | is_in_b(a[1]) | is_in_b(a[2])) != 0;
     };
-    const LayerCells::Cell c = cells_.cell(column, row);
+    const OccluderCells::Cell c = cells_.cell(column, row);
     for (std::size_t i = c.begin; i + 1 < c.end; ++i) {
         const ScreenBox box = boxes_[i];
         std::optional<SidePlane> plane;
@@ -70,7 +70,7 @@ void LayerPairs::find_in_cell(int column, int row) {
     }
 }
 
-LayerPairs::SidePlane LayerPairs::side_plane(const Corners& corners) const {
+OccluderPairs::SidePlane OccluderPairs::side_plane(const Corners& corners) const {
     const ScreenVertex* const v = screen_.vertices(0);
     const ScreenVertex &a = v[corners[0]], &b = v[corners[1]], &c = v[corners[2]];
     SidePlane plane;
@@ -92,7 +92,7 @@ LayerPairs::SidePlane LayerPairs::side_plane(const Corners& corners) const {
 
 /// Whether a plane does not reach through a triangle, by more than snapping does, nor may have an edge of it, as
 /// IntersectionLines tells. `own`: the triangle's plane. Neither need be set up for that.
-bool LayerPairs::is_on_one_side(const SidePlane& plane, const SidePlane& own, const Corners& corners) const {
+bool OccluderPairs::is_on_one_side(const SidePlane& plane, const SidePlane& own, const Corners& corners) const {
     if (!plane.is_on_screen || !own.is_on_screen) return false;
     const double area = std::abs(plane.per_nearness);
     const double slack = plane.slack + area * (own.slack / std::abs(own.per_nearness));

@@ -12,19 +12,19 @@
 namespace burin {
 
 /// Pairs of a tile's triangles that may pass through each other. Buffers are used again.
-class LayerPairs {
+class OccluderPairs {
   public:
     /// Vertices, numbered through over all instances.
     using Corners = std::array<std::uint32_t, 3>;
     /// Two entries of the tile's cells.
     using Pair = std::array<std::uint32_t, 2>;
 
-    LayerPairs(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels), cells_(kernels) {}
+    OccluderPairs(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels), cells_(kernels) {}
 
     void clear() { entries_.clear(); }
     /// For each entry of the tile's cells. `lowest`: the nearness of its farthest corner.
     void add(float lowest, const Corners& vertices) { entries_.push_back({lowest, vertices}); }
-    std::span<const Pair> find(const LayerCells& triangles, PixelRect rect);
+    std::span<const Pair> find(const OccluderCells& triangles, PixelRect rect);
 
   private:
     /// The plane of a triangle, with all changes multiplied by twice the triangle's area on the screen.
@@ -44,7 +44,7 @@ class LayerPairs {
 
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
-    LayerCells cells_;            // of the same triangles, with fewer in each
+    OccluderCells cells_;            // of the same triangles, with fewer in each
     std::vector<Entry> entries_;
     ScreenBoxes boxes_;               // of the cells' triangles
     std::vector<Corners> vertices_;   // likewise

@@ -14,7 +14,7 @@ constexpr std::size_t kReadMore = 3;
 
 }  // namespace
 
-void LayerSweep::clear(double begin, double end, std::size_t most, bool joins_parts) {
+void HidingSweep::clear(double begin, double end, std::size_t most, bool joins_parts) {
     begin_ = begin;
     end_ = end;
     count_ = begin_count_ = end_count_ = 0;
@@ -28,7 +28,7 @@ void LayerSweep::clear(double begin, double end, std::size_t most, bool joins_pa
 }
 
 /// Joins what the parts of a clipped triangle hide, which is one layer. In order, for shares of light are multiplied.
-void LayerSweep::merge_intervals() {
+void HidingSweep::merge_intervals() {
     std::sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) {
         return a.triangle != b.triangle ? a.triangle < b.triangle : a.begin < b.begin;
     });
@@ -45,7 +45,7 @@ void LayerSweep::merge_intervals() {
 }
 
 /// Puts numbers in order.
-void LayerSweep::sort(std::vector<double>& values, std::size_t count) {
+void HidingSweep::sort(std::vector<double>& values, std::size_t count) {
     constexpr std::size_t kFew = 64;
     if (count < 2) return;
     if (count > kFew) return std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
@@ -54,7 +54,7 @@ void LayerSweep::sort(std::vector<double>& values, std::size_t count) {
 }
 
 /// Where layers begin and end within the part, in order.
-void LayerSweep::find_events() {
+void HidingSweep::find_events() {
     events_.clear();
     for (const Interval& i : intervals_) {
         if (i.transmission == 0) {
@@ -76,7 +76,7 @@ void LayerSweep::find_events() {
     if (has_others) std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
 }
 
-void LayerSweep::find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces) {
+void HidingSweep::find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {
     if (joins_parts_) merge_intervals();
     find_events();
     int opaque = opaque_;
@@ -95,7 +95,7 @@ void LayerSweep::find_pieces(const LayerLine& line, std::uint32_t line_number, s
                 is_behind_glass = true;
             }
         }
-        LayerPiece piece;
+        LinePart piece;
         piece.line = line_number;
         piece.begin = start;
         piece.end = to;
@@ -104,7 +104,7 @@ void LayerSweep::find_pieces(const LayerLine& line, std::uint32_t line_number, s
         const double from = start;
         start = to;
         if (piece.invisibility == 0 && !is_behind_glass) return;
-        LayerPiece* const last = pieces.size() > first_piece ? &pieces.back() : nullptr;
+        LinePart* const last = pieces.size() > first_piece ? &pieces.back() : nullptr;
         if (last != nullptr && last->end == from && last->invisibility == piece.invisibility &&
             last->transmission == piece.transmission) {
             last->end = to;

@@ -9,9 +9,9 @@
 namespace burin {
 
 /// The layers in front of a line, counted from one end to the other. Buffers are used again.
-class LayerSweep {
+class HidingSweep {
   public:
-    explicit LayerSweep(const TileKernels& kernels) : kernels_(kernels) {}
+    explicit HidingSweep(const TileKernels& kernels) : kernels_(kernels) {}
 
     /// For the part [begin, end] of a line, with up to `most` triangles in front. `joins_parts`: triangles may be added in several
     /// parts, which are one layer, or be transparent.
@@ -25,7 +25,7 @@ class LayerSweep {
         has_transparent_ = has_transparent_ || transmission > 0;
     }
     /// Adds the pieces of the part that something is in front of.
-    void find_pieces(const LayerLine& line, std::uint32_t line_number, std::vector<LayerPiece>& pieces);
+    void find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces);
 
   private:
     struct Interval {

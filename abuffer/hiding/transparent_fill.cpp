@@ -34,7 +34,7 @@ struct Layer {
 
 class TransparentTile {
   public:
-    TransparentTile(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins, const PixelTiles& grid)
+    TransparentTile(const Frame& frame, const ScreenSurfaces& screen, const OccluderBins& bins, const PixelTiles& grid)
         : frame_(frame), screen_(screen), bins_(bins), grid_(grid), kernels_(best_kernels()) {}
 
     void fill(std::size_t tile, Film& film) {
@@ -56,7 +56,7 @@ class TransparentTile {
     }
 
   private:
-    SurfaceId surface(std::uint32_t value) const { return screen_.surface_of(value & ~LayerBins::kClipped); }
+    SurfaceId surface(std::uint32_t value) const { return screen_.surface_of(value & ~OccluderBins::kClipped); }
     float opacity(std::uint32_t value) const { return frame_.material_of(surface(value)).opacity; }
     SampleView view() {
         return {samples_.nearness.data(), samples_.ids.data(), samples_.first_column, samples_.first_row,
@@ -78,7 +78,7 @@ class TransparentTile {
                        static_cast<float>(plane.per_y / kSubpixelsPerPixel),
                        static_cast<float>(plane.lowest - zero),
                        static_cast<float>(plane.highest - zero),
-                       (value & ~LayerBins::kClipped) << 1};
+                       (value & ~OccluderBins::kClipped) << 1};
         return layer;
     }
 
@@ -184,7 +184,7 @@ class TransparentTile {
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
-    const LayerBins& bins_;
+    const OccluderBins& bins_;
     const PixelTiles& grid_;
     const TileKernels& kernels_;
     PixelRect rect_;
@@ -198,7 +198,7 @@ class TransparentTile {
 
 }  // namespace
 
-void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins,
+void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const OccluderBins& bins,
                       const PixelTiles& grid, int threads, Film& film) {
     std::vector<std::unique_ptr<TransparentTile>> tiles(static_cast<std::size_t>(threads));
     parallel_for(grid.count(), threads, [&](std::size_t index, int worker) {

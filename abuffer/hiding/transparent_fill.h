@@ -9,7 +9,7 @@ namespace burin {
 /// Puts the surface colour of all pixels in which a transparent surface is seen: per sample, all
 /// surfaces up to the nearest opaque one, composited from front to back (Porter and Duff 1984). The
 /// pixels must have been put before.
-void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const LayerBins& bins,
+void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const OccluderBins& bins,
                       const PixelTiles& grid, int threads, Film& film);
 
 }  // namespace burin

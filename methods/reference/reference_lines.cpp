@@ -183,7 +183,7 @@ void ReferenceLines::search(Search& s, double ta, Facet a, double tb, Facet b) c
     search(s, guess + step, after, tb, b);
 }
 
-std::optional<LineCrossing> ReferenceLines::between(const SeenPoint& a, const SeenPoint& b) const {
+std::optional<SeenCrossing> ReferenceLines::between(const SeenPoint& a, const SeenPoint& b) const {
     if (a.facet == b.facet) return std::nullopt;
     const Way way(a.pixel, b.pixel);
     // Most neighbours meet at an edge without a class; those need no rays.
@@ -194,21 +194,21 @@ std::optional<LineCrossing> ReferenceLines::between(const SeenPoint& a, const Se
     // The samples themselves come from packets, which do not know about coincident surfaces.
     Search s{way, {}, 0};
     search(s, 0, rays_.cast(a.pixel), 1, rays_.cast(b.pixel));
-    std::optional<LineCrossing> best;
-    const auto rank = [&](const LineCrossing& c) {
+    std::optional<SeenCrossing> best;
+    const auto rank = [&](const SeenCrossing& c) {
         const auto first = (c.classes & wanted_).first();
         return first ? static_cast<int>(*first) : kLineClassCount;
     };
     for (const Transition& t : s.found) {
-        const LineCrossing crossing = decide(way, t);
+        const SeenCrossing crossing = decide(way, t);
         if ((crossing.classes & wanted_).empty() && !crossing.occludes) continue;
         if (!best || rank(crossing) < rank(*best)) best = crossing;
     }
     return best;
 }
 
-LineCrossing ReferenceLines::decide(const Way& way, const Transition& t) const {
-    LineCrossing crossing;
+SeenCrossing ReferenceLines::decide(const Way& way, const Transition& t) const {
+    SeenCrossing crossing;
     crossing.fraction = t.t;
     const glm::dvec2 at = way.at(t.t);
     if (t.is_edge) {
@@ -249,7 +249,7 @@ LineCrossing ReferenceLines::decide(const Way& way, const Transition& t) const {
     return crossing;
 }
 
-LineCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t, LineCrossing crossing) const {
+SeenCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t, SeenCrossing crossing) const {
     const glm::dvec2 at = way.at(t.t);
     const Follow ways[2] = {follow(way, t.a, t.t, t.b), follow(way.reversed(), t.b, 1 - t.t, t.a)};
     for (const Follow& f : ways) {

@@ -17,7 +17,7 @@ struct SeenPoint {
 };
 
 /// Where, on the way from one seen point to another, a line is crossed.
-struct LineCrossing {
+struct SeenCrossing {
     double fraction = 0;    ///< of the way, 0..1
     LineClassSet classes;   ///< all that apply
     /// Whether a surface ends here in front of a farther one, and which: 0 the first point's, 1 the
@@ -37,7 +37,7 @@ class ReferenceLines {
 
     /// The most important line between two neighbouring samples: the first in priority among the wanted
     /// classes, else one that occludes. The fraction is exact to 1/4096 pixel.
-    std::optional<LineCrossing> between(const SeenPoint& a, const SeenPoint& b) const;
+    std::optional<SeenCrossing> between(const SeenPoint& a, const SeenPoint& b) const;
 
   private:
     struct Transition;
@@ -48,8 +48,8 @@ class ReferenceLines {
 
     std::optional<Transition> shared_edge(const Way& way, Facet a, Facet b) const;
     void search(Search& search, double ta, Facet a, double tb, Facet b) const;
-    LineCrossing decide(const Way& way, const Transition& transition) const;
-    LineCrossing decide_touching(const Way& way, const Transition& t, LineCrossing crossing) const;
+    SeenCrossing decide(const Way& way, const Transition& transition) const;
+    SeenCrossing decide_touching(const Way& way, const Transition& t, SeenCrossing crossing) const;
     Slice slice_of(const Way& way, Facet f) const;
     static double place_on(const Way& way, const glm::dvec3& point, const glm::dvec3& other);
     Follow follow(const Way& way, Facet start, double from, Facet goal) const;

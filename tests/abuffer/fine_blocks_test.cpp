@@ -108,7 +108,7 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
                 if (screen.facing(n) == edge_on) continue;
                 const Cover cover = cover_of(screen, screen.surface_of(n));
                 for (std::size_t i = 0; i < candidates.size(); ++i) {
-                    const LayerLine& line = candidates[i].line;
+                    const WholeLine& line = candidates[i].line;
                     Box box;
                     box.reach(line.from);
                     box.reach(line.to);

@@ -254,8 +254,8 @@ TEST(FlushFaces, AmongHiddenLines) {
             const Layers layers(scene, camera);
             double not_seen_px = 0;
             std::vector<char> is_near(kSize * kSize, 0);
-            for (const LayerPiece& piece : layers.pass.pieces()) {
-                const LayerLine& line = layers.pass.lines()[piece.line];
+            for (const LinePart& piece : layers.pass.pieces()) {
+                const WholeLine& line = layers.pass.lines()[piece.line];
                 if (piece.invisibility != 1) continue;
                 const double length = (piece.end - piece.begin) * line.length_px();
                 const int steps = 1 + static_cast<int>(2 * length);

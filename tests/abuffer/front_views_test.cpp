@@ -133,7 +133,7 @@ TEST(FrontViews, NothingIsLeftToSlowDecisions) {
 std::size_t segment_count(const Scene& scene, const Camera& camera) {
     const Frame frame = make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize});
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
-    SurfacePass pass(frame, screen, best_kernels(), 1, nullptr);
+    VisiblePass pass(frame, screen, best_kernels(), 1, nullptr);
     std::vector<std::vector<LineSegment>> segments;
     Film film({0, 0, kSize, kSize}, {0, 0, kSize, kSize}, LayerSet{}, frame.criteria.classes);
     RenderStats stats;
@@ -161,8 +161,8 @@ TEST(FrontViews, EdgesOfAWallAreOneLine) {
     EXPECT_GT(each, 4 * many);
 }
 
-LayerLine random_line(Random& random) {
-    LayerLine line;
+WholeLine random_line(Random& random) {
+    WholeLine line;
     // Few places on few lines, so that many lie on each other.
     const glm::dvec2 directions[3] = {{1, 0}, {0, 1}, {2, -1}};
     const glm::dvec2 way = directions[random.integer(0, 2)], start(0, random.integer(0, 1) * 3);
@@ -183,7 +183,7 @@ TEST(DrawnParts, CoverOnlyWhatLiesBehindThemEverywhere) {
         Random random(seed);
         DrawnParts drawn;
         struct Given {
-            LayerLine line;
+            WholeLine line;
             double begin, end;
             DrawnParts::Kind kind;
         };

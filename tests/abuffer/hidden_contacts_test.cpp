@@ -291,10 +291,10 @@ TEST(HiddenContacts, BodiesThatStandFlushHideNothingOfEachOther) {
         scene.lines.style.hidden.style = HiddenStyle::solid;
         const Layers layers(scene, pixel_camera(kSize, kSize));
         double nearest = -1e300;
-        for (const LayerLine& line : layers.pass.lines()) nearest = std::max({nearest, line.nearness_from, line.nearness_to});
+        for (const WholeLine& line : layers.pass.lines()) nearest = std::max({nearest, line.nearness_from, line.nearness_to});
         EXPECT_FALSE(layers.pass.pieces().empty());
-        for (const LayerPiece& p : layers.pass.pieces()) {
-            const LayerLine& line = layers.pass.lines()[p.line];
+        for (const LinePart& p : layers.pass.pieces()) {
+            const WholeLine& line = layers.pass.lines()[p.line];
             EXPECT_LT(line.nearness_at(0.5 * (p.begin + p.end)), nearest - 1) << "an edge of the upper faces";
         }
     }

@@ -34,7 +34,7 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
             EXPECT_NEAR(layers.hidden_px(1), expected, 0.75) << trial;
             EXPECT_NEAR(layers.all_hidden_px(), layers.hidden_px(1), 1e-9) << trial;
             std::map<std::uint32_t, double> share;
-            for (const LayerPiece& p : layers.pass.pieces()) share[p.line] += p.end - p.begin;
+            for (const LinePart& p : layers.pass.pieces()) share[p.line] += p.end - p.begin;
             EXPECT_EQ(share.size(), 3u) << trial;
         }
     }
@@ -88,7 +88,7 @@ TEST(HiddenLines, TwoTrianglesPassThroughEachOtherBehindAThird) {
     }
     ASSERT_EQ(ends.size(), 2u);
     ASSERT_EQ(layers.pass.lines().size(), 1u);
-    const LayerLine& line = layers.pass.lines()[0];
+    const WholeLine& line = layers.pass.lines()[0];
     const glm::dvec2 from = line.from / 256.0, to = line.to / 256.0;
     EXPECT_LT(std::min(glm::distance(from, ends[0]) + glm::distance(to, ends[1]),
                        glm::distance(from, ends[1]) + glm::distance(to, ends[0])), 0.1);
@@ -106,8 +106,8 @@ TEST(HiddenLines, AreOneStrokeBehindHoweverManyLayers) {
     const double length = layers.all_hidden_px();
     EXPECT_GT(layers.hidden_px(1), 100);
     EXPECT_GT(layers.hidden_px(2), 50);
-    LayerPass pass(layers.frame, layers.screen, best_kernels(), 1);
-    const TileRows rows = LayerPass::tiles_of(layers.frame).rows();
+    HiddenPass pass(layers.frame, layers.screen, best_kernels(), 1);
+    const TileRows rows = HiddenPass::tiles_of(layers.frame).rows();
     pass.find_lines(rows);
     pass.sort(rows);
     pass.find_pieces();
@@ -142,7 +142,7 @@ TEST(HiddenLines, ACubeInACube) {
         // Behind the outer faces: nine edges of the inner cube; behind its own, too: the other three.
         // Of the outer cube's three, parts are behind its faces and parts behind the inner cube's two walls.
         std::map<std::uint32_t, std::map<int, double>> of_line;
-        for (const LayerPiece& p : layers.pass.pieces()) {
+        for (const LinePart& p : layers.pass.pieces()) {
             of_line[p.line][p.invisibility] += p.end - p.begin;
         }
         int once = 0, twice = 0, outer = 0;
@@ -250,8 +250,8 @@ TEST(HiddenLines, InvisibilityIsWhatRaysCount) {
         const RayCounter rays(layers.frame);
         const SurfaceSet& surfaces = layers.frame.surfaces;
         for (std::uint32_t l = 0; l < layers.pass.lines().size(); ++l) {
-            const LayerLine& line = layers.pass.lines()[l];
-            if (line.nodes[0] == LayerLine::kNoNode || line.nodes[1] == LayerLine::kNoNode || line.nodes[0] >> 63) continue;
+            const WholeLine& line = layers.pass.lines()[l];
+            if (line.nodes[0] == WholeLine::kNoNode || line.nodes[1] == WholeLine::kNoNode || line.nodes[0] >> 63) continue;
             const auto instance = static_cast<std::uint32_t>(line.nodes[0] >> 32);
             const auto a = static_cast<std::uint32_t>(line.nodes[0]), b = static_cast<std::uint32_t>(line.nodes[1]);
             const glm::dvec3 p = surfaces.view_position(instance, a), q = surfaces.view_position(instance, b);
@@ -297,8 +297,8 @@ TEST(HiddenLines, SheetsThatCrossBehindAWall) {
     // The wall hides y = 60 to 140 of the crossing, which runs along x = 120.
     EXPECT_NEAR(layers.hidden_px(1, LineClass::intersection), 80, 0.3);
     EXPECT_NEAR(layers.hidden_px(2, LineClass::intersection), 0, 1e-9);
-    for (const LayerPiece& p : layers.pass.pieces()) {
-        const LayerLine& line = layers.pass.lines()[p.line];
+    for (const LinePart& p : layers.pass.pieces()) {
+        const WholeLine& line = layers.pass.lines()[p.line];
         if (line.drawn_as != LineClass::intersection) continue;
         EXPECT_NEAR(line.from.x / 256, 120, 0.01);
         EXPECT_NEAR(line.to.x / 256, 120, 0.01);
@@ -315,7 +315,7 @@ double intersections_px(Scene scene, const Camera& camera) {
     const auto length = [&] {
         const Layers layers(scene, camera);
         double sum = 0;
-        for (const LayerLine& line : layers.pass.lines()) {
+        for (const WholeLine& line : layers.pass.lines()) {
             if (line.classes.has(LineClass::intersection)) sum += line.length_px();
         }
         return sum;

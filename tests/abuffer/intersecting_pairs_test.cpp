@@ -282,19 +282,19 @@ TEST(IntersectingPairs, ChangeNoPicture) {
 
 /// The lines of a scene with what is in front of them.
 struct Found {
-    std::vector<LayerLine> lines;
-    std::vector<LayerPiece> pieces;
+    std::vector<WholeLine> lines;
+    std::vector<LinePart> pieces;
 
     Found(const Scene& scene, const Camera& camera, int threads) {
         const Frame frame = make_frame(scene, camera, kWidth, kHeight, {0, 0, kWidth, kHeight});
         ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), threads);
         const TriangleBins bins(screen, frame.crop, 4, best_kernels(), threads);
-        LayerPass pass(frame, screen, best_kernels(), threads);
+        HiddenPass pass(frame, screen, best_kernels(), threads);
         pass.find();
         lines = pass.lines();
         pieces = pass.pieces();
-        const auto key = [](const LayerPiece& p) { return std::tuple(p.line, p.begin, p.end); };
-        std::sort(pieces.begin(), pieces.end(), [&](const LayerPiece& a, const LayerPiece& b) { return key(a) < key(b); });
+        const auto key = [](const LinePart& p) { return std::tuple(p.line, p.begin, p.end); };
+        std::sort(pieces.begin(), pieces.end(), [&](const LinePart& a, const LinePart& b) { return key(a) < key(b); });
     }
 };
 
@@ -310,7 +310,7 @@ TEST(IntersectingPairs, GiveTheSameLinesAndPieces) {
         const Found with(scene, camera, 3);
         ASSERT_EQ(with.lines.size(), without.lines.size()) << "trial " << trial;
         for (std::size_t i = 0; i < with.lines.size(); ++i) {
-            const LayerLine &a = with.lines[i], &b = without.lines[i];
+            const WholeLine &a = with.lines[i], &b = without.lines[i];
             ASSERT_TRUE(a.from == b.from && a.to == b.to && a.owners == b.owners && a.nodes == b.nodes && a.drawn_as == b.drawn_as)
                 << "trial " << trial << ", line " << i;
             if (a.drawn_as != LineClass::intersection) continue;
@@ -323,7 +323,7 @@ TEST(IntersectingPairs, GiveTheSameLinesAndPieces) {
         }
         ASSERT_EQ(with.pieces.size(), without.pieces.size()) << "trial " << trial;
         for (std::size_t i = 0; i < with.pieces.size(); ++i) {
-            const LayerPiece &a = with.pieces[i], &b = without.pieces[i];
+            const LinePart &a = with.pieces[i], &b = without.pieces[i];
             ASSERT_TRUE(a.line == b.line && a.begin == b.begin && a.end == b.end && a.invisibility == b.invisibility)
                 << "trial " << trial << ", piece " << i;
         }
@@ -378,11 +378,11 @@ double second_wall_begins_at(double x, bool has_many, int crop_x0) {
     const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {crop_x0, 0, 100, 100});
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
     const TriangleBins bins(screen, {0, 0, 100, 100}, 4, best_kernels(), 1);
-    LayerPass pass(frame, screen, best_kernels(), 1);
+    HiddenPass pass(frame, screen, best_kernels(), 1);
     pass.find();
     const int before = has_many ? 2 : 1;
-    for (const LayerPiece& p : pass.pieces()) {
-        const LayerLine& line = pass.lines()[p.line];
+    for (const LinePart& p : pass.pieces()) {
+        const WholeLine& line = pass.lines()[p.line];
         if (line.from.y != 50 * 256 || line.to.y != 50 * 256 || p.invisibility != before + 1) continue;
         const double at = glm::mix(line.from.x, line.to.x, line.from.x < line.to.x ? p.begin : p.end) / 256;
         if (std::abs(at - x) < 0.5) return at;

@@ -23,16 +23,16 @@ TEST(LineDepths, TellWhereALineMayBeHidden) {
         Random random(trial);
         const PixelTiles all({-32, 0, 160, 96}, 32);
         const PixelTiles tiles = trial % 2 == 0 ? all : all.only({1, 3});
-        std::vector<LayerLine> lines(static_cast<std::size_t>(random.integer(1, 12)));
+        std::vector<WholeLine> lines(static_cast<std::size_t>(random.integer(1, 12)));
         const double reach = std::pow(2.0, random.integer(0, 8));
-        for (LayerLine& l : lines) {
+        for (WholeLine& l : lines) {
             l.from = glm::dvec2(random.real(-60, 190), random.real(-30, 130)) * 256.0;
             l.to = l.from + glm::dvec2(random.real(-reach, reach), random.real(-reach, reach)) * 256.0;
             if (random.integer(0, 5) == 0) l.to.y = l.from.y;
             l.nearness_from = random.real(0, 1);
             l.nearness_to = random.real(0, 1);
         }
-        const LineDepths depths(lines, tiles, [](const LayerLine&) { return 0.0; });
+        const LineDepths depths(lines, tiles, [](const WholeLine&) { return 0.0; });
         for (int box = 0; box < 200; ++box) {
             const glm::ivec2 low(random.integer(-60 * 256, 190 * 256), random.integer(-30 * 256, 130 * 256));
             const glm::ivec2 high = low + glm::ivec2(random.integer(0, 2000), random.integer(0, 2000));
@@ -45,7 +45,7 @@ TEST(LineDepths, TellWhereALineMayBeHidden) {
             for (const std::uint32_t tile : touched) {
                 const PixelRect r = tiles.tile(tile);
                 bool must = false, may = false;
-                for (const LayerLine& l : lines) {
+                for (const WholeLine& l : lines) {
                     if (!(static_cast<double>(highest) > std::min(l.nearness_from, l.nearness_to) - 1e-6)) continue;
                     for (int step = 0; step <= 4000; ++step) {
                         const glm::dvec2 p = glm::mix(l.from, l.to, step / 4000.0);
@@ -77,13 +77,13 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
         Random random(trial);
         const PixelTiles all({-32, 0, 160, 96}, 32);
         const PixelTiles tiles = trial % 2 == 0 ? all : all.only({1, 3});
-        std::vector<LayerLine> lines(static_cast<std::size_t>(random.integer(1, 12)));
-        for (LayerLine& l : lines) {
+        std::vector<WholeLine> lines(static_cast<std::size_t>(random.integer(1, 12)));
+        for (WholeLine& l : lines) {
             l.from = glm::dvec2(random.real(-60, 190), random.real(-30, 130)) * 256.0;
             l.to = l.from + glm::dvec2(random.real(-40, 40), random.real(-40, 40)) * 256.0;
             l.nearness_from = l.nearness_to = random.real(0, 1);
         }
-        const LineDepths depths(lines, tiles, [](const LayerLine&) { return 0.0; });
+        const LineDepths depths(lines, tiles, [](const WholeLine&) { return 0.0; });
         std::vector<ScreenVertex> vertices;
         std::vector<std::uint32_t> corners;
         const auto count = static_cast<std::uint32_t>(random.integer(1, 300));

@@ -90,15 +90,15 @@ TEST(LongTriangles, AreInTilesOfLayersThatTheyTouch) {
         const TriangleBins facings(screen, frame.crop, 2, best_kernels(), 1);
         const PixelTiles tiles({0, 0, 416, 320}, 32);
         // Behind all, in each block of 4 x 4 pixels.
-        std::vector<LayerLine> lines(80);
+        std::vector<WholeLine> lines(80);
         for (std::size_t i = 0; i < lines.size(); ++i) {
             const double y = 256.0 * (4.0 * static_cast<double>(i) + 2);
             lines[i].from = {0, y};
             lines[i].to = {416 * 256.0, y};
             lines[i].nearness_from = lines[i].nearness_to = -1e6;
         }
-        const LineDepths depths(lines, tiles, [](const LayerLine&) { return 0.0; });
-        const LayerBins bins(screen, best_kernels(), tiles, 1, &depths);
+        const LineDepths depths(lines, tiles, [](const WholeLine&) { return 0.0; });
+        const OccluderBins bins(screen, best_kernels(), tiles, 1, &depths);
         for (std::uint32_t n = 0; n < screen.triangle_count(); ++n) {
             if (screen.facing(n) == edge_on) continue;
             const ScreenPolygon polygon = polygon_of(screen, screen.surface_of(n));
@@ -108,7 +108,7 @@ TEST(LongTriangles, AreInTilesOfLayersThatTheyTouch) {
                 const bool is_inner = rect.x0 > 0 && rect.y0 > 0 && rect.x1 < 416 && rect.y1 < 320;
                 if (!is_inner) continue;  // those at the border stand for what is beyond it
                 const auto list = bins.triangles(tile);
-                const bool is_listed = std::any_of(list.begin(), list.end(), [n](std::uint32_t v) { return (v & ~LayerBins::kClipped) == n; });
+                const bool is_listed = std::any_of(list.begin(), list.end(), [n](std::uint32_t v) { return (v & ~OccluderBins::kClipped) == n; });
                 ASSERT_NO_FATAL_FAILURE(expect_listed(polygon, rect, is_long ? kBeside : kAnywhere, is_listed, counts));
             }
         }

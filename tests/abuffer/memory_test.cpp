@@ -106,9 +106,9 @@ std::array<std::size_t, 2> count_pieces(const Scene& scene, std::uint64_t cap_by
     const Frame frame = frame_of(scene, {0, 0, kWidth, kHeight});
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), threads, false);
     const PixelTiles tiles({-8, -8, kWidth + 8, kHeight + 8}, kTileSamples / 2);
-    const PiecePlan plan = plan_pieces(frame, screen, tiles, cap_bytes, threads);
+    const SlicePlan plan = plan_slices(frame, screen, tiles, cap_bytes, threads);
     int row = 0;
-    for (const PicturePiece& piece : plan.visible) {  // one after the other, none left out
+    for (const PictureSlice& piece : plan.visible) {  // one after the other, none left out
         EXPECT_EQ(piece.rows.begin, row);
         EXPECT_LT(piece.rows.begin, piece.rows.end);
         row = piece.rows.end;
@@ -194,7 +194,7 @@ TEST(Memory, ListsOfEdgesAreCountedFromAbove) {
         const PixelTiles tiles({0, 0, 120, 264}, kTileSamples / kSamples);
         ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
         const auto rows = [&](bool has_fine) {
-            PieceCosts costs(tiles, nullptr, kSamples, has_fine, 1);
+            SliceCosts costs(tiles, nullptr, kSamples, has_fine, 1);
             costs.add(screen);
             return costs.visible().bins;
         };

@@ -135,7 +135,7 @@ TEST(Transparency, GlassDoesNotCountAsALayer) {
     const Layers layers(scene, pixel_camera(kSize, kSize));
     EXPECT_GT(layers.hidden_px(2), 300);
     EXPECT_EQ(layers.hidden_px(3) + layers.hidden_px(4), layers.hidden_px(3)) << "only the box's rear face is behind its front";
-    for (const LayerPiece& p : layers.pass.pieces()) {
+    for (const LinePart& p : layers.pass.pieces()) {
         if (layers.pass.lines()[p.line].owners[0] < 12) {
             EXPECT_EQ(p.transmission, 128);
         }

@@ -50,7 +50,7 @@ struct Layers {
     Frame frame;
     ScreenSurfaces screen;
     TriangleBins bins;  // finds out which way triangles face
-    LayerPass pass;
+    HiddenPass pass;
 
     Layers(const Scene& scene, const Camera& camera, int threads = 2)
         : frame(make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize})),
@@ -62,8 +62,8 @@ struct Layers {
     /// Pixels of lines with so many opaque layers in front, of one class or of all.
     double hidden_px(int invisibility, std::optional<LineClass> of = std::nullopt) const {
         double sum = 0;
-        for (const LayerPiece& p : pass.pieces()) {
-            const LayerLine& line = pass.lines()[p.line];
+        for (const LinePart& p : pass.pieces()) {
+            const WholeLine& line = pass.lines()[p.line];
             if (p.invisibility != invisibility || (of && line.drawn_as != *of)) continue;
             sum += (p.end - p.begin) * line.length_px();
         }
@@ -76,7 +76,7 @@ struct Layers {
     }
     /// How many opaque layers are in front of a line at a place on it.
     int invisibility(std::uint32_t line, double at) const {
-        for (const LayerPiece& p : pass.pieces()) {
+        for (const LinePart& p : pass.pieces()) {
             if (p.line == line && p.begin <= at && at < p.end) return p.invisibility;
         }
         return 0;

@@ -24,8 +24,8 @@ struct Expected {
 };
 
 /// Corners on few places, so that lines meet them and run along edges.
-LayerTriangle random_triangle(Random& random, int places) {
-    LayerTriangle t{};
+Occluder random_triangle(Random& random, int places) {
+    Occluder t{};
     const auto place = [&] { return static_cast<double>(random.integer(0, places)); };
     double area = 0;
     while (area == 0) {
@@ -50,15 +50,15 @@ LayerTriangle random_triangle(Random& random, int places) {
     return t;
 }
 
-TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
+TEST(Occluder, TheKernelClipsAsOneByOne) {
     Random random(21);
     int hidden = 0, partly = 0, level = 0, along_edges = 0;
     for (int round = 0; round < 20000; ++round) {
-        std::vector<LayerTriangle> triangles(static_cast<std::size_t>(random.integer(0, 9)));
+        std::vector<Occluder> triangles(static_cast<std::size_t>(random.integer(0, 9)));
         const int places = random.integer(0, 1) == 0 ? 8 : 5000;
         const auto place = [&] { return static_cast<double>(random.integer(0, places)); };
-        for (LayerTriangle& t : triangles) t = random_triangle(random, places);
-        LayerLine line;
+        for (Occluder& t : triangles) t = random_triangle(random, places);
+        WholeLine line;
         while (line.from == line.to) {
             line.from = {place(), place()};
             line.to = {place(), place()};
@@ -75,7 +75,7 @@ TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
         std::vector<Expected> expected;
         std::vector<const TrianglePlane*> planes;
         for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-            const LayerTriangle& t = triangles[i];
+            const Occluder& t = triangles[i];
             planes.push_back(&t);
             const double certain = slack + t.slack;
             const double at_begin = t.nearness_at(a) - line.nearness_at(begin), at_end = t.nearness_at(b) - line.nearness_at(end);
@@ -116,13 +116,13 @@ TEST(LayerTriangle, TheKernelClipsAsOneByOne) {
     EXPECT_GT(along_edges, 5);
 }
 
-TEST(LayerTriangle, TheKernelClipsTwiceAsOnceAndAgain) {
+TEST(Occluder, TheKernelClipsTwiceAsOnceAndAgain) {
     int any = 0, only_most = 0, along_edges = 0, none = 0;
     for (std::uint64_t seed = 0; seed < 20000; ++seed) {
         Random random(seed);
         const int places = random.integer(0, 1) == 0 ? 8 : 5000;
-        const LayerTriangle t = random_triangle(random, places);
-        LayerLine line;
+        const Occluder t = random_triangle(random, places);
+        WholeLine line;
         while (line.from == line.to) {
             for (glm::dvec2* end : {&line.from, &line.to}) *end = {random.integer(0, places), random.integer(0, places)};
         }
@@ -156,7 +156,7 @@ TEST(LayerTriangle, TheKernelClipsTwiceAsOnceAndAgain) {
     EXPECT_GT(none, 5000);
 }
 
-TEST(LayerTriangle, FewNumbersAreSorted) {
+TEST(Occluder, FewNumbersAreSorted) {
     Random random(7);
     for (int round = 0; round < 2000; ++round) {
         std::vector<double> values(static_cast<std::size_t>(random.integer(0, 70)));

@@ -12,9 +12,9 @@ namespace {
 
 using namespace test;
 
-constexpr int kSize = LayerStrokes::kTilePx;
+constexpr int kSize = HiddenStrokes::kTilePx;
 
-TEST(LayerStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
+TEST(HiddenStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
     const Scene scene = scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})});
     const PixelRect rect{0, 0, kSize, kSize};
     const Frame frame = make_frame(scene, pixel_camera(kSize, kSize), kSize, kSize, rect);
@@ -44,7 +44,7 @@ TEST(LayerStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
         const auto drawn = [&] {
             Film film(rect, rect, layers, LineClassSet::all());
             for (int y = 0; y < kSize; ++y) film.put_background(0, kSize, y);
-            LayerStrokes strokes(frame, best_kernels(), 1, rect, hidden);
+            HiddenStrokes strokes(frame, best_kernels(), 1, rect, hidden);
             EXPECT_TRUE(strokes.has_any(0));
             strokes.draw_below(0, 0, visible, film);
             return film;
