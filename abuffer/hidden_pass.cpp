@@ -10,6 +10,7 @@
 
 #include "abuffer/hiding/transparent_fill.h"
 #include "abuffer/lines_of_crop.h"
+#include "base/interrupt.h"
 #include "base/parallel.h"
 #include "lines/dash_pen.h"
 #include "lines/line_dashes.h"
@@ -178,6 +179,7 @@ void HiddenPass::find_pieces() {
         if (!is_drawn) return;
         const std::span<const std::uint32_t> numbers = lines_in.of(index);
         for (std::size_t k = 0; k < numbers.size(); ++k) {
+            if (k % 64 == 0) throw_if_interrupted();
             constexpr std::size_t kAhead = 6;
             if (k + kAhead < numbers.size()) ask_for(lines_[numbers[k + kAhead]]);
             tile->find_pieces(lines_[numbers[k]], numbers[k], result.pieces);

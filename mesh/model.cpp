@@ -67,7 +67,11 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
     const std::string extension = lower_extension(path);
     if (extension == ".obj") {
         std::vector<std::string> material_files;
-        Model model = model_of(path, read_obj(path, options.threads, &material_files), options);
+        PolygonSoup soup = read_obj(path, options.threads, &material_files);
+        if (options.strict && !soup.notes.empty()) {
+            throw InputError(path + ": " + soup.notes.front() + "; re-export the model, or leave out --strict");
+        }
+        Model model = model_of(path, std::move(soup), options);
         model.other_files = std::move(material_files);
         return model;
     }

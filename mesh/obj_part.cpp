@@ -120,6 +120,10 @@ class ObjParser {
             part_.materials.use(scan.rest(), next_place());
         } else if (keyword == "mtllib") {
             part_.material_files.emplace_back(scan.rest());
+        } else if (keyword == "p") {
+            ++part_.points;
+        } else if (keyword == "curv" || keyword == "curv2" || keyword == "surf") {
+            ++part_.free_forms;
         } else {
             return false;
         }

@@ -20,6 +20,7 @@ struct ObjPart {
     PolygonSoup soup;
     NameUses objects, groups, materials;
     std::vector<std::string> material_files;
+    std::uint64_t points = 0, free_forms = 0;  ///< `p`; `curv`, `curv2` and `surf`
 
     static constexpr std::uint32_t kMostVertices = 1u << 30, kFirstOfPiece = 3 * kMostVertices;
     static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();

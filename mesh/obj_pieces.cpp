@@ -55,6 +55,8 @@ void append(ObjPart& whole, ObjPart part) {
     add(whole.soup.polygon_ends, part.soup.polygon_ends);
     add(whole.soup.marked_edges, part.soup.marked_edges);
     add(whole.material_files, part.material_files);
+    whole.points += part.points;
+    whole.free_forms += part.free_forms;
     const NameUses::Place first{before.polygons, before.lines};
     whole.objects.append(part.objects, first);
     whole.groups.append(part.groups, first);

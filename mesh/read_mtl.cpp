@@ -19,13 +19,40 @@ namespace {
 
 using MaterialLibrary = std::map<std::string, Material, std::less<>>;
 
-void read_material_file(const std::string& path, MaterialLibrary& library) {
+/// Statements that are left out, and where the first one is.
+struct Misunderstood {
+    std::size_t count = 0;
+    SourcePosition first;
+
+    void add(const std::string& path, std::size_t line) {
+        if (count++ == 0) first = {path, line};
+    }
+};
+
+/// The next statement: lines that end in a backslash go on in the next one. False at the end.
+bool next_statement(LineReader& lines, std::string_view& statement, std::string& joined) {
+    if (!lines.next(statement)) return false;
+    if (!statement.ends_with('\\')) return true;
+    joined.clear();
+    bool has_more = true;
+    while (has_more && statement.ends_with('\\')) {
+        joined.append(statement.substr(0, statement.size() - 1)).append(" ");
+        has_more = lines.next(statement);
+    }
+    if (has_more) joined.append(statement);
+    statement = joined;
+    return true;
+}
+
+void read_material_file(const std::string& path, MaterialLibrary& library, Misunderstood& misunderstood) {
     const MappedFile file(path);
+    if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF")) throw InputError(path + ": the text is UTF-16");
     LineReader lines(without_byte_order_mark(file.bytes()));
+    std::string joined;
     Material* current = nullptr;
     bool has_dissolve = false;
     std::string_view line;
-    while (lines.next(line)) {
+    while (next_statement(lines, line, joined)) {
         if ((lines.line_number() & 0xFFFF) == 0) throw_if_interrupted();
         LineScanner scan(line);
         const std::string keyword = lower_case(scan.word());
@@ -40,14 +67,20 @@ void read_material_file(const std::string& path, MaterialLibrary& library) {
             glm::dvec3 color;
             if (scan.number(color.r) && scan.number(color.g) && scan.number(color.b)) {
                 color = glm::clamp(color, 0.0, 1.0);
-                if (!glm::any(glm::isnan(color))) current->color = glm::vec3(color);
+                if (!glm::any(glm::isnan(color))) {
+                    current->color = glm::vec3(color);
+                    continue;
+                }
             }
+            misunderstood.add(path, lines.line_number());
         } else if (keyword == "d" || keyword == "tr") {
             // "d -halo 0.5" depends on the direction of view; it is no opacity of a surface.
             double value = 1;
             const bool is_dissolve = keyword == "d";
-            if (!scan.number(value) || std::isnan(value) || (has_dissolve && !is_dissolve))
-                continue;
+            const bool is_number = scan.number(value) && !std::isnan(value);
+            if (!is_number || value < 0 || value > 1) misunderstood.add(path, lines.line_number());
+            if (!is_number) continue;
+            if (has_dissolve && !is_dissolve) continue;
             has_dissolve = is_dissolve;
             const double opacity = is_dissolve ? value : value < 1 ? 1 - value : 1;
             current->opacity = static_cast<float>(std::clamp(opacity, 0.0, 1.0));
@@ -71,6 +104,7 @@ class MaterialFiles {
         return names_.emplace(std::string(name), read_new(std::string(name))).first->second;
     }
     MaterialLibrary take() { return std::move(library_); }
+    const Misunderstood& misunderstood() const { return misunderstood_; }
 
   private:
     using FileNumber = std::pair<dev_t, ino_t>;
@@ -110,7 +144,7 @@ class MaterialFiles {
     bool read_file(const std::string& path) {
         if (path.empty()) return false;
         try {
-            read_material_file(path, library_);
+            read_material_file(path, library_, misunderstood_);
             if (files_read_ != nullptr) files_read_->push_back(path);
             return true;
         } catch (const InputError&) {
@@ -123,6 +157,7 @@ class MaterialFiles {
     std::vector<std::string>* files_read_;
     std::string folder_;
     MaterialLibrary library_;
+    Misunderstood misunderstood_;
     std::map<std::string, bool, std::less<>> names_;  // whether it names a file that was read
     std::map<FileNumber, bool> outcomes_;
     std::set<std::string> entries_;  // of the folder; empty: not looked at
@@ -131,14 +166,25 @@ class MaterialFiles {
 
 }  // namespace
 
-MaterialLibrary read_material_files(const std::string& obj_path,
-                                    const std::vector<std::string>& file_names, std::vector<std::string>* files_read) {
+MaterialLibrary read_material_files(const std::string& obj_path, const std::vector<std::string>& file_names,
+                                    std::vector<std::string>* files_read, std::vector<std::string>* notes) {
     MaterialFiles files(obj_path, files_read);
+    std::size_t unread = 0;
+    std::string first_unread;
     for (const std::string& names : file_names) {
         if (files.read(names)) continue;  // one name, perhaps with blanks in it
         LineScanner scan(names);
-        for (std::string_view name = scan.word(); !name.empty(); name = scan.word())
-            files.read(name);
+        bool is_any_read = false;
+        for (std::string_view name = scan.word(); !name.empty(); name = scan.word()) is_any_read = files.read(name) || is_any_read;
+        if (!is_any_read && unread++ == 0) first_unread = names;
+    }
+    if (notes != nullptr && unread > 0) {
+        notes->push_back("material files that are not read: " + std::to_string(unread) + "; the first one is '" + printable(first_unread) +
+                         "'; materials have the default colour");
+    }
+    if (const Misunderstood& wrong = files.misunderstood(); notes != nullptr && wrong.count > 0) {
+        notes->push_back("values of Kd, d and Tr that are not understood: " + std::to_string(wrong.count) + "; the first one is at " +
+                         to_string(wrong.first));
     }
     return files.take();
 }

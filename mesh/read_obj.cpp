@@ -49,7 +49,12 @@ PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::str
     soup.polygon_material = file.materials.per_polygon(soup.polygon_ends.size());
     soup.object_names = objects.names();
     soup.object_names[0] = std::filesystem::path(path).stem().string();
-    const auto library = read_material_files(path, file.material_files, material_files);
+    const auto library = read_material_files(path, file.material_files, material_files, &soup.notes);
+    const auto note = [&](std::uint64_t count, const char* what) {
+        if (count > 0) soup.notes.push_back(std::string(what) + " left out: " + std::to_string(count));
+    };
+    note(file.points, "points");
+    note(file.free_forms, "curves and surfaces of higher order");
     for (const std::string& name : file.materials.names()) {
         const auto found = library.find(name);
         Material material;

@@ -11,6 +11,7 @@
 #include "abuffer/hiding/contacts.h"
 #include "abuffer/screen/edge_on_screen.h"
 #include "abuffer/screen/sampling.h"
+#include "base/interrupt.h"
 
 namespace burin {
 namespace {
@@ -353,6 +354,7 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
     if (candidates_.empty()) return;
     blocks_.fill(tile, candidates_);
     for (std::size_t block = 0; block < blocks_.count(); ++block) {
+        throw_if_interrupted();
         const FinePart& any = candidates_[blocks_.candidates(block).front()].part;
         clipper_->set_triangles(blocks_.triangles(block),
                                 glm::ivec2(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y))),
@@ -430,6 +432,7 @@ std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge 
         known.instance = instance;
         known.half_edge = h;
         known.lines.clear();
+        throw_if_interrupted();  // in a crowd of borders each takes long
         finder_.find(s, h, known.lines);
     }
     return known.lines;

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "abuffer/screen/sampling.h"
+#include "base/interrupt.h"
 #include "lines/cell_tracer.h"
 
 namespace burin {
@@ -245,6 +246,7 @@ void LineTile::add_crossing(const SamplePair& pair) {
 }
 
 void LineTile::decide_all(std::span<const SamplePair> pairs) {
+    throw_if_interrupted();
     find_neighbours(pairs);
     walks_.walk({neighbours_.data(), pairs.size()});
     for (std::size_t i = 0; i < pairs.size(); ++i) {

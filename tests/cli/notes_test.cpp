@@ -99,6 +99,24 @@ TEST(Notes, StrictRefusesInstead) {
     }
 }
 
+TEST(Notes, NameWhatAnObjAndItsMaterialsHaveThatIsNotDrawn) {
+    const TemporaryFolder folder;
+    folder.write("a.mtl", "newmtl m\nKd 1 \\\n0 0\nd 0,5 x\nd nan\nnewmtl n\nd 0.5\n");
+    folder.write("a.obj", "mtllib a.mtl\nmtllib missing.mtl\n" + std::string(kCubeObj) + "usemtl m\np 1 2\np 3\nf 1 2 3\n");
+    const ProgramResult info = run_burin(folder.path(), {"info", "a.obj", "--json"});
+    EXPECT_EQ(info.status, 0) << info.err;
+    const Json notes = Json::parse(info.out).at("notes");
+    EXPECT_EQ(notes, Json::array({"a.obj: material files that are not read: 1; the first one is 'missing.mtl'; materials have the default colour",
+                                  "a.obj: values of Kd, d and Tr that are not understood: 2; the first one is at " + folder.file("a.mtl") + ":4",
+                                  "a.obj: points left out: 2"}));
+    const ProgramResult strict = run_burin(folder.path(), {"info", "a.obj", "--strict"});
+    EXPECT_EQ(strict.status, 1);
+    EXPECT_NE(strict.err.find("missing.mtl"), std::string::npos) << strict.err;
+    folder.write("b.obj", "mtllib a.mtl\n" + std::string(kCubeObj) + "usemtl n\nf 1 2 3\n");
+    folder.write("a.mtl", "newmtl n\nKd 1 \\\n0 0\nd \\\n0.5\n");
+    EXPECT_EQ(run_burin(folder.path(), {"info", "b.obj", "--strict"}).status, 0);
+}
+
 TEST(Notes, PolygonsThatWereCutAreCounted) {
     const TemporaryFolder folder;
     folder.write(

@@ -54,6 +54,7 @@ TEST_F(ReadMtl, WhatIsNoNumberBehindDIsNoOpacity) {
     EXPECT_EQ(opacity("d -halo 0.5\nTr 0.25"), 0.75f);
     EXPECT_EQ(opacity("d nan\nTr 0.25"), 0.75f);
     EXPECT_EQ(opacity("map_d 0.5\nTr 0.25"), 0.75f);
+    EXPECT_EQ(opacity("d \\\n0.5"), 0.5f) << "a line that goes on";
     EXPECT_EQ(opacity("map_d a.png\nd 0.5"), 0.5f);
 }
 
