@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "abuffer/edges/edge_sides.h"
+#include "base/interrupt.h"
 #include "lines/seam_sight.h"
 
 namespace burin {
@@ -65,6 +66,7 @@ bool is_crack_beside(const ScreenSurfaces& screen, std::uint32_t instance, const
 }  // namespace
 
 std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h, const EdgeOnScreen& edge) {
+    throw_if_interrupted();  // in a crowd each takes long
     const Mesh& mesh = screen.surfaces().mesh_of(s);
     BorderIndex::SeamCandidates about, near;
     const std::size_t most_about = std::max(kMostPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);

@@ -432,7 +432,6 @@ std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge 
         known.instance = instance;
         known.half_edge = h;
         known.lines.clear();
-        throw_if_interrupted();  // in a crowd of borders each takes long
         finder_.find(s, h, known.lines);
     }
     return known.lines;
