@@ -31,7 +31,8 @@ class BodySides {
         return sides_[triangle];
     }
 
-    /// Whether the side is the same for both. Where the way from one to the other is short, no other triangle is looked at.
+    /// Whether the side is the same for both. Where the way from one triangle to the other over the mesh is short, only
+    /// triangles on such ways are looked at, not the whole mesh.
     bool are_same(std::uint32_t a, std::uint32_t b) const;
 
   private:

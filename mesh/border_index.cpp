@@ -144,8 +144,9 @@ bool BorderIndex::has_several_polygons() const {
     return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) { return s.polygon != segments_.front().polygon; });
 }
 
-/// Of many borders in reach the nearest one is a partner or none is: the reach is halved until few are left, as seen from the
-/// middles of some segments all over the mesh.
+/// The reach, in lengths of the edge, at which few borders are near an edge on average: the widest one, halved as often as that
+/// takes. It is counted at the middles of 64 segments all over the mesh. In a heap, looking at all borders in the widest reach
+/// would take time that grows with their square, and which of them is nearest would mean nothing.
 double BorderIndex::reach_part_in_crowd() const {
     constexpr std::size_t kAsked = 64, kFew = 4;
     constexpr int kMostHalvings = 24;

@@ -65,6 +65,31 @@ TEST(BodySides, OfClosedBodiesHoweverTheyAreWound) {
     }
 }
 
+// By a short way, a long way, or the sides of all: of one sphere the two poles are more than 64 triangles apart, and of two that are
+// wound in opposite ways no way leads from one to the other.
+TEST(BodySides, AreComparedAsAllSidesSay) {
+    PolygonSoup two = make_sphere(1, 40, 40);
+    const auto one = two.polygon_count();
+    const auto first = static_cast<std::uint32_t>(two.positions.size());
+    const PolygonSoup other = make_sphere(1, 40, 40);
+    for (const glm::dvec3& p : other.positions) two.positions.push_back(p + glm::dvec3(5, 0, 0));
+    for (std::size_t i = 0; i < other.polygon_count(); ++i) {
+        std::vector<std::uint32_t> corners(other.polygon(i).begin(), other.polygon(i).end());
+        for (std::uint32_t& c : corners) c += first;
+        two.add_polygon(corners);
+    }
+    const Mesh mesh = mesh_of(two, [&](std::size_t i) { return i >= one; });
+    const auto all = find_body_sides(mesh);
+    const auto last = static_cast<std::uint32_t>(mesh.triangles.size() - 1);
+    ASSERT_NE(all[0], all[last]);
+    for (const std::uint32_t a : {0u, 7u, last / 4, last}) {
+        const BodySides sides(mesh);
+        for (std::uint32_t b = 0; b <= last; b += 61) EXPECT_EQ(sides.are_same(a, b), all[a] == all[b]) << a << ", " << b;
+    }
+    EXPECT_FALSE(are_wound_alike(mesh, 0, last / 2 - 40));
+    EXPECT_TRUE(are_wound_alike(mesh, 0, last / 2 - 40, 1u << 14));
+}
+
 TEST(BodySides, AnOpenBoxIsABodyAndASheetIsNone) {
     PolygonSoup open, sheet;
     const PolygonSoup box = make_box({1, 1, 1});
