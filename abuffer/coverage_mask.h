@@ -34,16 +34,13 @@ struct Mask256 {
                a.words[3] == b.words[3];
     }
     friend constexpr Mask256 operator&(const Mask256& a, const Mask256& b) {
-        return {{a.words[0] & b.words[0], a.words[1] & b.words[1], a.words[2] & b.words[2],
-                 a.words[3] & b.words[3]}};
+        return {{a.words[0] & b.words[0], a.words[1] & b.words[1], a.words[2] & b.words[2], a.words[3] & b.words[3]}};
     }
     friend constexpr Mask256 operator|(const Mask256& a, const Mask256& b) {
-        return {{a.words[0] | b.words[0], a.words[1] | b.words[1], a.words[2] | b.words[2],
-                 a.words[3] | b.words[3]}};
+        return {{a.words[0] | b.words[0], a.words[1] | b.words[1], a.words[2] | b.words[2], a.words[3] | b.words[3]}};
     }
     friend constexpr Mask256 operator^(const Mask256& a, const Mask256& b) {
-        return {{a.words[0] ^ b.words[0], a.words[1] ^ b.words[1], a.words[2] ^ b.words[2],
-                 a.words[3] ^ b.words[3]}};
+        return {{a.words[0] ^ b.words[0], a.words[1] ^ b.words[1], a.words[2] ^ b.words[2], a.words[3] ^ b.words[3]}};
     }
     friend constexpr Mask256 operator~(const Mask256& a) {
         return {{~a.words[0], ~a.words[1], ~a.words[2], ~a.words[3]}};
@@ -75,8 +72,8 @@ constexpr Mask256 dilate(const Mask256& m) {
         const std::uint64_t here = m.words[w];
         const std::uint64_t above = w > 0 ? m.words[w - 1] >> 48 : 0;  // its last row
         const std::uint64_t below = w < 3 ? m.words[w + 1] << 48 : 0;  // its first row
-        result.words[w] = here | (here & 0x7FFF7FFF7FFF7FFFu) << 1 |
-                          (here & 0xFFFEFFFEFFFEFFFEu) >> 1 | here << 16 | here >> 16 | above | below;
+        result.words[w] = here | (here & 0x7FFF7FFF7FFF7FFFu) << 1 | (here & 0xFFFEFFFEFFFEFFFEu) >> 1 | here << 16 |
+                          here >> 16 | above | below;
     }
     return result;
 }

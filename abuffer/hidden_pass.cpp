@@ -52,7 +52,9 @@ void join(std::vector<HidingTileResult>& results, std::vector<WholeLine>& lines,
         for (std::uint32_t i = 0; i < results[tile].intersections.size(); ++i) found.push_back({tile, i});
     }
     const auto line = [&](const Found& f) -> const WholeLine& { return results[f.tile].intersections[f.index]; };
-    const auto is_before = [&](const Found& a, const Found& b) { return IntersectionLines::is_before(line(a), line(b)); };
+    const auto is_before = [&](const Found& a, const Found& b) {
+        return IntersectionLines::is_before(line(a), line(b));
+    };
     std::stable_sort(found.begin(), found.end(), is_before);
     std::vector<std::vector<std::uint32_t>> number(results.size());
     for (std::size_t tile = 0; tile < results.size(); ++tile) number[tile].resize(results[tile].intersections.size());
@@ -74,8 +76,8 @@ void join(std::vector<HidingTileResult>& results, std::vector<WholeLine>& lines,
 
 /// Whether one piece of a line is drawn as the one before, behind however many layers they are.
 bool goes_on_alike(const LinePart& before, const LinePart& piece) {
-    return piece.line == before.line && piece.begin == before.end && (piece.invisibility > 0) == (before.invisibility > 0) &&
-           piece.transmission == before.transmission;
+    return piece.line == before.line && piece.begin == before.end &&
+           (piece.invisibility > 0) == (before.invisibility > 0) && piece.transmission == before.transmission;
 }
 
 /// Early, since they lie anywhere.
@@ -90,7 +92,9 @@ TileLists<std::uint32_t> sort_by_tile(const std::vector<WholeLine>& lines, const
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
         const glm::dvec2 a = lines[i].from / 256.0, b = lines[i].to / 256.0;
         const std::array<PolygonRows::Corner, 2> ends{{{a.x, a.y}, {b.x, b.y}}};
-        grid.visit(glm::min(a, b), glm::max(a, b), PolygonRows(ends), 1, [&](std::uint32_t tile) { records[0].push_back({tile, i}); });
+        grid.visit(glm::min(a, b), glm::max(a, b), PolygonRows(ends), 1, [&](std::uint32_t tile) {
+            records[0].push_back({tile, i});
+        });
     }
     return TileLists<std::uint32_t>(records, grid.count());
 }
@@ -113,7 +117,7 @@ bool HiddenPass::needs_all_lines(const Frame& frame) {
 }
 
 HiddenPass::HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
-                     const SmoothContours* contours)
+                       const SmoothContours* contours)
     : frame_(frame),
       screen_(screen),
       kernels_(kernels),
@@ -172,7 +176,8 @@ void HiddenPass::find_pieces() {
         const bool is_drawn = overlap(tiles_.tile(index), drawn);
         if (bins_.triangles(index).empty() || (!is_drawn && !may_intersect_)) return;
         auto& tile = tiles[static_cast<std::size_t>(worker)];
-        if (!tile) tile = std::make_unique<HidingTile>(frame_, screen_, kernels_, bins_, tiles_, may_intersect_.has_value());
+        if (!tile)
+            tile = std::make_unique<HidingTile>(frame_, screen_, kernels_, bins_, tiles_, may_intersect_.has_value());
         tile->fill(index);
         HidingTileResult& result = results_[before + index];
         if (may_intersect_) tile->find_intersections(*may_intersect_, intersections_, result.intersections);
@@ -274,12 +279,15 @@ void HiddenPass::add_dashes(const LinePart& piece, const Dashes& dashes, std::ve
         if (!(begin < end)) return;
         const double share = part.end - part.begin, length = part.at_end - part.at_begin;
         const auto at = [&](double of_line) { return part.at_begin + length * ((of_line - part.begin) / share); };
-        const auto place = [&](double along) { return line.at(part.begin + share * ((along - part.at_begin) / length)) / 256.0; };
-        dashes.pen.for_dashes(at(begin), at(end), std::abs(length) / (share * line.length_px()), [&](double first, double last) {
-            segment.from = place(first);
-            segment.to = place(last);
-            add(line, segment, segments);
-        });
+        const auto place = [&](double along) {
+            return line.at(part.begin + share * ((along - part.at_begin) / length)) / 256.0;
+        };
+        dashes.pen.for_dashes(at(begin), at(end), std::abs(length) / (share * line.length_px()),
+                              [&](double first, double last) {
+                                  segment.from = place(first);
+                                  segment.to = place(last);
+                                  add(line, segment, segments);
+                              });
     };
     const auto add_between = [&](double from, double to) {
         dashes.for_parts(piece.line, [&](const DashPart& part) { add_part(part, from, to); });
@@ -287,16 +295,19 @@ void HiddenPass::add_dashes(const LinePart& piece, const Dashes& dashes, std::ve
     if (!segment.is_hidden || visible_courses_ == nullptr) return add_between(piece.begin, piece.end);
     const auto covers = visible_courses_->find(line.at(piece.begin) / 256.0, line.at(piece.end) / 256.0);
     const double length = piece.end - piece.begin;
-    for_uncovered(covers, [&](double from, double to) { add_between(piece.begin + length * from, piece.begin + length * to); });
+    for_uncovered(covers,
+                  [&](double from, double to) { add_between(piece.begin + length * from, piece.begin + length * to); });
 }
 
 std::vector<LayerSegment> HiddenPass::make_segments() const {
     const LineStyle& look = frame_.scene->lines.style;
     const HiddenStyle style = look.hidden.style;
     std::optional<Dashes> of_hidden, seen_through;
-    if (const auto dash_px = hidden_dashes(look).dash_px) of_hidden.emplace(lines_, frame_, *dash_px, look.hidden_width_px());
+    if (const auto dash_px = hidden_dashes(look).dash_px)
+        of_hidden.emplace(lines_, frame_, *dash_px, look.hidden_width_px());
     const auto visible_px = visible_dashes(look).dash_px;
-    if (visible_px && has_transparent_surfaces(*frame_.scene)) seen_through.emplace(lines_, frame_, *visible_px, look.width_px);
+    if (visible_px && has_transparent_surfaces(*frame_.scene))
+        seen_through.emplace(lines_, frame_, *visible_px, look.width_px);
     std::vector<LayerSegment> segments;
     segments.reserve(pieces_.size());
     for (std::size_t i = 0; i < pieces_.size();) {

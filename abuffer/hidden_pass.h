@@ -30,8 +30,8 @@ class HiddenPass {
   public:
     /// Whether a picture of a scene shows anything of it.
     static bool is_needed(const Scene& scene);
-    /// The pixels in which lines are looked for, as tiles: the frame's crop and what strokes from beside it reach, or the
-    /// whole picture.
+    /// The pixels in which lines are looked for, as tiles: the frame's crop and what strokes from beside it reach, or
+    /// the whole picture.
     static PixelTiles tiles_of(const Frame& frame);
     /// Whether all lines are needed before the first one can be drawn: dashes run on from line to line.
     static bool needs_all_lines(const Frame& frame);
@@ -39,7 +39,7 @@ class HiddenPass {
     /// The facing of all triangles must be known to `screen`.
     /// `contours`: nullptr where they follow the mesh.
     HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
-              const SmoothContours* contours = nullptr);
+               const SmoothContours* contours = nullptr);
 
     /// All lines of a picture in one piece. The facing of all triangles must be known to `screen`.
     void find();
@@ -56,8 +56,8 @@ class HiddenPass {
     void composite(Film& film) const;
     /// Finds what is in front of lines in the rows sorted, and intersections that are missing.
     void find_pieces();
-    /// Hidden lines are not dashed where they lie on these: the dashes of either would fill the gaps of the other. `visible` must
-    /// outlive it.
+    /// Hidden lines are not dashed where they lie on these: the dashes of either would fill the gaps of the other.
+    /// `visible` must outlive it.
     void leave_out_dashes_along(CourseIndex& visible);
     /// Of all that was found since the last call; it is forgotten.
     std::vector<LayerSegment> take_segments();

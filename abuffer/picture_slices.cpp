@@ -48,14 +48,14 @@ std::uint64_t lasting_bytes(const Frame& frame, const PixelTiles& tiles, int thr
     std::uint64_t bytes = kBytesForTheRest + kBytesPerThread * static_cast<std::uint64_t>(threads);
     std::set<const Mesh*> meshes;
     for (const SurfaceInstance& i : frame.surfaces.instances) {
-        bytes += 2 * i.mesh->triangles.size();  // facing, and which edges may be lines
+        bytes += 2 * i.mesh->triangles.size();                                // facing, and which edges may be lines
         if (meshes.insert(i.mesh).second) bytes += i.mesh->triangles.size();  // edges that are sharp
     }
     return bytes + tiles.count() * 64;
 }
 
-/// The most that the edges along which dashes run may take. All are needed at once, with where they stand along their chains and which
-/// of them lie on each other.
+/// The most that the edges along which dashes run may take. All are needed at once, with where they stand along their
+/// chains and which of them lie on each other.
 std::uint64_t feature_bytes(const Frame& frame, const ScreenSurfaces& screen) {
     constexpr std::uint64_t kBytes = sizeof(WholeLine) + 384;
     std::uint64_t sides = 0;
@@ -63,15 +63,16 @@ std::uint64_t feature_bytes(const Frame& frame, const ScreenSurfaces& screen) {
         const std::size_t count = frame.surfaces.instances[i].mesh->triangles.size();
         const std::uint8_t* const sharp = screen.sharp_edges(i);
         sides += 2 * frame.surfaces.instances[i].mesh->loose_edges.size();
-        for (std::size_t t = 0; t < count; ++t) sides += sharp == nullptr ? 3u : static_cast<unsigned>(std::popcount(sharp[t] & 7u));
+        for (std::size_t t = 0; t < count; ++t)
+            sides += sharp == nullptr ? 3u : static_cast<unsigned>(std::popcount(sharp[t] & 7u));
     }
     return sides * kBytes;
 }
 
 /// Rows of one kind of tiles, with what they take.
 struct Rows {
-    std::vector<std::uint64_t> bytes;          // of what touches them, without vertices
-    std::vector<TileRows> of_instance;         // empty where it is not in the picture
+    std::vector<std::uint64_t> bytes;   // of what touches them, without vertices
+    std::vector<TileRows> of_instance;  // empty where it is not in the picture
 };
 
 TileRows rows_of(const PixelTiles& tiles, const InstanceExtent& extent, const PixelRect& picture, int tile_px) {
@@ -95,7 +96,8 @@ std::vector<std::uint32_t> instances_in(const Rows& rows, TileRows of) {
 }
 
 /// Cuts rows into as few pieces as fit into `cap_bytes`; `least_bytes` becomes what the largest row takes.
-std::vector<PictureSlice> cut(const Frame& frame, const Rows& rows, std::uint64_t cap_bytes, std::uint64_t& least_bytes) {
+std::vector<PictureSlice> cut(const Frame& frame, const Rows& rows, std::uint64_t cap_bytes,
+                              std::uint64_t& least_bytes) {
     const auto count = static_cast<int>(rows.bytes.size());
     // Vertices of instances that begin in a row, and of those that touch it.
     std::vector<std::uint64_t> begin(rows.bytes.size(), 0), touch(rows.bytes.size(), 0);

@@ -17,13 +17,15 @@ constexpr std::uint32_t kChunkTriangles = 1 << 14;
 // Bytes. Lists that grow may have twice the room that they need.
 constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
 // A chunk's list in a tile, as found and as sorted, and the room behind it.
-constexpr std::uint64_t kPerRun = 2 * sizeof(TileLists<TriangleRun>::Record) + sizeof(TriangleRun) + kRoomBehindRun * sizeof(TileTriangle);
-constexpr std::uint64_t kPerLarge = 20;       // a number in a tile's list, as found and as sorted
-constexpr std::uint64_t kPerEdge = 56;        // that may be a line, in a tile's list, as found and as sorted
+constexpr std::uint64_t kPerRun =
+    2 * sizeof(TileLists<TriangleRun>::Record) + sizeof(TriangleRun) + kRoomBehindRun * sizeof(TileTriangle);
+constexpr std::uint64_t kPerLarge = 20;  // a number in a tile's list, as found and as sorted
+constexpr std::uint64_t kPerEdge = 56;   // that may be a line, in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
-// Lines that samples miss, in one tile: a triangle that may hide some, and a half-edge that may be one. Estimated: few are.
+// Lines that samples miss, in one tile: a triangle that may hide some, and a half-edge that may be one. Estimated: few
+// are.
 constexpr std::uint64_t kPerHidingInTile = 40, kPerEdgeInTile = 50;
-constexpr std::uint64_t kPerLayer = 20;       // a number in a tile's list, as found and as sorted
+constexpr std::uint64_t kPerLayer = 20;         // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerLayerInTile = 500;  // a triangle in a HidingTile and its cells, set up
 // Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.
 constexpr std::uint64_t kLinesPerVisible = 256, kLinesPerPixel = 32, kLinesPerLayer = 100;
@@ -39,7 +41,7 @@ struct ScreenExtent {  // in pixels
 /// What one thread has counted.
 struct Tally {
     std::vector<std::uint64_t> visible_bytes, visible_touches, layer_touches;  // per row
-    std::vector<std::uint64_t> layer_tile_touches, fine_tile_bytes;               // per tile
+    std::vector<std::uint64_t> layer_tile_touches, fine_tile_bytes;            // per tile
     std::vector<std::uint32_t> last_chunk[kTriangleKinds];  // per tile: 1 + the last chunk with a run there
 };
 
@@ -73,7 +75,8 @@ std::uint64_t possible_lines(const ScreenMesh& mesh, std::uint32_t triangle) {
 
 }  // namespace
 
-SliceCosts::SliceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, bool has_fine, int threads)
+SliceCosts::SliceCosts(const PixelTiles& visible, const PixelTiles* layers, int samples_per_pixel, bool has_fine,
+                       int threads)
     : visible_(visible), layers_(layers), sample_px_(1.0 / samples_per_pixel), has_fine_(has_fine), threads_(threads) {
     counts_.visible_bytes.assign(static_cast<std::size_t>(visible.rows().end), 0);
     counts_.visible_touches = counts_.visible_bytes;
@@ -113,7 +116,8 @@ void SliceCosts::add(ScreenSurfaces& screen) {
                 });
             }
             // The samples in the box; a tile also gets those next to its right and lower border.
-            const glm::dvec2 first = glm::ceil(box.low / sample_px_ - 0.5), last = glm::floor(box.high / sample_px_ - 0.5);
+            const glm::dvec2 first = glm::ceil(box.low / sample_px_ - 0.5),
+                             last = glm::floor(box.high / sample_px_ - 0.5);
             const bool is_thin = first.x > last.x || first.y > last.y;
             if (is_thin && !has_fine_) continue;
             const ScreenTriangle t = screen.triangle(s);
@@ -160,16 +164,14 @@ void SliceCosts::add_loose_edges(const ScreenSurfaces& screen) {
             if (!edge) continue;
             ScreenExtent box;
             for (const glm::dvec2& end : {edge->from, edge->to}) box.reach(end.x, end.y);
-            visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_,
-                           [&](std::uint32_t tile) {
-                               counts_.visible_bytes[row_of(visible_, tile)] += kPerEdge;
-                               ++counts_.visible_touches[row_of(visible_, tile)];
-                               if (has_fine_) fine_tile_bytes_[tile] += kPerEdgeInTile;
-                           });
-            if (layers_ == nullptr) continue;
-            layers_->visit(box.low, box.high, [&](std::uint32_t tile) {
-                ++counts_.layer_touches[row_of(*layers_, tile)];
+            visible_.visit(box.low - 2 * sample_px_, box.high + sample_px_, [&](std::uint32_t tile) {
+                counts_.visible_bytes[row_of(visible_, tile)] += kPerEdge;
+                ++counts_.visible_touches[row_of(visible_, tile)];
+                if (has_fine_) fine_tile_bytes_[tile] += kPerEdgeInTile;
             });
+            if (layers_ == nullptr) continue;
+            layers_->visit(box.low, box.high,
+                           [&](std::uint32_t tile) { ++counts_.layer_touches[row_of(*layers_, tile)]; });
         }
     }
 }
@@ -181,7 +183,10 @@ void SliceCosts::find_edges(ScreenSurfaces& screen, const std::vector<TriangleCh
             const auto [p, q, r] = screen.triangle(s).corners;
             const bool is_off = std::min({p.x, q.x, r.x}) == ScreenVertex::kOffScreen;
             const std::int64_t area = is_off ? 0 : doubled_area(p, q, r);
-            screen.set_facing(screen.number_of(s), is_off ? off_screen : area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
+            screen.set_facing(screen.number_of(s), is_off      ? off_screen
+                                                   : area == 0 ? edge_on
+                                                   : area > 0  ? clockwise
+                                                               : counterclockwise);
         }
     });
     parallel_for_parts(chunks.size(), threads_, [&](std::size_t c, int) { screen.find_line_edges(chunks[c]); });
@@ -189,7 +194,8 @@ void SliceCosts::find_edges(ScreenSurfaces& screen, const std::vector<TriangleCh
 
 RowCosts SliceCosts::visible() const {
     RowCosts costs{counts_.visible_bytes, {}};
-    const std::uint64_t row_px = static_cast<std::uint64_t>(visible_.rect().width()) * static_cast<std::uint64_t>(visible_.tile_px());
+    const std::uint64_t row_px =
+        static_cast<std::uint64_t>(visible_.rect().width()) * static_cast<std::uint64_t>(visible_.tile_px());
     for (const std::uint64_t touches : counts_.visible_touches) {
         costs.lines.push_back(std::min(kLinesPerVisible * touches, kLinesPerPixel * row_px));
     }

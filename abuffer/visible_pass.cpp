@@ -25,8 +25,8 @@ struct WorkerTimes {
 
 /// So many bands are finished by one thread before it goes on with tiles.
 constexpr int kMostBandsAtOnce = 8;
-/// Where bands are handed on, so many rows of tiles may be begun below one that is not complete, and for each thread two more and
-/// what it takes in a row: their bands are there.
+/// Where bands are handed on, so many rows of tiles may be begun below one that is not complete, and for each thread
+/// two more and what it takes in a row: their bands are there.
 constexpr std::size_t kRowsAhead = 4;
 
 /// Counts the rows of tiles that are complete, from the top.
@@ -43,8 +43,8 @@ class CompleteRows {
         changed_.notify_all();
         return complete_;
     }
-    /// Returns when fewer than so many rows lie between a tile and those that are complete. Tiles are begun in order, so
-    /// whoever has the first incomplete one does not wait.
+    /// Returns when fewer than so many rows lie between a tile and those that are complete. Tiles are begun in order,
+    /// so whoever has the first incomplete one does not wait.
     void wait_for_turn(std::size_t tile, std::size_t most_rows) {
         std::unique_lock lock(mutex_);
         while (!is_stopped_ && tile / columns_ >= complete_ + most_rows) {
@@ -71,20 +71,19 @@ class CompleteRows {
 }  // namespace
 
 StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPrinter* finisher,
-                                    std::vector<std::vector<LineSegment>>& segments, Film& film, RenderStats& stats) {
+                                       std::vector<std::vector<LineSegment>>& segments, Film& film,
+                                       RenderStats& stats) {
     Stopwatch watch;
     const int per_pixel = samples_per_pixel_of(*frame_.scene);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
     const std::vector<LooseChunk> loose = chunks_of_loose_edges(screen_, frame_.criteria.classes);
     const bool has_edges = has_fine || !loose.empty();
-    const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples,
-                            has_edges);
+    const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples, has_edges);
     std::optional<FineEdges> fine_edges;
     const PixelTiles grid(region, tile_samples / per_pixel);
     if (has_fine) possible_lines_.emplace(screen_, threads_);
     if (has_edges)
-        fine_edges.emplace(screen_, has_fine ? &*possible_lines_ : nullptr, loose, grid, per_pixel,
-                           threads_);
+        fine_edges.emplace(screen_, has_fine ? &*possible_lines_ : nullptr, loose, grid, per_pixel, threads_);
     if (!screen_.shows_all()) possible_lines_.reset();
     stats.prepare_s += watch.lap();
 
@@ -95,7 +94,8 @@ StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPr
     std::vector<FineParts> fine_parts(workers, FineParts(screen_, kernels_, completes_lines(*frame_.scene)));
     std::vector<std::vector<FinePart>> parts(workers);
     std::vector<std::unique_ptr<FineLines>> fine_lines(workers);
-    std::vector<std::vector<LineSegment>> lines_of(workers);  // of a tile: a list of its own would grow in memory that all share
+    std::vector<std::vector<LineSegment>> lines_of(
+        workers);  // of a tile: a list of its own would grow in memory that all share
     std::vector<WorkerTimes> times(workers);
     const std::size_t before = segments.size();
     segments.resize(before + bins.tile_count());
@@ -112,9 +112,12 @@ StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPr
         if (finisher == nullptr || complete == 0 || complete * columns == grid.count()) return 0.0;
         const PixelRect part = finisher->take(grid.tile((complete - 1) * columns).y1, kMostBandsAtOnce);
         if (part.height() == 0) return 0.0;
-        return finisher->finish_as(worker, part, StrokePrinter::Lists(segments).first(before + complete * columns).subspan(first_reaching(part.y0)));
+        return finisher->finish_as(
+            worker, part,
+            StrokePrinter::Lists(segments).first(before + complete * columns).subspan(first_reaching(part.y0)));
     };
-    const std::size_t most_rows = kRowsAhead + 2 * workers + kMostInARow * workers / static_cast<std::size_t>(grid.columns());
+    const std::size_t most_rows =
+        kRowsAhead + 2 * workers + kMostInARow * workers / static_cast<std::size_t>(grid.columns());
     const bool has_limit = finisher != nullptr && finisher->hands_on();
     const auto draw_tile = [&](std::size_t index, int worker) {
         const auto w = static_cast<std::size_t>(worker);
@@ -124,20 +127,20 @@ StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPr
         }
         if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame_, screen_, kernels_);
         if (has_edges && !fine_lines[w])
-            fine_lines[w] = std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region, needs_all_visible_lines(frame_));
+            fine_lines[w] =
+                std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region, needs_all_visible_lines(frame_));
         std::vector<LineSegment>& lines = lines_of[w];
         lines.clear();
         const auto add_fine_lines = [&] {
             parts[w].clear();
-            fine_parts[w].find(tiles[w]->samples(), fine_edges->in(index),
-                               fine_edges->loose_in(index), lines, parts[w]);
+            fine_parts[w].find(tiles[w]->samples(), fine_edges->in(index), fine_edges->loose_in(index), lines,
+                               parts[w]);
             fine_lines[w]->find(index, parts[w], lines);
         };
         Stopwatch lap;
         if (bins.is_empty(index)) {
             fillers[w]->clear(bins.empty_tiles_from(index), film);
-            if (has_edges &&
-                fine_edges->has_any(index)) {  // it may have what is smaller than a sample
+            if (has_edges && fine_edges->has_any(index)) {  // it may have what is smaller than a sample
                 tiles[w]->draw(index);
                 add_fine_lines();
             }
@@ -180,7 +183,8 @@ StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPr
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
     stats.write_s += sum.write * scale;
-    return StrokePrinter::Lists(segments).subspan(finisher == nullptr ? 0 : std::min(first_reaching(finisher->taken_y()), segments.size()));
+    return StrokePrinter::Lists(segments).subspan(
+        finisher == nullptr ? 0 : std::min(first_reaching(finisher->taken_y()), segments.size()));
 }
 
 }  // namespace burin

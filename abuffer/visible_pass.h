@@ -20,14 +20,14 @@ namespace burin {
 /// picture.
 class VisiblePass {
   public:
-    VisiblePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads,
-                Progress* progress)
+    VisiblePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads, Progress* progress)
         : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress) {}
 
     /// Draws the tiles of `region`, adds their lines and the time it took. Rows whose lines are known by then are
-    /// finished, except for the last ones; nullptr: none. Returns the lists of `segments` that may reach rows that are not.
-    StrokePrinter::Lists draw(PixelRect region, int tile_samples, RowPrinter* finisher, std::vector<std::vector<LineSegment>>& segments,
-                           Film& film, RenderStats& stats);
+    /// finished, except for the last ones; nullptr: none. Returns the lists of `segments` that may reach rows that are
+    /// not.
+    StrokePrinter::Lists draw(PixelRect region, int tile_samples, RowPrinter* finisher,
+                              std::vector<std::vector<LineSegment>>& segments, Film& film, RenderStats& stats);
     /// Of all instances, if they are shown always and it looked for lines that samples miss.
     const PossibleLines* possible_lines() const { return possible_lines_ ? &*possible_lines_ : nullptr; }
 

@@ -61,8 +61,8 @@ std::string temporary_stem(const fs::path& target) {
 fs::path temporary_path(const fs::path& target, int number) {
     std::string extension = target.filename().extension().string();
     if (extension.size() > 16) extension.clear();
-    return target.parent_path() / (temporary_stem(target) + std::to_string(::getpid()) + "-" +
-                                   std::to_string(number) + extension);
+    return target.parent_path() /
+           (temporary_stem(target) + std::to_string(::getpid()) + "-" + std::to_string(number) + extension);
 }
 
 constexpr int kMostTemporaryNames = 100;
@@ -74,8 +74,7 @@ bool is_left_behind(const fs::path& folder, std::string_view name, const std::st
     name.remove_prefix(stem.size());
     long process = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
-    if (error != std::errc() || process <= 0 || end == name.data() + name.size() || *end != '-')
-        return false;
+    if (error != std::errc() || process <= 0 || end == name.data() + name.size() || *end != '-') return false;
     const bool is_alive = ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
     if (is_alive && process != ::getpid()) return false;
     // On another machine, or in another container, the number may be alive: then the file is
@@ -83,8 +82,8 @@ bool is_left_behind(const fs::path& folder, std::string_view name, const std::st
     const fs::path path = folder / fs::path(stem + std::string(name));
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     struct stat info {};
-    const bool is_free = fd >= 0 && ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode) &&
-                         ::flock(fd, LOCK_EX | LOCK_NB) == 0;
+    const bool is_free =
+        fd >= 0 && ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && ::flock(fd, LOCK_EX | LOCK_NB) == 0;
     if (fd >= 0) ::close(fd);
     return is_free;
 }
@@ -114,9 +113,7 @@ std::string followed(const std::string& path) {
     throw InputError(path + ": cannot write: symbolic links lead in a circle; give another name");
 }
 
-std::string name_of_descriptor(int fd) {
-    return "/proc/self/fd/" + std::to_string(fd);
-}
+std::string name_of_descriptor(int fd) { return "/proc/self/fd/" + std::to_string(fd); }
 
 }  // namespace
 
@@ -135,15 +132,13 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(followed(
     }
     const fs::path folder = fs::path(target_).parent_path();
     if (!folder.empty() && !fs::is_directory(folder, ignored)) {
-        throw InputError(path + ": cannot write: the folder " + folder.string() +
-                         " does not exist; create it first");
+        throw InputError(path + ": cannot write: the folder " + folder.string() + " does not exist; create it first");
     }
     open_without_name();
     if (fd_ < 0) open_with_temporary_name();
     if (fd_ < 0) {
         const std::string reason = std::strerror(errno);
-        throw InputError(path + ": cannot write: " + reason +
-                         "; choose another place or change its permissions");
+        throw InputError(path + ": cannot write: " + reason + "; choose another place or change its permissions");
     }
     ::flock(fd_, LOCK_EX | LOCK_NB);  // tells others that it is in use
     constexpr mode_t kPermissions = 0777;
@@ -185,8 +180,7 @@ void AtomicFile::open_with_temporary_name() {
 
 void AtomicFile::fail(const char* action) const {
     const std::string reason = std::strerror(errno);
-    throw InputError(path_ + ": cannot " + action + ": " + reason +
-                     "; nothing was written under this name");
+    throw InputError(path_ + ": cannot " + action + ": " + reason + "; nothing was written under this name");
 }
 
 void AtomicFile::write(const void* data, std::size_t size) {
@@ -201,9 +195,7 @@ void AtomicFile::write(const void* data, std::size_t size) {
     }
 }
 
-void AtomicFile::seek(std::size_t position) {
-    position_ = position;
-}
+void AtomicFile::seek(std::size_t position) { position_ = position; }
 
 /// Its own one, if it is free, else a temporary one.
 void AtomicFile::give_name() {

@@ -12,7 +12,8 @@
 namespace burin {
 namespace {
 
-/// How long a thread looks out for what it waits for before it sleeps. The gaps of a frame between two uses of helpers are shorter.
+/// How long a thread looks out for what it waits for before it sleeps. The gaps of a frame between two uses of helpers
+/// are shorter.
 constexpr std::chrono::microseconds kAwake{200};
 
 /// Waits until a number is no longer `old`.

@@ -54,8 +54,7 @@ void check_instruction_set() {
     const std::string name = std::string(kVariable) + "=" + word;
     if (!set) throw UsageError(name + ": unknown; give baseline, avx2 or avx512");
     if (!has(*set))
-        throw UsageError(
-            name + ": this processor has no such instructions; give baseline, or leave it out");
+        throw UsageError(name + ": this processor has no such instructions; give baseline, or leave it out");
 }
 
 }  // namespace burin

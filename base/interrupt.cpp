@@ -12,17 +12,14 @@ namespace {
 std::atomic<bool> g_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-extern "C" void on_signal(int) {
-    g_interrupted.store(true, std::memory_order_relaxed);
-}
+extern "C" void on_signal(int) { g_interrupted.store(true, std::memory_order_relaxed); }
 
 }  // namespace
 
 void install_interrupt_handlers() {
     for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
         struct sigaction action {};
-        if (signal_number == SIGHUP && sigaction(SIGHUP, nullptr, &action) == 0 &&
-            action.sa_handler == SIG_IGN) {
+        if (signal_number == SIGHUP && sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) {
             continue;  // nohup
         }
         action = {};
@@ -36,9 +33,7 @@ void install_interrupt_handlers() {
     }
 }
 
-bool interrupt_requested() noexcept {
-    return g_interrupted.load(std::memory_order_relaxed);
-}
+bool interrupt_requested() noexcept { return g_interrupted.load(std::memory_order_relaxed); }
 
 void throw_if_interrupted() {
     if (interrupt_requested()) throw Interrupted();

@@ -17,9 +17,11 @@
 namespace burin {
 namespace {
 
-constexpr const char* kCut = ": cannot read: the file has become shorter while it was read; is another program writing it?";
+constexpr const char* kCut =
+    ": cannot read: the file has become shorter while it was read; is another program writing it?";
 
-// A signal handler can reach nothing but globals. A lock that spins may be taken in it: who holds it reads no mapped file.
+// A signal handler can reach nothing but globals. A lock that spins may be taken in it: who holds it reads no mapped
+// file.
 std::atomic_flag g_lock = ATOMIC_FLAG_INIT;
 MappedFile* g_first = nullptr;
 

@@ -27,8 +27,8 @@ class FileLength {
 /// A regular file mapped read-only into memory.
 class MappedFile {
   public:
-    /// Throws InputError when `path` is missing, not a regular file, empty or unreadable. `stays_open`: for copy(). A process may
-    /// have far fewer files open than mapped.
+    /// Throws InputError when `path` is missing, not a regular file, empty or unreadable. `stays_open`: for copy(). A
+    /// process may have far fewer files open than mapped.
     explicit MappedFile(const std::string& path, bool stays_open = false);
     ~MappedFile();
     MappedFile(const MappedFile&) = delete;
@@ -37,16 +37,17 @@ class MappedFile {
     const std::string& path() const { return path_; }
     std::string_view bytes() const { return {data_, size_}; }
 
-    /// Copies what stands in bytes() from `place` on, of a file that stays open. The first look at each page of bytes() is a page
-    /// fault, which takes longer than copying the page on some machines. Throws InputError when it cannot be read (any more); who
-    /// looks at bytes() of a file that has become shorter gets zeros up to the end of its last page, and SIGBUS behind that.
+    /// Copies what stands in bytes() from `place` on, of a file that stays open. The first look at each page of bytes()
+    /// is a page fault, which takes longer than copying the page on some machines. Throws InputError when it cannot be
+    /// read (any more); who looks at bytes() of a file that has become shorter gets zeros up to the end of its last
+    /// page, and SIGBUS behind that.
     void copy(std::size_t place, std::span<char> to) const;
 
     /// As FileLength has it.
     void check_is_whole() const { length_.check(); }
 
-    /// From now on the process ends with exit status 1 and a message that names the file, instead of a signal, when it looks at
-    /// bytes() that a file no longer has. For programs: a library leaves signals alone.
+    /// From now on the process ends with exit status 1 and a message that names the file, instead of a signal, when it
+    /// looks at bytes() that a file no longer has. For programs: a library leaves signals alone.
     static void end_process_where_files_are_cut();
 
   private:

@@ -22,21 +22,17 @@ std::string size_text(std::uint64_t bytes) {
     int unit = 0;
     for (; value >= 1000 && unit < 4; ++unit) value /= 1024;
     char text[64];
-    std::snprintf(text, sizeof text, unit > 0 && value < 9.95 ? "%.1f %s" : "%.0f %s", value,
-                  kUnits[unit]);
+    std::snprintf(text, sizeof text, unit > 0 && value < 9.95 ? "%.1f %s" : "%.0f %s", value, kUnits[unit]);
     return text;
 }
 
 void ModelBudget::add(std::uint64_t bytes, const std::string& what) {
-    const std::uint64_t sum =
-        bytes > UINT64_MAX - counted_bytes_ ? UINT64_MAX : counted_bytes_ + bytes;
+    const std::uint64_t sum = bytes > UINT64_MAX - counted_bytes_ ? UINT64_MAX : counted_bytes_ + bytes;
     if (sum > limit_bytes_) {
-        const std::string before =
-            counted_bytes_ > 0 ? ", with what was counted before " + size_text(sum) : "";
+        const std::string before = counted_bytes_ > 0 ? ", with what was counted before " + size_text(sum) : "";
         throw InputError(what + " needs about " + size_text(bytes) + before + ", more than the " +
                          size_text(limit_bytes_) +
-                         " that --memory-model allows; make it simpler, or give --memory-model " +
-                         option_text(sum));
+                         " that --memory-model allows; make it simpler, or give --memory-model " + option_text(sum));
     }
     counted_bytes_ = sum;
 }

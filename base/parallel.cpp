@@ -18,8 +18,8 @@ std::size_t count_workers(std::size_t count, int threads) {
     return std::min(count, static_cast<std::size_t>(resolve_thread_count(threads)));
 }
 
-/// Calls work(worker, stop) once on each of so many threads, or fewer, one of them this one. The first exception sets `stop` and
-/// is rethrown.
+/// Calls work(worker, stop) once on each of so many threads, or fewer, one of them this one. The first exception sets
+/// `stop` and is rethrown.
 template <typename Work>
 void on_workers(std::size_t workers, const Work& work) {
     std::atomic<bool> stop{false};
@@ -73,7 +73,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     std::atomic<std::size_t> next{0};
     on_workers(workers, [&](int worker, const std::atomic<bool>& stop) {
         for (;;) {
-            // Neighbours write to the same cache lines and read much alike, but the last ones are to end at about the same time.
+            // Neighbours write to the same cache lines and read much alike, but the last ones are to end at about the
+            // same time.
             constexpr std::size_t kShares = 8;
             std::size_t index = next.load(std::memory_order_relaxed), some;
             do {

@@ -12,20 +12,19 @@ int resolve_thread_count(int threads);
 /// Most indices in a row that parallel_for() hands out to one worker.
 constexpr std::size_t kMostInARow = 8;
 
-/// Calls work(index, worker) once for every index in [0, count), on `threads` threads, or on fewer if the system has no more
+/// Calls work(index, worker) once for every index in [0, count), on `threads` threads, or on fewer if the system has no
+/// more
 /// (`worker` in [0, threads) tells which), and returns when all are done.
 ///
 /// Indices are handed out in increasing order, some in a row to one worker, which calls work() in that order. Nothing
-/// may depend on which worker gets which index. The first exception stops the others and is rethrown. An interrupt throws
-/// `Interrupted`.
-void parallel_for(std::size_t count, int threads,
-                  const std::function<void(std::size_t index, int worker)>& work);
+/// may depend on which worker gets which index. The first exception stops the others and is rethrown. An interrupt
+/// throws `Interrupted`.
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t index, int worker)>& work);
 
-/// The same in any order, count < 2^32: each worker begins with its own part of the indices, the same one whenever there are as
-/// many, so that what it wrote at an index is mostly in its own caches when it reads there. Then it helps the others, from
-/// the ends of their parts.
-void parallel_for_parts(std::size_t count, int threads,
-                        const std::function<void(std::size_t index, int worker)>& work);
+/// The same in any order, count < 2^32: each worker begins with its own part of the indices, the same one whenever
+/// there are as many, so that what it wrote at an index is mostly in its own caches when it reads there. Then it helps
+/// the others, from the ends of their parts.
+void parallel_for_parts(std::size_t count, int threads, const std::function<void(std::size_t index, int worker)>& work);
 
 /// Calls work(i) once for every i in [0, count), many in a row on one thread: for work that is little by itself.
 template <typename Work>

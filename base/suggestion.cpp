@@ -20,11 +20,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-std::optional<std::string> closest_word(std::string_view word, const std::vector<std::string>& known, std::size_t farthest) {
+std::optional<std::string> closest_word(std::string_view word, const std::vector<std::string>& known,
+                                        std::size_t farthest) {
     std::optional<std::string> closest;
     std::size_t least = farthest + 1;
     for (const std::string& other : known) {
-        // No fewer letters are put in or taken out than the lengths differ by; words of any length may come from a file.
+        // No fewer letters are put in or taken out than the lengths differ by; words of any length may come from a
+        // file.
         const std::size_t longer = std::max(other.size(), word.size()), shorter = std::min(other.size(), word.size());
         if (longer - shorter >= least) continue;
         const std::size_t distance = edit_distance(other, word);

@@ -12,6 +12,7 @@ namespace burin {
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// What somebody may have meant who wrote a word: the known one that is nearest, if it is no farther than `farthest`.
-std::optional<std::string> closest_word(std::string_view word, const std::vector<std::string>& known, std::size_t farthest = 2);
+std::optional<std::string> closest_word(std::string_view word, const std::vector<std::string>& known,
+                                        std::size_t farthest = 2);
 
 }  // namespace burin

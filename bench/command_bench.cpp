@@ -20,9 +20,7 @@
 namespace burin::bench {
 namespace {
 
-double seconds(const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-}
+double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
 /// CPU time of a process that does `work`, which returns its exit status.
 template <typename Work>
@@ -33,29 +31,25 @@ double process_cpu_s(const char* what, const Work& work) {
     if (child == 0) ::_exit(work());
     int status = 0;
     rusage usage{};
-    if (::wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) ||
-        WEXITSTATUS(status) != 0) {
+    if (::wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
         throw std::runtime_error(std::string(what) + " failed");
     }
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 std::string measure_command(const std::string& burin, const std::string& model, int runs) {
-    const std::string picture = (std::filesystem::temp_directory_path() /
-                                 ("burin-bench-" + std::to_string(::getpid()) + ".exr"))
-                                    .string();
+    const std::string picture =
+        (std::filesystem::temp_directory_path() / ("burin-bench-" + std::to_string(::getpid()) + ".exr")).string();
     Samples command, openmesh;
     for (int run = -1; run < runs; ++run) {  // run -1 warms the page cache
         const double ours = process_cpu_s("burin render", [&] {
             const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
             ::dup2(nowhere, STDOUT_FILENO);
             ::dup2(nowhere, STDERR_FILENO);
-            ::execl(burin.c_str(), "burin", "render", model.c_str(), "-o", picture.c_str(),
-                    nullptr);
+            ::execl(burin.c_str(), "burin", "render", model.c_str(), "-o", picture.c_str(), nullptr);
             return 127;
         });
-        const double theirs =
-            process_cpu_s("OpenMesh's read_mesh", [&] { return openmesh_read(model) > 0 ? 0 : 1; });
+        const double theirs = process_cpu_s("OpenMesh's read_mesh", [&] { return openmesh_read(model) > 0 ? 0 : 1; });
         if (run < 0) continue;
         command.add(ours);
         openmesh.add(theirs);

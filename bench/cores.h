@@ -7,7 +7,8 @@
 
 namespace burin::bench {
 
-// Cores of a shared machine are often not equally fast, and which one is faster changes: benchmarks time both and choose.
+// Cores of a shared machine are often not equally fast, and which one is faster changes: benchmarks time both and
+// choose.
 
 /// The first two cores that this process may run on; none where there are fewer.
 inline std::vector<cpu_set_t> two_cores() {

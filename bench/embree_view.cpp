@@ -11,17 +11,15 @@ EmbreeView::EmbreeView(const Frame& frame) : frame_(frame) {
         const Mesh& mesh = *frame.surfaces.instances[i].mesh;
         if (mesh.triangles.empty()) continue;
         RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
-            g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
+        auto* v = static_cast<float*>(
+            rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
         for (std::uint32_t k = 0; k < mesh.positions.size(); ++k) {
             const glm::dvec3 p = frame.surfaces.view_position(i, k);
-            for (int c = 0; c < 3; ++c)
-                v[3 * k + static_cast<std::uint32_t>(c)] = static_cast<float>(p[c]);
+            for (int c = 0; c < 3; ++c) v[3 * k + static_cast<std::uint32_t>(c)] = static_cast<float>(p[c]);
         }
-        auto* t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
-        for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
-            std::copy_n(mesh.triangles[k].data(), 3, t + 3 * k);
+        auto* t = static_cast<std::uint32_t*>(
+            rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
+        for (std::size_t k = 0; k < mesh.triangles.size(); ++k) std::copy_n(mesh.triangles[k].data(), 3, t + 3 * k);
         rtcCommitGeometry(g);
         rtcAttachGeometry(scene_, g);
         rtcReleaseGeometry(g);

@@ -5,8 +5,8 @@
 // The camera fits the model to 95 % of the frame, at a vertical field of view of 35 degrees. With
 // "scaling" also a frame of four times the pixels, and one of four times the triangles.
 //
-// Cores of a shared machine are often not equally fast. In each run, one thread draws on each of two first; what else takes
-// one thread, E too, is then measured on the faster one ("stages" excepted, which have a process of their own).
+// Cores of a shared machine are often not equally fast. In each run, one thread draws on each of two first; what else
+// takes one thread, E too, is then measured on the faster one ("stages" excepted, which have a process of their own).
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -70,8 +70,7 @@ struct View {
         CameraSettings settings;
         settings.fov_deg = 35;
         settings.fit = 0.95;
-        const Camera camera =
-            resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
+        const Camera camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
         close_cracks(scene, camera, width, height);
         prepare_for_abuffer(scene, 1);
         frame = make_frame(scene, camera, width, height, {0, 0, width, height});
@@ -79,9 +78,7 @@ struct View {
     View(const View&) = delete;  // the frame points into the scene
     View& operator=(const View&) = delete;
 
-    Film film(const LayerSet& layers) const {
-        return {frame.crop, frame.crop, layers, frame.criteria.classes};
-    }
+    Film film(const LayerSet& layers) const { return {frame.crop, frame.crop, layers, frame.criteria.classes}; }
 };
 
 // ---- stages of the whole way from a file to a file, in a process of its own ----
@@ -122,20 +119,17 @@ std::pair<Stages, double> in_process(const std::function<Stages()>& work) {
     const bool is_read = ::read(pipe_ends[0], &stages, sizeof stages) == sizeof stages;
     ::close(pipe_ends[0]);
     rusage usage{};
-    if (::wait4(child, nullptr, 0, &usage) != child || !is_read)
-        throw std::runtime_error("a run of all stages failed");
+    if (::wait4(child, nullptr, 0, &usage) != child || !is_read) throw std::runtime_error("a run of all stages failed");
     return {stages, 1024.0 * static_cast<double>(usage.ru_maxrss)};
 }
 
 void write_stages(JsonWriter& json, const std::string& model, int width, int height, int runs) {
-    const std::string picture = (std::filesystem::temp_directory_path() /
-                                 ("burin-bench-" + std::to_string(::getpid()) + ".exr"))
-                                    .string();
+    const std::string picture =
+        (std::filesystem::temp_directory_path() / ("burin-bench-" + std::to_string(::getpid()) + ".exr")).string();
     std::array<Samples, kStageNames.size()> stages;
     Samples peak;
     for (int run = 0; run < runs; ++run) {
-        const auto [times, bytes] =
-            in_process([&] { return run_stages(model, width, height, picture); });
+        const auto [times, bytes] = in_process([&] { return run_stages(model, width, height, picture); });
         for (std::size_t i = 0; i < stages.size(); ++i) stages[i].add(times[i]);
         peak.add(bytes);
     }
@@ -196,17 +190,16 @@ std::function<void()> on_core(const cpu_set_t& core, std::function<void()> work)
     };
 }
 
-/// How often as fast two threads are as one is on average, where there are just two cores, equally fast or not: with the times of
-/// one thread on each of them, what both together could do takes 1 / (1 / a + 1 / b). CPU times, for a thread that may not leave
-/// its core waits where something else runs there.
+/// How often as fast two threads are as one is on average, where there are just two cores, equally fast or not: with
+/// the times of one thread on each of them, what both together could do takes 1 / (1 / a + 1 / b). CPU times, for a
+/// thread that may not leave its core waits where something else runs there.
 void write_speed_up(JsonWriter& json, const std::string& name, const Samples& a, const Samples& b, const Samples& two) {
     Samples speed_ups;
     for (std::size_t run = 0; run < two.size(); ++run) speed_ups.add(2 / (1 / a[run] + 1 / b[run]) / two[run]);
     write_samples(json, name, speed_ups);
 }
 
-std::string measure_frames(const std::string& model, int width, int height, int runs,
-                           bool has_scaling) {
+std::string measure_frames(const std::string& model, int width, int height, int runs, bool has_scaling) {
     JsonWriter json;
     json.begin_object().key("runs").value(runs);
     json.key("width").value(width).key("height").value(height);
@@ -245,9 +238,8 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     add("samples_2_ten_in_a_row", in_a_row(drawing(view, picture, 2, 2)), false);
     add("default_ten_in_a_row", in_a_row(drawing(view, picture, kDefault, 2)), false);
     // Once per scene, then any number of frames; "searched" is a frame without it.
-    add("prepare_hidden", [&view] {
-        view.scene.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1);
-    });
+    add("prepare_hidden",
+        [&view] { view.scene.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1); });
     add("hidden_solid", drawing(view, picture, kDefault, 1, HiddenStyle::solid));
     const auto searched = drawing(view, picture, kDefault, 1, HiddenStyle::solid);
     add("hidden_solid_searched", [&view, searched] {
@@ -280,7 +272,8 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     for (int run = -1; run < runs; ++run) {  // run -1 warms up
         for (Case& c : cases) {
             std::optional<OnCore> here;
-            if (run >= 0 && c.takes_one_thread && !cores.empty()) here.emplace(faster_core(static_cast<std::size_t>(run)));
+            if (run >= 0 && c.takes_one_thread && !cores.empty())
+                here.emplace(faster_core(static_cast<std::size_t>(run)));
             run_case(c, run >= 0);
         }
     }
@@ -293,9 +286,7 @@ std::string measure_frames(const std::string& model, int width, int height, int 
         write_ratio(json, "per_E", c.cpu, named("E").cpu);
         json.end_object();
     }
-    const auto ratio = [&](const char* name, const Samples& a, const Samples& b) {
-        write_ratio(json, name, a, b);
-    };
+    const auto ratio = [&](const char* name, const Samples& a, const Samples& b) { write_ratio(json, name, a, b); };
     for (const std::string what : {"samples_2", "default"}) {
         const Samples& one = named(what).wall;
         write_speed_up(json, "one_thread_per_two_wall_" + what, cores.empty() ? one : named(what + "_first_core").cpu,
@@ -319,8 +310,7 @@ std::string measure_frames(const std::string& model, int width, int height, int 
 
 int main(int argc, char** argv) {
     const bool has_scaling = argc == 6 && std::strcmp(argv[5], "scaling") == 0;
-    const int width = argc >= 5 ? std::atoi(argv[2]) : 0,
-              height = argc >= 5 ? std::atoi(argv[3]) : 0;
+    const int width = argc >= 5 ? std::atoi(argv[2]) : 0, height = argc >= 5 ? std::atoi(argv[3]) : 0;
     const int runs = argc >= 5 ? std::atoi(argv[4]) : 0;
     if ((argc != 5 && !has_scaling) || width < 1 || height < 1 || runs < 1) {
         std::fputs("usage: frame_bench MODEL WIDTH HEIGHT RUNS [scaling]\n", stderr);
@@ -328,8 +318,7 @@ int main(int argc, char** argv) {
     }
     burin::keep_freed_memory(2);  // as the program does
     try {
-        std::fputs(burin::bench::measure_frames(argv[1], width, height, runs, has_scaling).c_str(),
-                   stdout);
+        std::fputs(burin::bench::measure_frames(argv[1], width, height, runs, has_scaling).c_str(), stdout);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "frame_bench: %s\n", error.what());

@@ -14,8 +14,7 @@ void write_vertex(std::FILE* file, int i, int j) {
     const double u = 2 * std::numbers::pi * i / kAround, v = 2 * std::numbers::pi * j / kAlong;
     const double tube = 0.03 + 0.004 * std::sin(17 * u) * std::sin(9 * v);
     const double reach = 0.07 + tube * std::cos(v);
-    std::fprintf(file, "%.6f %.6f %.6f \n", reach * std::cos(u), 0.1 + tube * std::sin(v),
-                 reach * std::sin(u));
+    std::fprintf(file, "%.6f %.6f %.6f \n", reach * std::cos(u), 0.1 + tube * std::sin(v), reach * std::sin(u));
 }
 
 }  // namespace
@@ -26,11 +25,10 @@ int main(int argc, char** argv) {
         std::fputs("usage: make_surface FILE.ply\n", stderr);
         return 2;
     }
-    std::fprintf(
-        file,
-        "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
-        "property float z\nelement face %d\nproperty list uchar int vertex_indices\nend_header\n",
-        kAround * kAlong, 2 * kAround * kAlong);
+    std::fprintf(file,
+                 "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
+                 "property float z\nelement face %d\nproperty list uchar int vertex_indices\nend_header\n",
+                 kAround * kAlong, 2 * kAround * kAlong);
     for (int i = 0; i < kAround; ++i) {
         for (int j = 0; j < kAlong; ++j) write_vertex(file, i, j);
     }

@@ -23,20 +23,15 @@
 namespace burin::bench {
 namespace {
 
-const Method& abuffer() {
-    return *find_method("abuffer");
-}
-const Method& reference() {
-    return *find_method("reference");
-}
+const Method& abuffer() { return *find_method("abuffer"); }
+const Method& reference() { return *find_method("reference"); }
 
 View view_of(const Scene& scene, int width, int height) {
     View view;
     view.width = width;
     view.height = height;
     view.crop = {0, 0, width, height};
-    view.camera = resolve_camera(scene.cameras.front(), scene_points(scene),
-                                 static_cast<double>(width) / height);
+    view.camera = resolve_camera(scene.cameras.front(), scene_points(scene), static_cast<double>(width) / height);
     return view;
 }
 
@@ -50,8 +45,8 @@ Plane truth_of(Scene& scene, const View& view, int samples) {
 }
 
 /// One picture against its truth of `samples` x `samples` per pixel.
-void measure_picture(JsonWriter& json, const std::string& name, Scene& scene, const View& view,
-                     double width_px, int samples) {
+void measure_picture(JsonWriter& json, const std::string& name, Scene& scene, const View& view, double width_px,
+                     int samples) {
     scene.lines.style.width_px = width_px;
     const Plane result = lines_of(abuffer(), scene, view), truth = truth_of(scene, view, samples);
     json.begin_object().key("scene").value(name).key("width_px").value(width_px);
@@ -77,8 +72,7 @@ void measure_widths(JsonWriter& json, double width_px) {
     const View view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
     const Plane coverage = lines_of(abuffer(), chart.scene, view);
     std::vector<double> widths;
-    for (const Segment& line : chart.star)
-        widths.push_back(mean_of(widths_along(coverage, line, chart.reach_px)));
+    for (const Segment& line : chart.star) widths.push_back(mean_of(widths_along(coverage, line, chart.reach_px)));
     const auto [least, most] = std::minmax_element(widths.begin(), widths.end());
     json.begin_object().key("asked_px").value(width_px).key("mean_px").value(mean_of(widths));
     json.key("smallest_px").value(*least).key("largest_px").value(*most);
@@ -89,8 +83,7 @@ void measure_widths(JsonWriter& json, double width_px) {
 /// supersampling with 16 x 16 samples makes of it. The truth is the method reference with 32 x 32.
 void measure_motion(JsonWriter& json, const std::string& name, Scene& scene, const View& still) {
     constexpr int kFrames = 32, kPart = 48;
-    const PixelRect part =
-        busiest_part(lines_of(abuffer(), scene, still), still.crop, kPart, kPart);
+    const PixelRect part = busiest_part(lines_of(abuffer(), scene, still), still.crop, kPart, kPart);
     std::vector<Plane> results, plain, truths;
     for (int j = 0; j < kFrames; ++j) {
         View view = moved_view(scene, still, j);
@@ -102,40 +95,30 @@ void measure_motion(JsonWriter& json, const std::string& name, Scene& scene, con
     const auto ours = flicker(results, truths), sampled = flicker(plain, truths);
     if (!ours || !sampled) return;
     json.begin_object().key("scene").value(name);
-    json.key("flicker_sd")
-        .value(ours->flicker_sd)
-        .key("supersampled_16_flicker_sd")
-        .value(sampled->flicker_sd);
+    json.key("flicker_sd").value(ours->flicker_sd).key("supersampled_16_flicker_sd").value(sampled->flicker_sd);
     json.key("ratio").value(ours->flicker_sd / sampled->flicker_sd);
-    json.key("largest_pop")
-        .value(ours->pop)
-        .key("supersampled_16_largest_pop")
-        .value(sampled->pop)
-        .end_object();
+    json.key("largest_pop").value(ours->pop).key("supersampled_16_largest_pop").value(sampled->pop).end_object();
 }
 
-std::string measure_quality(const std::string& scenes, const std::vector<std::string>& models,
-                            bool has_engine) {
+std::string measure_quality(const std::string& scenes, const std::vector<std::string>& models, bool has_engine) {
     const auto load = [&](const std::string& name) {
         return load_scene(read_scene_file(scenes + "/" + name + ".toml", {}));
     };
     constexpr int kSize = 160;
     Scene star = load("star"), crossing = load("crossing"), teapot = load("teapot");
-    const View star_view = view_of(star, kSize, kSize),
-               crossing_view = view_of(crossing, kSize, kSize);
+    const View star_view = view_of(star, kSize, kSize), crossing_view = view_of(crossing, kSize, kSize);
     JsonWriter json;
     json.begin_object();
     json.key("samples_per_pixel").value(samples_per_pixel_of(star));
     json.key("pictures").begin_array();
-    for (const double width_px : {1.0, 0.3, 3.0})
-        measure_picture(json, "star", star, star_view, width_px, 64);
+    for (const double width_px : {1.0, 0.3, 3.0}) measure_picture(json, "star", star, star_view, width_px, 64);
     measure_picture(json, "star", star, star_view, 12, 16);
     measure_picture(json, "crossing", crossing, crossing_view, 1, 64);
     measure_picture(json, "teapot", teapot, view_of(teapot, kSize, kSize), 1, 64);
     for (const std::string& model : models) {
         Scene scene = load_scene(bare_model_scene(model, {}));
-        measure_picture(json, std::filesystem::path(model).filename().string(), scene,
-                        view_of(scene, kSize, kSize), 1, 64);
+        measure_picture(json, std::filesystem::path(model).filename().string(), scene, view_of(scene, kSize, kSize), 1,
+                        64);
     }
     if (has_engine) {
         Scene engine = load("engine");

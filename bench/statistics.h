@@ -51,8 +51,7 @@ inline void write_samples(JsonWriter& json, const std::string& name, const Sampl
 }
 
 /// Writes the median of a[run] / b[run]: quantities of one run are measured under the same load.
-inline void write_ratio(JsonWriter& json, const std::string& name, const Samples& a,
-                        const Samples& b) {
+inline void write_ratio(JsonWriter& json, const std::string& name, const Samples& a, const Samples& b) {
     Samples ratios;
     for (std::size_t run = 0; run < a.size(); ++run) ratios.add(a[run] / b[run]);
     write_samples(json, name, ratios);

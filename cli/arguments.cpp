@@ -63,14 +63,16 @@ std::uint64_t byte_count(const std::string& option, std::string_view text) {
     constexpr std::string_view kUnits = "KMGT";
     std::string_view digits = text;
     double bytes = 1;
-    const std::size_t unit = text.empty() ? std::string_view::npos : kUnits.find(static_cast<char>(text.back() & ~0x20));
+    const std::size_t unit =
+        text.empty() ? std::string_view::npos : kUnits.find(static_cast<char>(text.back() & ~0x20));
     if (unit != std::string_view::npos && std::isalpha(static_cast<unsigned char>(text.back())) != 0) {
         digits.remove_suffix(1);
         bytes = std::ldexp(1.0, 10 * (static_cast<int>(unit) + 1));
     }
     double value = 0;
     const bool is_plain = digits.find_first_not_of("0123456789.") == std::string_view::npos;
-    if (!is_plain || !to_number(digits, value)) fail(option, "must be a size like 200M or 2G, got '" + printable(text) + "'");
+    if (!is_plain || !to_number(digits, value))
+        fail(option, "must be a size like 200M or 2G, got '" + printable(text) + "'");
     bytes *= value;
     if (!(bytes >= 1 && bytes < 0x1p62)) fail(option, "must be from 1 byte to 4000000T");
     return static_cast<std::uint64_t>(bytes);
@@ -89,8 +91,7 @@ glm::dvec3 vector(const std::string& option, std::string_view text) {
 }
 
 template <std::size_t N>
-std::array<int, N> integers(const std::string& option, std::string_view text, char separator,
-                            const char* form) {
+std::array<int, N> integers(const std::string& option, std::string_view text, char separator, const char* form) {
     const auto parts = split(text, separator);
     std::array<int, N> values{};
     for (std::size_t i = 0; i < N; ++i) {
@@ -119,12 +120,13 @@ LineClassSet line_classes(std::string_view text) {
 LayerSet layer_set(std::string_view text) {
     LayerSet layers{false, false, false, false, false, false, false, false};
     const std::pair<std::string_view, bool*> names[] = {
-        {"beauty", &layers.beauty}, {"lines", &layers.lines},       {"Z", &layers.depth},
-        {"N", &layers.normal},      {"ids", &layers.ids},           {"coverage", &layers.coverage},
+        {"beauty", &layers.beauty},   {"lines", &layers.lines},
+        {"Z", &layers.depth},         {"N", &layers.normal},
+        {"ids", &layers.ids},         {"coverage", &layers.coverage},
         {"surface", &layers.surface}, {"lines_hidden", &layers.lines_hidden}};
     for (const std::string_view name : split(text, ',')) {
-        const auto it = std::find_if(std::begin(names), std::end(names),
-                                     [&](const auto& n) { return n.first == name; });
+        const auto it =
+            std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.first == name; });
         if (it == std::end(names)) {
             fail("--layers", "unknown layer '" + printable(name) +
                                  "'; known are beauty,lines,Z,N,ids,coverage,surface,lines_hidden");
@@ -152,7 +154,8 @@ GBufferOperatorSet gbuffer_operators(std::string_view text) {
 
 /// Options as they were typed.
 struct Texts {
-    std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators, supersample;
+    std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators,
+        supersample;
     std::string width, crease, hidden, style, layers, frames, crop, threads, memory, model_memory, stats, bits;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
@@ -166,7 +169,8 @@ void add_strict_option(CLI::App& app, Texts& t) {
 
 void add_input_options(CLI::App& app, Texts& t) {
     app.add_option("INPUT", t.input, "a scene .toml, or a model .obj .ply .stl .off .gltf .glb")->required();
-    app.add_option("--memory-model", t.model_memory, "what models may take beyond the size of their files: shapes, subdivision, "
+    app.add_option("--memory-model", t.model_memory,
+                   "what models may take beyond the size of their files: shapes, subdivision, "
                    "instances, e.g. 500M, 8G (default 2G); what needs more is refused before it is made");
 }
 
@@ -186,17 +190,22 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--operator", t.operators,
                    "method gbuffer: operators, comma separated: first second profile internal sobel roberts id "
                    "normal decaudin hertzmann (default profile,internal,id)");
-    app.add_option("--supersample", t.supersample, "method gbuffer: samples per pixel and axis, 1, 2, 4 or 8 (default 1)");
+    app.add_option("--supersample", t.supersample,
+                   "method gbuffer: samples per pixel and axis, 1, 2, 4 or 8 (default 1)");
     app.add_option("--lines", t.lines,
                    "line classes, comma separated: silhouette border crease intersection object material "
                    "polygon mark, or all, none (default silhouette,border,crease,intersection,object)");
     app.add_option("-w,--line-width", t.width, "full width of strokes in pixels (default 1)");
-    app.add_option("--crease-angle", t.crease, "angle between polygons from which on they meet in a crease, degrees (default 40); LOW,HIGH: creases fade in "
-                   "between the two");
+    app.add_option(
+        "--crease-angle", t.crease,
+        "angle between polygons from which on they meet in a crease, degrees (default 40); LOW,HIGH: creases fade in "
+        "between the two");
     app.add_option("--hidden", t.hidden, "how occluded lines are drawn: none (default), solid, dashed");
     app.add_option("--style", t.style, "line style sheet (not in this version)");
     app.add_option("--set", t.sets, "override a value of the scene, KEY=VALUE; may be repeated")
-        ->expected(1)->take_all()->allow_extra_args(false);
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
     add_strict_option(app, t);
     app.add_flag("-v", t.verbose, "say more");
@@ -209,10 +218,13 @@ void add_method_option(CLI::App& app, Texts& t) {
 
 void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("-o,--output", t.output, "file to write, .exr .png or .tif (default: INPUT's name with .png)");
-    app.add_option("--layers", t.layers, "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden (default: the first five; the last with --hidden)");
+    app.add_option("--layers", t.layers,
+                   "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden (default: the first five; the "
+                   "last with --hidden)");
     app.add_option("-f,--frames", t.frames, "frames to render (not in this version)");
     app.add_option("--crop", t.crop, "render only these pixels, X0,Y0,X1,Y1, half open");
-    app.add_option("--memory", t.memory, "method abuffer: cap for the renderer's own memory beyond the model and the finished image, "
+    app.add_option("--memory", t.memory,
+                   "method abuffer: cap for the renderer's own memory beyond the model and the finished image, "
                    "e.g. 200M, 2G; the picture is made in smaller pieces and is the same");
     app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
     app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
@@ -222,8 +234,10 @@ void add_render_options(CLI::App& app, Texts& t) {
 }
 
 void add_compare_options(CLI::App& app, Texts& t) {
-    app.add_option("-o,--output", t.output, "folder for the pictures, metrics.json, metrics.csv and report.html; "
-                   "it is made if it does not exist")->required();
+    app.add_option("-o,--output", t.output,
+                   "folder for the pictures, metrics.json, metrics.csv and report.html; "
+                   "it is made if it does not exist")
+        ->required();
     app.add_option("--methods", t.methods, "methods to compare, comma separated (default: all; see burin methods)");
     app.add_option("--frames", t.compare_frames,
                    "also draw this many frames, 2 to 1024, while the camera moves by 1/32 pixel each, and measure "
@@ -277,7 +291,8 @@ std::optional<std::string> take_input_behind_dashes(const CLI::App& app, std::ve
 void put_command_first(const CLI::App& app, std::vector<std::string>& arguments) {
     const std::string& first = arguments.front();
     if (first == "-h" || first == "--help" || first == "--version") return;
-    const auto command = std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) { return is_command(app, a); });
+    const auto command =
+        std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) { return is_command(app, a); });
     if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
         throw UsageError("'" + printable(first) +
                          "' is no command; commands are render, compare, info, explain and methods");
@@ -290,8 +305,10 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
     const auto commands = app.get_subcommands();
     const CLI::App& command = commands.empty() ? app : *commands.front();
     const std::vector<std::string> rest = app.remaining(true);
-    const auto unknown = std::find_if(rest.begin(), rest.end(), [](const std::string& r) { return r.size() > 1 && r[0] == '-'; });
-    const std::string help = "; burin " + (commands.empty() ? "" : command.get_name() + " ") + "--help lists the options";
+    const auto unknown =
+        std::find_if(rest.begin(), rest.end(), [](const std::string& r) { return r.size() > 1 && r[0] == '-'; });
+    const std::string help =
+        "; burin " + (commands.empty() ? "" : command.get_name() + " ") + "--help lists the options";
     if (unknown == rest.end()) throw UsageError("'" + printable(rest.front()) + "': one input is enough" + help);
     const std::string name = unknown->substr(0, unknown->find('='));
     std::vector<std::string> known;
@@ -299,7 +316,8 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
         for (const std::string& n : option->get_lnames()) known.push_back("--" + n);
     }
     const auto closest = name.starts_with("--") ? closest_word(name, known) : std::nullopt;
-    throw UsageError("unknown option '" + printable(name) + "'" + (closest ? "; did you mean '" + *closest + "'?" : help));
+    throw UsageError("unknown option '" + printable(name) + "'" +
+                     (closest ? "; did you mean '" + *closest + "'?" : help));
 }
 
 void fill_input_options(const Texts& t, Arguments& a) {
@@ -452,9 +470,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         app.add_subcommand("compare", "draw a scene with several methods and measure them against the ground truth");
     add_scene_options(*compare, t);
     add_compare_options(*compare, t);
-    compare->footer("Writes DIR/truth.png, DIR/METHOD.png, DIR/METHOD_diff.png, DIR/metrics.json, DIR/metrics.csv and\n"
-                    "DIR/report.html, one page with tables, plots and a viewer. docs/compare.md says what is measured.\n"
-                    "Example: burin compare scenes/engine.toml -o comparison --size 960x540 --methods patel,gbuffer");
+    compare->footer(
+        "Writes DIR/truth.png, DIR/METHOD.png, DIR/METHOD_diff.png, DIR/metrics.json, DIR/metrics.csv and\n"
+        "DIR/report.html, one page with tables, plots and a viewer. docs/compare.md says what is measured.\n"
+        "Example: burin compare scenes/engine.toml -o comparison --size 960x540 --methods patel,gbuffer");
 
     std::vector<std::string> arguments = join_vectors(argc, argv);
     if (arguments.empty()) {

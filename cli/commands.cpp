@@ -49,7 +49,8 @@ OutputOptions output_options(const Arguments& a) {
     } else if (extension == ".svg" || extension == ".pdf") {
         throw UsageError("--output: " + extension + " is not in this version; write .exr, .png or .tif");
     } else {
-        throw UsageError("--output: " + (extension.empty() ? "the name has no suffix" : "unknown kind of image '" + extension + "'") +
+        throw UsageError("--output: " +
+                         (extension.empty() ? "the name has no suffix" : "unknown kind of image '" + extension + "'") +
                          "; burin writes .exr .png .tif");
     }
     if (has_frame_pattern(std::filesystem::path(a.output).filename().string())) {
@@ -71,9 +72,8 @@ struct StageTimes {
 /// Stage by stage the median of several renders.
 RenderStats median_of(std::vector<RenderStats> runs) {
     RenderStats result = runs.back();
-    for (double RenderStats::*stage : {&RenderStats::prepare_s, &RenderStats::raster_s,
-                                       &RenderStats::resolve_s, &RenderStats::lines_s,
-                                       &RenderStats::shade_s}) {
+    for (double RenderStats::*stage : {&RenderStats::prepare_s, &RenderStats::raster_s, &RenderStats::resolve_s,
+                                       &RenderStats::lines_s, &RenderStats::shade_s}) {
         const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
         std::nth_element(runs.begin(), middle, runs.end(),
                          [&](const auto& x, const auto& y) { return x.*stage < y.*stage; });
@@ -82,9 +82,7 @@ RenderStats median_of(std::vector<RenderStats> runs) {
     return result;
 }
 
-double frame_seconds(const RenderStats& s) {
-    return s.prepare_s + s.raster_s + s.resolve_s + s.lines_s + s.shade_s;
-}
+double frame_seconds(const RenderStats& s) { return s.prepare_s + s.raster_s + s.resolve_s + s.lines_s + s.shade_s; }
 
 std::string stats_json(const StageTimes& times, const Frame& frame, const Method& method) {
     rusage usage{};
@@ -126,8 +124,7 @@ bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene)
     const bool has_hidden_lines = scene.lines.style.hidden.style != HiddenStyle::none;
     if (method.name == "abuffer") return has_hidden_lines;
     if (a.hidden && *a.hidden != HiddenStyle::none) {
-        throw UsageError("--hidden: method " + std::string(method.name) +
-                         " draws no hidden lines; use method abuffer");
+        throw UsageError("--hidden: method " + std::string(method.name) + " draws no hidden lines; use method abuffer");
     }
     scene.lines.style.hidden.style = HiddenStyle::none;
     return has_hidden_lines;
@@ -136,16 +133,19 @@ bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene)
 /// Lines of the input that are not drawn.
 void note_loose_edges(const Frame& frame, const Method& method) {
     std::uint64_t count = 0;
-    for (const SurfaceInstance& instance : frame.surfaces.instances)
-        count += instance.mesh->loose_edges.size();
+    for (const SurfaceInstance& instance : frame.surfaces.instances) count += instance.mesh->loose_edges.size();
     if (count == 0) return;
     const std::string lines = count == 1 ? "1 line" : std::to_string(count) + " lines";
     if (!frame.scene->lines.classes.has(LineClass::mark)) {
-        std::fprintf(stderr, "burin: note: the class mark is not drawn, and so %s of the input %s missing; --lines %s has it, too\n", lines.c_str(),
-                     count == 1 ? "is" : "are", to_string(frame.scene->lines.classes | LineClass::mark).c_str());
+        std::fprintf(
+            stderr,
+            "burin: note: the class mark is not drawn, and so %s of the input %s missing; --lines %s has it, too\n",
+            lines.c_str(), count == 1 ? "is" : "are", to_string(frame.scene->lines.classes | LineClass::mark).c_str());
     } else if (!method.draws_loose_edges && method.draws.has(LineClass::mark)) {
-        std::fprintf(stderr, "burin: note: method %s draws edges of polygons only, and leaves out %s of the input; abuffer draws them\n",
-                     std::string(method.name).c_str(), lines.c_str());
+        std::fprintf(
+            stderr,
+            "burin: note: method %s draws edges of polygons only, and leaves out %s of the input; abuffer draws them\n",
+            std::string(method.name).c_str(), lines.c_str());
     }
 }
 
@@ -154,11 +154,12 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
                  const OutputOptions& output) {
     if (a.quiet) return;
     if (a.names_layers && output.format != OutputFormat::exr) {
-        std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n",
-                   stderr);
+        std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n", stderr);
     }
     if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
-        std::fputs("burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n", stderr);
+        std::fputs(
+            "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
+            stderr);
     }
     const auto note_if_unused = [&](bool is_given, const char* option, std::string_view user) {
         if (!is_given || method.name == user) return;
@@ -180,9 +181,10 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
     }
     if (lines.style.side != StrokeSide::both && method.name != "abuffer" && method.name != "patel" &&
         method.name != "reference") {
-        std::fprintf(stderr,
-                     "burin: note: method %s draws strokes on both sides; lines.side is for abuffer, patel and reference\n",
-                     std::string(method.name).c_str());
+        std::fprintf(
+            stderr,
+            "burin: note: method %s draws strokes on both sides; lines.side is for abuffer, patel and reference\n",
+            std::string(method.name).c_str());
     }
     note_if_unused(lines.style.filter != PixelFilter::box, "lines.filter", "abuffer");
     note_if_unused(lines.style.dash_px.has_value(), "lines.dash", "abuffer");
@@ -194,8 +196,7 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
     const double wanted = lines.style.width_px;
     const double drawn = patel_line_width_px(frame.scene->patel.mask_bits, wanted);
     if (method.name == "patel" && std::abs(drawn - wanted) > 0.01 * wanted) {
-        std::fprintf(stderr,
-                     "burin: note: method patel draws lines %.3g px wide with %d-bit masks, not %.3g px\n",
+        std::fprintf(stderr, "burin: note: method patel draws lines %.3g px wide with %d-bit masks, not %.3g px\n",
                      drawn, frame.scene->patel.mask_bits, wanted);
     }
     const double gbuffer_px = gbuffer_line_width_px(*frame.scene);
@@ -321,22 +322,21 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
     const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
     std::printf("%s\n", input.c_str());
     std::printf("  objects    %llu, of %llu meshes\n", number(t.objects), number(t.meshes));
-    std::printf("  triangles  %llu, as %llu polygons with %llu vertices\n", number(t.triangles),
-                number(t.polygons), number(t.vertices));
+    std::printf("  triangles  %llu, as %llu polygons with %llu vertices\n", number(t.triangles), number(t.polygons),
+                number(t.vertices));
     std::printf("  bounds     %.6g %.6g %.6g  to  %.6g %.6g %.6g\n", t.bounds.low.x, t.bounds.low.y, t.bounds.low.z,
                 t.bounds.high.x, t.bounds.high.y, t.bounds.high.z);
     std::printf("  edges      %llu: %llu border (%llu along a seam), %llu non-manifold, %llu marked\n",
-                number(t.edges.edges), number(t.edges.border), number(t.edges.seam),
-                number(t.edges.non_manifold), number(t.edges.marked));
+                number(t.edges.edges), number(t.edges.border), number(t.edges.seam), number(t.edges.non_manifold),
+                number(t.edges.marked));
     if (t.edges.loose > 0)
-        std::printf("  lines      %llu of those marked that no polygon has\n",
-                    number(t.edges.loose));
+        std::printf("  lines      %llu of those marked that no polygon has\n", number(t.edges.loose));
     std::printf("  dropped    %llu degenerate and %llu duplicate polygons; %llu vertices welded\n",
                 number(t.repairs.degenerate_polygons), number(t.repairs.duplicate_polygons),
                 number(t.repairs.welded_vertices));
     if (t.repairs.cut_polygons > 0) {
-        std::printf("  cut        %llu polygons that pass an edge twice in one direction, into %llu\n", number(t.repairs.cut_polygons),
-                    number(t.repairs.cut_pieces));
+        std::printf("  cut        %llu polygons that pass an edge twice in one direction, into %llu\n",
+                    number(t.repairs.cut_polygons), number(t.repairs.cut_pieces));
     }
     for (const std::string& note : scene.notes) std::printf("  note       %s\n", printable(note, 4000).c_str());
     std::printf("  materials  %zu:", scene.materials.size());
@@ -353,8 +353,8 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
     constexpr std::size_t kMaxListed = 50;
     for (std::size_t i = 0; i < scene.objects.size() && i < kMaxListed; ++i) {
         const MeshRepairs& r = scene.meshes[scene.objects[i].mesh].repairs;
-        std::printf("  object %zu  %s: %llu triangles\n", i + 1,
-                    printable(scene.objects[i].name, 200).c_str(), number(r.input_triangles));
+        std::printf("  object %zu  %s: %llu triangles\n", i + 1, printable(scene.objects[i].name, 200).c_str(),
+                    number(r.input_triangles));
     }
     if (scene.objects.size() > kMaxListed) {
         std::printf("  ... and %zu more; --json lists all\n", scene.objects.size() - kMaxListed);
@@ -389,8 +389,7 @@ void run_render(const Arguments& a) {
     }
 
     const bool shows_bar = !a.quiet && isatty(STDERR_FILENO) != 0;
-    Progress progress(a.alf_progress ? ProgressStyle::alf
-                                     : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
+    Progress progress(a.alf_progress ? ProgressStyle::alf : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     Stopwatch total, watch;
     StageTimes times;
     Scene scene = load_input(a, outputs);
@@ -449,8 +448,8 @@ void run_render(const Arguments& a) {
     if (a.verbose || shows_bar) {
         std::fprintf(stderr, "%s: %dx%d, %llu triangles, %.2f s (read %.2f, draw %.2f, write %.2f)\n",
                      output.path.c_str(), frame.crop.width(), frame.crop.height(),
-                     static_cast<unsigned long long>(times.render.triangles), total.seconds(),
-                     times.load_s, frame_seconds(times.render), times.write_s);
+                     static_cast<unsigned long long>(times.render.triangles), total.seconds(), times.load_s,
+                     frame_seconds(times.render), times.write_s);
     }
 }
 
@@ -485,8 +484,8 @@ void run_explain(const Arguments& a) {
 void run_methods(const Arguments& a) {
     if (!a.json) {
         for (const Method& m : methods()) {
-            std::printf("%-16s %s\n%-16s draws %s\n", std::string(m.name).c_str(),
-                        std::string(m.source).c_str(), "", to_string(m.draws).c_str());
+            std::printf("%-16s %s\n%-16s draws %s\n", std::string(m.name).c_str(), std::string(m.source).c_str(), "",
+                        to_string(m.draws).c_str());
         }
         return;
     }

@@ -20,8 +20,7 @@ void make_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error || !std::filesystem::is_directory(folder)) {
-        throw InputError(folder + ": cannot make this folder" +
-                         (error ? ": " + error.message() : "") +
+        throw InputError(folder + ": cannot make this folder" + (error ? ": " + error.message() : "") +
                          "; give the name of a folder to write to");
     }
     if (::access(folder.c_str(), W_OK | X_OK) != 0) {
@@ -32,7 +31,9 @@ void make_folder(const std::string& folder) {
 /// All files that a comparison writes.
 std::vector<OutputFile> files_in(const std::string& folder) {
     std::vector<OutputFile> files;
-    const auto add = [&](const std::string& name) { files.push_back({"--output", (std::filesystem::path(folder) / name).string()}); };
+    const auto add = [&](const std::string& name) {
+        files.push_back({"--output", (std::filesystem::path(folder) / name).string()});
+    };
     for (const Method& method : methods()) {
         add(std::string(method.name) + ".png");
         add(std::string(method.name) + "_diff.png");
@@ -63,9 +64,7 @@ std::vector<const Method*> chosen_methods(const std::vector<std::string>& names)
 /// is left out, and the user told.
 void draw_what_all_can(Scene& scene, bool quiet) {
     std::string left_out;
-    const auto leave_out = [&](const char* what) {
-        left_out += (left_out.empty() ? "" : ", ") + std::string(what);
-    };
+    const auto leave_out = [&](const char* what) { left_out += (left_out.empty() ? "" : ", ") + std::string(what); };
     LineStyle& style = scene.lines.style;
     if (style.side != StrokeSide::both) leave_out("lines.side (strokes lie on both sides)");
     if (style.filter != PixelFilter::box) leave_out("lines.filter");
@@ -86,8 +85,7 @@ void draw_what_all_can(Scene& scene, bool quiet) {
     scene.lines.crease_fade_deg = 0;
     style.hidden.style = HiddenStyle::none;
     if (!left_out.empty() && !quiet) {
-        std::fprintf(stderr, "burin: note: not every method has %s; the comparison goes without\n",
-                     left_out.c_str());
+        std::fprintf(stderr, "burin: note: not every method has %s; the comparison goes without\n", left_out.c_str());
     }
 }
 
@@ -95,8 +93,7 @@ void draw_what_all_can(Scene& scene, bool quiet) {
 
 void run_compare(const Arguments& a) {
     const bool shows_bar = !a.quiet && isatty(STDERR_FILENO) != 0;
-    Progress progress(a.alf_progress ? ProgressStyle::alf
-                                     : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
+    Progress progress(a.alf_progress ? ProgressStyle::alf : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     const Stopwatch total;
     Scene scene = load_input(a, files_in(a.output));
     draw_what_all_can(scene, a.quiet);
@@ -113,24 +110,22 @@ void run_compare(const Arguments& a) {
     ComparisonOptions options{a.output, chosen_methods(a.methods), a.frames, a.threads, &progress};
     Comparison so_far;
     try {
-        const Comparison comparison =
-            run_comparison(scene, a.input, view, options, [&](const Comparison& c) {
-                so_far = c;
-                write_metrics(c, a.output);
-            });
+        const Comparison comparison = run_comparison(scene, a.input, view, options, [&](const Comparison& c) {
+            so_far = c;
+            write_metrics(c, a.output);
+        });
         write_report(comparison, a.output);
     } catch (const Interrupted&) {
         progress.finish();
         if (so_far.methods.empty()) throw Interrupted("interrupted; no method was finished");
         throw Interrupted("interrupted; " + a.output + "/metrics.json has the " +
-                          std::to_string(so_far.methods.size()) + " of " +
-                          std::to_string(options.methods.size()) + " methods that were finished");
+                          std::to_string(so_far.methods.size()) + " of " + std::to_string(options.methods.size()) +
+                          " methods that were finished");
     }
     progress.finish();
     if (a.verbose || shows_bar) {
-        std::fprintf(stderr, "%s/report.html: %zu methods, %dx%d, %.1f s\n", a.output.c_str(),
-                     options.methods.size(), view.crop.width(), view.crop.height(),
-                     total.seconds());
+        std::fprintf(stderr, "%s/report.html: %zu methods, %dx%d, %.1f s\n", a.output.c_str(), options.methods.size(),
+                     view.crop.width(), view.crop.height(), total.seconds());
     }
 }
 

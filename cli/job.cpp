@@ -18,8 +18,10 @@ SceneDescription describe_input(const Arguments& a) {
     if (is_scene_file(a.input)) return read_scene_file(a.input, a.overrides);
     if (is_model_file(a.input)) return bare_model_scene(a.input, a.overrides);
     const bool is_stdin = a.input == "-" || a.input == "/dev/stdin";
-    throw InputError(a.input + (is_stdin ? ": standard input is not read, and the kind of an input is told by its suffix; burin reads .toml scenes and "
-                                         : ": unknown kind of input; burin reads .toml scenes and ") +
+    throw InputError(a.input +
+                     (is_stdin ? ": standard input is not read, and the kind of an input is told by its suffix; burin "
+                                 "reads .toml scenes and "
+                               : ": unknown kind of input; burin reads .toml scenes and ") +
                      ".obj .ply .stl .off .gltf .glb models");
 }
 
@@ -36,9 +38,7 @@ const CameraSettings& chosen_camera(const Scene& scene, const std::string& name)
                      (known.empty() ? "the input names none" : "the input has " + known));
 }
 
-bool changes_view(const Arguments& a) {
-    return a.eye || a.target || a.up || a.fov_deg || a.ortho_height;
-}
+bool changes_view(const Arguments& a) { return a.eye || a.target || a.up || a.fov_deg || a.ortho_height; }
 
 /// The scene's camera; what the command line says about the view replaces it.
 CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
@@ -83,10 +83,12 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
     }
     refuse_to_overwrite(outputs, files);
     files.clear();
-    Scene scene = load_scene(std::move(description), {.threads = a.threads, .strict = a.strict, .budget = a.model_budget}, &files);
+    Scene scene = load_scene(std::move(description),
+                             {.threads = a.threads, .strict = a.strict, .budget = a.model_budget}, &files);
     refuse_to_overwrite(outputs, files);
     if (!a.quiet && a.command != Command::info) {  // which prints them with the rest
-        for (const std::string& note : scene.notes) std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
+        for (const std::string& note : scene.notes)
+            std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
     }
     if (a.size) {
         scene.picture.width = (*a.size)[0];
@@ -120,8 +122,7 @@ Camera camera_of(const Scene& scene, const Arguments& a) {
     try {
         return resolve_camera(settings, scene_points(scene), aspect);
     } catch (const InputError& error) {
-        if (changes_view(a))
-            throw UsageError("--eye, --target, --up, --fov, --ortho: " + std::string(error.what()));
+        if (changes_view(a)) throw UsageError("--eye, --target, --up, --fov, --ortho: " + std::string(error.what()));
         throw InputError(place + ": " + error.what());
     }
 }

@@ -4,14 +4,15 @@
 
 #include "cli/arguments.h"
 #include "cli/output_files.h"
-#include "render/frame.h"
 #include "methods/method_table.h"
+#include "render/frame.h"
 #include "scene/scene.h"
 
 namespace burin {
 
-/// A scene with the command line's wishes worked in. Prints what its models' readers noted, but for `info`. Throws InputError and
-/// UsageError; this where one of the outputs is a file that is read, before models are if the scene file names it.
+/// A scene with the command line's wishes worked in. Prints what its models' readers noted, but for `info`. Throws
+/// InputError and UsageError; this where one of the outputs is a file that is read, before models are if the scene file
+/// names it.
 Scene load_input(const Arguments& arguments, const std::vector<OutputFile>& outputs = {});
 
 /// The camera that the arguments ask for. Throws InputError and UsageError.

@@ -5,8 +5,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <cstdlib>
+#include <exception>
 #include <new>
 #include <string_view>
 #include <typeinfo>
@@ -25,7 +25,8 @@ namespace {
 
 enum ExitStatus { kDone = 0, kFailed = 1, kWrongUsage = 2, kInterrupted = 130 };
 
-constexpr std::string_view kOutOfMemory = "burin: out of memory; use a smaller --size, fewer --layers or a smaller model\n";
+constexpr std::string_view kOutOfMemory =
+    "burin: out of memory; use a smaller --size, fewer --layers or a smaller model\n";
 
 /// Destructors of libraries take memory: where there is none, they end the program.
 [[noreturn]] void end_without_memory() {
@@ -55,18 +56,21 @@ void run(const burin::Arguments& arguments) {
         case burin::Command::render:
             if (arguments.memory_bytes == 0) burin::keep_freed_memory(arguments.threads);
             return run_render(arguments);
-        case burin::Command::info: return run_info(arguments);
-        case burin::Command::explain: return run_explain(arguments);
-        case burin::Command::methods: return run_methods(arguments);
-        case burin::Command::compare: return run_compare(arguments);
+        case burin::Command::info:
+            return run_info(arguments);
+        case burin::Command::explain:
+            return run_explain(arguments);
+        case burin::Command::methods:
+            return run_methods(arguments);
+        case burin::Command::compare:
+            return run_compare(arguments);
     }
 }
 
 /// What was printed must have arrived.
 void check_standard_output() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        throw burin::InputError(
-            "standard output: cannot write; is the disk full, or the reader gone?");
+        throw burin::InputError("standard output: cannot write; is the disk full, or the reader gone?");
     }
 }
 

@@ -20,7 +20,6 @@ bool is_one_file(const std::string& a, const std::string& b);
 
 /// Throws UsageError if one of the files to be written is one of those that are read, under
 /// whatever name.
-void refuse_to_overwrite(const std::vector<OutputFile>& outputs,
-                         const std::vector<std::string>& inputs);
+void refuse_to_overwrite(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs);
 
 }  // namespace burin

@@ -8,8 +8,7 @@ namespace burin {
 namespace {
 
 /// How wide every part of some lines is.
-std::vector<double> all_widths(const std::vector<Segment>& lines, const Plane& coverage,
-                               double reach_px) {
+std::vector<double> all_widths(const std::vector<Segment>& lines, const Plane& coverage, double reach_px) {
     std::vector<double> widths;
     for (const Segment& line : lines) {
         const std::vector<double> w = widths_along(coverage, line, reach_px);
@@ -21,8 +20,7 @@ std::vector<double> all_widths(const std::vector<Segment>& lines, const Plane& c
 /// Share of the values below a bound.
 double share_below(const std::vector<double>& values, double bound) {
     if (values.empty()) return 0;
-    const auto below =
-        std::count_if(values.begin(), values.end(), [&](double v) { return v < bound; });
+    const auto below = std::count_if(values.begin(), values.end(), [&](double v) { return v < bound; });
     return static_cast<double>(below) / static_cast<double>(values.size());
 }
 
@@ -45,8 +43,7 @@ double rms_error(const std::vector<ProfilePoint>& points) {
     return points.empty() ? 0 : std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-void measure_star(const TestChart& chart, const Plane& coverage, double truth_width_px,
-                  ComparisonRow& row) {
+void measure_star(const TestChart& chart, const Plane& coverage, double truth_width_px, ComparisonRow& row) {
     ChartCurves curves;
     std::vector<ProfilePoint> all;
     double beading = 0, drawn_lines = 0;
@@ -72,8 +69,7 @@ void measure_star(const TestChart& chart, const Plane& coverage, double truth_wi
     v[Metric::angle_rmse] = rms_error(all);
     v[Metric::levels] = static_cast<double>(coverage_levels(coverage));
     if (drawn_lines > 0) {
-        const auto [low, high] =
-            std::minmax_element(curves.width_px.begin(), curves.width_px.end());
+        const auto [low, high] = std::minmax_element(curves.width_px.begin(), curves.width_px.end());
         v[Metric::width_ripple] = (*high - *low) / mean;
         v[Metric::beading] = beading / drawn_lines;
         v[Metric::within_bin_sd] = within_bin_deviation(all, chart.reach_px);
@@ -93,8 +89,7 @@ void measure_star(const TestChart& chart, const Plane& coverage, double truth_wi
 }
 
 /// Hidden lines may leak on one side only: their ink counts, up to that of a visible line.
-void measure_leaks(const TestChart& chart, const Plane& coverage, double expected_px,
-                   ComparisonRow& row) {
+void measure_leaks(const TestChart& chart, const Plane& coverage, double expected_px, ComparisonRow& row) {
     std::vector<double> all, at_gap;
     for (std::size_t i = 0; i < chart.hidden.size(); ++i) {
         const TestChart::HiddenLine& line = chart.hidden[i];
@@ -122,20 +117,18 @@ double star_width_px(const TestChart& chart, const Plane& coverage) {
     return mean_of(all_widths(chart.star, coverage, chart.reach_px));
 }
 
-void measure_chart(const TestChart& chart, const Plane& coverage, LineClassSet draws,
-                   double truth_width_px, ComparisonRow& row) {
+void measure_chart(const TestChart& chart, const Plane& coverage, LineClassSet draws, double truth_width_px,
+                   ComparisonRow& row) {
     const LineClassSet classes = chart_classes(draws);
     if (!classes.has(LineClass::crease) && !classes.has(LineClass::polygon)) return;
     measure_star(chart, coverage, truth_width_px, row);
     const double width = *row.values[Metric::width_px];
     if (!(width > 0)) return;  // shares of nothing
     const double expected = median_of(all_widths(chart.star, coverage, chart.reach_px));
-    row.values[Metric::stippled_share] =
-        stippled_share(chart, coverage, 0.5 * expected);
+    row.values[Metric::stippled_share] = stippled_share(chart, coverage, 0.5 * expected);
     measure_leaks(chart, coverage, expected, row);
     if (classes.has(LineClass::silhouette)) {
-        row.values[Metric::silhouette_ratio] =
-            mean_of(all_widths(chart.silhouettes, coverage, chart.reach_px)) / width;
+        row.values[Metric::silhouette_ratio] = mean_of(all_widths(chart.silhouettes, coverage, chart.reach_px)) / width;
     }
 }
 

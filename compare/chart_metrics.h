@@ -11,8 +11,8 @@ LineClassSet chart_classes(LineClassSet draws);
 
 /// Measures a method's drawing of the chart. `truth_width_px` is the width that it is compared
 /// with. Does nothing for a method that draws no interior edges at all.
-void measure_chart(const TestChart& chart, const Plane& coverage, LineClassSet draws,
-                   double truth_width_px, ComparisonRow& row);
+void measure_chart(const TestChart& chart, const Plane& coverage, LineClassSet draws, double truth_width_px,
+                   ComparisonRow& row);
 
 /// The integrated width of the chart's star alone.
 double star_width_px(const TestChart& chart, const Plane& coverage);

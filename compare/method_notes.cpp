@@ -97,8 +97,8 @@ constexpr MethodNote kNotes[] = {
 }  // namespace
 
 const MethodNote* find_method_note(std::string_view name) {
-    const auto it = std::find_if(std::begin(kNotes), std::end(kNotes),
-                                 [&](const MethodNote& n) { return n.name == name; });
+    const auto it =
+        std::find_if(std::begin(kNotes), std::end(kNotes), [&](const MethodNote& n) { return n.name == name; });
     return it == std::end(kNotes) ? nullptr : &*it;
 }
 

@@ -63,9 +63,7 @@ struct MetricValues {
     std::array<std::optional<double>, kMetricCount> values;
 
     std::optional<double>& operator[](Metric m) { return values[static_cast<std::size_t>(m)]; }
-    const std::optional<double>& operator[](Metric m) const {
-        return values[static_cast<std::size_t>(m)];
-    }
+    const std::optional<double>& operator[](Metric m) const { return values[static_cast<std::size_t>(m)]; }
 };
 
 }  // namespace burin

@@ -16,8 +16,7 @@ double lonely_coverage(const Plane& a, const Plane& b) {
     const Plane near_b = dilated(b);
     double sum = 0;
     for (std::size_t i = 0; i < a.values.size(); ++i) {
-        if (a.values[i] >= kLineFloor && near_b.values[i] < kLineFloor)
-            sum += static_cast<double>(a.values[i]);
+        if (a.values[i] >= kLineFloor && near_b.values[i] < kLineFloor) sum += static_cast<double>(a.values[i]);
     }
     return sum;
 }
@@ -28,8 +27,7 @@ std::optional<CoverageError> coverage_error(const Plane& result, const Plane& tr
     std::vector<double> squares;
     for (std::size_t i = 0; i < truth.values.size(); ++i) {
         if (!(result.values[i] > 0 || truth.values[i] > 0)) continue;
-        const double error =
-            static_cast<double>(result.values[i]) - static_cast<double>(truth.values[i]);
+        const double error = static_cast<double>(result.values[i]) - static_cast<double>(truth.values[i]);
         squares.push_back(error * error);
     }
     if (squares.empty()) return std::nullopt;

@@ -122,11 +122,10 @@ std::string csv_number(double value) {
     return text;
 }
 
-void write_csv_row(std::string& csv, const MethodResult& result, const char* kind,
-                   const ComparisonRow& row) {
-    csv += csv_field(result.method->name) + "," + kind + "," + csv_field(to_string(result.drawn)) +
-           "," + csv_field(to_string(result.not_drawn)) + "," + csv_number(row.asked_width_px) +
-           "," + csv_number(row.truth_width_px);
+void write_csv_row(std::string& csv, const MethodResult& result, const char* kind, const ComparisonRow& row) {
+    csv += csv_field(result.method->name) + "," + kind + "," + csv_field(to_string(result.drawn)) + "," +
+           csv_field(to_string(result.not_drawn)) + "," + csv_number(row.asked_width_px) + "," +
+           csv_number(row.truth_width_px);
     for (const auto& value : row.values.values) csv += value ? "," + csv_number(*value) : ",";
     csv += "\n";
 }
@@ -176,18 +175,8 @@ std::string metrics_json(const Comparison& c) {
     json.key("metrics").begin_array();
     for (const MetricInfo& info : metric_table()) {
         json.begin_object();
-        json.key("key")
-            .value(info.key)
-            .key("group")
-            .value(info.group)
-            .key("title")
-            .value(info.title);
-        json.key("what")
-            .value(info.what)
-            .key("better")
-            .value(word_for(info.better))
-            .key("digits")
-            .value(info.digits);
+        json.key("key").value(info.key).key("group").value(info.group).key("title").value(info.title);
+        json.key("what").value(info.what).key("better").value(word_for(info.better)).key("digits").value(info.digits);
         json.end_object();
     }
     json.end_array();

@@ -44,9 +44,7 @@ Vec3 hunt_lab(Vec3 xyz) {
     return {lightness, .01 * lightness * 500 * (fx - fy), .01 * lightness * 200 * (fy - fz)};
 }
 
-double hyab(Vec3 a, Vec3 b) {
-    return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
-}
+double hyab(Vec3 a, Vec3 b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
 
 Vec3 at(const ColorPlanes& p, std::size_t i) {
     return {static_cast<double>(p[0].values[i]), static_cast<double>(p[1].values[i]),
@@ -63,9 +61,7 @@ void put(ColorPlanes& p, std::size_t i, Vec3 c) {
 ColorPlanes opponent(const ColorPlanes& srgb) {
     ColorPlanes result = srgb;
     for (std::size_t i = 0; i < srgb[0].values.size(); ++i) {
-        const auto channel = [&](std::size_t c) {
-            return static_cast<double>(linear_from_srgb(srgb[c].values[i]));
-        };
+        const auto channel = [&](std::size_t c) { return static_cast<double>(linear_from_srgb(srgb[c].values[i])); };
         const Vec3 xyz = xyz_from_linear({channel(0), channel(1), channel(2)});
         const double x = xyz.x / kWhite[0], y = xyz.y / kWhite[1], z = xyz.z / kWhite[2];
         put(result, i, {116 * y - 16, 500 * (x - y), 200 * (y - z)});
@@ -78,8 +74,7 @@ ColorPlanes opponent(const ColorPlanes& srgb) {
 struct Sensitivity {
     double a1, b1, a2, b2;
 };
-constexpr Sensitivity kSensitivities[3] = {
-    {1, .0047, 0, 1e-5}, {1, .0053, 0, 1e-5}, {34.1, .04, 13.5, .025}};
+constexpr Sensitivity kSensitivities[3] = {{1, .0047, 0, 1e-5}, {1, .0053, 0, 1e-5}, {34.1, .04, 13.5, .025}};
 
 int sensitivity_radius() {
     return static_cast<int>(std::ceil(3 * std::sqrt(.04 / (2 * kPi * kPi)) * kPixelsPerDegree));
@@ -107,8 +102,7 @@ Plane filtered(const Plane& plane, const Sensitivity& s, int threads) {
         if (weights[k] == 0) continue;
         const Plane part = convolve(plane, kernels[k], kernels[k], threads);
         const auto weight = static_cast<float>(weights[k] / total);
-        for (std::size_t i = 0; i < result.values.size(); ++i)
-            result.values[i] += weight * part.values[i];
+        for (std::size_t i = 0; i < result.values.size(); ++i) result.values[i] += weight * part.values[i];
     }
     return result;
 }
@@ -120,20 +114,17 @@ ColorPlanes seen(const ColorPlanes& yycxcz, int threads) {
     for (std::size_t i = 0; i < result[0].values.size(); ++i) {
         const Vec3 o = at(result, i);
         const double y = (o.x + 16) / 116;
-        const Vec3 rgb = linear_from_xyz(
-            {(y + o.y / 500) * kWhite[0], y * kWhite[1], (y - o.z / 200) * kWhite[2]});
+        const Vec3 rgb = linear_from_xyz({(y + o.y / 500) * kWhite[0], y * kWhite[1], (y - o.z / 200) * kWhite[2]});
         put(result, i,
-            hunt_lab(xyz_from_linear({std::clamp(rgb.x, 0.0, 1.0), std::clamp(rgb.y, 0.0, 1.0),
-                                      std::clamp(rgb.z, 0.0, 1.0)})));
+            hunt_lab(xyz_from_linear(
+                {std::clamp(rgb.x, 0.0, 1.0), std::clamp(rgb.y, 0.0, 1.0), std::clamp(rgb.z, 0.0, 1.0)})));
     }
     return result;
 }
 
 /// The largest colour difference there is: pure green against pure blue.
 double largest_difference() {
-    return std::pow(
-        hyab(hunt_lab(xyz_from_linear({0, 1, 0})), hunt_lab(xyz_from_linear({0, 0, 1}))),
-        kColorExponent);
+    return std::pow(hyab(hunt_lab(xyz_from_linear({0, 1, 0})), hunt_lab(xyz_from_linear({0, 0, 1}))), kColorExponent);
 }
 
 Plane color_difference(const ColorPlanes& a, const ColorPlanes& b, int threads) {
@@ -142,9 +133,8 @@ Plane color_difference(const ColorPlanes& a, const ColorPlanes& b, int threads) 
     Plane result(a[0].width, a[0].height);
     for (std::size_t i = 0; i < result.values.size(); ++i) {
         const double d = std::pow(hyab(at(lab_a, i), at(lab_b, i)), kColorExponent);
-        const double mapped = d < knee
-                                  ? d * kKneeValue / knee
-                                  : kKneeValue + (d - knee) / (largest - knee) * (1 - kKneeValue);
+        const double mapped =
+            d < knee ? d * kKneeValue / knee : kKneeValue + (d - knee) / (largest - knee) * (1 - kKneeValue);
         result.values[i] = static_cast<float>(mapped);
     }
     return result;
@@ -160,8 +150,7 @@ std::vector<float> balanced(std::vector<double> kernel) {
     double positive = 0, negative = 0;
     for (const double k : kernel) (k > 0 ? positive : negative) += k;
     std::vector<float> result;
-    for (const double k : kernel)
-        result.push_back(static_cast<float>(k > 0 ? k / positive : -k / negative));
+    for (const double k : kernel) result.push_back(static_cast<float>(k > 0 ? k / positive : -k / negative));
     return result;
 }
 
@@ -202,10 +191,9 @@ FlipError flip_error(const ColorPlanes& result, const ColorPlanes& truth, int th
     const Features fa = features(a[0], threads), fb = features(b[0], threads);
     double sum = 0;
     for (std::size_t i = 0; i < error.map.values.size(); ++i) {
-        const double edge = std::abs(static_cast<double>(fa.edges.values[i]) -
-                                     static_cast<double>(fb.edges.values[i]));
-        const double point = std::abs(static_cast<double>(fa.points.values[i]) -
-                                      static_cast<double>(fb.points.values[i]));
+        const double edge = std::abs(static_cast<double>(fa.edges.values[i]) - static_cast<double>(fb.edges.values[i]));
+        const double point =
+            std::abs(static_cast<double>(fa.points.values[i]) - static_cast<double>(fb.points.values[i]));
         const double feature = std::pow(std::max(edge, point) / std::sqrt(2.0), kFeatureExponent);
         const double d = std::pow(static_cast<double>(error.map.values[i]), 1 - feature);
         error.map.values[i] = static_cast<float>(d);
@@ -215,8 +203,7 @@ FlipError flip_error(const ColorPlanes& result, const ColorPlanes& truth, int th
     error.mean = sum / static_cast<double>(error.map.values.size());
     std::vector<float> sorted = error.map.values;
     const std::size_t rank = (sorted.size() - 1) * 95 / 100;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
-                     sorted.end());
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank), sorted.end());
     error.p95 = static_cast<double>(sorted[rank]);
     return error;
 }

@@ -13,15 +13,13 @@ constexpr double kStepAcross_px = 0.125;
 /// Area of a unit square on the side u <= t of a line with unit normal n through a point t away
 /// from the square's centre.
 double half_plane_area(double t, glm::dvec2 n) {
-    const double a = std::max(std::abs(n.x), std::abs(n.y)),
-                 b = std::min(std::abs(n.x), std::abs(n.y));
+    const double a = std::max(std::abs(n.x), std::abs(n.y)), b = std::min(std::abs(n.x), std::abs(n.y));
     if (b < 1e-9) return std::clamp(t / a + 0.5, 0.0, 1.0);
     // The square's shadow on the normal is a trapezoid: the convolution of boxes of widths a and b.
     const auto ramp2 = [](double x) { return x > 0 ? x * x : 0.0; };
     const double outer = 0.5 * (a + b), inner = 0.5 * (a - b);
-    return std::clamp(
-        (ramp2(t + outer) - ramp2(t + inner) - ramp2(t - inner) + ramp2(t - outer)) / (2 * a * b),
-        0.0, 1.0);
+    return std::clamp((ramp2(t + outer) - ramp2(t + inner) - ramp2(t - inner) + ramp2(t - outer)) / (2 * a * b), 0.0,
+                      1.0);
 }
 
 std::size_t bin_count(double reach_px) {
@@ -29,8 +27,7 @@ std::size_t bin_count(double reach_px) {
 }
 
 /// Points sorted into the bins of a line spread.
-std::vector<std::vector<ProfilePoint>> binned(std::span<const ProfilePoint> points,
-                                              double reach_px) {
+std::vector<std::vector<ProfilePoint>> binned(std::span<const ProfilePoint> points, double reach_px) {
     std::vector<std::vector<ProfilePoint>> bins(bin_count(reach_px));
     for (const ProfilePoint& p : points) {
         const double position = std::floor((p.u + reach_px) / LineSpread::kBin_px);
@@ -60,8 +57,7 @@ double residual(const std::vector<ProfilePoint>& bin) {
 }  // namespace
 
 double band_coverage(double u, glm::dvec2 across, double width_px) {
-    return half_plane_area(u + 0.5 * width_px, across) -
-           half_plane_area(u - 0.5 * width_px, across);
+    return half_plane_area(u + 0.5 * width_px, across) - half_plane_area(u - 0.5 * width_px, across);
 }
 
 std::vector<double> widths_along(const Plane& coverage, const Segment& segment, double reach_px) {
@@ -70,8 +66,7 @@ std::vector<double> widths_along(const Plane& coverage, const Segment& segment, 
     const double length = segment.length();
     const int steps = static_cast<int>(std::floor(2 * reach_px / kStepAcross_px));
     // A little slack, so that lines of equal length have equally many places.
-    const int places =
-        static_cast<int>(std::floor((length - 2 * kEndMargin_px) / kWidthStep_px + 1e-6)) + 1;
+    const int places = static_cast<int>(std::floor((length - 2 * kEndMargin_px) / kWidthStep_px + 1e-6)) + 1;
     for (int place = 0; place < places; ++place) {
         const double s = kEndMargin_px + place * kWidthStep_px;
         double sum = 0;
@@ -88,8 +83,7 @@ std::vector<double> widths_along(const Plane& coverage, const Segment& segment, 
 std::vector<double> smoothed_along(std::span<const double> widths, double window_px) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(window_px / kWidthStep_px)));
     std::vector<double> means;
-    for (std::size_t i = 0; i + count <= widths.size(); ++i)
-        means.push_back(mean_of(widths.subspan(i, count)));
+    for (std::size_t i = 0; i + count <= widths.size(); ++i) means.push_back(mean_of(widths.subspan(i, count)));
     return means;
 }
 
@@ -113,12 +107,11 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
-std::vector<ProfilePoint> profile_points(const Plane& coverage, const Segment& segment,
-                                         double reach_px, double width_px) {
+std::vector<ProfilePoint> profile_points(const Plane& coverage, const Segment& segment, double reach_px,
+                                         double width_px) {
     std::vector<ProfilePoint> points;
     const glm::dvec2 along = segment.along(), across = segment.across();
-    const glm::dvec2 low = glm::min(segment.a, segment.b) - reach_px,
-                     high = glm::max(segment.a, segment.b) + reach_px;
+    const glm::dvec2 low = glm::min(segment.a, segment.b) - reach_px, high = glm::max(segment.a, segment.b) + reach_px;
     const int x0 = std::max(0, static_cast<int>(std::floor(low.x)));
     const int y0 = std::max(0, static_cast<int>(std::floor(low.y)));
     const int x1 = std::min(coverage.width, static_cast<int>(std::ceil(high.x)));
@@ -127,10 +120,8 @@ std::vector<ProfilePoint> profile_points(const Plane& coverage, const Segment& s
         for (int x = x0; x < x1; ++x) {
             const glm::dvec2 from_a = glm::dvec2(x + 0.5, y + 0.5) - segment.a;
             const double s = glm::dot(from_a, along), u = glm::dot(from_a, across);
-            if (std::abs(u) > reach_px || s < kEndMargin_px || s > segment.length() - kEndMargin_px)
-                continue;
-            points.push_back(
-                {u, static_cast<double>(coverage.at(x, y)), band_coverage(u, across, width_px)});
+            if (std::abs(u) > reach_px || s < kEndMargin_px || s > segment.length() - kEndMargin_px) continue;
+            points.push_back({u, static_cast<double>(coverage.at(x, y)), band_coverage(u, across, width_px)});
         }
     }
     return points;

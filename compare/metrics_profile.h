@@ -50,8 +50,8 @@ struct ProfilePoint {
 };
 
 /// All pixels whose centres are within `reach_px` of the segment, its ends left out.
-std::vector<ProfilePoint> profile_points(const Plane& coverage, const Segment& segment,
-                                         double reach_px, double width_px);
+std::vector<ProfilePoint> profile_points(const Plane& coverage, const Segment& segment, double reach_px,
+                                         double width_px);
 
 /// The *line spread function*: mean coverage in bins of a quarter pixel from -reach_px to reach_px.
 struct LineSpread {

@@ -58,8 +58,7 @@ std::optional<double> ms_ssim(const Plane& a, const Plane& b, int threads) {
     for (std::size_t scale = 0; scale < kScaleWeights.size(); ++scale) {
         const Similarity s = similarity(p, q, threads);
         const bool last = scale + 1 == kScaleWeights.size();
-        result *=
-            std::pow(std::max(0.0, last ? s.all : s.contrast_structure), kScaleWeights[scale]);
+        result *= std::pow(std::max(0.0, last ? s.all : s.contrast_structure), kScaleWeights[scale]);
         p = halved(p);
         q = halved(q);
     }

@@ -27,14 +27,12 @@ std::optional<Flicker> flicker(const std::vector<Plane>& result, const std::vect
     for (std::size_t i = 0; i < near_line.values.size(); ++i) {
         double mean = 0, squares = 0;
         for (std::size_t j = 0; j < frames; ++j) {
-            const double error =
-                static_cast<double>(result[j].values[i]) - static_cast<double>(truth[j].values[i]);
+            const double error = static_cast<double>(result[j].values[i]) - static_cast<double>(truth[j].values[i]);
             mean += error;
             squares += error * error;
             if (j == 0) continue;
             const auto jump = [i, j](const std::vector<Plane>& p) {
-                return std::abs(static_cast<double>(p[j].values[i]) -
-                                static_cast<double>(p[j - 1].values[i]));
+                return std::abs(static_cast<double>(p[j].values[i]) - static_cast<double>(p[j - 1].values[i]));
             };
             f.pop = std::max(f.pop, jump(result) - jump(truth));
         }

@@ -46,16 +46,14 @@ PixelRect busiest_part(const Plane& coverage, PixelRect crop, int width, int hei
     };
     for (int y = 0; y < coverage.height; ++y) {
         for (int x = 0; x < coverage.width; ++x) {
-            sum(x + 1, y + 1) =
-                sum(x, y + 1) + sum(x + 1, y) - sum(x, y) + static_cast<double>(coverage.at(x, y));
+            sum(x + 1, y + 1) = sum(x, y + 1) + sum(x + 1, y) - sum(x, y) + static_cast<double>(coverage.at(x, y));
         }
     }
     PixelRect best{crop.x0, crop.y0, crop.x0 + width, crop.y0 + height};
     double most = -1;
     for (int y = 0; y + height <= coverage.height; y += kPartStep) {
         for (int x = 0; x + width <= coverage.width; x += kPartStep) {
-            const double mass =
-                sum(x + width, y + height) - sum(x, y + height) - sum(x + width, y) + sum(x, y);
+            const double mass = sum(x + width, y + height) - sum(x, y + height) - sum(x + width, y) + sum(x, y);
             if (mass <= most) continue;
             most = mass;
             best = {crop.x0 + x, crop.y0 + y, crop.x0 + x + width, crop.y0 + y + height};

@@ -11,22 +11,19 @@ namespace {
 
 /// A line like "VmHWM:   1234 kB" of /proc/self/status.
 std::optional<std::uint64_t> status_bytes(const std::string& name) {
-    const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen("/proc/self/status", "r"),
-                                                     std::fclose);
+    const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen("/proc/self/status", "r"), std::fclose);
     if (!file) return std::nullopt;
     char line[256];
     while (std::fgets(line, sizeof line, file.get()) != nullptr) {
         unsigned long long kilobytes = 0;
-        if (std::sscanf(line, (name + ": %llu kB").c_str(), &kilobytes) == 1)
-            return kilobytes * 1024;
+        if (std::sscanf(line, (name + ": %llu kB").c_str(), &kilobytes) == 1) return kilobytes * 1024;
     }
     return std::nullopt;
 }
 
 /// Makes the kernel forget the highest use so far (VmHWM).
 bool reset_peak() {
-    const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen("/proc/self/clear_refs", "w"),
-                                                     std::fclose);
+    const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen("/proc/self/clear_refs", "w"), std::fclose);
     return file && std::fputs("5", file.get()) >= 0 && std::fflush(file.get()) == 0;
 }
 

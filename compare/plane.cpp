@@ -15,10 +15,8 @@ float sample_bilinear(const Plane& plane, double x, double y) {
     return top * (1 - ty) + bottom * ty;
 }
 
-Plane convolve(const Plane& plane, std::span<const float> kernel_x, std::span<const float> kernel_y,
-               int threads) {
-    const int rx = static_cast<int>(kernel_x.size() / 2),
-              ry = static_cast<int>(kernel_y.size() / 2);
+Plane convolve(const Plane& plane, std::span<const float> kernel_x, std::span<const float> kernel_y, int threads) {
+    const int rx = static_cast<int>(kernel_x.size() / 2), ry = static_cast<int>(kernel_y.size() / 2);
     const auto width = static_cast<std::size_t>(plane.width);
     Plane rows(plane.width, plane.height);
     const auto height = static_cast<std::size_t>(plane.height);
@@ -39,8 +37,7 @@ Plane convolve(const Plane& plane, std::span<const float> kernel_x, std::span<co
     parallel_for(height, threads, [&](std::size_t y, int) {
         float* const out = result.values.data() + y * width;
         for (std::size_t k = 0; k < kernel_y.size(); ++k) {
-            const int row =
-                std::clamp(static_cast<int>(y) + static_cast<int>(k) - ry, 0, plane.height - 1);
+            const int row = std::clamp(static_cast<int>(y) + static_cast<int>(k) - ry, 0, plane.height - 1);
             const float* const in = rows.values.data() + static_cast<std::size_t>(row) * width;
             const float weight = kernel_y[k];
             for (std::size_t x = 0; x < width; ++x) out[x] += weight * in[x];

@@ -14,16 +14,14 @@ Plane plane_of(const Image& image, const char* name) {
     const Channel& channel = *image.find(name);
     Plane plane(image.width(), image.height());
     for (int y = 0; y < plane.height; ++y) {
-        for (int x = 0; x < plane.width; ++x)
-            plane.at(x, y) = static_cast<float>(image.value(channel, x, y));
+        for (int x = 0; x < plane.width; ++x) plane.at(x, y) = static_cast<float>(image.value(channel, x, y));
     }
     return plane;
 }
 
 }  // namespace
 
-LineRendering render_lines(const Method& method, const Scene& scene, const View& view,
-                           const RunOptions& options) {
+LineRendering render_lines(const Method& method, const Scene& scene, const View& view, const RunOptions& options) {
     const Frame frame = make_frame(scene, view.camera, view.width, view.height, view.crop);
     LayerSet layers{true, true, false, false, false, false, false};
     Film film({0, 0, view.width, view.height}, view.crop, layers, scene.lines.classes);

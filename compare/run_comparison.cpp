@@ -49,8 +49,7 @@ class ComparisonRunner {
         c_.truth_picture = "truth.png";
         write_picture(c_.truth_picture, picture_of(truth.image));
         const PixelRect busy = busiest_part(truth.coverage, view_.crop, 40, 40);
-        c_.focus = {(busy.x0 + busy.x1) / 2 - view_.crop.x0,
-                    (busy.y0 + busy.y1) / 2 - view_.crop.y0};
+        c_.focus = {(busy.x0 + busy.x1) / 2 - view_.crop.x0, (busy.y0 + busy.y1) / 2 - view_.crop.y0};
         if (c_.frames > 1) move_truth(truth.coverage);
         for (const Method* const method : options_.methods) {
             c_.methods.push_back(measure(*method));
@@ -70,8 +69,7 @@ class ComparisonRunner {
         c_.crop = view_.crop;
         c_.classes = scene_.lines.classes;
         c_.line_width_px = width_px_;
-        for (const SceneObject& object : scene_.objects)
-            c_.triangles += scene_.meshes[object.mesh].triangles.size();
+        for (const SceneObject& object : scene_.objects) c_.triangles += scene_.meshes[object.mesh].triangles.size();
         c_.frames = options_.frames;
         c_.threads = resolve_thread_count(options_.threads);
         c_.truth_method = truth_method().name;
@@ -94,8 +92,7 @@ class ComparisonRunner {
 
     std::uint64_t total_weight() const {
         const auto frames = static_cast<std::uint64_t>(options_.frames);
-        const std::uint64_t per_method =
-            kTruthWeight + 2 * kSceneWeight + kChartWeight + frames * kFrameWeight;
+        const std::uint64_t per_method = kTruthWeight + 2 * kSceneWeight + kChartWeight + frames * kFrameWeight;
         return kTruthWeight + frames * kTruthWeight / 6 + per_method * options_.methods.size();
     }
     void next_part(const std::string& label, std::uint64_t weight) {
@@ -117,8 +114,7 @@ class ComparisonRunner {
         part.channels = whole.channels;
         for (int y = r.y0; y < r.y1; ++y) {
             const auto row = static_cast<std::ptrdiff_t>(y) * whole.width;
-            part.pixels.insert(part.pixels.end(),
-                               whole.pixels.begin() + (row + r.x0) * whole.channels,
+            part.pixels.insert(part.pixels.end(), whole.pixels.begin() + (row + r.x0) * whole.channels,
                                whole.pixels.begin() + (row + r.x1) * whole.channels);
         }
         return part;
@@ -128,8 +124,7 @@ class ComparisonRunner {
     }
 
     /// Draws the scene's lines of some classes in some width.
-    LineRendering draw(const Method& method, LineClassSet classes, double width_px, WireWidth wire,
-                       const View& view) {
+    LineRendering draw(const Method& method, LineClassSet classes, double width_px, WireWidth wire, const View& view) {
         const LineSettings lines = scene_.lines;
         const WireWidth wire_width = scene_.wire.width;
         scene_.lines.classes = classes;
@@ -144,8 +139,7 @@ class ComparisonRunner {
         chart_->scene.wire.width = wire;
         chart_->scene.lines.classes = chart_classes(method.draws);
         chart_->scene.lines.style.width_px = width_px;
-        const View view{
-            chart_->camera, chart_->width, chart_->height, {0, 0, chart_->width, chart_->height}};
+        const View view{chart_->camera, chart_->width, chart_->height, {0, 0, chart_->width, chart_->height}};
         return render_lines(method, chart_->scene, view, run_).coverage;
     }
 
@@ -168,8 +162,8 @@ class ComparisonRunner {
             MetricValues& v = result.published.values;
             measure_time(method, result.drawn, *drawing, v);
             if (drawing->memory_bytes) {
-                v[Metric::memory] = *drawing->memory_bytes /
-                                    (static_cast<double>(view_.crop.width()) * view_.crop.height());
+                v[Metric::memory] =
+                    *drawing->memory_bytes / (static_cast<double>(view_.crop.width()) * view_.crop.height());
             }
         }
         next_part(name, kChartWeight);
@@ -183,12 +177,10 @@ class ComparisonRunner {
     }
 
     /// Quick methods run three times, and the median times count.
-    void measure_time(const Method& method, LineClassSet classes, const LineRendering& first,
-                      MetricValues& values) {
+    void measure_time(const Method& method, LineClassSet classes, const LineRendering& first, MetricValues& values) {
         std::vector<double> wall{first.time_s}, cpu{first.cpu_time_s};
         for (int i = 0; i < 2 && first.time_s < kQuick_s; ++i) {
-            const LineRendering again =
-                draw(method, classes, width_px_, WireWidth::published, view_);
+            const LineRendering again = draw(method, classes, width_px_, WireWidth::published, view_);
             wall.push_back(again.time_s);
             cpu.push_back(again.cpu_time_s);
         }
@@ -211,8 +203,7 @@ class ComparisonRunner {
         for (const Metric m : {Metric::time_s, Metric::cpu_time_s, Metric::memory})
             equal.values[m].reset();  // measured once only
         const LineClassSet classes = chart_classes(method.draws);
-        if (!chart_ || !(classes.has(LineClass::crease) || classes.has(LineClass::polygon)))
-            return {};
+        if (!chart_ || !(classes.has(LineClass::crease) || classes.has(LineClass::polygon))) return {};
         const Plane as_published = draw_chart(method, width_px_, WireWidth::published);
         measure_chart(*chart_, as_published, method.draws, width_px_, published);
 
@@ -223,18 +214,16 @@ class ComparisonRunner {
         });
         equal.asked_width_px = match.asked_px;
         if (!match.matches && match.measured_px > 0) {
-            equal.truth_width_px =
-                std::max(1.0, std::round(match.measured_px / kOwnWidthStep_px)) * kOwnWidthStep_px;
+            equal.truth_width_px = std::max(1.0, std::round(match.measured_px / kOwnWidthStep_px)) * kOwnWidthStep_px;
         }
-        const auto drawn = std::find_if(drawings.begin(), drawings.end(),
-                                        [&](const auto& d) { return d.first == match.asked_px; });
+        const auto drawn =
+            std::find_if(drawings.begin(), drawings.end(), [&](const auto& d) { return d.first == match.asked_px; });
         measure_chart(*chart_, drawn->second, method.draws, equal.truth_width_px, equal);
-        return {match.asked_px,
-                match.asked_px == width_px_ && drawn->second.values == as_published.values, true};
+        return {match.asked_px, match.asked_px == width_px_ && drawn->second.values == as_published.values, true};
     }
 
-    void measure_on_scene(const Method& method, const EqualWidth& equal_width,
-                          const LineRendering& drawing, MethodResult& result) {
+    void measure_on_scene(const Method& method, const EqualWidth& equal_width, const LineRendering& drawing,
+                          MethodResult& result) {
         const std::string name(method.name);
         const Plane& truth = truths_.coverage(result.truth, width_px_, view_, 0);
         measure_picture(drawing.coverage, truth, c_.threads, result.published.values);
@@ -249,8 +238,7 @@ class ComparisonRunner {
         const Plane coverage =
             equal_width.same_drawing
                 ? drawing.coverage
-                : draw(method, result.drawn, equal_width.asked_px, WireWidth::matched, view_)
-                      .coverage;
+                : draw(method, result.drawn, equal_width.asked_px, WireWidth::matched, view_).coverage;
         const Plane& equal_truth = truths_.coverage(result.truth, equal.truth_width_px, view_, 0);
         measure_picture(coverage, equal_truth, c_.threads, equal.values);
     }
@@ -274,25 +262,19 @@ class ComparisonRunner {
         }
         return frames;
     }
-    static std::vector<double> relative_coverage(const std::vector<Plane>& frames,
-                                                 const std::vector<Plane>& truth) {
+    static std::vector<double> relative_coverage(const std::vector<Plane>& frames, const std::vector<Plane>& truth) {
         double mean = 0;
-        for (const Plane& plane : truth)
-            mean += total_coverage(plane) / static_cast<double>(truth.size());
+        for (const Plane& plane : truth) mean += total_coverage(plane) / static_cast<double>(truth.size());
         std::vector<double> result;
-        for (const Plane& plane : frames)
-            result.push_back(mean > 0 ? total_coverage(plane) / mean : 0);
+        for (const Plane& plane : frames) result.push_back(mean > 0 ? total_coverage(plane) / mean : 0);
         return result;
     }
-    void measure_in_motion(const Method& method, const EqualWidth& equal_width,
-                           MethodResult& result) {
-        next_part(std::string(method.name) + ", moving",
-                  static_cast<std::uint64_t>(c_.frames) * kFrameWeight);
+    void measure_in_motion(const Method& method, const EqualWidth& equal_width, MethodResult& result) {
+        next_part(std::string(method.name) + ", moving", static_cast<std::uint64_t>(c_.frames) * kFrameWeight);
         for (ComparisonRow* const row : {&result.published, &result.equal_width}) {
             const bool is_equal = row == &result.equal_width;
             if (is_equal && !equal_width.is_known) continue;
-            if (is_equal && equal_width.same_drawing &&
-                row->truth_width_px == result.published.truth_width_px) {
+            if (is_equal && equal_width.same_drawing && row->truth_width_px == result.published.truth_width_px) {
                 for (const Metric m : {Metric::flicker_sd, Metric::energy_sd, Metric::pop}) {
                     row->values[m] = result.published.values[m];
                 }
@@ -302,8 +284,7 @@ class ComparisonRunner {
             std::vector<Plane> frames;
             for (int j = 0; j < c_.frames; ++j) {
                 frames.push_back(draw(method, result.drawn, row->asked_width_px,
-                                      is_equal ? WireWidth::matched : WireWidth::published,
-                                      frame_view(j))
+                                      is_equal ? WireWidth::matched : WireWidth::published, frame_view(j))
                                      .coverage);
             }
             const std::vector<Plane> truth = true_frames(result.truth, row->truth_width_px);
@@ -328,8 +309,7 @@ class ComparisonRunner {
 
 }  // namespace
 
-Comparison run_comparison(Scene& scene, const std::string& input, const View& view,
-                          const ComparisonOptions& options,
+Comparison run_comparison(Scene& scene, const std::string& input, const View& view, const ComparisonOptions& options,
                           const std::function<void(const Comparison&)>& done) {
     return ComparisonRunner(scene, view, options).run(input, done);
 }

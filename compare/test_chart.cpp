@@ -41,13 +41,12 @@ void add_object(Scene& scene, PolygonSoup soup, const char* name) {
 
 class ChartBuilder {
   public:
-    explicit ChartBuilder(double width_px)
-        : half_length_(16 + 0.5 * width_px), half_width_(9 + 0.5 * width_px) {
+    explicit ChartBuilder(double width_px) : half_length_(16 + 0.5 * width_px), half_width_(9 + 0.5 * width_px) {
         cell_ = std::ceil(2 * std::hypot(half_length_, half_width_)) + 4;
-        const int cells = kStarLines + kSlopeLines +
-                          static_cast<int>(std::size(kGaps_px) * (std::size(kHiddenSlopes_deg) +
-                                                                  std::size(kCoverSlopes_deg))) +
-                          kPyramids;
+        const int cells =
+            kStarLines + kSlopeLines +
+            static_cast<int>(std::size(kGaps_px) * (std::size(kHiddenSlopes_deg) + std::size(kCoverSlopes_deg))) +
+            kPyramids;
         const int rows = (cells + kColumns - 1) / kColumns;
         chart_.width = kColumns * static_cast<int>(cell_);
         chart_.height = rows * static_cast<int>(cell_);
@@ -55,8 +54,7 @@ class ChartBuilder {
     }
 
     TestChart build() {
-        for (int i = 0; i < kStarLines; ++i)
-            chart_.star.push_back(add_tent(glm::radians(double(i)), 45, 45));
+        for (int i = 0; i < kStarLines; ++i) chart_.star.push_back(add_tent(glm::radians(double(i)), 45, 45));
         for (int i = 0; i < kSlopeLines; ++i) {
             chart_.slopes.push_back(add_tent(glm::radians(i * 180.0 / kSlopeLines + 1.7), 65, -20));
         }
@@ -115,8 +113,7 @@ class ChartBuilder {
         const double right_z = -half_width_ * std::tan(glm::radians(right_deg));
         const std::uint32_t va = add_vertex(tents_, a, 0), vb = add_vertex(tents_, b, 0);
         const glm::dvec2 out = n * half_width_;
-        const std::uint32_t left[] = {va, vb, add_vertex(tents_, b + out, left_z),
-                                      add_vertex(tents_, a + out, left_z)};
+        const std::uint32_t left[] = {va, vb, add_vertex(tents_, b + out, left_z), add_vertex(tents_, a + out, left_z)};
         const std::uint32_t right[] = {vb, va, add_vertex(tents_, a - out, right_z),
                                        add_vertex(tents_, b - out, right_z)};
         tents_.add_polygon(left);
@@ -127,10 +124,9 @@ class ChartBuilder {
     /// A square over the whole of the last cell.
     void add_cover(double z) {
         const double h = 0.5 * cell_ - 1;
-        const std::uint32_t corners[] = {add_vertex(covers_, center_ + glm::dvec2(-h, -h), z),
-                                         add_vertex(covers_, center_ + glm::dvec2(h, -h), z),
-                                         add_vertex(covers_, center_ + glm::dvec2(h, h), z),
-                                         add_vertex(covers_, center_ + glm::dvec2(-h, h), z)};
+        const std::uint32_t corners[] = {
+            add_vertex(covers_, center_ + glm::dvec2(-h, -h), z), add_vertex(covers_, center_ + glm::dvec2(h, -h), z),
+            add_vertex(covers_, center_ + glm::dvec2(h, h), z), add_vertex(covers_, center_ + glm::dvec2(-h, h), z)};
         covers_.add_polygon(corners);
     }
 
@@ -139,10 +135,9 @@ class ChartBuilder {
         const glm::dvec2 d(std::cos(angle_rad), std::sin(angle_rad)), n(-d.y, d.x);
         const glm::dvec2 along = d * (half_length_ + 1), out = n * (half_width_ + 1);
         const double fall = (half_width_ + 1) * std::tan(glm::radians(slope_deg));
-        const std::uint32_t corners[] = {add_vertex(covers_, center_ - along - out, z + fall),
-                                         add_vertex(covers_, center_ + along - out, z + fall),
-                                         add_vertex(covers_, center_ + along + out, z - fall),
-                                         add_vertex(covers_, center_ - along + out, z - fall)};
+        const std::uint32_t corners[] = {
+            add_vertex(covers_, center_ - along - out, z + fall), add_vertex(covers_, center_ + along - out, z + fall),
+            add_vertex(covers_, center_ + along + out, z - fall), add_vertex(covers_, center_ - along + out, z - fall)};
         covers_.add_polygon(corners);
     }
 
@@ -152,14 +147,12 @@ class ChartBuilder {
         // From the corners run creases to the apex, and must not get into the silhouettes'
         // profiles.
         const double inset = chart_.reach_px + 1.5 - kEndMargin_px;
-        const glm::dvec2 corners[] = {c - d * h - n * h, c + d * h - n * h, c + d * h + n * h,
-                                      c - d * h + n * h};
+        const glm::dvec2 corners[] = {c - d * h - n * h, c + d * h - n * h, c + d * h + n * h, c - d * h + n * h};
         std::uint32_t base[4];
         for (std::size_t i = 0; i < 4; ++i) {
             base[i] = add_vertex(pyramids_, corners[i], -h);
             const glm::dvec2 next = corners[(i + 1) % 4], along = glm::normalize(next - corners[i]);
-            chart_.silhouettes.push_back(
-                {on_picture(corners[i] + along * inset), on_picture(next - along * inset)});
+            chart_.silhouettes.push_back({on_picture(corners[i] + along * inset), on_picture(next - along * inset)});
         }
         const std::uint32_t apex = add_vertex(pyramids_, c, 0);
         for (std::size_t i = 0; i < 4; ++i) {
@@ -179,8 +172,6 @@ class ChartBuilder {
 
 }  // namespace
 
-TestChart make_test_chart(double width_px) {
-    return ChartBuilder(width_px).build();
-}
+TestChart make_test_chart(double width_px) { return ChartBuilder(width_px).build(); }
 
 }  // namespace burin

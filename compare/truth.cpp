@@ -4,12 +4,9 @@
 
 namespace burin {
 
-const Method& truth_method() {
-    return *find_method("reference");
-}
+const Method& truth_method() { return *find_method("reference"); }
 
-const Plane& TruthCache::coverage(LineClassSet classes, double width_px, const View& view,
-                                  int frame) {
+const Plane& TruthCache::coverage(LineClassSet classes, double width_px, const View& view, int frame) {
     const Key key{classes.bits, width_px, frame};
     if (const auto it = planes_.find(key); it != planes_.end()) return it->second;
     return planes_.emplace(key, draw(classes, width_px, view).coverage).first->second;

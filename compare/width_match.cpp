@@ -20,8 +20,8 @@ WidthMatch match_width(double wanted_px, const std::function<double(double)>& me
     WidthMatch trial = as_wanted;
     for (int i = 0; i < kMaxTrials && !trial.matches; ++i) {
         if (!(trial.measured_px > 0)) return as_wanted;
-        const double asked = std::clamp(trial.asked_px * wanted_px / trial.measured_px,
-                                        0.25 * wanted_px, 4 * wanted_px);
+        const double asked =
+            std::clamp(trial.asked_px * wanted_px / trial.measured_px, 0.25 * wanted_px, 4 * wanted_px);
         const WidthMatch next = draw(asked);
         if (next.measured_px == trial.measured_px) return as_wanted;  // it does not follow
         trial = next;

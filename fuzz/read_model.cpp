@@ -15,8 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const burin::fuzz::ScratchFolder folder;
     std::string path = folder.write("input." + std::string(kKind), {data, size});
     if (kKind == "mtl")
-        path = folder.write("model.obj",
-                            "mtllib input.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+        path = folder.write("model.obj", "mtllib input.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
     try {
         burin::read_model(path, {});
     } catch (const burin::InputError&) {

@@ -35,9 +35,7 @@ class Choices {
         return static_cast<int>((state_ >> 33) % static_cast<std::uint64_t>(count));
     }
     bool one_in(int count) { return below(count) == 0; }
-    double between(double low, double high) {
-        return low + (high - low) * below(1 << 20) / (1 << 20);
-    }
+    double between(double low, double high) { return low + (high - low) * below(1 << 20) / (1 << 20); }
 
   private:
     std::uint64_t state_ = 0xcbf29ce484222325u;
@@ -49,10 +47,8 @@ void choose_look(Choices& choices, Scene& scene) {
     if (choices.one_in(4)) lines.contours = Contours::smooth;
     if (choices.one_in(4)) lines.crease_fade_deg = 20;
     lines.style.width_px = choices.one_in(8) ? choices.between(8, 200) : choices.between(0.2, 4);
-    if (choices.one_in(4))
-        lines.style.dash_px = {choices.between(0.001, 8), choices.between(0.001, 8)};
-    if (choices.one_in(2))
-        lines.style.hidden.style = choices.one_in(2) ? HiddenStyle::solid : HiddenStyle::dashed;
+    if (choices.one_in(4)) lines.style.dash_px = {choices.between(0.001, 8), choices.between(0.001, 8)};
+    if (choices.one_in(2)) lines.style.hidden.style = choices.one_in(2) ? HiddenStyle::solid : HiddenStyle::dashed;
     scene.abuffer.samples = choices.one_in(2) ? 2 : 4;
     if (choices.one_in(6)) {
         for (Material& material : scene.materials) material.opacity = 0.5f;
@@ -68,8 +64,7 @@ Camera choose_camera(Choices& choices, const Scene& scene) {
         settings.direction = axis;
         if (axis.y != 0) settings.up = glm::dvec3(0, 0, 1);
     } else {
-        settings.direction =
-            glm::dvec3(choices.between(-1, 1), choices.between(-1, 1), choices.between(0.1, 1));
+        settings.direction = glm::dvec3(choices.between(-1, 1), choices.between(-1, 1), choices.between(0.1, 1));
     }
     return resolve_camera(settings, scene_points(scene), static_cast<double>(kWidth) / kHeight);
 }
@@ -107,9 +102,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Camera camera = choose_camera(choices, scene);
         const Frame frame = make_frame(scene, camera, kWidth, kHeight, {0, 0, kWidth, kHeight});
         const bool is_default = !choices.one_in(8);
-        const Method& method = is_default ? methods().front()
-                                          : methods()[static_cast<std::size_t>(
-                                                choices.below(static_cast<int>(methods().size())))];
+        const Method& method =
+            is_default ? methods().front()
+                       : methods()[static_cast<std::size_t>(choices.below(static_cast<int>(methods().size())))];
         RunOptions options;
         options.threads = 1;
         const Film film = draw(frame, method, options);

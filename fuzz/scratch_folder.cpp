@@ -31,8 +31,7 @@ std::string ScratchFolder::write(std::string_view name, std::span<const std::uin
     const std::string path = path_ + "/" + std::string(name);
     std::FILE* const file = std::fopen(path.c_str(), "wb");
     if (file == nullptr) fail(path);
-    const std::size_t written =
-        bytes.empty() ? 0 : std::fwrite(bytes.data(), 1, bytes.size(), file);
+    const std::size_t written = bytes.empty() ? 0 : std::fwrite(bytes.data(), 1, bytes.size(), file);
     if (std::fclose(file) != 0 || written != bytes.size()) fail(path);
     return path;
 }

@@ -6,8 +6,8 @@
 
 namespace burin {
 
-/// The checksum at the end of a zlib stream (RFC 1950, 8.2), of bytes that come piece by piece: in its low half the sum of all
-/// bytes, plus 1, in its high half the sum of these sums after each byte, both modulo 65521.
+/// The checksum at the end of a zlib stream (RFC 1950, 8.2), of bytes that come piece by piece: in its low half the sum
+/// of all bytes, plus 1, in its high half the sum of these sums after each byte, both modulo 65521.
 class Adler32 {
   public:
     void add(std::span<const std::uint8_t> bytes);

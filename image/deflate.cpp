@@ -14,8 +14,9 @@ namespace {
 constexpr std::ptrdiff_t kMaxDistance = 32768;
 constexpr std::ptrdiff_t kLongRun = 512;       // is not summed byte by byte
 constexpr std::size_t kBlockSequences = 8192;  // that are coded together
-/// After so many misses it is noise, and only searched for runs. Not sooner: planes of noise may be copies of each other, as
-/// those of grey lines are, which are met only if enough places in a plane are entered into the table and searched.
+/// After so many misses it is noise, and only searched for runs. Not sooner: planes of noise may be copies of each
+/// other, as those of grey lines are, which are met only if enough places in a plane are entered into the table and
+/// searched.
 constexpr std::uint32_t kMissesOfNoise = 64;
 
 std::uint64_t load_eight(const std::uint8_t* p) {
@@ -30,14 +31,14 @@ std::size_t common_length(const std::uint8_t* p, const std::uint8_t* q, const st
     const std::uint8_t* const start = p;
     const auto differ = [](const std::uint8_t* a, const std::uint8_t* b) { return load_eight(a) ^ load_eight(b); };
     // Long runs, 32 bytes at a time.
-    while (end - p >= 32 && (differ(p, q) | differ(p + 8, q + 8) | differ(p + 16, q + 16) | differ(p + 24, q + 24)) == 0) {
+    while (end - p >= 32 &&
+           (differ(p, q) | differ(p + 8, q + 8) | differ(p + 16, q + 16) | differ(p + 24, q + 24)) == 0) {
         p += 32;
         q += 32;
     }
     for (; end - p >= 8; p += 8, q += 8) {
         const std::uint64_t difference = load_eight(p) ^ load_eight(q);
-        if (difference != 0)
-            return static_cast<std::size_t>(p - start + std::countr_zero(difference) / 8);
+        if (difference != 0) return static_cast<std::size_t>(p - start + std::countr_zero(difference) / 8);
     }
     while (p < end && *p == *q) ++p, ++q;
     return static_cast<std::size_t>(p - start);
@@ -66,14 +67,15 @@ std::size_t run_length(const std::uint8_t* p, const std::uint8_t* end) {
     return static_cast<std::size_t>(p - start);
 }
 
-/// The next place from `p` on where 12 bytes are those two before, of windows of 16 bytes; shorter runs in noise are not
-/// worth what is between stored blocks.
+/// The next place from `p` on where 12 bytes are those two before, of windows of 16 bytes; shorter runs in noise are
+/// not worth what is between stored blocks.
 const std::uint8_t* find_run(const std::uint8_t* p, const std::uint8_t* end) {
     for (; end - p >= 16; p += 16) {
         std::uint32_t same = 0;  // a bit for each byte
 #ifdef __SSE2__
         const __m128i here = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-        same = static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpeq_epi8(here, _mm_loadu_si128(reinterpret_cast<const __m128i*>(p - 2)))));
+        same = static_cast<std::uint32_t>(
+            _mm_movemask_epi8(_mm_cmpeq_epi8(here, _mm_loadu_si128(reinterpret_cast<const __m128i*>(p - 2)))));
 #else
         for (int i = 0; i < 16; ++i) same |= (p[i] == p[i - 2] ? 1u : 0u) << i;
 #endif
@@ -122,8 +124,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
             const std::uint32_t place = newest_[hash];
             newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;
             const std::uint8_t* const candidate = begin + place - 1;
-            if (place != 0 && p - candidate <= kMaxDistance &&
-                (load_eight(candidate) ^ here) << 16 == 0) {
+            if (place != 0 && p - candidate <= kMaxDistance && (load_eight(candidate) ^ here) << 16 == 0) {
                 from = candidate;
             }
         }

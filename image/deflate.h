@@ -26,8 +26,8 @@ class Deflater {
         std::size_t begin, end;
     };
 
-    /// The stream is valid until the next call. It depends on `bytes` alone. Of `runs`, long ones that are known, in order,
-    /// not all bytes are looked at.
+    /// The stream is valid until the next call. It depends on `bytes` alone. Of `runs`, long ones that are known, in
+    /// order, not all bytes are looked at.
     std::span<const std::uint8_t> compress(std::span<const std::uint8_t> bytes, std::span<const Run> runs = {});
 
   private:

@@ -47,8 +47,7 @@ void for_each_piece(std::uint32_t length, const Use& use) {
 
 /// The lengths of both codes, themselves coded (RFC 1951, 3.2.7).
 void put_code_lengths(BitWriter& out, const LiteralCode& literals, const DistanceCode& distances) {
-    constexpr std::array<std::uint8_t, 19> kOrder = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
-                                                     11, 4,  12, 3, 13, 2, 14, 1, 15};
+    constexpr std::array<std::uint8_t, 19> kOrder = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
     std::array<std::uint8_t, 286 + 30> lengths;
     std::copy_n(literals.lengths.begin(), 286, lengths.begin());
     std::copy(distances.lengths.begin(), distances.lengths.end(), lengths.begin() + 286);
@@ -203,7 +202,8 @@ void DeflateBlock::put(BitWriter& out) const {
         for (std::size_t i = 0; i < kEndOfBlock; ++i) all[i] += storable_[i] + 1;
     }
     const Codes& fixed = fixed_codes();
-    const std::uint64_t fixed_bits = bits_of(coded_, fixed.literals) + bits_of(distances_, fixed.distances) + stored_bits_;
+    const std::uint64_t fixed_bits =
+        bits_of(coded_, fixed.literals) + bits_of(distances_, fixed.distances) + stored_bits_;
     // Storing is faster, for writers and readers.
     const auto is_little = [&](std::uint64_t own_bits) { return fixed_bits < own_bits + own_bits / 32; };
     const auto put_fixed = [&] {

@@ -16,8 +16,8 @@ struct DeflateSequence {
     std::uint32_t distance;
 };
 
-/// Sequences that are coded together, as blocks of a deflate stream (RFC 1951), none of which is its last: with codes of
-/// their own, or with the fixed codes and noise stored between them.
+/// Sequences that are coded together, as blocks of a deflate stream (RFC 1951), none of which is its last: with codes
+/// of their own, or with the fixed codes and noise stored between them.
 class DeflateBlock {
   public:
     /// `bytes`: what the sequences stand for.
@@ -38,13 +38,14 @@ class DeflateBlock {
     };
     static const Codes& fixed_codes();
 
-    /// So many literals at once or more are stored, between blocks of the same codes, which must be the fixed ones then.
+    /// So many literals at once or more are stored, between blocks of the same codes, which must be the fixed ones
+    /// then.
     void put_sequences(BitWriter& out, const Codes& codes, std::uint32_t stored_from) const;
 
     std::span<const DeflateSequence> sequences_;
     const std::uint8_t* bytes_;
     const std::uint8_t* end_;
-    std::array<std::uint32_t, 288> coded_{};     // how often symbols occur
+    std::array<std::uint32_t, 288> coded_{};  // how often symbols occur
     std::array<std::uint32_t, 30> distances_{};
     std::array<std::uint32_t, 256> storable_{};  // bytes that may be stored, which takes stored_bits_
     std::uint64_t stored_bits_ = 0;

@@ -45,9 +45,8 @@ class ChunkFile {
         exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
         options.user_data = this;
         options.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
-        options.write_fn = [](exr_const_context_t, void* self, const void* bytes,
-                              std::uint64_t size, std::uint64_t place,
-                              exr_stream_error_func_ptr_t) {
+        options.write_fn = [](exr_const_context_t, void* self, const void* bytes, std::uint64_t size,
+                              std::uint64_t place, exr_stream_error_func_ptr_t) {
             return static_cast<ChunkFile*>(self)->write(bytes, size, place);
         };
         check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &options));
@@ -64,8 +63,8 @@ class ChunkFile {
         check(exr_add_part(context_, nullptr, EXR_STORAGE_SCANLINE, &part));
         const exr_attr_box2i_t display = box(display_window), data = box(data_window);
         const exr_attr_v2f_t center = {0, 0};
-        check(exr_initialize_required_attr(context_, part, &display, &data, 1, &center, 1,
-                                           EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
+        check(exr_initialize_required_attr(context_, part, &display, &data, 1, &center, 1, EXR_LINEORDER_INCREASING_Y,
+                                           EXR_COMPRESSION_ZIP));
         for (const std::size_t c : order) {
             const ChannelFormat& channel = channels[c];
             check(exr_add_channel(context_, part, channel.name.c_str(), exr_type(channel.type),
@@ -97,8 +96,7 @@ class ChunkFile {
     }
     void check(exr_result_t result) const {
         if (failure_) std::rethrow_exception(failure_);
-        if (result != EXR_ERR_SUCCESS)
-            throw std::runtime_error(exr_get_default_error_message(result));
+        if (result != EXR_ERR_SUCCESS) throw std::runtime_error(exr_get_default_error_message(result));
     }
 
     AtomicFile& file_;
@@ -110,7 +108,8 @@ class ChunkFile {
 std::vector<std::size_t> sorted_by_name(const std::vector<ChannelFormat>& channels) {
     std::vector<std::size_t> order(channels.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return channels[a].name < channels[b].name; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return channels[a].name < channels[b].name; });
     return order;
 }
 
@@ -207,7 +206,7 @@ class ExrWriter::State {
     std::vector<std::size_t> order_;
     AtomicFile file_;
     std::optional<ChunkFile> chunks_;
-    std::mutex mutex_;  // over all that follows
+    std::mutex mutex_;                                // over all that follows
     std::vector<std::vector<std::uint8_t>> waiting_;  // by their numbers
     std::size_t next_ = 0;
     std::vector<std::unique_ptr<Tool>> tools_;

@@ -34,9 +34,8 @@ Imf::FrameBuffer frame_buffer(const Image& image) {
         const std::size_t y_stride = x_stride * static_cast<std::size_t>(image.width());
         const Imath::V2i origin(image.data().x0, image.data().y0);
         char* const base = reinterpret_cast<char*>(const_cast<std::byte*>(channel.bytes.data()));
-        buffer.insert(channel.name,
-                      Imf::Slice::Make(exr_type(channel.type), base, origin, image.width(),
-                                       image.height(), x_stride, y_stride));
+        buffer.insert(channel.name, Imf::Slice::Make(exr_type(channel.type), base, origin, image.width(),
+                                                     image.height(), x_stride, y_stride));
     }
     return buffer;
 }
@@ -46,9 +45,7 @@ Imf::FrameBuffer frame_buffer(const Image& image) {
 Image read_exr(const std::string& path) {
     try {
         Imf::InputFile input(path.c_str());
-        const auto rect = [](const Imath::Box2i& b) {
-            return PixelRect{b.min.x, b.min.y, b.max.x + 1, b.max.y + 1};
-        };
+        const auto rect = [](const Imath::Box2i& b) { return PixelRect{b.min.x, b.min.y, b.max.x + 1, b.max.y + 1}; };
         Image image(rect(input.header().displayWindow()), rect(input.header().dataWindow()));
         const Imf::ChannelList& channels = input.header().channels();
         for (auto it = channels.begin(); it != channels.end(); ++it) {

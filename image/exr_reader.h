@@ -6,8 +6,8 @@
 
 namespace burin {
 
-/// Reads all channels of a single-part flat EXR. Throws InputError. For tests and tools: a library of its own, so that the
-/// program need not load what only reading takes.
+/// Reads all channels of a single-part flat EXR. Throws InputError. For tests and tools: a library of its own, so that
+/// the program need not load what only reading takes.
 Image read_exr(const std::string& path);
 
 }  // namespace burin

@@ -61,7 +61,8 @@ inline FourHalves halves_from_floats(const FourFloats& values) {
 inline FourFloats floats_from_halves(const FourHalves& halves) {
     const FourHalves magnitude = (halves & 0x7FFF) << 13;
     const FourHalves finite = std::bit_cast<FourHalves>(std::bit_cast<FourFloats>(magnitude) * 0x1p112f);
-    return std::bit_cast<FourFloats>((halves & 0x8000) << 16 | (magnitude >= 0x1F << 23 ? magnitude | 0x7F800000 : finite));
+    return std::bit_cast<FourFloats>((halves & 0x8000) << 16 |
+                                     (magnitude >= 0x1F << 23 ? magnitude | 0x7F800000 : finite));
 }
 
 }  // namespace burin

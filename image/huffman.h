@@ -14,11 +14,12 @@ struct HuffmanCode {
     std::array<std::uint8_t, kSymbols> lengths{};  ///< bits; 0 = does not occur
     std::array<std::uint16_t, kSymbols> codes{};   ///< first bit lowest
 
-    explicit HuffmanCode(const std::array<std::uint8_t, kSymbols>& known_lengths) : lengths(known_lengths) { find_codes(); }
+    explicit HuffmanCode(const std::array<std::uint8_t, kSymbols>& known_lengths) : lengths(known_lengths) {
+        find_codes();
+    }
     explicit HuffmanCode(std::array<std::uint32_t, kSymbols> frequencies) {
         const auto used = [&] {
-            return std::count_if(frequencies.begin(), frequencies.end(),
-                                 [](auto f) { return f > 0; });
+            return std::count_if(frequencies.begin(), frequencies.end(), [](auto f) { return f > 0; });
         };
         for (std::size_t s = 0; used() < 2; ++s) frequencies[s] += frequencies[s] == 0 ? 1 : 0;
         find_lengths(frequencies);
@@ -36,16 +37,13 @@ struct HuffmanCode {
         for (std::uint16_t s = 0; s < kSymbols; ++s) {
             if (frequencies[s] > 0) nodes[leaves++] = {frequencies[s], s, 0};
         }
-        std::sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(leaves),
-                  [](const Node& a, const Node& b) {
-                      return a.frequency != b.frequency ? a.frequency < b.frequency
-                                                        : a.symbol < b.symbol;
-                  });
+        std::sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(leaves), [](const Node& a, const Node& b) {
+            return a.frequency != b.frequency ? a.frequency < b.frequency : a.symbol < b.symbol;
+        });
         // Inner nodes arise in the order of their frequencies: both queues are sorted.
         std::size_t leaf = 0, inner = leaves, end = leaves;
         const auto least = [&] {
-            const bool takes_leaf =
-                leaf < leaves && (inner == end || nodes[leaf].frequency <= nodes[inner].frequency);
+            const bool takes_leaf = leaf < leaves && (inner == end || nodes[leaf].frequency <= nodes[inner].frequency);
             return takes_leaf ? leaf++ : inner++;
         };
         while (end < 2 * leaves - 1) {
@@ -62,8 +60,7 @@ struct HuffmanCode {
             if (i < leaves) ++leaves_at[std::min<std::uint32_t>(depth[i], kMaxBits)];
         }
         std::uint32_t taken = 0;  // of 2^kMaxBits codes of the greatest length
-        for (std::uint32_t bits = 1; bits <= kMaxBits; ++bits)
-            taken += leaves_at[bits] << (kMaxBits - bits);
+        for (std::uint32_t bits = 1; bits <= kMaxBits; ++bits) taken += leaves_at[bits] << (kMaxBits - bits);
         for (; taken > 1u << kMaxBits; --taken) {
             std::uint32_t bits = kMaxBits - 1;
             while (leaves_at[bits] == 0) --bits;
@@ -89,15 +86,14 @@ struct HuffmanCode {
             std::uint32_t reversed = 0;
             if (lengths[s] == 0) continue;
             const std::uint32_t code = next[lengths[s]]++;
-            for (std::uint32_t i = 0; i < lengths[s]; ++i)
-                reversed |= (code >> i & 1u) << (lengths[s] - 1 - i);
+            for (std::uint32_t i = 0; i < lengths[s]; ++i) reversed |= (code >> i & 1u) << (lengths[s] - 1 - i);
             codes[s] = static_cast<std::uint16_t>(reversed);
         }
     }
 };
 
-// Symbols 286 and 287 never occur, but have their place in the fixed code. With codes of at most 14 bits four literals can
-// be put at once.
+// Symbols 286 and 287 never occur, but have their place in the fixed code. With codes of at most 14 bits four literals
+// can be put at once.
 using LiteralCode = HuffmanCode<288, 14>;
 using DistanceCode = HuffmanCode<30, 15>;
 

@@ -29,14 +29,11 @@ Channel& Image::add_unfilled(std::string name, PixelType type) {
 }
 
 const Channel* Image::find(std::string_view name) const {
-    const auto it = std::find_if(channels_.begin(), channels_.end(),
-                                 [&](const Channel& c) { return c.name == name; });
+    const auto it = std::find_if(channels_.begin(), channels_.end(), [&](const Channel& c) { return c.name == name; });
     return it == channels_.end() ? nullptr : &*it;
 }
 
-Channel* Image::find(std::string_view name) {
-    return const_cast<Channel*>(std::as_const(*this).find(name));
-}
+Channel* Image::find(std::string_view name) { return const_cast<Channel*>(std::as_const(*this).find(name)); }
 
 std::vector<ChannelFormat> Image::formats() const {
     std::vector<ChannelFormat> formats;
@@ -45,13 +42,14 @@ std::vector<ChannelFormat> Image::formats() const {
 }
 
 double Image::value(const Channel& channel, int x, int y) const {
-    const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) +
-                          static_cast<std::size_t>(x);
+    const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x);
     switch (channel.type) {
         case PixelType::float16:
             return static_cast<double>(float_from_half(channel.as<std::uint16_t>()[i]));
-        case PixelType::float32: return static_cast<double>(channel.as<float>()[i]);
-        case PixelType::uint32: return channel.as<std::uint32_t>()[i];
+        case PixelType::float32:
+            return static_cast<double>(channel.as<float>()[i]);
+        case PixelType::uint32:
+            return channel.as<std::uint32_t>()[i];
     }
     return 0;
 }

@@ -59,9 +59,7 @@ class Image {
     void move_to(int x0, int y0) { data_ = {x0, y0, x0 + width(), y0 + height()}; }
     int width() const { return data_.width(); }
     int height() const { return data_.height(); }
-    std::size_t pixel_count() const {
-        return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
-    }
+    std::size_t pixel_count() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()); }
 
     /// Adds a channel of zeros.
     Channel& add(std::string name, PixelType type);

@@ -75,7 +75,8 @@ void read_row(const Image& image, const Channel& channel, int dx, int y, int c, 
     switch (channel.type) {
         case PixelType::float16:
             return read([half = channel.as<std::uint16_t>()](std::size_t i) { return float_from_half(half[i]); });
-        case PixelType::float32: return read([v = channel.as<float>()](std::size_t i) { return v[i]; });
+        case PixelType::float32:
+            return read([v = channel.as<float>()](std::size_t i) { return v[i]; });
         case PixelType::uint32:
             return read([v = channel.as<std::uint32_t>()](std::size_t i) { return static_cast<float>(v[i]); });
     }
@@ -84,8 +85,7 @@ void read_row(const Image& image, const Channel& channel, int dx, int y, int c, 
 }  // namespace
 
 float srgb_from_linear(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear
-                                : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
 float linear_from_srgb(float code) {
@@ -98,8 +98,7 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
     result.height = image.display().height();
     result.channels = background ? 3 : 4;
     const auto channels = static_cast<std::size_t>(result.channels);
-    const auto pixel_count =
-        static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
+    const auto pixel_count = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
     result.pixels.resize(pixel_count * channels);
 
     const glm::vec3 paper = background.value_or(glm::vec3(0.0f));
@@ -160,8 +159,8 @@ void write_display_image(const std::string& path, const DisplayImage& image, int
     AtomicFile file(path);
     DisplaySink target{file, nullptr};
     const BurinOiioSink sink{&target, DisplaySink::write, DisplaySink::go_on};
-    const char* const failure = write(path.c_str(), image.width, image.height,
-                                      image.channels, bits, image.pixels.data(), &sink);
+    const char* const failure =
+        write(path.c_str(), image.width, image.height, image.channels, bits, image.pixels.data(), &sink);
     if (target.stopped) std::rethrow_exception(target.stopped);
     if (failure != nullptr) throw InputError(path + ": cannot write: " + one_line(failure));
     file.commit();

@@ -31,7 +31,8 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
 /// only when it is complete. Throws InputError.
 void write_display_image(const std::string& path, const DisplayImage& image, int bits);
 
-/// Fails before the work, not after it: throws InputError if what write_display_image() needs for this path cannot be loaded.
+/// Fails before the work, not after it: throws InputError if what write_display_image() needs for this path cannot be
+/// loaded.
 void check_display_writer(const std::string& path);
 
 /// Reads a PNG or TIFF. Throws InputError. For tests and tools.

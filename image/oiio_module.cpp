@@ -49,8 +49,7 @@ const char* burin_oiio_write(const char* name, int width, int height, int channe
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
     if (!output) return failure(OIIO::geterror());
     if (!output->supports("ioproxy")) return failure("this format cannot be written");
-    OIIO::ImageSpec spec(width, height, channels,
-                         bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec(width, height, channels, bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     // It would go into an Exif directory, for which OpenImageIO reads back what it wrote; through a
     // proxy that gives a broken file. Readers take TIFFs of 8 and 16 bits for sRGB anyway.
@@ -67,19 +66,16 @@ const char* burin_oiio_write(const char* name, int width, int height, int channe
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy_pointer);
     bool good = output->open(name, spec);
     constexpr int kRowsAtOnce = 64;
-    const std::size_t row_values =
-        static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+    const std::size_t row_values = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
     for (int y = 0; y < height && good; y += kRowsAtOnce) {
-        good =
-            sink->go_on(sink->context) &&
-            output->write_scanlines(y, std::min(y + kRowsAtOnce, height), 0, OIIO::TypeDesc::UINT16,
-                                    pixels + static_cast<std::size_t>(y) * row_values);
+        good = sink->go_on(sink->context) &&
+               output->write_scanlines(y, std::min(y + kRowsAtOnce, height), 0, OIIO::TypeDesc::UINT16,
+                                       pixels + static_cast<std::size_t>(y) * row_values);
     }
     good = output->close() && good;
     if (!good || output->has_error()) return failure(output->geterror());
     const std::vector<char>& bytes = proxy.bytes();
-    return sink->write(sink->context, bytes.data(), bytes.size()) ? nullptr
-                                                                  : failure("the sink is full");
+    return sink->write(sink->context, bytes.data(), bytes.size()) ? nullptr : failure("the sink is full");
 }
 
 const char* burin_oiio_read(const char* path, int* width, int* height, int* channels,

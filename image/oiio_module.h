@@ -24,6 +24,5 @@ const char* burin_oiio_write(const char* name, int width, int height, int channe
 /// Reads `path` as 16-bit values, `channels` of them per pixel. Returns nullptr or what went wrong.
 /// The caller gives a function that allocates room for the pixels.
 const char* burin_oiio_read(const char* path, int* width, int* height, int* channels,
-                            unsigned short* (*allocate)(void* context, unsigned long long count),
-                            void* context);
+                            unsigned short* (*allocate)(void* context, unsigned long long count), void* context);
 }

@@ -16,7 +16,9 @@ struct Pair {
 };
 Pair last_pair(std::span<const std::uint8_t> bytes) { return {bytes[bytes.size() - 2], bytes[bytes.size() - 1]}; }
 
-std::uint8_t difference(std::uint8_t value, std::uint8_t before) { return static_cast<std::uint8_t>(value - before + 128); }
+std::uint8_t difference(std::uint8_t value, std::uint8_t before) {
+    return static_cast<std::uint8_t>(value - before + 128);
+}
 
 /// Where pairs of bytes go to.
 struct PairPlace {
@@ -27,7 +29,7 @@ struct PairPlace {
 void put(PairPlace to, std::span<const std::uint8_t> bytes, Pair before) {
     const std::uint8_t* p = bytes.data();
     const std::uint8_t* const end = p + bytes.size();
-#ifdef __SSE2__  // the compiler's own vectors take each pair twice
+#ifdef __SSE2__                                                       // the compiler's own vectors take each pair twice
     __m128i last = _mm_cvtsi32_si128(before.even | before.odd << 8);  // pair, and nothing else
     const __m128i low = _mm_set1_epi16(0xFF), center = _mm_set1_epi8(static_cast<char>(128));
     const auto differences = [&](const std::uint8_t* at) {
@@ -38,8 +40,10 @@ void put(PairPlace to, std::span<const std::uint8_t> bytes, Pair before) {
     };
     for (; end - p >= 32; p += 32, to.even += 16, to.odd += 16) {
         const __m128i a = differences(p), b = differences(p + 16);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(to.even), _mm_packus_epi16(_mm_and_si128(a, low), _mm_and_si128(b, low)));
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(to.odd), _mm_packus_epi16(_mm_srli_epi16(a, 8), _mm_srli_epi16(b, 8)));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(to.even),
+                         _mm_packus_epi16(_mm_and_si128(a, low), _mm_and_si128(b, low)));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(to.odd),
+                         _mm_packus_epi16(_mm_srli_epi16(a, 8), _mm_srli_epi16(b, 8)));
     }
     if (p > bytes.data()) before = {p[-2], p[-1]};
 #endif
@@ -79,8 +83,11 @@ const std::uint8_t* bytes_of(const std::byte* p) { return reinterpret_cast<const
 
 }  // namespace
 
-RowPacker::RowPacker(const ImageStrip& strip, std::span<const PixelType> types, std::span<const std::size_t> order, int first_row, int end_row)
-    : strip_(strip), first_row_(static_cast<std::size_t>(first_row)), rows_(static_cast<std::size_t>(end_row - first_row)) {
+RowPacker::RowPacker(const ImageStrip& strip, std::span<const PixelType> types, std::span<const std::size_t> order,
+                     int first_row, int end_row)
+    : strip_(strip),
+      first_row_(static_cast<std::size_t>(first_row)),
+      rows_(static_cast<std::size_t>(end_row - first_row)) {
     const auto width = static_cast<std::size_t>(strip.data.width());
     for (std::size_t i = 0, x = 0; i < strip.blocks.size(); ++i) {
         const std::size_t end = std::min(width, x + static_cast<std::size_t>(strip.block_width));
@@ -109,7 +116,8 @@ void RowPacker::raw(std::vector<std::uint8_t>& bytes) const {
         for (const Plane& plane : planes_) {
             for (const Part& part : parts_) {
                 const std::span<const std::uint8_t> row = rows_of(part, plane).row(y);
-                for (std::size_t left = part.width * plane.pixel_size; left > 0; left -= row.size()) bytes.insert(bytes.end(), row.begin(), row.end());
+                for (std::size_t left = part.width * plane.pixel_size; left > 0; left -= row.size())
+                    bytes.insert(bytes.end(), row.begin(), row.end());
             }
         }
     }
@@ -136,7 +144,8 @@ void RowPacker::packed(UnfilledVector<std::uint8_t>& bytes, std::vector<Deflater
                 const Part& part = parts_[i];
                 if (part.block != nullptr) continue;
                 const std::size_t place = place_of(part, planes_[k], y), pairs = part.width * planes_[k].pixel_size / 2;
-                put_repeated({even + place, odd + place}, pairs, rows_of(part, planes_[k]).row(y), last_pair(row_before(i, k, y)));
+                put_repeated({even + place, odd + place}, pairs, rows_of(part, planes_[k]).row(y),
+                             last_pair(row_before(i, k, y)));
                 if (pairs > kRunStart) runs.push_back({place + kRunStart, place + pairs});
             }
         }
@@ -148,7 +157,8 @@ void RowPacker::packed(UnfilledVector<std::uint8_t>& bytes, std::vector<Deflater
         const Part& part = parts_[i];
         if (part.block == nullptr) continue;
         for (std::size_t k = 0; k < planes_.size(); ++k) {
-            const PartRows rows = rows_of(part, planes_[k]), next = rows_of(part, planes_[std::min(k + 1, planes_.size() - 1)]);
+            const PartRows rows = rows_of(part, planes_[k]),
+                           next = rows_of(part, planes_[std::min(k + 1, planes_.size() - 1)]);
             for (std::size_t y = 0; y < rows_; ++y) {
                 // The processor cannot tell where the next plane is.
                 for (std::size_t at = 0; at < next.size; at += 64) __builtin_prefetch(next.row(y).data() + at);

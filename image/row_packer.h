@@ -15,14 +15,15 @@ namespace burin {
 class RowPacker {
   public:
     /// Rows [first_row, end_row) of the strip. `order`: of the channels, whose types are given.
-    RowPacker(const ImageStrip& strip, std::span<const PixelType> types, std::span<const std::size_t> order, int first_row, int end_row);
+    RowPacker(const ImageStrip& strip, std::span<const PixelType> types, std::span<const std::size_t> order,
+              int first_row, int end_row);
 
     /// How many bytes they are.
     std::size_t size() const { return row_size_ * rows_; }
     /// The bytes as they are.
     void raw(std::vector<std::uint8_t>& bytes) const;
-    /// As they are compressed (OpenEXR's "zip" with its predictor): first all bytes of even number and then the others, of
-    /// each the difference to the byte before, plus 128. `runs` are those of missing blocks.
+    /// As they are compressed (OpenEXR's "zip" with its predictor): first all bytes of even number and then the others,
+    /// of each the difference to the byte before, plus 128. `runs` are those of missing blocks.
     void packed(UnfilledVector<std::uint8_t>& bytes, std::vector<Deflater::Run>& runs) const;
 
   private:

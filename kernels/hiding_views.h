@@ -17,8 +17,8 @@ struct BoxView {
     const float *x0, *y0, *x1, *y1, *low, *high;
 };
 
-/// Boxes of triangles on the screen, borders included, in 1/256 pixel, and the nearness of their nearest corners: an array per
-/// number.
+/// Boxes of triangles on the screen, borders included, in 1/256 pixel, and the nearness of their nearest corners: an
+/// array per number.
 struct FrontBoxes {
     const float *x0, *y0, *x1, *y1, *highest;
 };
@@ -32,8 +32,8 @@ struct ScreenLine {
 /// Along both axes together.
 constexpr float kLongestExact = 2048;
 
-/// A triangle that may hide lines: corners, clockwise as seen, in 1/256 pixel from some place, and the nearness of the nearest
-/// one.
+/// A triangle that may hide lines: corners, clockwise as seen, in 1/256 pixel from some place, and the nearness of the
+/// nearest one.
 struct CrossedTriangle {
     float x[3], y[3], highest;
     std::uint32_t number;
@@ -42,13 +42,15 @@ struct CrossedTriangle {
 /// The blocks of a tile for what may hide lines there. Each is cut into two by two cells.
 struct HidingGrid {
     static constexpr std::int32_t kShift = 11, kCellShift = kShift - 1;  ///< log2 of widths in 1/256 pixel
-    std::int32_t first_x, first_y;  ///< of the upper left block, in 1/256 pixel
+    std::int32_t first_x, first_y;                                       ///< of the upper left block, in 1/256 pixel
     std::int32_t columns, rows;
     std::int32_t reach;  ///< so far from a block triangles touch it, too; they lie beside the cells at its end then
     /// Blocks row by row, for each the least nearness in any rectangle of its cells.
     const float* farthest;
     static constexpr std::size_t kPlaces = 16;
-    static constexpr std::size_t place(int x0, int x1, int y0, int y1) { return static_cast<std::size_t>(x0 | x1 << 1 | y0 << 2 | y1 << 3); }
+    static constexpr std::size_t place(int x0, int x1, int y0, int y1) {
+        return static_cast<std::size_t>(x0 | x1 << 1 | y0 << 2 | y1 << 3);
+    }
 };
 
 /// A triangle in one of the blocks it touches. Corners from the picture's.
@@ -92,13 +94,13 @@ struct StepBox {
     std::uint8_t x0, y0, x1, y1, low;
 };
 
-/// Boxes of triangles on the screen, and the nearness of their nearest corners, cut into steps of a byte: an array per number. So as
-/// many are compared with a box at once as vectors have bytes. Boxes around each 64 of them are compared first: neighbours in a mesh are
-/// neighbours in its list.
+/// Boxes of triangles on the screen, and the nearness of their nearest corners, cut into steps of a byte: an array per
+/// number. So as many are compared with a box at once as vectors have bytes. Boxes around each 64 of them are compared
+/// first: neighbours in a mesh are neighbours in its list.
 struct StepBoxes {
     enum Number { begins_x, begins_y, ends_x, ends_y, nearest };
     static constexpr std::size_t kNumbers = 5, kLows = 2, kSteps = 256;  // the first ones are least values
-    static constexpr std::size_t kAtOnce = 64;  ///< arrays have room for a multiple of so many
+    static constexpr std::size_t kAtOnce = 64;                           ///< arrays have room for a multiple of so many
     static constexpr std::size_t rounded_up(std::size_t count) { return (count + kAtOnce - 1) / kAtOnce * kAtOnce; }
     struct Axis {
         float from = 0, steps_per_unit = 0;
@@ -111,13 +113,13 @@ struct StepBoxes {
 
 /// How far away something is in a picture: square blocks, row by row.
 struct DepthGrid {
-    /// Four pages, each with all blocks: the least nearness in a block; in it and the one to the right; in it and the one below; and
-    /// in all four.
+    /// Four pages, each with all blocks: the least nearness in a block; in it and the one to the right; in it and the
+    /// one below; and in all four.
     const float* least;
     std::int32_t first_x, first_y, last_x, last_y;  ///< of the picture, in 1/256 pixel
     std::int32_t block_shift;                       ///< log2 of a block's width in 1/256 pixel
     std::int32_t columns, first_row, rows;          ///< of blocks; rows from the first one on
-    std::int32_t tile_shift;                        ///< log2 of a tile's width in blocks; columns and rows fill whole tiles
+    std::int32_t tile_shift;  ///< log2 of a tile's width in blocks; columns and rows fill whole tiles
 };
 
 }  // namespace burin

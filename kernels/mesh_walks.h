@@ -11,13 +11,13 @@ struct WalkLimits {
     double no_advance;       ///< getting farther by no more than this is none
     double snapping;         ///< what snapping may do to where an edge is
     double negligible_fold;  ///< turning back by less than this is none
-    /// Places whose nearness differs by less than `level + level_per_nearness *` the lesser one are equally far away, to all
-    /// that asks for it.
+    /// Places whose nearness differs by less than `level + level_per_nearness *` the lesser one are equally far away,
+    /// to all that asks for it.
     double level, level_per_nearness;
 };
 
-/// Walks over one mesh along rows and columns of samples, each from a sample to the one next to it, and how they went: an array
-/// per number.
+/// Walks over one mesh along rows and columns of samples, each from a sample to the one next to it, and how they went:
+/// an array per number.
 struct MeshWalks {
     static constexpr std::size_t kMost = 256, kRoom = kMost + 8;
     static constexpr std::size_t kMostSteps = 22;

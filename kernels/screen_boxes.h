@@ -27,9 +27,7 @@ class ScreenBoxes {
         high_[i] = box.high;
     }
     ScreenBox operator[](std::size_t i) const { return {x0_[i], y0_[i], x1_[i], y1_[i], low_[i], high_[i]}; }
-    BoxView view() const {
-        return {x0_.data(), y0_.data(), x1_.data(), y1_.data(), low_.data(), high_.data()};
-    }
+    BoxView view() const { return {x0_.data(), y0_.data(), x1_.data(), y1_.data(), low_.data(), high_.data()}; }
 
   private:
     static constexpr std::size_t kPadding = 7;  // what kernels may read too far

@@ -11,10 +11,10 @@
 
 namespace burin {
 
-/// A triangle whose corners all lie on the screen, from the picture's corner. `facing`: the way they are wound, clockwise or
-/// counterclockwise.
-inline CrossedTriangle crossed_triangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, Facing facing,
-                                        std::uint32_t number) {
+/// A triangle whose corners all lie on the screen, from the picture's corner. `facing`: the way they are wound,
+/// clockwise or counterclockwise.
+inline CrossedTriangle crossed_triangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
+                                        Facing facing, std::uint32_t number) {
     const ScreenVertex &p = facing == clockwise ? b : c, &q = facing == clockwise ? c : b;
     const auto real = [](std::int32_t subpixels) { return static_cast<float>(subpixels); };
     return {{real(a.x), real(p.x), real(q.x)},

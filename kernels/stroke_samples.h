@@ -6,8 +6,8 @@
 
 namespace burin {
 
-/// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Of these places they
-/// are staggered, or a stroke in step with them would be too wide or too narrow all along.
+/// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Of these places
+/// they are staggered, or a stroke in step with them would be too wide or too narrow all along.
 constexpr int kStrokeRows = 16, kStrokeColumns = 32;
 /// Masks of pixels behind those of a canvas, which are read and written as they are. A multiple of eight.
 constexpr std::size_t kRoomBehindMasks = 8;
@@ -15,9 +15,10 @@ constexpr std::size_t kRoomBehindMasks = 8;
 /// Rows are shifted by less than half a column, and again so after this many of the picture: 8 pixels.
 constexpr std::uint32_t kStrokeShiftRows = 128;
 
-/// Columns further right, for each row of the picture. In a pixel, the 16 rows have 16 shifts, in an order with flat spectrum
-/// (Chu 1972: n (n + 1) / 2 times an odd number); these and what is added in each pixel were chosen by search, for the least
-/// sum over 128 rows that any slope of a stroke is in step with: 0.17 of all, where one order for all pixels has 0.25 at least.
+/// Columns further right, for each row of the picture. In a pixel, the 16 rows have 16 shifts, in an order with flat
+/// spectrum (Chu 1972: n (n + 1) / 2 times an odd number); these and what is added in each pixel were chosen by search,
+/// for the least sum over 128 rows that any slope of a stroke is in step with: 0.17 of all, where one order for all
+/// pixels has 0.25 at least.
 constexpr std::array<double, kStrokeShiftRows> make_stroke_row_shifts() {
     constexpr std::uint32_t kFactor[8] = {13, 1, 1, 13, 1, 5, 13, 5}, kAdded[8] = {30, 55, 42, 85, 40, 36, 99, 97};
     std::array<double, kStrokeShiftRows> shifts{};
@@ -31,10 +32,12 @@ constexpr std::array<double, kStrokeShiftRows> make_stroke_row_shifts() {
 constexpr std::array<double, kStrokeShiftRows> kStrokeRowShifts = make_stroke_row_shifts();
 
 /// `row`: of the picture, 16 to a pixel.
-constexpr double stroke_row_shift(std::int32_t row) { return kStrokeRowShifts[static_cast<std::uint32_t>(row) % kStrokeShiftRows]; }
+constexpr double stroke_row_shift(std::int32_t row) {
+    return kStrokeRowShifts[static_cast<std::uint32_t>(row) % kStrokeShiftRows];
+}
 
-/// Boundaries that are level, which cross less than a row in a pixel, are sampled at a height of its own by every eighth
-/// column: by so many rows further down. In the order of van der Corput's sequence.
+/// Boundaries that are level, which cross less than a row in a pixel, are sampled at a height of its own by every
+/// eighth column: by so many rows further down. In the order of van der Corput's sequence.
 constexpr int kStrokeColumnSets = 8;
 constexpr std::array<double, kStrokeColumnSets> kStrokeColumnShifts = {-7.0 / 16, 1.0 / 16, -3.0 / 16, 5.0 / 16,
                                                                        -5.0 / 16, 3.0 / 16, -1.0 / 16, 7.0 / 16};

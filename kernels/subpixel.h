@@ -18,8 +18,6 @@ struct SubpixelPoint {
 
 /// Rounds a coordinate in pixels to the nearest 1/256 pixel. The result is in 1/256 pixel, still a
 /// floating point number, so that any size of input is fine.
-inline double snap_to_subpixels(double coordinate_px) {
-    return std::floor(coordinate_px * kSubpixelsPerPixel + 0.5);
-}
+inline double snap_to_subpixels(double coordinate_px) { return std::floor(coordinate_px * kSubpixelsPerPixel + 0.5); }
 
 }  // namespace burin

@@ -11,8 +11,9 @@ namespace burin {
 
 const TileKernels* avx512_kernels() {
     static constexpr TileKernels kernels = kernels_named("avx512");
-    const bool has_all = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-                         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("popcnt");
+    const bool has_all = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                         __builtin_cpu_supports("popcnt");
     return has_all ? &kernels : nullptr;
 }
 

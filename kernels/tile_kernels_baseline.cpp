@@ -14,8 +14,7 @@ const TileKernels& baseline_kernels() {
 
 const TileKernels& best_kernels() {
     const InstructionSet allowed = allowed_instruction_set();
-    const TileKernels* const avx512 =
-        allowed >= InstructionSet::avx512 ? avx512_kernels() : nullptr;
+    const TileKernels* const avx512 = allowed >= InstructionSet::avx512 ? avx512_kernels() : nullptr;
     if (avx512 != nullptr) return *avx512;
     const TileKernels* const avx2 = allowed >= InstructionSet::avx2 ? avx2_kernels() : nullptr;
     return avx2 != nullptr ? *avx2 : baseline_kernels();

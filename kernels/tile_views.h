@@ -21,7 +21,8 @@ struct SampleView {
     std::int32_t first_column, first_row, columns, rows, stride, samples_per_pixel;
     /// Surfaces whose nearness differs by at most `level + level_per_nearness * nearness` are level.
     float level, level_per_nearness;
-    /// Where what is level competes for a sample; nullptr: not noted. `contest_count` goes on counting beyond the capacity.
+    /// Where what is level competes for a sample; nullptr: not noted. `contest_count` goes on counting beyond the
+    /// capacity.
     Contest* contests;
     std::uint32_t* contest_count;
     std::uint32_t contest_capacity;
@@ -44,14 +45,15 @@ struct SampleRect {
     std::int32_t first_column, first_row, end_column, end_row;
 };
 
-/// Two neighbouring samples with different ids between which a line may lie. Bits 0 to 14: the first one's column in the tile;
-/// 15 to 29: its row; 30: the second one lies below it, else to its right.
+/// Two neighbouring samples with different ids between which a line may lie. Bits 0 to 14: the first one's column in
+/// the tile; 15 to 29: its row; 30: the second one lies below it, else to its right.
 struct SamplePair {
     static constexpr std::uint32_t kRowShift = 15, kDownShift = 30, kPlaceMask = (1u << kRowShift) - 1u;
     std::uint32_t bits;
 
     static constexpr SamplePair at(std::int32_t column, std::int32_t row, bool down) {
-        return {static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << kRowShift | std::uint32_t{down} << kDownShift};
+        return {static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << kRowShift |
+                std::uint32_t{down} << kDownShift};
     }
     constexpr std::int32_t column() const { return static_cast<std::int32_t>(bits & kPlaceMask); }
     constexpr std::int32_t row() const { return static_cast<std::int32_t>(bits >> kRowShift & kPlaceMask); }
@@ -70,12 +72,12 @@ struct SmoothLimits {
 /// right and lower border.
 struct TileGrid {
     static constexpr std::int32_t kTileSamples = 128;  ///< along either side: the most, and the best
-    std::int32_t first_column, first_row;  ///< of the upper left sample on the image's grid
-    std::int32_t width, height;            ///< in samples
-    std::int32_t columns;                  ///< of tiles
-    std::int32_t pitch_shift;              ///< log2 of the distance of samples, in 1/256 pixel
-    std::int32_t tile_shift;               ///< log2 of a tile's width in samples
-    bool keeps_thin;                       ///< whether triangles between samples, which touch none, are wanted
+    std::int32_t first_column, first_row;              ///< of the upper left sample on the image's grid
+    std::int32_t width, height;                        ///< in samples
+    std::int32_t columns;                              ///< of tiles
+    std::int32_t pitch_shift;                          ///< log2 of the distance of samples, in 1/256 pixel
+    std::int32_t tile_shift;                           ///< log2 of a tile's width in samples
+    bool keeps_thin;  ///< whether triangles between samples, which touch none, are wanted
 };
 
 constexpr std::int32_t kBlockShift = 3;

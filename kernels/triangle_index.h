@@ -14,14 +14,15 @@ class TriangleIndex {
     TriangleIndex& operator=(TriangleIndex&&) = default;
 
     /// Of the triangles `listed`. What lies beyond `bounds` is taken to be at its border.
-    void make(const TileKernels& kernels, const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count,
-              const ScreenBox& bounds) {
+    void make(const TileKernels& kernels, const CrossedTriangle* triangles, const std::uint32_t* listed,
+              std::size_t count, const ScreenBox& bounds) {
         kernels_ = &kernels;
         boxes_.x = axis(bounds.x0, bounds.x1);
         boxes_.y = axis(bounds.y0, bounds.y1);
         boxes_.nearness = axis(bounds.low, bounds.high);
         boxes_.count = count;
-        const std::size_t size = StepBoxes::rounded_up(count), around_size = StepBoxes::rounded_up(size / StepBoxes::kAtOnce);
+        const std::size_t size = StepBoxes::rounded_up(count),
+                          around_size = StepBoxes::rounded_up(size / StepBoxes::kAtOnce);
         steps_.resize(StepBoxes::kNumbers * (size + around_size));
         for (std::size_t k = 0; k < StepBoxes::kNumbers; ++k) {
             boxes_.steps[k] = steps_.data() + k * (size + around_size);
@@ -31,11 +32,14 @@ class TriangleIndex {
     }
     /// What find() takes.
     StepBox in_steps(const ScreenBox& box) const {
-        return {step(boxes_.x, box.x0), step(boxes_.y, box.y0), step(boxes_.x, box.x1), step(boxes_.y, box.y1), step(boxes_.nearness, box.low)};
+        return {step(boxes_.x, box.x0), step(boxes_.y, box.y0), step(boxes_.x, box.x1), step(boxes_.y, box.y1),
+                step(boxes_.nearness, box.low)};
     }
-    /// Lists all that touch any of some boxes and reach nearer than its `low`, in their order, and some more that are off by less than a
-    /// step, or lie beyond the bounds, or where all are equally near. `numbers`: of the triangles, as they are to be called; `found` needs room for all. Returns how many.
-    std::size_t find(const StepBox* boxes, std::size_t count, const std::uint32_t* numbers, std::uint32_t* found) const {
+    /// Lists all that touch any of some boxes and reach nearer than its `low`, in their order, and some more that are
+    /// off by less than a step, or lie beyond the bounds, or where all are equally near. `numbers`: of the triangles,
+    /// as they are to be called; `found` needs room for all. Returns how many.
+    std::size_t find(const StepBox* boxes, std::size_t count, const std::uint32_t* numbers,
+                     std::uint32_t* found) const {
         return kernels_->list_in_boxes(boxes_, boxes, count, numbers, found);
     }
 

@@ -36,7 +36,8 @@ void BoundaryCells::set(std::span<const PieceEnds> pieces, glm::dvec2 place) {
     const auto for_cells = [&](const PieceEnds& p, const auto& visit) {
         const Box box = cells_of(p);
         for (int y = box.y0; y < box.y1; ++y) {
-            for (int x = box.x0; x < box.x1; ++x) visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x));
+            for (int x = box.x0; x < box.x1; ++x)
+                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x));
         }
     };
     for (const PieceEnds& p : pieces) for_cells(p, [&](std::size_t cell) { ++end_[cell + 1]; });
@@ -49,7 +50,8 @@ void BoundaryCells::set(std::span<const PieceEnds> pieces, glm::dvec2 place) {
 }
 
 BoundaryCells::Box BoundaryCells::cells_of(const PieceEnds& piece) const {
-    const glm::dvec2 low = (glm::min(piece.from, piece.to) - from_) / kCellPx, high = (glm::max(piece.from, piece.to) - from_) / kCellPx;
+    const glm::dvec2 low = (glm::min(piece.from, piece.to) - from_) / kCellPx,
+                     high = (glm::max(piece.from, piece.to) - from_) / kCellPx;
     const auto cell = [](double v, int count) { return static_cast<int>(std::clamp(v, 0.0, count - 1.0)); };
     return {cell(low.x, columns_), cell(low.y, rows_), cell(high.x, columns_) + 1, cell(high.y, rows_) + 1};
 }

@@ -12,7 +12,8 @@ struct PieceEnds {
     glm::dvec2 from{0.0}, to{0.0};
 };
 
-/// Straight pieces in square cells of the screen, to be looked at ring by ring around another one. Buffers are used again.
+/// Straight pieces in square cells of the screen, to be looked at ring by ring around another one. Buffers are used
+/// again.
 class BoundaryCells {
   public:
     /// Some cells: columns [x0, x1) and rows [y0, y1).
@@ -20,7 +21,8 @@ class BoundaryCells {
         int x0, y0, x1, y1;
     };
 
-    /// They are numbered as they come. Few are in one cell. Those farther than 1200 pixels from a place are in the outermost cells.
+    /// They are numbered as they come. Few are in one cell. Those farther than 1200 pixels from a place are in the
+    /// outermost cells.
     void set(std::span<const PieceEnds> pieces, glm::dvec2 place);
 
     bool is_one() const { return columns_ == 1 && rows_ == 1; }
@@ -32,7 +34,8 @@ class BoundaryCells {
     }
     /// All pieces that are not in this ring or in one before it are as far away from what is in the middle, or farther.
     static double distance_px(int ring) { return kCellPx * ring; }
-    /// Calls visit(number) for the pieces in the cells so many steps from those in the middle. A piece may lie in several.
+    /// Calls visit(number) for the pieces in the cells so many steps from those in the middle. A piece may lie in
+    /// several.
     template <typename Visit>
     void for_ring(const Box& middle, int ring, const Visit& visit) const {
         const int x0 = middle.x0 - ring, x1 = middle.x1 + ring, y0 = middle.y0 - ring, y1 = middle.y1 + ring;
@@ -41,7 +44,8 @@ class BoundaryCells {
             for (int x = x0 < 0 ? 0 : x0; x < x1 && x < columns_; ++x) {
                 if (!is_whole && x != x0 && x < x1 - 1) x = x1 - 1;  // on to the last one
                 if (x >= columns_) break;
-                const auto cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+                const auto cell =
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
                 for (std::uint32_t i = end_[cell]; i < end_[cell + 1]; ++i) visit(numbers_[i]);
             }
         }

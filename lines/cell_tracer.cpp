@@ -86,7 +86,8 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
                     return;
                 }
             }
-            if (!has_bridges && (a.occludes || b.occludes) && runs_through(a) && runs_through(b) && !are_one(a, b)) return;
+            if (!has_bridges && (a.occludes || b.occludes) && runs_through(a) && runs_through(b) && !are_one(a, b))
+                return;
             // No corner: half of the way looks like one, half like the other.
             const glm::dvec2 middle = 0.5 * (a.pixel + b.pixel);
             add(a, a.pixel, middle, center, segments);
@@ -111,7 +112,8 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
     };
 
     switch (crossings.size()) {
-        case 0: return;
+        case 0:
+            return;
         case 1: {
             const LineCrossing& c = *crossings[0];
             if (!has_edge(c)) return;
@@ -122,8 +124,10 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
                 center, segments);
             return;
         }
-        case 2: return join(*crossings[0], *crossings[1]);
-        default: break;
+        case 2:
+            return join(*crossings[0], *crossings[1]);
+        default:
+            break;
     }
     // Nearest first; those of one line together.
     std::array<const LineCrossing*, 4> sorted{};

@@ -21,7 +21,8 @@ class Chains {
         std::sort(ends.begin(), ends.end(),
                   [&](std::uint32_t a, std::uint32_t b) { return node(a) != node(b) ? node(a) < node(b) : a < b; });
         for (auto first = ends.begin(); first != ends.end();) {
-            const auto next = std::find_if(first, ends.end(), [&](std::uint32_t end) { return node(end) != node(*first); });
+            const auto next =
+                std::find_if(first, ends.end(), [&](std::uint32_t end) { return node(end) != node(*first); });
             link_node({&*first, static_cast<std::size_t>(next - first)});
             first = next;
         }
@@ -33,7 +34,8 @@ class Chains {
         double length;  // in its mesh
     };
 
-    /// Calls visit(ends by which each line is entered, whether it is a loop) for all chains, those first that come first.
+    /// Calls visit(ends by which each line is entered, whether it is a loop) for all chains, those first that come
+    /// first.
     template <typename Visit>
     void for_chains(const Visit& visit) const {
         std::vector<bool> done(lines_.size(), false);
@@ -57,7 +59,9 @@ class Chains {
         for (std::uint32_t end = 0; end < link_.size(); end += 2) {
             if (!done[end / 2]) follow(end, true);
         }
-        const auto ends_of = [&](const Chain& c) { return std::span<const std::uint32_t>(all).subspan(c.begin, c.end - c.begin); };
+        const auto ends_of = [&](const Chain& c) {
+            return std::span<const std::uint32_t>(all).subspan(c.begin, c.end - c.begin);
+        };
         const auto before = [this](std::uint32_t a, std::uint32_t b) { return is_before(a, b); };
         std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
             if (a.length != b.length) return a.length > b.length;
@@ -89,7 +93,8 @@ class Chains {
     std::tuple<std::uint64_t, double, double> depth_of(std::uint32_t end) const {
         const WholeLine& line = lines_[end / 2];
         const bool is_forwards = end % 2 == 0;
-        return {line.line_key, is_forwards ? line.nearness_from : line.nearness_to, is_forwards ? line.nearness_to : line.nearness_from};
+        return {line.line_key, is_forwards ? line.nearness_from : line.nearness_to,
+                is_forwards ? line.nearness_to : line.nearness_from};
     }
     std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }
     /// What the line is, seen from anywhere.
@@ -121,7 +126,8 @@ class Chains {
         if (alone.size() == 2) link(alone[0], alone[1]);
     }
 
-    /// Ends compare by where they are in their mesh; those without a vertex by where they are on the screen, behind the others.
+    /// Ends compare by where they are in their mesh; those without a vertex by where they are on the screen, behind the
+    /// others.
     bool is_before(std::uint32_t a, std::uint32_t b) const {
         const auto key = [&](std::uint32_t end) {
             const std::uint64_t own = node(end);
@@ -139,9 +145,11 @@ class Chains {
         if (is_loop) std::rotate(chain.begin(), std::min_element(chain.begin(), chain.end(), before), chain.end());
         std::vector<std::uint32_t> backwards(chain.rbegin(), chain.rend());
         for (std::uint32_t& end : backwards) end ^= 1;
-        // By all vertices on the way: a chain may end where it began. A loop does, and rounding says which of two intersections begins first.
+        // By all vertices on the way: a chain may end where it began. A loop does, and rounding says which of two
+        // intersections begins first.
         const std::ptrdiff_t known = is_loop ? 1 : 0;
-        if (std::lexicographical_compare(backwards.begin() + known, backwards.end(), chain.begin() + known, chain.end(), before)) {
+        if (std::lexicographical_compare(backwards.begin() + known, backwards.end(), chain.begin() + known, chain.end(),
+                                         before)) {
             chain.swap(backwards);
         }
     }

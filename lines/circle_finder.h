@@ -5,11 +5,11 @@
 
 namespace burin {
 
-/// Tells when something that goes from state to state, each of which follows from the one before, goes round in circles:
-/// a state that comes again will come again for ever.
+/// Tells when something that goes from state to state, each of which follows from the one before, goes round in
+/// circles: a state that comes again will come again for ever.
 ///
-/// Each state is compared with one of before, which is replaced after 8, 16, 32 ... steps, so that a circle is found within
-/// a few times its length. R. P. Brent, An improved Monte Carlo factorization algorithm, BIT 20 (1980).
+/// Each state is compared with one of before, which is replaced after 8, 16, 32 ... steps, so that a circle is found
+/// within a few times its length. R. P. Brent, An improved Monte Carlo factorization algorithm, BIT 20 (1980).
 template <typename State>
 class CircleFinder {
   public:

@@ -17,27 +17,20 @@ constexpr double kMostPieces = 24;
 /// What turns more between two edges is no curve: its tangents may be on the wrong side.
 constexpr double kCosLargestTurn = 0.5;
 
-glm::dvec2 rounded(glm::dvec2 p) {
-    return glm::round(p * kGridPerPx) / kGridPerPx;
-}
+glm::dvec2 rounded(glm::dvec2 p) { return glm::round(p * kGridPerPx) / kGridPerPx; }
 
-bool is_less(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
-bool comes_before(glm::dvec2 a, glm::dvec2 b) {
-    return std::tie(a.x, a.y) < std::tie(b.x, b.y);
-}
+bool is_less(const glm::dvec3& a, const glm::dvec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+bool comes_before(glm::dvec2 a, glm::dvec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
 
 /// The cubic of two ends and their handles.
-glm::dvec3 on_cubic(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-                    const glm::dvec3& d, double t) {
+glm::dvec3 on_cubic(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, double t) {
     const double s = 1 - t;
     return a * (s * s * s) + b * (3 * s * s * t) + c * (3 * s * t * t) + d * (t * t * t);
 }
 
 /// Of the edge between two vertices with unit normals.
-glm::dvec3 on_edge(const glm::dvec3& a, const glm::dvec3& normal_a, const glm::dvec3& b,
-                   const glm::dvec3& normal_b, double share) {
+glm::dvec3 on_edge(const glm::dvec3& a, const glm::dvec3& normal_a, const glm::dvec3& b, const glm::dvec3& normal_b,
+                   double share) {
     const glm::dvec3 way = b - a;
     const glm::dvec3 from_a = a + (way - glm::dot(way, normal_a) * normal_a) / 3.0;
     const glm::dvec3 from_b = b - (way - glm::dot(way, normal_b) * normal_b) / 3.0;
@@ -91,8 +84,7 @@ std::vector<ContourChain> linked(std::vector<std::vector<glm::dvec2>> pieces) {
         }
         chain.lengths.push_back(0);
         for (std::size_t i = 1; i < chain.points.size(); ++i) {
-            chain.lengths.push_back(chain.lengths.back() +
-                                    glm::distance(chain.points[i - 1], chain.points[i]));
+            chain.lengths.push_back(chain.lengths.back() + glm::distance(chain.points[i - 1], chain.points[i]));
         }
         chains.push_back(std::move(chain));
     };
@@ -110,19 +102,16 @@ std::vector<ContourChain> linked(std::vector<std::vector<glm::dvec2>> pieces) {
 }  // namespace
 
 /// Both triangles at an edge ask for its vertices in one order, and so come to the same bits.
-ContourFinder::Crossing ContourFinder::crossing(std::uint32_t a, const Corner& at_a,
-                                                std::uint32_t b, const Corner& at_b) const {
-    if (is_less(mesh_.local_position(b), mesh_.local_position(a)))
-        return crossing(b, at_b, a, at_a);
+ContourFinder::Crossing ContourFinder::crossing(std::uint32_t a, const Corner& at_a, std::uint32_t b,
+                                                const Corner& at_b) const {
+    if (is_less(mesh_.local_position(b), mesh_.local_position(a))) return crossing(b, at_b, a, at_a);
     const double share = at_a.facing / (at_a.facing - at_b.facing);
     glm::dvec3 place = on_edge(at_a.view, at_a.normal, at_b.view, at_b.normal, share);
-    if (!needs_no_clipping(surfaces_.projection, place))
-        place = glm::mix(at_a.view, at_b.view, share);
+    if (!needs_no_clipping(surfaces_.projection, place)) place = glm::mix(at_a.view, at_b.view, share);
     // At a contour the tangent plane passes through the eye, and is seen as a line.
     const glm::dvec3 normal = glm::mix(at_a.normal, at_b.normal, share);
     const glm::dvec2 along(normal.y, normal.x);
-    return {rounded(surfaces_.projection.to_pixel(place)),
-            along / std::max(glm::length(along), 1e-300)};
+    return {rounded(surfaces_.projection.to_pixel(place)), along / std::max(glm::length(along), 1e-300)};
 }
 
 /// Whether a contour passes over the triangle.
@@ -138,8 +127,7 @@ bool ContourFinder::add_piece(std::uint32_t triangle, std::vector<Piece>& pieces
         if (!needs_no_clipping(projection, c.view) || own == glm::vec3(0.0f)) return false;
         c.normal = instance.normal_to_view * glm::dvec3(own);
         c.normal /= std::max(glm::length(c.normal), 1e-300);
-        const glm::dvec3 ray =
-            projection.orthographic ? glm::dvec3(0, 0, -1) : c.view / glm::length(c.view);
+        const glm::dvec3 ray = projection.orthographic ? glm::dvec3(0, 0, -1) : c.view / glm::length(c.view);
         c.facing = glm::dot(c.normal, ray);
     }
     std::array<Crossing, 2> ends;
@@ -157,8 +145,7 @@ bool ContourFinder::add_piece(std::uint32_t triangle, std::vector<Piece>& pieces
     const double count = std::clamp(std::ceil(std::sqrt(bend / (8 * kOffPx))), 1.0, kMostPieces);
     Piece piece{a};
     for (double i = 1; i < count; ++i) {
-        const glm::dvec2 p =
-            rounded(glm::dvec2(on_cubic({a, 0}, {b, 0}, {c, 0}, {d, 0}, i / count)));
+        const glm::dvec2 p = rounded(glm::dvec2(on_cubic({a, 0}, {b, 0}, {c, 0}, {d, 0}, i / count)));
         if (p != piece.back() && p != d) piece.push_back(p);
     }
     piece.push_back(d);

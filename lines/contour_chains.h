@@ -29,10 +29,7 @@ struct ContourChain {
 class ContourFinder {
   public:
     ContourFinder(const SurfaceSet& surfaces, std::uint32_t instance, const SmoothMesh& smooth)
-        : surfaces_(surfaces),
-          mesh_(*surfaces.instances[instance].mesh),
-          instance_(instance),
-          smooth_(smooth) {}
+        : surfaces_(surfaces), mesh_(*surfaces.instances[instance].mesh), instance_(instance), smooth_(smooth) {}
 
     /// On the triangles around a smooth edge: those that have a vertex in common with one at the
     /// edge's ends.
@@ -49,8 +46,7 @@ class ContourFinder {
     };
 
     std::vector<std::uint32_t> triangles_around(HalfEdge h) const;
-    Crossing crossing(std::uint32_t a, const Corner& at_a, std::uint32_t b,
-                      const Corner& at_b) const;
+    Crossing crossing(std::uint32_t a, const Corner& at_a, std::uint32_t b, const Corner& at_b) const;
     bool add_piece(std::uint32_t triangle, std::vector<Piece>& pieces) const;
 
     const SurfaceSet& surfaces_;

@@ -37,19 +37,14 @@ class Cells {
     struct Entry {
         std::uint64_t cell;
         std::uint32_t number;
-        bool operator<(const Entry& o) const {
-            return std::tie(cell, number) < std::tie(o.cell, o.number);
-        }
+        bool operator<(const Entry& o) const { return std::tie(cell, number) < std::tie(o.cell, o.number); }
     };
     template <typename Visit>
     static void for_cells(glm::dvec2 low, glm::dvec2 high, const Visit& visit) {
-        const auto cell = [](double at) {
-            return static_cast<std::int32_t>(std::floor(at / kCellPx));
-        };
+        const auto cell = [](double at) { return static_cast<std::int32_t>(std::floor(at / kCellPx)); };
         for (std::int32_t y = cell(low.y); y <= cell(high.y); ++y) {
             for (std::int32_t x = cell(low.x); x <= cell(high.x); ++x) {
-                visit(std::uint64_t{static_cast<std::uint32_t>(y)} << 32 |
-                      static_cast<std::uint32_t>(x));
+                visit(std::uint64_t{static_cast<std::uint32_t>(y)} << 32 | static_cast<std::uint32_t>(x));
             }
         }
     }
@@ -78,8 +73,7 @@ class Joiner {
         for (std::uint32_t i = 0; i < lines.size(); ++i) {
             const LineSegment& s = *lines[i].given;
             lines_in_.add(glm::min(s.from, s.to), glm::max(s.from, s.to), i);
-            for (const std::uint32_t end : {2 * i, 2 * i + 1})
-                ends_in_.add(place(end), place(end), end);
+            for (const std::uint32_t end : {2 * i, 2 * i + 1}) ends_in_.add(place(end), place(end), end);
         }
         lines_in_.sort();
         ends_in_.sort();
@@ -104,8 +98,7 @@ class Joiner {
             if (line == end / 2) return;
             const LineSegment& s = *lines_[line].given;
             const double distance = glm::distance(nearest_on(s.from, s.to, place(end)), place(end));
-            if (distance < least ||
-                (distance == least && beside && place_key(line) < place_key(*beside))) {
+            if (distance < least || (distance == least && beside && place_key(line) < place_key(*beside))) {
                 least = distance;
                 beside = line;
             }

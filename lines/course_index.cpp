@@ -7,7 +7,8 @@
 namespace burin {
 namespace {
 
-/// Nearly the same way: the sine of the angle between, at most. For the shortest ones, how far the end may be off: snapping turns them.
+/// Nearly the same way: the sine of the angle between, at most. For the shortest ones, how far the end may be off:
+/// snapping turns them.
 constexpr double kMostTurned = 1.0 / 8, kMostOffPx = 1.0 / 32;
 constexpr int kSmallestCellPx = 4;
 constexpr std::int64_t kMostCells = 1 << 20;
@@ -25,7 +26,8 @@ bool cut(double at_0, double at_1, double low, double high, double& begin, doubl
 
 }  // namespace
 
-CourseIndex::CourseIndex(PixelRect picture, double reach_px) : picture_(picture), reach_px_(reach_px), cell_px_(kSmallestCellPx) {
+CourseIndex::CourseIndex(PixelRect picture, double reach_px)
+    : picture_(picture), reach_px_(reach_px), cell_px_(kSmallestCellPx) {
     const auto count = [&](int length) { return std::int64_t{length} / cell_px_ + 1; };
     while (cell_px_ < 2 * reach_px || count(picture.width()) * count(picture.height()) > kMostCells) cell_px_ *= 2;
     columns_ = static_cast<int>(count(picture.width()));
@@ -43,11 +45,14 @@ void CourseIndex::for_cells(glm::dvec2 from, glm::dvec2 to, double around_px, co
     const int major = std::abs(b.x - a.x) >= std::abs(b.y - a.y) ? 0 : 1, minor = 1 - major;
     if (b[major] < a[major]) std::swap(a, b);
     const int count[2] = {columns_, rows_};
-    const auto clamped = [](double v, int end) { return static_cast<int>(std::clamp(std::floor(v), -1.0, static_cast<double>(end))); };
+    const auto clamped = [](double v, int end) {
+        return static_cast<int>(std::clamp(std::floor(v), -1.0, static_cast<double>(end)));
+    };
     const double slope = b[major] > a[major] ? (b[minor] - a[minor]) / (b[major] - a[major]) : 0;
     const int last = std::min(clamped(b[major] + around, count[major]), count[major] - 1);
     for (int i = std::max(clamped(a[major] - around, count[major]), 0); i <= last; ++i) {
-        const double begin = std::clamp(i - around, a[major], b[major]), end = std::clamp(i + 1 + around, a[major], b[major]);
+        const double begin = std::clamp(i - around, a[major], b[major]),
+                     end = std::clamp(i + 1 + around, a[major], b[major]);
         const double p = a[minor] + slope * (begin - a[major]), q = a[minor] + slope * (end - a[major]);
         const int high = std::min(clamped(std::max(p, q) + around, count[minor]), count[minor] - 1);
         for (int j = std::max(clamped(std::min(p, q) - around, count[minor]), 0); j <= high; ++j) {
@@ -100,8 +105,10 @@ void CourseIndex::choose_first_courses() {
     });
     std::set<std::uint32_t> here;
     for (std::size_t i = 0; i < changes.size(); ++i) {
-        if (changes[i].begins) here.insert(changes[i].course);
-        else here.erase(changes[i].course);
+        if (changes[i].begins)
+            here.insert(changes[i].course);
+        else
+            here.erase(changes[i].course);
         if (here.empty() || i + 1 == changes.size() || changes[i + 1].at == changes[i].at) continue;
         const double begin = changes[i].at, end = changes[i + 1].at;
         if (!covers_.empty() && covers_.back().end == begin && covers_.back().course == *here.begin()) {

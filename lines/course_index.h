@@ -9,10 +9,11 @@
 
 namespace burin {
 
-/// Straight courses of lines on the screen, by place: finds those that another line lies on. Only what is in the picture counts.
+/// Straight courses of lines on the screen, by place: finds those that another line lies on. Only what is in the
+/// picture counts.
 ///
-/// A place of a line lies on a course if it is beside it, within the reach, and both run nearly the same way: lines that merely
-/// cross do not.
+/// A place of a line lies on a course if it is beside it, within the reach, and both run nearly the same way: lines
+/// that merely cross do not.
 class CourseIndex {
   public:
     /// A part of a line that lies on a course, as shares of the line's way.
@@ -31,7 +32,8 @@ class CourseIndex {
     /// Adds a course, in pixels. Courses count from 0.
     std::uint32_t add(glm::dvec2 from, glm::dvec2 to);
 
-    /// The parts of the way between two places that lie on courses, in their order. Where several courses are, the one added first.
+    /// The parts of the way between two places that lie on courses, in their order. Where several courses are, the one
+    /// added first.
     std::span<const Cover> find(glm::dvec2 from, glm::dvec2 to);
 
     /// Those that may come within the reach of a place, in any order, some of them more than once.

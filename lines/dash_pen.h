@@ -15,13 +15,15 @@ class DashPen {
 
     double period_px() const { return period_px_; }
 
-    /// Calls visit(first, last) for the strokes of a straight piece whose ends stand at `begin` and `end` along its chain, either
-    /// way round: where they stand, the lower one first. `per_px`: by how much that grows in a pixel, 1 unless dashes are
-    /// stretched. A dash no longer than the pen is wide is a dot, about the length of which a stroke may go beyond the piece.
+    /// Calls visit(first, last) for the strokes of a straight piece whose ends stand at `begin` and `end` along its
+    /// chain, either way round: where they stand, the lower one first. `per_px`: by how much that grows in a pixel, 1
+    /// unless dashes are stretched. A dash no longer than the pen is wide is a dot, about the length of which a stroke
+    /// may go beyond the piece.
     template <typename Visit>
     void for_dashes(double begin, double end, double per_px, const Visit& visit) const {
         if (begin == end) return;
-        const double inset = inset_px_ * per_px, on = on_px_ - inset, low = std::min(begin, end), high = std::max(begin, end);
+        const double inset = inset_px_ * per_px, on = on_px_ - inset, low = std::min(begin, end),
+                     high = std::max(begin, end);
         const bool is_dotted = on_px_ - 2 * inset_px_ < kDotPx;
         for (double dash = std::floor(low / period_px_); dash * period_px_ <= high; ++dash) {
             const double first = std::max(low, dash * period_px_ + inset);

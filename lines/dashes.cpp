@@ -55,17 +55,17 @@ class Chains {
         }
         const auto is_before = [this](std::uint32_t a, std::uint32_t b) { return is_higher(place(a), place(b)); };
         std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
-            if (std::lexicographical_compare(a.ends.begin(), a.ends.end(), b.ends.begin(), b.ends.end(), is_before)) return true;
-            if (std::lexicographical_compare(b.ends.begin(), b.ends.end(), a.ends.begin(), a.ends.end(), is_before)) return false;
+            if (std::lexicographical_compare(a.ends.begin(), a.ends.end(), b.ends.begin(), b.ends.end(), is_before))
+                return true;
+            if (std::lexicographical_compare(b.ends.begin(), b.ends.end(), a.ends.begin(), a.ends.end(), is_before))
+                return false;
             return is_before(a.ends.back() ^ 1, b.ends.back() ^ 1);
         });
         return chains;
     }
 
   private:
-    glm::dvec2 place(std::uint32_t end) const {
-        return end % 2 == 0 ? pieces_[end / 2]->from : pieces_[end / 2]->to;
-    }
+    glm::dvec2 place(std::uint32_t end) const { return end % 2 == 0 ? pieces_[end / 2]->from : pieces_[end / 2]->to; }
 
     void link() {
         std::vector<std::uint32_t> ends(2 * pieces_.size());
@@ -78,7 +78,8 @@ class Chains {
         for (std::size_t i = 0; i < ends.size();) {
             std::size_t next = i + 1;
             while (next < ends.size() && place(ends[next]) == place(ends[i])) ++next;
-            link_node({ends.begin() + static_cast<std::ptrdiff_t>(i), ends.begin() + static_cast<std::ptrdiff_t>(next)});
+            link_node(
+                {ends.begin() + static_cast<std::ptrdiff_t>(i), ends.begin() + static_cast<std::ptrdiff_t>(next)});
             i = next;
         }
     }
@@ -157,7 +158,8 @@ class Features {
         std::optional<std::uint32_t> nearest;
         double least = 0;
         const glm::dvec2 middle = 0.5 * (piece.from + piece.to);
-        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), std::pair(piece.line_key, 0u)); i != keys_.end() && i->first == piece.line_key; ++i) {
+        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), std::pair(piece.line_key, 0u));
+             i != keys_.end() && i->first == piece.line_key; ++i) {
             const double beyond = std::abs(share_of(lines_[i->second], middle) - 0.5);  // an edge may be cut into parts
             if (nearest && beyond >= least) continue;
             nearest = i->second;
@@ -179,7 +181,9 @@ class Features {
 /// Adds the dashes of a part of a piece.
 void draw(const LineSegment& piece, const DashPart& part, const DashPen& pen, std::vector<LineSegment>& drawn) {
     const double share = part.end - part.begin, length = part.at_end - part.at_begin;
-    const auto point = [&](double at) { return glm::mix(piece.from, piece.to, part.begin + share * ((at - part.at_begin) / length)); };
+    const auto point = [&](double at) {
+        return glm::mix(piece.from, piece.to, part.begin + share * ((at - part.at_begin) / length));
+    };
     const double per_px = std::abs(length) / (share * glm::distance(piece.from, piece.to));
     pen.for_dashes(part.at_begin, part.at_end, per_px, [&](double first, double last) {
         LineSegment dash = piece;
@@ -190,8 +194,8 @@ void draw(const LineSegment& piece, const DashPart& part, const DashPen& pen, st
 }
 
 /// Of a piece of a feature. `first`, `last`: where its ends are on the feature, as shares of it.
-void draw_on_feature(const LineSegment& piece, double first, double last, const LineDashes& dashes, std::size_t feature, const DashPen& pen,
-                     std::vector<LineSegment>& drawn) {
+void draw_on_feature(const LineSegment& piece, double first, double last, const LineDashes& dashes, std::size_t feature,
+                     const DashPen& pen, std::vector<LineSegment>& drawn) {
     constexpr double kFar = 1e300;
     dashes.for_parts(feature, [&](const DashPart& part) {
         // A piece may go on a little beyond its feature.
@@ -244,7 +248,8 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
             } else if (s.from == s.to) {
                 continue;
             } else if (const auto feature = on_mesh.find(s)) {
-                const double first = Features::share_of(features[*feature], s.from), last = Features::share_of(features[*feature], s.to);
+                const double first = Features::share_of(features[*feature], s.from),
+                             last = Features::share_of(features[*feature], s.to);
                 draw_on_feature(s, first, last, of_features, *feature, pen, result[0]);
             } else {
                 others.push_back(&s);

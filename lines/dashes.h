@@ -12,18 +12,19 @@
 
 namespace burin {
 
-/// Cuts visible lines into dashes of [on, off] pixels, in a picture of this size. `on` includes the round ends of a pen of this width.
+/// Cuts visible lines into dashes of [on, off] pixels, in a picture of this size. `on` includes the round ends of a pen
+/// of this width.
 ///
-/// `features` are edges of the mesh that are lines from anywhere, such as creases, whole, be they seen or not: dashes along
-/// them depend on them alone (chains_of()), so they stay where they are when a camera moves or something
-/// passes in front.
+/// `features` are edges of the mesh that are lines from anywhere, such as creases, whole, be they seen or not: dashes
+/// along them depend on them alone (chains_of()), so they stay where they are when a camera moves or something passes
+/// in front.
 ///
-/// Of all other lines, contours above all, the pieces that meet follow each other in a chain, over tiles and over edges of
-/// the mesh. Where more than two meet, those of one edge belong together, else those of one class if they are two; the
-/// others end there. A chain's first dash begins at the end that is higher on the screen (of two level ones, the left one).
-/// A closed chain begins at its highest point and runs clockwise, and its dashes are stretched or squeezed so that a whole
-/// number of them fits: there is no seam. Open chains shorter than a pixel or than the pen is wide, and loops shorter than
-/// 1/16 pixel, are left out: hooks of facets would dot the gaps of the lines that they hang on.
+/// Of all other lines, contours above all, the pieces that meet follow each other in a chain, over tiles and over edges
+/// of the mesh. Where more than two meet, those of one edge belong together, else those of one class if they are two;
+/// the others end there. A chain's first dash begins at the end that is higher on the screen (of two level ones, the
+/// left one). A closed chain begins at its highest point and runs clockwise, and its dashes are stretched or squeezed
+/// so that a whole number of them fits: there is no seam. Open chains shorter than a pixel or than the pen is wide, and
+/// loops shorter than 1/16 pixel, are left out: hooks of facets would dot the gaps of the lines that they hang on.
 ///
 /// Lines that lie on each other share their dashes (SharedDashes): features first.
 ///

@@ -20,9 +20,7 @@ constexpr double kShortRest = 3;
 constexpr double kSlant = 2;
 constexpr double kGridPerPx = 4096;
 
-glm::dvec2 rounded(glm::dvec2 p) {
-    return glm::round(p * kGridPerPx) / kGridPerPx;
-}
+glm::dvec2 rounded(glm::dvec2 p) { return glm::round(p * kGridPerPx) / kGridPerPx; }
 
 }  // namespace
 
@@ -34,33 +32,29 @@ FoldMap::Foot FoldMap::nearest(std::span<const ContourChain> chains, glm::dvec2 
         const std::size_t last = chain.points.size() - 1;
         for (std::size_t i = 0; i < last; ++i) {
             const glm::dvec2 a = chain.points[i], along = chain.points[i + 1] - a;
-            const double share =
-                std::clamp(glm::dot(place - a, along) / glm::dot(along, along), 0.0, 1.0);
+            const double share = std::clamp(glm::dot(place - a, along) / glm::dot(along, along), 0.0, 1.0);
             const glm::dvec2 foot = rounded(a + along * share);
             const double square = glm::dot(place - foot, place - foot);
             if (!(square < least)) continue;
             least = square;
-            const bool is_beyond_end =
-                !chain.is_closed() && ((i == 0 && share == 0) || (i + 1 == last && share == 1));
-            best = is_beyond_end
-                       ? Foot{place}
-                       : Foot{foot, c, i, glm::mix(chain.lengths[i], chain.lengths[i + 1], share)};
+            const bool is_beyond_end = !chain.is_closed() && ((i == 0 && share == 0) || (i + 1 == last && share == 1));
+            best =
+                is_beyond_end ? Foot{place} : Foot{foot, c, i, glm::mix(chain.lengths[i], chain.lengths[i + 1], share)};
         }
     }
     return best;
 }
 
 /// Adds the points of a chain on the way from one foot to another.
-void FoldMap::follow(const ContourChain& chain, const Foot& a, double share_a, const Foot& b,
-                     double share_b) {
+void FoldMap::follow(const ContourChain& chain, const Foot& a, double share_a, const Foot& b, double share_b) {
     const double straight = glm::distance(a.place, b.place), whole = chain.length();
     double way = b.length - a.length;
     if (chain.is_closed() && std::abs(way) > 0.5 * whole) way -= std::copysign(whole, way);
     if (std::abs(way) > std::max(kLongestDetour * straight, kShortDetourPx)) return;
     const std::size_t count = chain.points.size() - 1;  // of segments
     const auto add = [&](std::size_t point, double length) {
-        stops_.push_back({glm::mix(share_a, share_b, std::clamp(length / std::abs(way), 0.0, 1.0)),
-                          chain.points[point], false});
+        stops_.push_back(
+            {glm::mix(share_a, share_b, std::clamp(length / std::abs(way), 0.0, 1.0)), chain.points[point], false});
     };
     double passed = 0;
     glm::dvec2 at = a.place;
@@ -82,22 +76,19 @@ void FoldMap::follow(const ContourChain& chain, const Foot& a, double share_a, c
     }
 }
 
-FoldMap::FoldMap(glm::dvec2 from, glm::dvec2 to, std::span<const ContourChain> chains,
-                 double farthest_px)
+FoldMap::FoldMap(glm::dvec2 from, glm::dvec2 to, std::span<const ContourChain> chains, double farthest_px)
     : from_(from), to_(to) {
     const double length = glm::distance(from, to);
     if (chains.empty() || !(length > 0)) return;
     const double steps = std::clamp(std::ceil(length / kStepPx), 1.0, kMostSteps);
     std::vector<Foot> feet;
-    for (double i = 0; i <= steps; ++i)
-        feet.push_back(nearest(chains, glm::mix(from, to, i / steps)));
+    for (double i = 0; i <= steps; ++i) feet.push_back(nearest(chains, glm::mix(from, to, i / steps)));
     const auto is_off = [](const Foot& foot) { return foot.chain == Foot::kNoChain; };
     const auto share = [&](std::size_t i) { return static_cast<double>(i) / steps; };
     const auto place = [&](std::size_t i) { return glm::mix(from, to, share(i)); };
     bool is_near = false;
     for (std::size_t i = 0; i < feet.size(); ++i)
-        is_near =
-            is_near || (!is_off(feet[i]) && glm::distance(feet[i].place, place(i)) < farthest_px);
+        is_near = is_near || (!is_off(feet[i]) && glm::distance(feet[i].place, place(i)) < farthest_px);
     if (!is_near) return;
     for (std::size_t i = 0; i < feet.size();) {
         std::size_t end = i + 1;  // of feet on one chain, or of places beside none
@@ -113,13 +104,11 @@ FoldMap::FoldMap(glm::dvec2 from, glm::dvec2 to, std::span<const ContourChain> c
             const double rest = glm::distance(place(i), place(end - 1));
             double over = 0;
             if (i > 0) over = std::max(over, glm::distance(feet[i - 1].place, place(i)));
-            if (end < feet.size())
-                over = std::max(over, glm::distance(feet[end].place, place(end - 1)));
+            if (end < feet.size()) over = std::max(over, glm::distance(feet[end].place, place(end - 1)));
             const bool is_short = rest <= kShortRest * over;
             // Beside contours on both sides nothing of a short one is left.
             if (i == 0 || !is_short) stops_.push_back({share(i), place(i), true});
-            if (end == feet.size() || !is_short)
-                stops_.push_back({share(end - 1), place(end - 1), true});
+            if (end == feet.size() || !is_short) stops_.push_back({share(end - 1), place(end - 1), true});
         }
         i = end;
     }
@@ -137,9 +126,7 @@ void FoldMap::straighten() {
             // Stops between that are gone already are no farther from it than by as much again.
             const Stop &a = kept.back(), &b = stops_[i + 1];
             const double range = b.share - a.share;
-            if (range > 0 &&
-                glm::distance(s.place, glm::mix(a.place, b.place, (s.share - a.share) / range)) <=
-                    kOffPx)
+            if (range > 0 && glm::distance(s.place, glm::mix(a.place, b.place, (s.share - a.share) / range)) <= kOffPx)
                 continue;
         }
         kept.push_back(s);
@@ -154,8 +141,7 @@ void FoldMap::lead_to_end(glm::dvec2 place) {
     if (is_first) std::reverse(stops_.begin(), stops_.end());
     const Stop end{is_first ? 0.0 : 1.0, is_first ? from_ : to_, true};
     double whole = 0;
-    for (std::size_t i = 1; i < stops_.size(); ++i)
-        whole += glm::distance(stops_[i - 1].place, stops_[i].place);
+    for (std::size_t i = 1; i < stops_.size(); ++i) whole += glm::distance(stops_[i - 1].place, stops_[i].place);
     double rest = std::min(kSlant * glm::distance(stops_.back().place, end.place), 0.5 * whole);
     while (stops_.size() > 1) {
         const Stop last = stops_.back(), &before = stops_[stops_.size() - 2];
@@ -193,14 +179,12 @@ std::vector<glm::dvec2> FoldMap::moved(glm::dvec2 from, glm::dvec2 to) const {
     };
     const auto is_after = [](double share, const Stop& s) { return share < s.share; };
     const auto is_before = [](const Stop& s, double share) { return s.share < share; };
-    const auto begin =
-        std::upper_bound(stops_.begin(), stops_.end(), first, is_after);  // behind it
+    const auto begin = std::upper_bound(stops_.begin(), stops_.end(), first, is_after);  // behind it
     const auto end = std::max(begin, std::lower_bound(stops_.begin(), stops_.end(), last,
                                                       is_before));  // at it or behind it
     std::vector<glm::dvec2> points;
     const auto place_of = [&](auto behind, double share, glm::dvec2 given) {
-        if (behind == stops_.begin())
-            return stops_.front().is_on_edge ? given : stops_.front().place;
+        if (behind == stops_.begin()) return stops_.front().is_on_edge ? given : stops_.front().place;
         if (behind == stops_.end()) return stops_.back().is_on_edge ? given : stops_.back().place;
         return between(*(behind - 1), *behind, share, given);
     };

@@ -17,8 +17,7 @@ class FoldMap {
     FoldMap() = default;
     /// `from`, `to`: the edge on the screen. `farthest_px`: contours that come no nearer are none
     /// of this edge.
-    FoldMap(glm::dvec2 from, glm::dvec2 to, std::span<const ContourChain> chains,
-            double farthest_px);
+    FoldMap(glm::dvec2 from, glm::dvec2 to, std::span<const ContourChain> chains, double farthest_px);
 
     bool is_moved() const { return !stops_.empty(); }
     /// Leads to the end of the edge that is at a place, where other lines stay: slantwise, not by a
@@ -43,8 +42,7 @@ class FoldMap {
         double length = 0;      // along the chain
     };
     static Foot nearest(std::span<const ContourChain> chains, glm::dvec2 place);
-    void follow(const ContourChain& chain, const Foot& a, double share_a, const Foot& b,
-                double share_b);
+    void follow(const ContourChain& chain, const Foot& a, double share_a, const Foot& b, double share_b);
     void straighten();
     double share_of(glm::dvec2 place) const;
 

@@ -41,12 +41,8 @@ struct LineClassSet {
     }
     constexpr bool has(LineClass c) const { return (bits >> static_cast<int>(c) & 1) != 0; }
     constexpr bool empty() const { return bits == 0; }
-    friend constexpr LineClassSet operator|(LineClassSet a, LineClassSet b) {
-        return from_bits(a.bits | b.bits);
-    }
-    friend constexpr LineClassSet operator&(LineClassSet a, LineClassSet b) {
-        return from_bits(a.bits & b.bits);
-    }
+    friend constexpr LineClassSet operator|(LineClassSet a, LineClassSet b) { return from_bits(a.bits | b.bits); }
+    friend constexpr LineClassSet operator&(LineClassSet a, LineClassSet b) { return from_bits(a.bits & b.bits); }
     constexpr LineClassSet& operator|=(LineClassSet b) { return *this = *this | b; }
     constexpr bool operator==(const LineClassSet&) const = default;
 
@@ -60,9 +56,8 @@ struct LineClassSet {
 };
 constexpr LineClassSet operator|(LineClass a, LineClass b) { return LineClassSet(a) | LineClassSet(b); }
 
-constexpr LineClassSet kDefaultLineClasses =
-    LineClassSet(LineClass::silhouette) | LineClass::border | LineClass::crease |
-    LineClass::intersection | LineClass::object;
+constexpr LineClassSet kDefaultLineClasses = LineClassSet(LineClass::silhouette) | LineClass::border |
+                                             LineClass::crease | LineClass::intersection | LineClass::object;
 
 /// The class with this name, if there is one.
 std::optional<LineClass> line_class_named(std::string_view name);

@@ -6,7 +6,8 @@ namespace burin {
 
 bool is_feature(const WholeLine& line) { return !(line.classes == LineClassSet(LineClass::silhouette)); }
 
-LineDashes::LineDashes(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px, SharedDashes& shared)
+LineDashes::LineDashes(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px,
+                       SharedDashes& shared)
     : piece_of_line_(lines.size()) {
     const LineChains chains = chains_of(lines, surfaces, period_px);
     std::vector<DashPiece> pieces;

@@ -16,15 +16,15 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The two points with the ways over their surfaces towards each other.
 class Decider {
   public:
-    Decider(const SurfaceSet& surfaces, const VisiblePoint& a, const VisiblePoint& b,
-            const LineCriteria& criteria)
+    Decider(const SurfaceSet& surfaces, const VisiblePoint& a, const VisiblePoint& b, const LineCriteria& criteria)
         : surfaces_(surfaces), criteria_(criteria), points_{a, b} {}
 
     LineDecision decide() {
         for (const int i : {0, 1}) {
             if (other(i).surface.is_background()) {
                 walks_[i] = walk(i);
-                return ended(walks_[i]) || ends_at_point(i) ? end_of_surface(i, kInfinity, false) : unexplained(i, kInfinity);
+                return ended(walks_[i]) || ends_at_point(i) ? end_of_surface(i, kInfinity, false)
+                                                            : unexplained(i, kInfinity);
             }
         }
         for (const int i : {0, 1}) {
@@ -60,9 +60,7 @@ class Decider {
         return w.end == WalkEnd::fold || w.end == WalkEnd::border || w.end == WalkEnd::crack;
     }
     const VisiblePoint& other(int i) const { return points_[1 - i]; }
-    glm::dvec2 place(int i, double fraction) const {
-        return glm::mix(points_[i].pixel, other(i).pixel, fraction);
-    }
+    glm::dvec2 place(int i, double fraction) const { return glm::mix(points_[i].pixel, other(i).pixel, fraction); }
     SurfaceWalk walk(int i) const {
         return walk_surface(surfaces_, points_[i].surface, points_[i].pixel, other(i).pixel, criteria_);
     }
@@ -77,15 +75,13 @@ class Decider {
     double gap_behind_end(int i) {
         const glm::dvec2 end = place(i, walks_[i].fraction);
         const double own = distance(walks_[i].surface, end);
-        const SurfaceWalk to_end =
-            walk_surface(surfaces_, other(i).surface, other(i).pixel, end, criteria_);
+        const SurfaceWalk to_end = walk_surface(surfaces_, other(i).surface, other(i).pixel, end, criteria_);
         behind_[i] = to_end.surface;
         if (to_end.end == WalkEnd::arrived) return distance(to_end.surface, end) - own;
         // It ends as well, or is not understood: extend the planes, and take the smaller gap.
         const glm::dvec2 other_end = glm::mix(other(i).pixel, end, to_end.fraction);
         const double gap_here = extended_distance(to_end.surface, end) - own;
-        const double gap_there =
-            distance(to_end.surface, other_end) - extended_distance(walks_[i].surface, other_end);
+        const double gap_there = distance(to_end.surface, other_end) - extended_distance(walks_[i].surface, other_end);
         return std::abs(gap_here) <= std::abs(gap_there) ? gap_here : gap_there;
     }
     double tolerance_at_end(int i, double pixels = 2) const {
@@ -104,14 +100,16 @@ class Decider {
 
     double tolerance_at_point(int i, double pixels) const {
         const glm::dvec2 at = points_[i].pixel;
-        return depth_tolerance(surfaces_, distance(points_[i].surface, at), surfaces_.plane(walks_[1 - i].surface), pixels);
+        return depth_tolerance(surfaces_, distance(points_[i].surface, at), surfaces_.plane(walks_[1 - i].surface),
+                               pixels);
     }
     /// Whether point i's surface, that was followed to the other point, ends there, but for rounding: its walk
     /// becomes the one that ends.
     bool ends_at_point(int i) {
         constexpr double kRoundingPx = 1.0 / 64;
         const double farther = 1 + kRoundingPx / glm::distance(points_[0].pixel, points_[1].pixel);
-        SurfaceWalk beyond = walk_surface(surfaces_, points_[i].surface, points_[i].pixel, place(i, farther), criteria_);
+        SurfaceWalk beyond =
+            walk_surface(surfaces_, points_[i].surface, points_[i].pixel, place(i, farther), criteria_);
         if (!ended(beyond)) return false;
         beyond.fraction = std::min(beyond.fraction * farther, 1.0);
         walks_[i] = beyond;
@@ -158,19 +156,23 @@ class Decider {
     bool are_flush(SurfaceId a, SurfaceId b) const {
         return burin::are_flush(surfaces_, a, b, glm::mix(points_[0].pixel, points_[1].pixel, 0.5), criteria_);
     }
-    /// Whether point i's surface reaches the other point in the plane of what is seen there: as if it were seen at both.
-    bool goes_on_beneath(int i) const { return walks_[i].end == WalkEnd::arrived && are_flush(walks_[i].surface, other(i).surface); }
+    /// Whether point i's surface reaches the other point in the plane of what is seen there: as if it were seen at
+    /// both.
+    bool goes_on_beneath(int i) const {
+        return walks_[i].end == WalkEnd::arrived && are_flush(walks_[i].surface, other(i).surface);
+    }
     /// Whether that is so for a narrow strip beyond the end of point i's surface alone.
     bool laps_narrowly(int i) const {
         const SurfaceWalk& w = walks_[i];
-        return burin::laps_narrowly(surfaces_, w.surface, w.half_edge, {walks_[1 - i].surface, points_[i].pixel}, place(i, w.fraction));
+        return burin::laps_narrowly(surfaces_, w.surface, w.half_edge, {walks_[1 - i].surface, points_[i].pixel},
+                                    place(i, w.fraction));
     }
     /// Both points lie in one plane, that of the other's surface, and point i's leaves it on the way, at an edge.
     std::optional<LineDecision> leaves_plane(int i) const {
         const SurfaceWalk& w = walks_[i];
         LineDecision decision;
-        const LineClassSet contact = contact_classes(surfaces_, points_[i].surface, walks_[1 - i].surface, points_[i].pixel, criteria_,
-                                                     &decision.crease_cosine);
+        const LineClassSet contact = contact_classes(surfaces_, points_[i].surface, walks_[1 - i].surface,
+                                                     points_[i].pixel, criteria_, &decision.crease_cosine);
         decision.classes = contact | (w.crossed & LineClass::mark);
         if ((decision.classes & criteria_.classes).empty()) return connected(1 - i);
         if (w.crossed_edge.half_edge == kNoHalfEdge) return std::nullopt;
@@ -196,15 +198,15 @@ class Decider {
         decision.classes = edge_classes(surfaces_, edge, criteria_, &decision.crease_cosine);
         decision.gap_px = in_pixels(gap, i);
         if (touching) {
-            decision.classes |= contact_classes(surfaces_, w.surface, behind_[i],
-                                                place(i, w.fraction), criteria_, &decision.crease_cosine);
+            decision.classes |= contact_classes(surfaces_, w.surface, behind_[i], place(i, w.fraction), criteria_,
+                                                &decision.crease_cosine);
         }
         if (w.end == WalkEnd::fold) {
             decision.classes |= LineClass::silhouette;
             decision.reason = LineReason::turns_away;
         } else if (w.end == WalkEnd::crack) {
-            decision.classes |= contact_classes(surfaces_, w.surface, w.beyond,
-                                                place(i, w.fraction), criteria_, &decision.crease_cosine);
+            decision.classes |= contact_classes(surfaces_, w.surface, w.beyond, place(i, w.fraction), criteria_,
+                                                &decision.crease_cosine);
             decision.reason = LineReason::crack;
         } else if (touching) {
             decision.reason = decision.classes.empty() ? LineReason::touches_smoothly : LineReason::touches;
@@ -240,16 +242,20 @@ class Decider {
         }
         const double smaller_gap = std::min(std::abs(gap[0]), std::abs(gap[1]));
         for (const int i : {0, 1}) {
-            if (coincident || walks_[i].end != WalkEnd::arrived || !surfaces_.coincide(walks_[i].surface, other(i).surface)) continue;
+            if (coincident || walks_[i].end != WalkEnd::arrived ||
+                !surfaces_.coincide(walks_[i].surface, other(i).surface))
+                continue;
             if (const auto decision = leaves_plane(1 - i)) return *decision;
         }
-        const auto run_along_at = [&](int i) { return run_along(surfaces_, walks_[1 - i].surface, points_[i].surface, points_[i].pixel); };
+        const auto run_along_at = [&](int i) {
+            return run_along(surfaces_, walks_[1 - i].surface, points_[i].surface, points_[i].pixel);
+        };
         if (!coincident && followed && run_along_at(0) && run_along_at(1)) return smooth();
         LineDecision decision;
         decision.front = gap[0] >= gap[1] ? 0 : 1;
         const glm::dvec2 middle = glm::mix(points_[0].pixel, points_[1].pixel, 0.5);
-        const LineClassSet contact = contact_classes(surfaces_, points_[0].surface, points_[1].surface,
-                                                     middle, criteria_, &decision.crease_cosine);
+        const LineClassSet contact = contact_classes(surfaces_, points_[0].surface, points_[1].surface, middle,
+                                                     criteria_, &decision.crease_cosine);
         const double apart = std::max(tolerance[0], tolerance[1]);
         for (const int i : {0, 1}) {
             // The other's surface reaches this point in front of what is visible there: it ends
@@ -263,11 +269,9 @@ class Decider {
         if (!followed && smaller_gap > apart) return unexplained(decision.front, gap[decision.front]);
         if (coincident || !followed) {
             // A walk is lost in a crowd of tiny triangles: nothing can be said about creases there.
-            const bool one_object =
-                surfaces_.object_id(points_[0].surface) == surfaces_.object_id(points_[1].surface);
+            const bool one_object = surfaces_.object_id(points_[0].surface) == surfaces_.object_id(points_[1].surface);
             if (followed || !one_object) decision.classes = contact;
-            decision.reason =
-                decision.classes.empty() ? LineReason::touches_smoothly : LineReason::touches;
+            decision.reason = decision.classes.empty() ? LineReason::touches_smoothly : LineReason::touches;
             return decision;
         }
         for (const int i : {0, 1}) {
@@ -334,16 +338,26 @@ class Decider {
 
 std::string_view describe(LineReason reason) {
     switch (reason) {
-        case LineReason::same_surface: return "no line: one surface";
-        case LineReason::smooth: return "no line: the surface goes on without a feature";
-        case LineReason::feature_edge: return "line: a feature edge of the surface";
-        case LineReason::turns_away: return "line: the front surface turns away";
-        case LineReason::ends_at_border: return "line: the front surface ends at a border";
-        case LineReason::crack: return "the front surface goes on behind a crack in its mesh";
-        case LineReason::touches: return "line: the surfaces touch and differ";
-        case LineReason::touches_smoothly: return "no line: the surfaces touch and do not differ";
-        case LineReason::passes_through: return "line: the surfaces pass through each other";
-        case LineReason::unexplained: return "line: the surfaces are apart";
+        case LineReason::same_surface:
+            return "no line: one surface";
+        case LineReason::smooth:
+            return "no line: the surface goes on without a feature";
+        case LineReason::feature_edge:
+            return "line: a feature edge of the surface";
+        case LineReason::turns_away:
+            return "line: the front surface turns away";
+        case LineReason::ends_at_border:
+            return "line: the front surface ends at a border";
+        case LineReason::crack:
+            return "the front surface goes on behind a crack in its mesh";
+        case LineReason::touches:
+            return "line: the surfaces touch and differ";
+        case LineReason::touches_smoothly:
+            return "no line: the surfaces touch and do not differ";
+        case LineReason::passes_through:
+            return "line: the surfaces pass through each other";
+        case LineReason::unexplained:
+            return "line: the surfaces are apart";
     }
     return "";
 }

@@ -16,16 +16,16 @@ struct VisiblePoint {
 
 /// Why there is a line between two visible points, or why there is none.
 enum class LineReason : std::uint8_t {
-    same_surface,     ///< none: one triangle, or two of one flat polygon, or background
-    smooth,           ///< none: the surface goes on from one to the other without a feature
-    feature_edge,     ///< the surface goes on, over an edge with a class
-    turns_away,       ///< the front surface ends at an edge whose polygons face apart
-    ends_at_border,   ///< the front surface ends at an edge of one polygon, the other is farther
-    crack,            ///< none by itself: a gap between two patches lets the other one shine through
-    touches,          ///< the front surface ends where the other touches it
-    touches_smoothly, ///< none: it ends where another touches it, and nothing sets them apart
-    passes_through,   ///< the surfaces pass through each other
-    unexplained,      ///< the visible surfaces are apart, though the mesh does not say where
+    same_surface,      ///< none: one triangle, or two of one flat polygon, or background
+    smooth,            ///< none: the surface goes on from one to the other without a feature
+    feature_edge,      ///< the surface goes on, over an edge with a class
+    turns_away,        ///< the front surface ends at an edge whose polygons face apart
+    ends_at_border,    ///< the front surface ends at an edge of one polygon, the other is farther
+    crack,             ///< none by itself: a gap between two patches lets the other one shine through
+    touches,           ///< the front surface ends where the other touches it
+    touches_smoothly,  ///< none: it ends where another touches it, and nothing sets them apart
+    passes_through,    ///< the surfaces pass through each other
+    unexplained,       ///< the visible surfaces are apart, though the mesh does not say where
 };
 std::string_view describe(LineReason reason);
 

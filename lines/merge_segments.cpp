@@ -50,11 +50,12 @@ bool continues(const LineSegment& a, const LineSegment& b) {
 
 void SegmentMerger::sort(std::span<std::uint32_t> order, std::span<const LineSegment> pieces) const {
     if (sort_few(order, pieces)) return;
-    std::sort(order.begin(), order.end(), [pieces](std::uint32_t a, std::uint32_t b) { return is_before(pieces[a], pieces[b]); });
+    std::sort(order.begin(), order.end(),
+              [pieces](std::uint32_t a, std::uint32_t b) { return is_before(pieces[a], pieces[b]); });
 }
 
-/// Those of one block of an ordinary picture, by numbers that say nearly all: without branches, for what comes before what is a
-/// guess. False where they cannot.
+/// Those of one block of an ordinary picture, by numbers that say nearly all: without branches, for what comes before
+/// what is a guess. False where they cannot.
 bool SegmentMerger::sort_few(std::span<std::uint32_t> order, std::span<const LineSegment> pieces) const {
     // The line, where on it, and which piece: 32, 23 and 6 bits behind the exponent's first one.
     constexpr int kIndexBits = 6, kPlaceBits = 23;
@@ -71,7 +72,8 @@ bool SegmentMerger::sort_few(std::span<std::uint32_t> order, std::span<const Lin
         const double place = (s.from.x - begin) * kPerPx;
         const bool is_inside = (place >= 0) & (place < 1 << kPlaceBits);
         fits &= (s.block == first.block) & (s.line_key >> 32 == first.line_key >> 32) & is_inside;
-        const std::uint64_t key = (s.line_key & 0xFFFFFFFFu) << kPlaceBits | static_cast<std::uint32_t>(is_inside ? place : 0.0);
+        const std::uint64_t key =
+            (s.line_key & 0xFFFFFFFFu) << kPlaceBits | static_cast<std::uint32_t>(is_inside ? place : 0.0);
         keys[i] = std::bit_cast<double>(kExponent | key << kIndexBits | i);
     }
     if (!fits) return false;
@@ -84,7 +86,8 @@ bool SegmentMerger::sort_few(std::span<std::uint32_t> order, std::span<const Lin
         const auto key = std::bit_cast<std::uint64_t>(sorted[i]);
         order[i] = given[key % kFew];
         if (__builtin_expect((key ^ before) < kFew, 0)) {  // at one place: what else they have says more
-            for (std::size_t at = i; at > 0 && is_before(pieces[order[at]], pieces[order[at - 1]]); --at) std::swap(order[at], order[at - 1]);
+            for (std::size_t at = i; at > 0 && is_before(pieces[order[at]], pieces[order[at - 1]]); --at)
+                std::swap(order[at], order[at - 1]);
         }
         before = key;
     }

@@ -16,7 +16,8 @@ class SegmentMerger {
   public:
     explicit SegmentMerger(const TileKernels& kernels) : kernels_(kernels) {}
 
-    /// Puts them behind what `merged` has, block by block, and in each block line by line. Turns some of the pieces round.
+    /// Puts them behind what `merged` has, block by block, and in each block line by line. Turns some of the pieces
+    /// round.
     void merge(std::span<LineSegment> pieces, std::vector<LineSegment>& merged);
 
   private:

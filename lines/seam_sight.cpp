@@ -18,7 +18,8 @@ double most_lengthened(const glm::dmat3& m) {
 
 }  // namespace
 
-std::optional<BorderIndex::Sight> sight_through(const SurfaceSet& surfaces, std::uint32_t instance, const glm::dvec3& at) {
+std::optional<BorderIndex::Sight> sight_through(const SurfaceSet& surfaces, std::uint32_t instance,
+                                                const glm::dvec3& at) {
     const Projection& p = surfaces.projection;
     const glm::dmat4& to_view = surfaces.instances[instance].to_view;
     const glm::dmat3 turn(to_view), back = glm::inverse(turn);
@@ -31,11 +32,13 @@ std::optional<BorderIndex::Sight> sight_through(const SurfaceSet& surfaces, std:
     const double per_distance = kAroundPx * most_lengthened(back) / p.focal_px;
     sight.radius = p.orthographic ? per_distance : per_distance * distance;
     sight.growth = p.orthographic ? 0.0 : per_distance * std::abs((turn * sight.direction).z);
-    const bool is_known = std::isfinite(sight.radius) && std::isfinite(sight.growth) && std::isfinite(glm::length(sight.direction));
+    const bool is_known =
+        std::isfinite(sight.radius) && std::isfinite(sight.growth) && std::isfinite(glm::length(sight.direction));
     return is_known ? std::optional(sight) : std::nullopt;
 }
 
-std::optional<HalfEdge> seam_partner_seen(const SurfaceSet& surfaces, std::uint32_t instance, HalfEdge border, const glm::dvec3& at) {
+std::optional<HalfEdge> seam_partner_seen(const SurfaceSet& surfaces, std::uint32_t instance, HalfEdge border,
+                                          const glm::dvec3& at) {
     const BorderIndex& borders = surfaces.instances[instance].mesh->borders;
     if (!borders.has_crowds() || borders.segments().size() < kManyBorders) return borders.seam_partner(border, at);
     const auto sight = sight_through(surfaces, instance, at);

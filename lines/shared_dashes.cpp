@@ -85,8 +85,8 @@ void SharedDashes::lay(Stretch& stretch) {
     const std::span<const CourseIndex::Cover> found = index_.find(way.from, way.to);
     if (found.empty() && length < shortest) return;
     const auto lay_own = [&](double begin, double end) {
-        Course own{glm::mix(way.from, way.to, begin), glm::mix(way.from, way.to, end), std::lerp(way.at_from, way.at_to, begin),
-                   std::lerp(way.at_from, way.at_to, end)};
+        Course own{glm::mix(way.from, way.to, begin), glm::mix(way.from, way.to, end),
+                   std::lerp(way.at_from, way.at_to, begin), std::lerp(way.at_from, way.at_to, end)};
         own.is_shared = !found.empty();
         courses_.push_back(own);
         covers_.push_back({begin, end, index_.add(own.from, own.to)});
@@ -144,7 +144,8 @@ void SharedDashes::run_on(std::uint32_t first) {
     extend(run);
     std::size_t giver = 0;
     for (std::size_t i = 0; i < run.size(); ++i) {
-        const bool is_settled = courses_[run[i].course].is_settled, was_settled = courses_[run[giver].course].is_settled;
+        const bool is_settled = courses_[run[i].course].is_settled,
+                   was_settled = courses_[run[giver].course].is_settled;
         if (is_settled != was_settled ? is_settled : run[i].course < run[giver].course) giver = i;
     }
     const auto take_over = [&](std::size_t from, std::size_t i) {
@@ -174,7 +175,9 @@ bool SharedDashes::has_own_dashes(const Stretch& stretch) const {
 void SharedDashes::add_parts(const Stretch& stretch, DashPlaces& places) const {
     const bool is_own = has_own_dashes(stretch);
     const glm::dvec2 along = stretch.way.to - stretch.way.from;
-    const auto share_of = [&](glm::dvec2 place) { return glm::dot(place - stretch.way.from, along) / glm::dot(along, along); };
+    const auto share_of = [&](glm::dvec2 place) {
+        return glm::dot(place - stretch.way.from, along) / glm::dot(along, along);
+    };
     for (std::size_t p = stretch.begin; p < stretch.end; ++p) {
         const DashPiece& piece = places.pieces_[p];
         if (!is_own) {

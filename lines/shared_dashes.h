@@ -37,25 +37,26 @@ class DashPlaces {
   private:
     friend class SharedDashes;
     std::vector<DashPiece> pieces_;
-    std::vector<DashPart> parts_;    // of pieces that share dashes with others
+    std::vector<DashPart> parts_;  // of pieces that share dashes with others
     std::vector<std::size_t> end_{0};
 };
 
 /// Gives lines that lie on each other on the screen the same dashes: what looks like one line is one dashed line.
 ///
-/// Chains come one after the other, and what lies on an earlier one's course takes over its dashes there. Where such a course
-/// ends and other ones go on straight, the dashes run on along them, too. A chain of which no part lies on another one keeps its
-/// own dashes to the bit, unless it goes on straight from one that does not.
+/// Chains come one after the other, and what lies on an earlier one's course takes over its dashes there. Where such a
+/// course ends and other ones go on straight, the dashes run on along them, too. A chain of which no part lies on
+/// another one keeps its own dashes to the bit, unless it goes on straight from one that does not.
 class SharedDashes {
   public:
     /// `reach_px`: lines as close as that lie on each other.
     SharedDashes(PixelRect picture, double reach_px) : index_(picture, reach_px) {}
-    /// For a pen of a width: a quarter of it, where two lines cannot be told apart, and not less than a quarter of a pixel.
+    /// For a pen of a width: a quarter of it, where two lines cannot be told apart, and not less than a quarter of a
+    /// pixel.
     static double reach_of_pen_px(double width_px);
 
-    /// Chains of pieces that follow each other, in the order of precedence: piece i of a chain ends where piece i + 1 begins, each
-    /// either way round. `chain_ends`: how many pieces there are up to the end of each chain. Those of earlier calls come first
-    /// and keep the dashes that they have.
+    /// Chains of pieces that follow each other, in the order of precedence: piece i of a chain ends where piece i + 1
+    /// begins, each either way round. `chain_ends`: how many pieces there are up to the end of each chain. Those of
+    /// earlier calls come first and keep the dashes that they have.
     DashPlaces lay_out(std::vector<DashPiece> pieces, std::span<const std::size_t> chain_ends);
 
   private:

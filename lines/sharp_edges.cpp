@@ -13,7 +13,7 @@
 namespace burin {
 namespace {
 
-using Normal = std::array<float, 4>;             // the last number is 0
+using Normal = std::array<float, 4>;  // the last number is 0
 using RoughNormal = std::array<std::int16_t, 4>;
 
 constexpr double kThinSquare = 1.001 * kSliverHeightPart * 1.001 * kSliverHeightPart;
@@ -25,12 +25,12 @@ bool is_crease(const Normal& a, const Normal& b, float cos_crease) {
 
 template <typename Work>
 void for_chunks(std::size_t triangles, int threads, const Work& work) {
-    parallel_for((triangles + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        work(chunk * kChunk, std::min(kChunk, triangles - chunk * kChunk));
-    });
+    parallel_for((triangles + kChunk - 1) / kChunk, threads,
+                 [&](std::size_t chunk, int) { work(chunk * kChunk, std::min(kChunk, triangles - chunk * kChunk)); });
 }
 
-/// The corners of triangles [first, first + count), each triangle's seen from its first one: so single precision resolves them.
+/// The corners of triangles [first, first + count), each triangle's seen from its first one: so single precision
+/// resolves them.
 std::vector<glm::vec3> corners_apart(const Mesh& mesh, std::size_t first, std::size_t count) {
     std::vector<glm::vec3> corners;
     corners.reserve(3 * count);
@@ -51,11 +51,11 @@ UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
             const std::vector<glm::vec3> corners = corners_apart(mesh, first, count);
             std::vector<std::uint32_t> numbers(corners.size());
             std::iota(numbers.begin(), numbers.end(), 0u);
-            kernels.triangle_normals(glm::value_ptr(corners.front()), numbers.data(), count, kThinSquare, normals[first].data(),
-                                     &thin[first]);
-        } else {
-            kernels.triangle_normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count, kThinSquare,
+            kernels.triangle_normals(glm::value_ptr(corners.front()), numbers.data(), count, kThinSquare,
                                      normals[first].data(), &thin[first]);
+        } else {
+            kernels.triangle_normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count,
+                                     kThinSquare, normals[first].data(), &thin[first]);
         }
         for (std::size_t t = first; t < first + count; ++t) thin[t] *= kThinTriangle;
     });
@@ -76,12 +76,14 @@ constexpr double kDoubt = 2e-4;
 void find_creases(const Mesh& mesh, float cos_crease, std::vector<std::uint8_t>& sharp, int threads) {
     constexpr double kSquare = double{kRoughUnit} * double{kRoughUnit};
     const double cosine{cos_crease};
-    const auto low = static_cast<std::int32_t>((cosine - kDoubt) * kSquare), high = static_cast<std::int32_t>((cosine + kDoubt) * kSquare);
+    const auto low = static_cast<std::int32_t>((cosine - kDoubt) * kSquare),
+               high = static_cast<std::int32_t>((cosine + kDoubt) * kSquare);
     const TileKernels& kernels = best_kernels();
     const float* const positions = glm::value_ptr(mesh.positions.front());
     UnfilledVector<RoughNormal> normals(sharp.size());
     for_chunks(sharp.size(), threads, [&](std::size_t first, std::size_t count) {
-        kernels.rough_normals(positions, mesh.triangles[first].data(), count, kThinSquare, normals[first].data(), &sharp[first]);
+        kernels.rough_normals(positions, mesh.triangles[first].data(), count, kThinSquare, normals[first].data(),
+                              &sharp[first]);
     });
     const auto exact_normal = [&](std::uint32_t triangle) {
         Normal normal;
@@ -91,8 +93,9 @@ void find_creases(const Mesh& mesh, float cos_crease, std::vector<std::uint8_t>&
     };
     for_chunks(sharp.size(), threads, [&](std::size_t first, std::size_t count) {
         UnfilledVector<HalfEdge> in_doubt(3 * count);
-        in_doubt.resize(kernels.find_creases(mesh.triangles.front().data(), mesh.next_on_edge.data(), normals.front().data(), first, count, low,
-                                             high, &sharp[first], in_doubt.data()));
+        in_doubt.resize(kernels.find_creases(mesh.triangles.front().data(), mesh.next_on_edge.data(),
+                                             normals.front().data(), first, count, low, high, &sharp[first],
+                                             in_doubt.data()));
         for (const HalfEdge h : in_doubt) {
             if (is_crease(exact_normal(h / 3), exact_normal(mesh.next_on_edge[h] / 3), cos_crease)) continue;
             sharp[h / 3] = static_cast<std::uint8_t>(sharp[h / 3] & ~(1u << h % 3));
@@ -110,7 +113,8 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
     const bool by_crease = criteria.classes.has(LineClass::crease);
     // What is close to the angle counts as sharp and is looked at again.
     const float cos_crease = static_cast<float>(criteria.cos_crease_angle) + kCreaseSlack;
-    const bool has_only_creases = mesh.marked.empty() && mesh.triangle_polygon.empty() && !mesh.has_residuals() && !by_polygon && !by_material;
+    const bool has_only_creases =
+        mesh.marked.empty() && mesh.triangle_polygon.empty() && !mesh.has_residuals() && !by_polygon && !by_material;
     // Near an angle of 0 all that is flat would be in doubt.
     const bool is_flat_told = double{cos_crease} + 2 * kDoubt < 1;
     if (has_only_creases && by_crease && is_flat_told && mesh.next_on_edge.size() < std::size_t{1} << 29) {
@@ -147,9 +151,8 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
 bool keeps_angles(const glm::dmat4& m) {
     const glm::dvec3 a(m[0]), b(m[1]), c(m[2]);
     const double size = glm::dot(a, a), slack = 1e-9 * size;
-    return std::abs(glm::dot(a, b)) < slack && std::abs(glm::dot(b, c)) < slack &&
-           std::abs(glm::dot(a, c)) < slack && std::abs(glm::dot(b, b) - size) < slack &&
-           std::abs(glm::dot(c, c) - size) < slack;
+    return std::abs(glm::dot(a, b)) < slack && std::abs(glm::dot(b, c)) < slack && std::abs(glm::dot(a, c)) < slack &&
+           std::abs(glm::dot(b, b) - size) < slack && std::abs(glm::dot(c, c) - size) < slack;
 }
 
 }  // namespace burin

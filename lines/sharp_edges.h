@@ -10,7 +10,8 @@ namespace burin {
 
 constexpr std::uint8_t kThinTriangle = kMayBeSliver;
 
-/// An edge is smooth where the cosine is greater than the crease angle's by more than this: normals are single precision.
+/// An edge is smooth where the cosine is greater than the crease angle's by more than this: normals are single
+/// precision.
 constexpr float kCreaseSlack = 1e-5f;
 
 /// Per triangle of a mesh, bit k: its half-edge k may be a line in some view without being a contour.

@@ -13,8 +13,8 @@
 namespace burin {
 namespace {
 
-/// A contour that comes no nearer to an edge than this part of the longest edge of its triangles belongs to something else; of
-/// its own length, if the outline stays where it is at both ends.
+/// A contour that comes no nearer to an edge than this part of the longest edge of its triangles belongs to something
+/// else; of its own length, if the outline stays where it is at both ends.
 constexpr double kFarthestPart = 0.25;
 constexpr double kLongestJointsPart = 0.5;
 
@@ -23,7 +23,9 @@ HalfEdge half_edge_of(std::uint64_t line_key) { return static_cast<HalfEdge>(lin
 /// Whether a surface is not smooth all around the vertex of a corner.
 bool is_at_sharp_edge(const Mesh& mesh, const SmoothMesh& smooth, HalfEdge corner) {
     bool is_sharp = false;
-    visit_smooth_corners(mesh, smooth, corner, [&](HalfEdge h) { is_sharp = is_sharp || smooth.is_sharp(h) || smooth.is_sharp(h - h % 3 + (h + 2) % 3); });
+    visit_smooth_corners(mesh, smooth, corner, [&](HalfEdge h) {
+        is_sharp = is_sharp || smooth.is_sharp(h) || smooth.is_sharp(h - h % 3 + (h + 2) % 3);
+    });
     return is_sharp;
 }
 
@@ -38,15 +40,15 @@ void add_pieces(const LineSegment& line, const std::vector<glm::dvec2>& points, 
 
 }  // namespace
 
-SmoothContours::SmoothContours(const SurfaceSet& surfaces, double cos_crease_angle, int threads)
-    : surfaces_(surfaces) {
+SmoothContours::SmoothContours(const SurfaceSet& surfaces, double cos_crease_angle, int threads) : surfaces_(surfaces) {
     std::map<const Mesh*, std::size_t> numbers;
     std::vector<const Mesh*> meshes;
     for (const SurfaceInstance& instance : surfaces.instances) {
         if (numbers.try_emplace(instance.mesh, meshes.size()).second) meshes.push_back(instance.mesh);
     }
     meshes_.resize(meshes.size());
-    parallel_for(meshes.size(), threads, [&](std::size_t i, int) { meshes_[i] = make_smooth(*meshes[i], cos_crease_angle); });
+    parallel_for(meshes.size(), threads,
+                 [&](std::size_t i, int) { meshes_[i] = make_smooth(*meshes[i], cos_crease_angle); });
     for (const SurfaceInstance& instance : surfaces.instances) smooth_of_.push_back(&meshes_[numbers[instance.mesh]]);
 }
 
@@ -70,14 +72,16 @@ FoldMap SmoothContours::map_of(std::uint64_t line_key) const {
             if (!needs_no_clipping(projection, view)) return {};
             corners[k] = projection.to_pixel(view);
         }
-        for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(corners[k], corners[(k + 1) % 3]));
+        for (std::size_t k = 0; k < 3; ++k)
+            longest = std::max(longest, glm::distance(corners[k], corners[(k + 1) % 3]));
         ends[0] = corners[side % 3];
         ends[1] = corners[(side + 1) % 3];
     }
     // In one order, whichever triangle comes first.
     if (std::tie(ends[1].x, ends[1].y) < std::tie(ends[0].x, ends[0].y)) std::swap(ends[0], ends[1]);
     const SmoothMesh& smooth = *smooth_of_[instance];
-    const bool stays_at_ends = is_at_sharp_edge(mesh, smooth, h) && is_at_sharp_edge(mesh, smooth, h - h % 3 + (h + 1) % 3);
+    const bool stays_at_ends =
+        is_at_sharp_edge(mesh, smooth, h) && is_at_sharp_edge(mesh, smooth, h - h % 3 + (h + 1) % 3);
     const double farthest_px = kFarthestPart * (stays_at_ends ? glm::distance(ends[0], ends[1]) : longest);
     return {ends[0], ends[1], ContourFinder(surfaces_, instance, smooth).chains_around(h), farthest_px};
 }
@@ -94,10 +98,13 @@ void SmoothContours::move(std::vector<std::vector<LineSegment>>& lists, int thre
     std::vector<FoldMap> maps(keys.size());
     constexpr std::size_t kChunk = 64;
     parallel_for((keys.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        for (std::size_t i = chunk * kChunk; i < std::min(keys.size(), (chunk + 1) * kChunk); ++i) maps[i] = map_of(keys[i]);
+        for (std::size_t i = chunk * kChunk; i < std::min(keys.size(), (chunk + 1) * kChunk); ++i)
+            maps[i] = map_of(keys[i]);
     });
 
-    const auto number_of = [&](std::uint64_t key) { return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin()); };
+    const auto number_of = [&](std::uint64_t key) {
+        return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+    };
     const auto moved_line = [&](const LineSegment& s) {
         MovedLine line{&s, {s.from, s.to}};
         if (!is_fold(s)) return line;
@@ -129,7 +136,8 @@ void SmoothContours::move(std::vector<std::vector<LineSegment>>& lists, int thre
         if (joined[i] > kLongestJointsPart * seen[i]) maps[i] = {};
     }
     joints = join();
-    for (const LeadIn& lead : joints.to_lines_that_stay) maps[number_of(lines[lead.line].given->line_key)].lead_to_end(lead.place);
+    for (const LeadIn& lead : joints.to_lines_that_stay)
+        maps[number_of(lines[lead.line].given->line_key)].lead_to_end(lead.place);
     if (!joints.to_lines_that_stay.empty()) joints = join();
 
     std::vector<LineSegment> moved;

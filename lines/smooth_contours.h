@@ -20,8 +20,8 @@ namespace burin {
 /// twice. Edges with another reason to be a line stay where they are, and so do folds without a
 /// smooth contour beside them: where it ends at a crease, and the outline goes on along the mesh.
 ///
-/// An outline that is closed on the mesh stays closed: an edge is moved as a whole, without gaps (`fold_map`), and lines that
-/// met are joined again (`contour_joints`).
+/// An outline that is closed on the mesh stays closed: an edge is moved as a whole, without gaps (`fold_map`), and
+/// lines that met are joined again (`contour_joints`).
 class SmoothContours {
   public:
     SmoothContours(const SurfaceSet& surfaces, double cos_crease_angle, int threads);

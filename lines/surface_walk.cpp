@@ -25,7 +25,9 @@ glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view, bool is_snap
     const double w = p.orthographic ? 1.0 : -view.z;
     if (!is_snapped) return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
     const glm::dvec2 pixel = p.to_pixel(view);
-    return glm::dvec3(snap_to_subpixels(pixel.x) / kSubpixelsPerPixel, snap_to_subpixels(pixel.y) / kSubpixelsPerPixel, 1.0) * w;
+    return glm::dvec3(snap_to_subpixels(pixel.x) / kSubpixelsPerPixel, snap_to_subpixels(pixel.y) / kSubpixelsPerPixel,
+                      1.0) *
+           w;
 }
 
 double nearness_of(const Projection& p, double distance) { return p.orthographic ? -distance : 1 / distance; }
@@ -33,7 +35,8 @@ double nearness_of(const Projection& p, double distance) { return p.orthographic
 class Walker {
   public:
     /// `sharp`: find_sharp_edges() of the mesh, or nullptr.
-    Walker(const SurfaceSet& surfaces, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria, const std::uint8_t* sharp = nullptr)
+    Walker(const SurfaceSet& surfaces, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria,
+           const std::uint8_t* sharp = nullptr)
         : surfaces_(surfaces),
           criteria_(criteria),
           sharp_(sharp),
@@ -74,17 +77,17 @@ class Walker {
             if (next.kind == WalkEnd::border) return ended(result, WalkEnd::border, current);
             const double reached = next.place.exit.fraction;
             const bool turned_back = reached < farthest.exit.fraction - negligible_fold;
-            const bool unfolds = current.exit.fraction < farthest.exit.fraction &&
-                                 reached >= farthest.exit.fraction;
+            const bool unfolds = current.exit.fraction < farthest.exit.fraction && reached >= farthest.exit.fraction;
             // Slivers say nothing about how steep the surface is.
             const bool sliver = slivers < kMostSlivers && is_sliver_here(next.place.surface);
             const SurfaceId solid = sliver ? last_solid : next.place.surface;
             if (turned_back ||
-                (unfolds && !is_level(distance_at(farthest), distance_between(current, next.place, farthest.exit.fraction),
-                                      solid))) {
+                (unfolds && !is_level(distance_at(farthest),
+                                      distance_between(current, next.place, farthest.exit.fraction), solid))) {
                 return ended(result, WalkEnd::fold, before_wall);  // over a seam, too
             }
-            bool goes_on = reached > before_wall.exit.fraction + kNoAdvance, is_farthest = reached >= farthest.exit.fraction;
+            bool goes_on = reached > before_wall.exit.fraction + kNoAdvance,
+                 is_farthest = reached >= farthest.exit.fraction;
             if (std::abs(reached - before_wall.exit.fraction) < snapping &&
                 is_deep(surfaces_.projection, distance_at(before_wall), distance_at(next.place))) {
                 const auto part = unsnapped_part(next.place), wall = unsnapped_part(before_wall);
@@ -136,9 +139,7 @@ class Walker {
         const Crossing& other_than(HalfEdge h) const {
             return crossings[0].half_edge == h ? crossings[1] : crossings[0];
         }
-        const Crossing& at(HalfEdge h) const {
-            return crossings[0].half_edge == h ? crossings[0] : crossings[1];
-        }
+        const Crossing& at(HalfEdge h) const { return crossings[0].half_edge == h ? crossings[0] : crossings[1]; }
         bool crosses(HalfEdge h) const {
             return is_cut && (crossings[0].half_edge == h || crossings[1].half_edge == h);
         }
@@ -147,7 +148,9 @@ class Walker {
     struct Place {
         SurfaceId surface;
         Crossing exit;
-        bool operator==(const Place& other) const { return surface == other.surface && exit.half_edge == other.exit.half_edge; }
+        bool operator==(const Place& other) const {
+            return surface == other.surface && exit.half_edge == other.exit.half_edge;
+        }
     };
     /// All that the next step of a walk depends on.
     struct State {
@@ -180,8 +183,9 @@ class Walker {
         const Projection& projection = surfaces_.projection;
         glm::dvec3 corners[3];
         surfaces_.view_corners(s, corners);
-        const bool is_whole = std::all_of(std::begin(corners), std::end(corners),
-                                          [&](const glm::dvec3& corner) { return needs_no_clipping(projection, corner); });
+        const bool is_whole = std::all_of(std::begin(corners), std::end(corners), [&](const glm::dvec3& corner) {
+            return needs_no_clipping(projection, corner);
+        });
         std::array<glm::dvec3, 3> h;
         std::array<double, 3> side;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -195,8 +199,7 @@ class Walker {
             const std::size_t next = (k + 1) % 3;
             // A corner exactly on the line counts to one side, in all triangles alike.
             if ((side[k] >= 0) == (side[next] >= 0)) continue;
-            const glm::dvec3 point =
-                (h[k] * side[next] - h[next] * side[k]) / (side[next] - side[k]);
+            const glm::dvec3 point = (h[k] * side[next] - h[next] * side[k]) / (side[next] - side[k]);
             Crossing& crossing = slice.crossings[found];
             crossing.half_edge = 3 * s.triangle + static_cast<HalfEdge>(k);
             crossing.along_edge = side[k] / (side[k] - side[next]);
@@ -255,7 +258,8 @@ class Walker {
         const auto& t = mesh.triangles[from.surface.triangle];
         const glm::dvec3 a = mesh.local_position(t[from.exit.half_edge % 3]);
         const glm::dvec3 b = mesh.local_position(t[(from.exit.half_edge + 1) % 3]);
-        const auto partner = seam_partner_seen(surfaces_, from.surface.instance, from.exit.half_edge, glm::mix(a, b, from.exit.along_edge));
+        const auto partner = seam_partner_seen(surfaces_, from.surface.instance, from.exit.half_edge,
+                                               glm::mix(a, b, from.exit.along_edge));
         if (!partner) return none;
         const SurfaceId neighbour{from.surface.instance, *partner / 3};
         const Slice slice = slice_of(neighbour);
@@ -275,7 +279,9 @@ class Walker {
     double distance_at(const Place& place) const {
         const auto& t = surfaces_.mesh_of(place.surface).triangles[place.surface.triangle];
         const HalfEdge k = place.exit.half_edge % 3;
-        const auto depth = [&](HalfEdge corner) { return -surfaces_.view_position(place.surface.instance, t[corner % 3]).z; };
+        const auto depth = [&](HalfEdge corner) {
+            return -surfaces_.view_position(place.surface.instance, t[corner % 3]).z;
+        };
         return glm::mix(depth(k), depth(k + 1), place.exit.along_edge);
     }
     /// Where the walk leaves a triangle, with corners where they are, not snapped. Nothing if they are off the screen.
@@ -283,7 +289,8 @@ class Walker {
         const Projection& p = surfaces_.projection;
         const auto& t = surfaces_.mesh_of(place.surface).triangles[place.surface.triangle];
         const HalfEdge k = place.exit.half_edge % 3;
-        const glm::dvec3 a = surfaces_.view_position(place.surface.instance, t[k]), b = surfaces_.view_position(place.surface.instance, t[(k + 1) % 3]);
+        const glm::dvec3 a = surfaces_.view_position(place.surface.instance, t[k]),
+                         b = surfaces_.view_position(place.surface.instance, t[(k + 1) % 3]);
         if (!needs_no_clipping(p, a) || !needs_no_clipping(p, b)) return std::nullopt;
         return part_of_way(along_, p.to_pixel(a) - from_, p.to_pixel(b) - from_);
     }
@@ -328,8 +335,8 @@ class Walker {
 
     /// Slivers lie between a and b: what counts is how those two meet.
     void note_contact(SurfaceWalk& result, SurfaceId a, SurfaceId b, double fraction) const {
-        note(result, contact_classes(surfaces_, a, b, at(fraction), criteria_, &result.crease_cosine),
-             {a, kNoHalfEdge}, fraction);
+        note(result, contact_classes(surfaces_, a, b, at(fraction), criteria_, &result.crease_cosine), {a, kNoHalfEdge},
+             fraction);
     }
 
     const SurfaceSet& surfaces_;
@@ -359,8 +366,7 @@ LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b, double* 
     }
     const auto start_of = [&mesh](HalfEdge h) { return mesh.triangles[h / 3][h % 3]; };
     const double winding = start_of(a.half_edge) == start_of(b.half_edge) ? -1.0 : 1.0;
-    const double cosine =
-        winding * glm::dot(surfaces_.view_normal(a.surface), surfaces_.view_normal(b.surface));
+    const double cosine = winding * glm::dot(surfaces_.view_normal(a.surface), surfaces_.view_normal(b.surface));
     add_crease(cosine, criteria_, classes, crease_cosine);
     return classes;
 }
@@ -372,19 +378,18 @@ SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2
     return Walker(surfaces, from, to, criteria).walk<true>(start, most_triangles);
 }
 
-SurfaceWalk walk_to_end(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria,
-                        int most_triangles, const std::uint8_t* sharp) {
+SurfaceWalk walk_to_end(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
+                        const LineCriteria& criteria, int most_triangles, const std::uint8_t* sharp) {
     return Walker(surfaces, from, to, criteria, sharp).walk<false>(start, most_triangles);
 }
 
-LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
-                          const LineCriteria& criteria, double* crease_cosine) {
+LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge, const LineCriteria& criteria,
+                          double* crease_cosine) {
     const Mesh& mesh = surfaces.mesh_of(edge.surface);
     LineClassSet classes;
     if (mesh.is_marked(edge.half_edge)) classes |= LineClass::mark;
     const Walker walker(surfaces, {0, 0}, {1, 0}, criteria);
-    for (HalfEdge g = mesh.next_on_edge[edge.half_edge]; g != edge.half_edge;
-         g = mesh.next_on_edge[g]) {
+    for (HalfEdge g = mesh.next_on_edge[edge.half_edge]; g != edge.half_edge; g = mesh.next_on_edge[g]) {
         classes |= walker.edge_classes_between(edge, {{edge.surface.instance, g / 3}, g}, crease_cosine);
     }
     return classes;
@@ -397,15 +402,14 @@ LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId 
     if (surfaces.material_id(a) != surfaces.material_id(b)) classes |= LineClass::material;
     if (surfaces.object_id(a) != surfaces.object_id(b)) return classes | LineClass::object;
     classes |= LineClass::polygon;
-    const double cosine =
-        glm::dot(surfaces.normal_towards_eye(a, at), surfaces.normal_towards_eye(b, at));
+    const double cosine = glm::dot(surfaces.normal_towards_eye(a, at), surfaces.normal_towards_eye(b, at));
     add_crease(cosine, criteria, classes, crease_cosine);
     return classes;
 }
 
 bool are_flush(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at, const LineCriteria& criteria) {
-    return !a.is_background() && !b.is_background() && (contact_classes(surfaces, a, b, at, criteria) & criteria.classes).empty() &&
-           surfaces.coincide(a, b);
+    return !a.is_background() && !b.is_background() &&
+           (contact_classes(surfaces, a, b, at, criteria) & criteria.classes).empty() && surfaces.coincide(a, b);
 }
 
 bool is_sliver(const SurfaceSet& surfaces, SurfaceId s) {

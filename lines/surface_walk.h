@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "lines/line_class.h"
 #include "view/surface_set.h"
@@ -60,21 +60,21 @@ struct SurfaceWalk {
 /// Folds that turn back by less than 1/64 pixel, and not by more than the depth tolerance, are
 /// walked over: they are slivers between the triangles of one surface, not contours.
 /// A wall that is seen edge-on, to the snapping of corners, is a fold if the surface goes on behind it deeper
-/// by more than the depth tolerance. But for seams, depths are compared where the walk crosses edges of the mesh: no plane
-/// is extended, and slivers do no harm.
+/// by more than the depth tolerance. But for seams, depths are compared where the walk crosses edges of the mesh: no
+/// plane is extended, and slivers do no harm.
 SurfaceWalk walk_surface(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
                          const LineCriteria& criteria, int most_triangles = kMostTrianglesOfWalk);
 
 /// walk_surface() where only its end is wanted, which is found sooner: what it crosses is not looked at. `sharp`:
 /// find_sharp_edges() of the mesh, which tells of most triangles that they are no slivers; or nullptr.
-SurfaceWalk walk_to_end(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to, const LineCriteria& criteria,
-                        int most_triangles, const std::uint8_t* sharp);
+SurfaceWalk walk_to_end(const SurfaceSet& surfaces, SurfaceId start, glm::dvec2 from, glm::dvec2 to,
+                        const LineCriteria& criteria, int most_triangles, const std::uint8_t* sharp);
 
 /// The classes of the edge between two polygons as such: mark, material, crease, polygon. For a
 /// border edge that can only be mark. Where it is a crease, `crease_cosine` is lowered to the cosine
 /// between its normals.
-LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge,
-                          const LineCriteria& criteria, double* crease_cosine = nullptr);
+LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge, const LineCriteria& criteria,
+                          double* crease_cosine = nullptr);
 
 /// The classes of a place where two visible surfaces touch: object, or, within one object, material,
 /// crease, polygon. `at` is the position on the screen.
@@ -92,7 +92,8 @@ constexpr double kSliverHeightPart = 1.0 / 1024;
 /// that rounding decides its normal.
 bool is_sliver(const SurfaceSet& surfaces, SurfaceId triangle);
 
-/// A walk over more slivers in a row than this is on a finely rounded edge: the next one counts as a part of the surface.
+/// A walk over more slivers in a row than this is on a finely rounded edge: the next one counts as a part of the
+/// surface.
 constexpr int kMostSlivers = 4;
 
 /// How far two surfaces must be apart in distance from the eye to be two: two pixels' width at that
@@ -109,15 +110,15 @@ constexpr double kSnappingPx = 4.0 / 256;
 inline bool is_deep(const Projection& projection, double distance, double other) {
     return std::abs(distance - other) > 2 * projection.pixel_size(std::min(distance, other));
 }
-/// Where the way from a place, `along` as long as it is, crosses an edge: a part of the way. Nothing if it does not. `p`, `q`: the edge's
-/// ends, seen from that place.
+/// Where the way from a place, `along` as long as it is, crosses an edge: a part of the way. Nothing if it does not.
+/// `p`, `q`: the edge's ends, seen from that place.
 inline std::optional<double> part_of_way(glm::dvec2 along, glm::dvec2 p, glm::dvec2 q) {
     const double at_p = along.x * p.y - along.y * p.x, at_q = along.x * q.y - along.y * q.x;
     if ((at_p >= 0) == (at_q >= 0)) return std::nullopt;
     return glm::dot(glm::mix(p, q, at_p / (at_p - at_q)), along) / glm::dot(along, along);
 }
-/// Whether a way comes to one edge of a mesh behind another one, by part_of_way() with corners taken where they are: as the view
-/// changes, a wall passes the edge-on position once, where snapping would let it blink.
+/// Whether a way comes to one edge of a mesh behind another one, by part_of_way() with corners taken where they are: as
+/// the view changes, a wall passes the edge-on position once, where snapping would let it blink.
 inline bool is_beyond(double part, double other, glm::dvec2 along) {
     constexpr double kCertainPx = 0x1p-14;  // coordinates are not exact
     return (part - other) * glm::length(along) > kCertainPx;

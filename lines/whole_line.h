@@ -23,8 +23,10 @@ struct WholeLine {
     std::array<std::uint32_t, 2> owners{};
     static constexpr std::uint32_t kNoOwner = 0xFFFFFFFFu;
     bool is_loose() const { return owners[0] == kNoOwner; }
-    bool is_wire = false;  ///< the edge in front of a wire, or of a strip as narrow, whose triangles say nothing about what is in front
-    /// Surfaces hide it only where they are in front for certain, and not where they touch it, unless it is flush with them.
+    bool is_wire = false;  ///< the edge in front of a wire, or of a strip as narrow, whose triangles say nothing about
+                           ///< what is in front
+    /// Surfaces hide it only where they are in front for certain, and not where they touch it, unless it is flush with
+    /// them.
     bool is_by_itself() const { return is_wire || is_loose(); }
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;
@@ -60,7 +62,7 @@ struct WholeLine {
 
 /// A part of a line with the same surfaces in front of it all along.
 struct LinePart {
-    std::uint32_t line = 0;   ///< number of the line
+    std::uint32_t line = 0;     ///< number of the line
     double begin = 0, end = 1;  ///< as shares of the way from `from` to `to`
     /// Quantitative invisibility (Appel 1967): how many opaque layers are in front. 255: so many or more.
     std::uint8_t invisibility = 0;

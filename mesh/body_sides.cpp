@@ -8,7 +8,8 @@
 namespace burin {
 namespace {
 
-/// Less volume than this, over the 3/2nd power of the area, encloses nothing: a ball has 0.094, a box of 1 x 1 x 0.001 0.0004.
+/// Less volume than this, over the 3/2nd power of the area, encloses nothing: a ball has 0.094, a box of 1 x 1 x 0.001
+/// 0.0004.
 constexpr double kLeastVolume = 1e-5;
 constexpr std::int8_t kSheet = 2;  // until all are known; 0 = not looked at
 
@@ -16,7 +17,8 @@ constexpr std::int8_t kSheet = 2;  // until all are known; 0 = not looked at
 
 std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-    std::vector<std::int8_t> sides(count, 0);  // first: wound as the body's first triangle, 1, or the other way round, -1
+    std::vector<std::int8_t> sides(count,
+                                   0);  // first: wound as the body's first triangle, 1, or the other way round, -1
     std::vector<std::uint32_t> body;
     for (std::uint32_t start = 0; start < count; ++start) {
         if (sides[start] != 0) continue;
@@ -49,7 +51,8 @@ std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
         const double least = kLeastVolume * 6 * std::pow(0.5 * area, 1.5);
         // A face between edges of more than two triangles is a part of a body: it is believed as it is wound.
         const int body_side = volume > least ? -1 : volume < -least ? 1 : has_border ? 0 : -1;
-        for (const std::uint32_t t : body) sides[t] = body_side == 0 ? kSheet : static_cast<std::int8_t>(sides[t] * body_side);
+        for (const std::uint32_t t : body)
+            sides[t] = body_side == 0 ? kSheet : static_cast<std::int8_t>(sides[t] * body_side);
     }
     std::replace(sides.begin(), sides.end(), kSheet, std::int8_t{0});
     return sides;
@@ -80,7 +83,8 @@ bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::si
         if (t == b) return true;
         for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
             const HalfEdge g = mesh.next_on_edge[h];
-            const bool is_alike = g != h && mesh.next_on_edge[g] == h && mesh.triangles[g / 3][g % 3] != mesh.triangles[t][h - 3 * t];
+            const bool is_alike =
+                g != h && mesh.next_on_edge[g] == h && mesh.triangles[g / 3][g % 3] != mesh.triangles[t][h - 3 * t];
             if (is_alike && count < most) add(g / 3);
         }
     }

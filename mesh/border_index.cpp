@@ -31,7 +31,8 @@ bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderInd
 }
 
 /// Whether one may be a partner of the other, wherever it is.
-bool may_be_partners(const BorderIndex::Segment& own, const glm::dvec3& along, double length, const BorderIndex::Segment& other) {
+bool may_be_partners(const BorderIndex::Segment& own, const glm::dvec3& along, double length,
+                     const BorderIndex::Segment& other) {
     return other.polygon != own.polygon && are_nearly_parallel(along, length, other);
 }
 
@@ -51,11 +52,13 @@ bool are_near(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, con
         const double s = std::clamp((uv * glm::dot(v, w) - vv * glm::dot(u, w)) / area, 0.0, 1.0);
         if (distance_to_segment(a + s * u, c, d) <= margin) return true;
     }
-    return distance_to_segment(a, c, d) <= margin || distance_to_segment(b, c, d) <= margin || distance_to_segment(c, a, b) <= margin ||
-           distance_to_segment(d, a, b) <= margin;
+    return distance_to_segment(a, c, d) <= margin || distance_to_segment(b, c, d) <= margin ||
+           distance_to_segment(c, a, b) <= margin || distance_to_segment(d, a, b) <= margin;
 }
 
-SegmentPiece whole_of(const BorderIndex::Segment& s, std::uint32_t number) { return piece_around(glm::min(s.a, s.b), glm::max(s.a, s.b), number); }
+SegmentPiece whole_of(const BorderIndex::Segment& s, std::uint32_t number) {
+    return piece_around(glm::min(s.a, s.b), glm::max(s.a, s.b), number);
+}
 
 /// How far a segment's box reaches beside the segment: the middle one of its extents.
 double width_of_box(const BorderIndex::Segment& s) {
@@ -77,7 +80,8 @@ std::vector<SegmentPiece> pieces_of(std::span<const BorderIndex::Segment> segmen
         const auto count = 1 + static_cast<int>(width_of_box(segments[i]) * pieces_per_unit);
         const glm::dvec3 &a = segments[i].a, &b = segments[i].b;
         for (int k = 0; k < count; ++k) {
-            const glm::dvec3 from = glm::mix(a, b, static_cast<double>(k) / count), to = glm::mix(a, b, static_cast<double>(k + 1) / count);
+            const glm::dvec3 from = glm::mix(a, b, static_cast<double>(k) / count),
+                             to = glm::mix(a, b, static_cast<double>(k + 1) / count);
             const SegmentPiece part = piece_around(glm::min(from, to), glm::max(from, to), i);
             pieces.push_back({glm::max(part.low, whole.low), glm::min(part.high, whole.high), i});
         }
@@ -141,12 +145,13 @@ BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(se
 }
 
 bool BorderIndex::has_several_polygons() const {
-    return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) { return s.polygon != segments_.front().polygon; });
+    return std::any_of(segments_.begin(), segments_.end(),
+                       [&](const Segment& s) { return s.polygon != segments_.front().polygon; });
 }
 
-/// The reach, in lengths of the edge, at which few borders are near an edge on average: the widest one, halved as often as that
-/// takes. It is counted at the middles of 64 segments all over the mesh. In a heap, looking at all borders in the widest reach
-/// would take time that grows with their square, and which of them is nearest would mean nothing.
+/// The reach, in lengths of the edge, at which few borders are near an edge on average: the widest one, halved as often
+/// as that takes. It is counted at the middles of 64 segments all over the mesh. In a heap, looking at all borders in
+/// the widest reach would take time that grows with their square, and which of them is nearest would mean nothing.
 double BorderIndex::reach_part_in_crowd() const {
     constexpr std::size_t kAsked = 64, kFew = 4;
     constexpr int kMostHalvings = 24;
@@ -162,7 +167,9 @@ double BorderIndex::reach_part_in_crowd() const {
             finest().visit_leaves(TouchedBox{middle - reach, middle + reach}, [&](std::uint32_t k) {
                 const Segment& other = segments_[k];
                 if (!may_be_partners(own, along, length, other)) return true;
-                if (distance_to_segment(middle, other.a, other.b) > reach || std::find(seen.begin(), seen.end(), k) != seen.end()) return true;
+                if (distance_to_segment(middle, other.a, other.b) > reach ||
+                    std::find(seen.begin(), seen.end(), k) != seen.end())
+                    return true;
                 seen.push_back(k);
                 return ++in_reach <= kFew * kAsked;
             });
@@ -172,7 +179,8 @@ double BorderIndex::reach_part_in_crowd() const {
     return part;
 }
 
-/// Whether long segments run through each other's boxes, so that these tell little: asked of some segments all over the mesh.
+/// Whether long segments run through each other's boxes, so that these tell little: asked of some segments all over the
+/// mesh.
 bool BorderIndex::is_crowded() const {
     constexpr std::size_t kAsked = 64, kMany = 24;
     if (segments_.size() <= kAsked) return false;
@@ -210,10 +218,11 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
 void BorderIndex::find_nearest(const Segment& own, const glm::dvec3& at, Nearest& nearest) const {
     const glm::dvec3 along = direction_of(own);
     const double length = glm::length(along);
-    finest().visit_nearest(at, nearest.reach, [&](std::uint32_t i) {  // a look at its box would take as long as its distance
-        const Segment& other = segments_[i];
-        if (may_be_partners(own, along, length, other)) nearest.offer(other, at);
-    });
+    finest().visit_nearest(at, nearest.reach,
+                           [&](std::uint32_t i) {  // a look at its box would take as long as its distance
+                               const Segment& other = segments_[i];
+                               if (may_be_partners(own, along, length, other)) nearest.offer(other, at);
+                           });
 }
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at, const Sight& sight) const {
@@ -222,8 +231,9 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
     Nearest nearest{reach_part_ * length, {}};
-    // What is nearly parallel to the edge, passes within `reach` of the place, and within `radius` of the line of sight, does so at a
-    // distance of at most (reach + radius) / sine from the place: the sine of the least angle between it and the line of sight.
+    // What is nearly parallel to the edge, passes within `reach` of the place, and within `radius` of the line of
+    // sight, does so at a distance of at most (reach + radius) / sine from the place: the sine of the least angle
+    // between it and the line of sight.
     constexpr double kLeastSine = 1.0 / 8, kSineOfParallel = 0.436;  // a trifle more than sqrt(1 - kCosParallel^2)
     const double cosine = std::min(std::abs(glm::dot(along, sight.direction)) / length, 1.0);
     const double sine = std::sqrt(1 - cosine * cosine) * kCosParallel - cosine * kSineOfParallel;
@@ -239,7 +249,9 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     finest().visit_nearest(at, farthest, NearSegment{from, to, radius}, [&](std::uint32_t i) {
         const Segment& other = segments_[i];
         if (!may_be_partners(*own, along, length, other)) return;
-        if (!(distance_to_segment(at, other.a, other.b) <= nearest.reach) || !are_near(from, to, other.a, other.b, radius)) return;
+        if (!(distance_to_segment(at, other.a, other.b) <= nearest.reach) ||
+            !are_near(from, to, other.a, other.b, radius))
+            return;
         nearest.offer(other, at);
         farthest = (nearest.reach + radius) / sine + radius;
     });

@@ -30,7 +30,8 @@ class BorderIndex {
     explicit BorderIndex(std::vector<Segment> segments);
 
     std::span<const Segment> segments() const { return segments_; }
-    /// The numbers of all segments, those near each other mostly one after the other: for whoever asks what is near each.
+    /// The numbers of all segments, those near each other mostly one after the other: for whoever asks what is near
+    /// each.
     std::span<const std::uint32_t> by_place() const { return whole_.segments(); }
 
     /// The border edge of another polygon that runs along `half_edge` at the point `at` on it, if
@@ -40,14 +41,15 @@ class BorderIndex {
     /// until they are fewer.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at) const;
 
-    /// A straight line through a place, and what is seen near it: nearer than `radius` at the place, and than `radius` + d * `growth`
-    /// at the distance d from it.
+    /// A straight line through a place, and what is seen near it: nearer than `radius` at the place, and than `radius`
+    /// + d * `growth` at the distance d from it.
     struct Sight {
         glm::dvec3 direction{0.0};  ///< its length is 1
         double radius = 0, growth = 0;
     };
-    /// The same for whoever has no use for a partner that is not seen near the place: nothing, if it is not; it may be nothing only then.
-    /// Where borders lie in a heap, that is much faster: of all borders in reach, few are seen near the place.
+    /// The same for whoever has no use for a partner that is not seen near the place: nothing, if it is not; it may be
+    /// nothing only then. Where borders lie in a heap, that is much faster: of all borders in reach, few are seen near
+    /// the place.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at, const Sight& sight) const;
 
     /// How near a partner must be, in lengths of the edge.
@@ -70,10 +72,11 @@ class BorderIndex {
         double reach_ = 0;
         std::vector<Segment> segments_;
     };
-    /// Those whose boxes are that near to the box of the edge. False, and none, if there are more than `most` segments there, of any
-    /// direction.
+    /// Those whose boxes are that near to the box of the edge. False, and none, if there are more than `most` segments
+    /// there, of any direction.
     bool find_candidates(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
-    /// Those that are that near to the edge itself. False, and none, if there are more than `most`, at most kMostNear, of any direction.
+    /// Those that are that near to the edge itself. False, and none, if there are more than `most`, at most kMostNear,
+    /// of any direction.
     static constexpr std::size_t kMostNear = 256;
     bool find_near(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
 
@@ -92,10 +95,11 @@ class BorderIndex {
     std::vector<Segment> segments_;  // by half-edge
     double reach_part_ = 0;          // how near a partner must be, in lengths of the edge
     SegmentTree whole_;              // of whole segments
-    SegmentTree pieces_;             // of short pieces, where boxes around whole ones lie over each other by the dozen; else empty
+    SegmentTree pieces_;  // of short pieces, where boxes around whole ones lie over each other by the dozen; else empty
 };
 
-/// Of one edge: the segments nearest to a place on it, of which one may be its partner, and how near all others are at least.
+/// Of one edge: the segments nearest to a place on it, of which one may be its partner, and how near all others are at
+/// least.
 class BorderIndex::Neighbourhood {
   public:
     /// The edge's seam_partner() at a place near that; has_answer is false where others may be as near.

@@ -65,8 +65,7 @@ void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
             mesh.triangle_polygon.push_back(i);
         }
         glm::dvec3 normal = area_vector(corners);
-        if (normal == glm::dvec3(0.0))
-            normal = normal_of_any_corners(corners);  // a figure of eight
+        if (normal == glm::dvec3(0.0)) normal = normal_of_any_corners(corners);  // a figure of eight
         const double length = glm::length(normal);
         mesh.polygon_normals.emplace_back(length > 0 ? normal / length : normal);
     }
@@ -97,13 +96,11 @@ void triangulate_and_link(const PolygonMesh& polygons, Mesh& mesh) {
 }
 
 /// `has_marks`: gets which of the marked edges are edges of the polygons.
-Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh,
-                 std::vector<bool>& has_marks) {
+Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh, std::vector<bool>& has_marks) {
     triangulate_and_link(polygons, mesh);
     const std::vector<std::uint32_t> duplicates = find_duplicates(polygons, mesh);
     mesh.repairs.duplicate_polygons = duplicates.size();
-    const bool is_subdivided =
-        options.subdivision_levels > 0 && mesh.polygon_count > duplicates.size();
+    const bool is_subdivided = options.subdivision_levels > 0 && mesh.polygon_count > duplicates.size();
     if (!duplicates.empty()) {
         polygons = without(polygons, duplicates);
         mesh.input_order.drop(duplicates);
@@ -117,8 +114,7 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh,
     if (!is_subdivided) has_marks = std::move(found);
     mesh.polygon_material = std::move(polygons.polygon_material);
     const bool one_material =
-        std::all_of(mesh.polygon_material.begin(), mesh.polygon_material.end(),
-                    [](std::uint32_t m) { return m == 0; });
+        std::all_of(mesh.polygon_material.begin(), mesh.polygon_material.end(), [](std::uint32_t m) { return m == 0; });
     if (one_material) mesh.polygon_material.clear();
     mesh.positions = std::move(polygons.positions);
     mesh.residuals = std::move(polygons.residuals);
@@ -136,8 +132,7 @@ Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
     if (options.subdivision_levels > 0 || has_duplicates) {
         PolygonMesh polygons;
         polygons.positions = std::move(mesh.positions);
-        for (const auto& [a, b, c] : mesh.triangles)
-            polygons.corners.insert(polygons.corners.end(), {a, b, c});
+        for (const auto& [a, b, c] : mesh.triangles) polygons.corners.insert(polygons.corners.end(), {a, b, c});
         std::vector<bool> has_none;
         return finish_mesh(std::move(polygons), options, std::move(mesh), has_none);
     }
@@ -153,8 +148,8 @@ void note_cut_polygons(const CutPolygons& cut, MeshRepairs& repairs) {
     repairs.input_triangles += cut.triangles - cut.piece_triangles;
 }
 
-/// Counts what subdivision makes of all objects together, before the first of them is made. Corners become four in each step, by
-/// either scheme.
+/// Counts what subdivision makes of all objects together, before the first of them is made. Corners become four in each
+/// step, by either scheme.
 void count_subdivision(const PolygonSoup& soup, const MeshOptions& options) {
     if (options.subdivision_levels == 0 || options.budget == nullptr) return;
     const bool has_triangles = soup.corners.size() == 3 * soup.polygon_count();
@@ -165,10 +160,12 @@ void count_subdivision(const PolygonSoup& soup, const MeshOptions& options) {
                "subdivide " + std::to_string(options.subdivision_levels));
 }
 
-/// Whether the order of an object's polygons shows in nothing but their numbers: where some coincide, the first one is seen.
+/// Whether the order of an object's polygons shows in nothing but their numbers: where some coincide, the first one is
+/// seen.
 bool may_be_put_in_order(const PolygonSoup& soup, std::span<const std::uint32_t> polygons) {
     if (polygons.size() < kWorthSpatialOrder || !soup.marked_edges.empty()) return false;
-    return std::all_of(polygons.begin(), polygons.end(), [&](std::uint32_t i) { return soup.material_of(i) == soup.material_of(polygons[0]); });
+    return std::all_of(polygons.begin(), polygons.end(),
+                       [&](std::uint32_t i) { return soup.material_of(i) == soup.material_of(polygons[0]); });
 }
 
 /// Puts an object's polygons in spatial order. Returns where they were.

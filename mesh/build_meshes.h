@@ -13,8 +13,8 @@ struct MeshOptions {
     int subdivision_levels = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
     ModelBudget* budget = nullptr;  ///< counts what a model takes beyond its file; nullptr: as by default
-    int threads = 1;  ///< for reading a file; 0 = all cores. Changes no result.
-    bool strict = false;  ///< for reading a file: refuses what a reader would leave out with a note
+    int threads = 1;                ///< for reading a file; 0 = all cores. Changes no result.
+    bool strict = false;            ///< for reading a file: refuses what a reader would leave out with a note
 };
 
 /// Turns the polygons of a file into one Mesh per object that has polygons left.

@@ -12,7 +12,8 @@ namespace {
 /// How far apart corners that become one may be, in parts of the reach.
 constexpr double kLargestPart = 1.0 / 8;
 
-/// Whether a triangle's other edges are linked without it, or both to others: else it may be all that there is of a strip.
+/// Whether a triangle's other edges are linked without it, or both to others: else it may be all that there is of a
+/// strip.
 bool is_between_others(const Mesh& mesh, HalfEdge end) {
     const auto links = [&mesh](HalfEdge h) {
         int count = 0;
@@ -53,7 +54,8 @@ void keep_thin_parts(const Mesh& mesh, std::vector<Needle>& needles) {
     std::vector<std::uint32_t> size(part.size()), count(part.size());
     for (const std::uint32_t p : part) ++size[p];
     for (const Needle& needle : needles) ++count[part[needle.triangle]];
-    std::erase_if(needles, [&](const Needle& needle) { return 2 * count[part[needle.triangle]] >= size[part[needle.triangle]]; });
+    std::erase_if(
+        needles, [&](const Needle& needle) { return 2 * count[part[needle.triangle]] >= size[part[needle.triangle]]; });
 }
 
 }  // namespace

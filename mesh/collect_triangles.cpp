@@ -45,12 +45,11 @@ bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
 
 bool has_only_triangles(const PolygonSoup& soup) {
     return soup.polygon_count() > 0 && soup.polygon_ends.empty() && soup.object_names.size() <= 1 &&
-           soup.polygon_object.empty() && soup.polygon_material.empty() &&
-           soup.marked_edges.empty();
+           soup.polygon_object.empty() && soup.polygon_material.empty() && soup.marked_edges.empty();
 }
 
-void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& welded,
-                       bool in_spatial_order, Mesh& mesh) {
+void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
+                       const std::vector<std::uint32_t>& welded, bool in_spatial_order, Mesh& mesh) {
     constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
     const std::size_t count = soup.polygon_count();
     // Numbers in the object, of the first ones of vertices that fall together; and the other way round.
@@ -59,9 +58,11 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
     reserve_large(mesh.triangles, count);
     std::uint32_t used_count = 0;
     // Half of the triangles meet a new vertex, and no guess at which is right: each is noted as if it were new.
-    const auto number_of = [&used_count, local = local.data(), used = used.data(), welded = welded.data()](std::uint32_t v) {
+    const auto number_of = [&used_count, local = local.data(), used = used.data(),
+                            welded = welded.data()](std::uint32_t v) {
         const std::uint32_t first = welded[v], known = local[first], is_new = known == kUnused ? 1 : 0;
-        const std::uint32_t number = known ^ ((known ^ used_count) & (0u - is_new));  // a condition would become a branch
+        const std::uint32_t number =
+            known ^ ((known ^ used_count) & (0u - is_new));  // a condition would become a branch
         local[first] = number;
         used[used_count] = first;
         used_count += is_new;
@@ -82,7 +83,9 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
         std::vector<std::uint32_t> dropped;
         for (std::size_t k = 0; k < count; ++k) {
             if ((k & 0xFFFF) == 0) throw_if_interrupted();
-            const auto corners_ahead = [&](std::size_t ahead) { return corners + 3 * std::size_t{order[std::min(k + ahead, count - 1)]}; };
+            const auto corners_ahead = [&](std::size_t ahead) {
+                return corners + 3 * std::size_t{order[std::min(k + ahead, count - 1)]};
+            };
             __builtin_prefetch(corners_ahead(24));
             const std::uint32_t* const soon = corners_ahead(8);
             for (int corner = 0; corner < 3; ++corner) {

@@ -13,10 +13,10 @@ namespace burin {
 /// large models are like that.
 bool has_only_triangles(const PolygonSoup& soup);
 
-/// What ObjectCollector collects from a soup that has_only_triangles, faster, and into a mesh: its positions, triangles, polygon
-/// count and repairs. Arguments as there. `in_spatial_order`: as SpatialOrder has them, with where they stood as
-/// the mesh's `input_order`.
-void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& welded,
-                       bool in_spatial_order, Mesh& mesh);
+/// What ObjectCollector collects from a soup that has_only_triangles, faster, and into a mesh: its positions,
+/// triangles, polygon count and repairs. Arguments as there. `in_spatial_order`: as SpatialOrder has them, with where
+/// they stood as the mesh's `input_order`.
+void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
+                       const std::vector<std::uint32_t>& welded, bool in_spatial_order, Mesh& mesh);
 
 }  // namespace burin

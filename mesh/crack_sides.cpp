@@ -40,7 +40,8 @@ double CrackSides::widest(std::uint32_t segment, double length) const {
     const double reach = reach_[segment];
     // Of specks there may be thousands in one place.
     if (is_end_of_needle_[segment] || lengths_[segment] < kShortestSide * reach) return 0;
-    const double by_length = std::max(std::min(reach, kWidestPart * length), std::min(kNarrowPart * reach, kWidestNarrowPart * length));
+    const double by_length =
+        std::max(std::min(reach, kWidestPart * length), std::min(kNarrowPart * reach, kWidestNarrowPart * length));
     return std::min(by_length, std::max(kNegligiblePart * reach, kWidestOfHeight * heights_[segment]));
 }
 
@@ -72,7 +73,8 @@ glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
 
 bool CrackSides::are_beside(std::uint32_t s, std::uint32_t t) const {
     return segments_[s].polygon != segments_[t].polygon && glm::dot(inward(s), inward(t)) <= kCosLeastAngle &&
-           !(ends_before(s, t) && ends_before(t, s)) && !has_beside(s, apex_vertex(t)) && !has_beside(t, apex_vertex(s));
+           !(ends_before(s, t) && ends_before(t, s)) && !has_beside(s, apex_vertex(t)) &&
+           !has_beside(t, apex_vertex(s));
 }
 
 /// Whether a vertex belongs to the triangle at a border or to one next to it.

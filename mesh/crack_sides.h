@@ -20,16 +20,16 @@ class CrackSides {
     const Mesh& mesh() const { return mesh_; }
     std::span<const BorderIndex::Segment> segments() const { return segments_; }
     double length(std::uint32_t segment) const { return lengths_[segment]; }
-    /// Whether a border is as short as 1/8 of the reach and 1/3 of its triangle's other edges: no side of a crack, but a corner
-    /// that was two equal ones before they were moved apart.
+    /// Whether a border is as short as 1/8 of the reach and 1/3 of its triangle's other edges: no side of a crack, but
+    /// a corner that was two equal ones before they were moved apart.
     bool is_end_of_needle(std::uint32_t segment) const { return is_end_of_needle_[segment]; }
-    /// How wide a crack between two sides of this length may be. No wider than half of the triangle beside it, unless that is
-    /// 1/8 of the reach: slats of a blind are as far apart as they are high.
+    /// How wide a crack between two sides of this length may be. No wider than half of the triangle beside it, unless
+    /// that is 1/8 of the reach: slats of a blind are as far apart as they are high.
     double widest(std::uint32_t segment, double length) const;
     /// The vertices that a border runs between.
     std::pair<std::uint32_t, std::uint32_t> ends(std::uint32_t segment) const;
-    /// Whether two borders may be the sides of one crack, as far as their polygons say: not those of a strip or groove, with
-    /// polygons between them.
+    /// Whether two borders may be the sides of one crack, as far as their polygons say: not those of a strip or groove,
+    /// with polygons between them.
     bool are_beside(std::uint32_t s, std::uint32_t t) const;
 
   private:

@@ -54,8 +54,11 @@ class Flipper {
             std::uint32_t from, to, side;
         };
         std::vector<Directed> sides;
-        for (std::uint32_t side = 0; side < twins_.size(); ++side) sides.push_back({start(side), start(next(side)), side});
-        const auto is_before = [](const Directed& a, const Directed& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; };
+        for (std::uint32_t side = 0; side < twins_.size(); ++side)
+            sides.push_back({start(side), start(next(side)), side});
+        const auto is_before = [](const Directed& a, const Directed& b) {
+            return a.from != b.from ? a.from < b.from : a.to < b.to;
+        };
         std::sort(sides.begin(), sides.end(), is_before);
         for (const Directed& s : sides) {
             const auto twin = std::lower_bound(sides.begin(), sides.end(), Directed{s.to, s.from, 0}, is_before);

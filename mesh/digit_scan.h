@@ -36,11 +36,9 @@ inline std::uint32_t value_of_digits(std::uint64_t eight, int count) {
 }
 
 /// Those that a double holds exactly.
-inline constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                          1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                          1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-inline constexpr std::uint64_t kIntegerPowersOfTen[] = {
-    1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+inline constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                          1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+inline constexpr std::uint64_t kIntegerPowersOfTen[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
 /// Reads 1..7 digits at `p`. Returns the place behind them, or nullptr if there are more or none.
 /// `p` must have kScanReach bytes.
@@ -67,13 +65,11 @@ inline const char* scan_plain_decimal(const char* p, double& value) {
         const std::uint64_t eight = load_eight(++p);
         places = count_digits(eight);
         if (places == 0) return nullptr;
-        digits = static_cast<std::int64_t>(whole * kIntegerPowersOfTen[places]) +
-                 value_of_digits(eight, places);
+        digits = static_cast<std::int64_t>(whole * kIntegerPowersOfTen[places]) + value_of_digits(eight, places);
         p += places;
     }
     // A ninth digit, a second point or an exponent.
-    if (static_cast<unsigned char>(*p - '0') < 10 || *p == '.' || (*p | 0x20) == 'e')
-        return nullptr;
+    if (static_cast<unsigned char>(*p - '0') < 10 || *p == '.' || (*p | 0x20) == 'e') return nullptr;
     const double magnitude = static_cast<double>(digits) / kPowersOfTen[places];
     value = negative ? -magnitude : magnitude;
     return p;

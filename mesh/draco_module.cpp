@@ -79,8 +79,7 @@ class HeaderReader {
 };
 
 template <typename T>
-bool copy_values(const draco::PointAttribute& from, std::uint32_t points, unsigned components,
-                 void* to) {
+bool copy_values(const draco::PointAttribute& from, std::uint32_t points, unsigned components, void* to) {
     auto* out = static_cast<T*>(to);
     for (std::uint32_t i = 0; i < points; ++i, out += components) {
         const draco::AttributeValueIndex value = from.mapped_index(draco::PointIndex(i));
@@ -90,8 +89,7 @@ bool copy_values(const draco::PointAttribute& from, std::uint32_t points, unsign
     return true;
 }
 
-bool copy_values(const draco::PointAttribute& from, std::uint32_t points,
-                 const BurinDracoAttribute& to) {
+bool copy_values(const draco::PointAttribute& from, std::uint32_t points, const BurinDracoAttribute& to) {
     switch (to.component_type) {
         case 5120:
             return copy_values<std::int8_t>(from, points, to.components, to.values);
@@ -110,9 +108,8 @@ bool copy_values(const draco::PointAttribute& from, std::uint32_t points,
     }
 }
 
-const char* decode(const void* bytes, std::uint64_t size, std::uint64_t points,
-                   std::uint64_t triangles, unsigned* indices, BurinDracoAttribute* attributes,
-                   unsigned attribute_count) {
+const char* decode(const void* bytes, std::uint64_t size, std::uint64_t points, std::uint64_t triangles,
+                   unsigned* indices, BurinDracoAttribute* attributes, unsigned attribute_count) {
     if (const char* wrong = HeaderReader(bytes, size).check(points, triangles)) return wrong;
     draco::DecoderBuffer buffer;
     buffer.Init(static_cast<const char*>(bytes), size);
@@ -141,9 +138,8 @@ const char* decode(const void* bytes, std::uint64_t size, std::uint64_t points,
 
 }  // namespace
 
-const char* burin_draco_decode(const void* bytes, unsigned long long size,
-                               unsigned long long points, unsigned long long triangles,
-                               unsigned* indices, BurinDracoAttribute* attributes,
+const char* burin_draco_decode(const void* bytes, unsigned long long size, unsigned long long points,
+                               unsigned long long triangles, unsigned* indices, BurinDracoAttribute* attributes,
                                unsigned attribute_count) {
     try {
         return decode(bytes, size, points, triangles, indices, attributes, attribute_count);

@@ -15,8 +15,7 @@ struct BurinDracoAttribute {
 /// Decompresses a mesh of `points` points and `triangles` triangles, into `indices` (three per
 /// triangle) and into the attributes. Takes no memory for a mesh that says to be larger. Returns
 /// nullptr, or what went wrong.
-const char* burin_draco_decode(const void* bytes, unsigned long long size,
-                               unsigned long long points, unsigned long long triangles,
-                               unsigned* indices, BurinDracoAttribute* attributes,
+const char* burin_draco_decode(const void* bytes, unsigned long long size, unsigned long long points,
+                               unsigned long long triangles, unsigned* indices, BurinDracoAttribute* attributes,
                                unsigned attribute_count);
 }

@@ -15,8 +15,7 @@ constexpr int kLongRing = 32;  // above, sorting beats comparing all pairs
 /// Finds polygons with the same edges as an earlier one, whatever their winding and first corner.
 class DuplicateFinder {
   public:
-    DuplicateFinder(const PolygonMesh& polygons, const Mesh& mesh)
-        : polygons_(polygons), mesh_(mesh) {}
+    DuplicateFinder(const PolygonMesh& polygons, const Mesh& mesh) : polygons_(polygons), mesh_(mesh) {}
 
     /// A duplicate shares all its edges with its twin, so only polygons around one of its edges
     /// need to be compared. The first half-edge of a polygon's first triangle is one of its edges.
@@ -41,8 +40,7 @@ class DuplicateFinder {
         for (HalfEdge h = mesh_.next_on_edge[start]; h != start; h = mesh_.next_on_edge[h]) {
             if (++length > kLongRing) return compare_ring(start);
             const std::uint32_t q = mesh_.polygon_of(h / 3);
-            if (q < p && polygon(p).size() == polygon(q).size() && key_of(p) == key_of(q) &&
-                same_edges(p, q)) {
+            if (q < p && polygon(p).size() == polygon(q).size() && key_of(p) == key_of(q) && same_edges(p, q)) {
                 duplicates_.push_back(p);
                 return;
             }
@@ -72,8 +70,7 @@ class DuplicateFinder {
     }
 
     std::span<const std::uint32_t> polygon(std::uint32_t p) const {
-        return mesh_.triangle_polygon.empty() ? std::span(mesh_.triangles[p])
-                                              : polygons_.polygon(p);
+        return mesh_.triangle_polygon.empty() ? std::span(mesh_.triangles[p]) : polygons_.polygon(p);
     }
     static std::uint64_t mix(std::uint64_t v) {
         v = (v ^ v >> 29) * 0xBF58476D1CE4E5B9u;
@@ -85,8 +82,7 @@ class DuplicateFinder {
         std::uint64_t key = corners.size();
         std::uint32_t u = corners.back();
         for (const std::uint32_t v : corners) {
-            key +=
-                mix((std::uint64_t{std::min(u, v)} << 32 | std::max(u, v)) * 0x9E3779B97F4A7C15u);
+            key += mix((std::uint64_t{std::min(u, v)} << 32 | std::max(u, v)) * 0x9E3779B97F4A7C15u);
             u = v;
         }
         return key;
@@ -102,9 +98,7 @@ class DuplicateFinder {
         std::sort(edges.begin(), edges.end());
         return edges;
     }
-    bool same_edges(std::uint32_t p, std::uint32_t q) const {
-        return sorted_edges(p) == sorted_edges(q);
-    }
+    bool same_edges(std::uint32_t p, std::uint32_t q) const { return sorted_edges(p) == sorted_edges(q); }
 
     const PolygonMesh& polygons_;
     const Mesh& mesh_;
@@ -137,8 +131,7 @@ bool find_duplicate_triangles(const Mesh& mesh, std::vector<std::uint32_t>& dupl
 
 std::vector<std::uint32_t> find_duplicates(const PolygonMesh& polygons, const Mesh& mesh) {
     std::vector<std::uint32_t> duplicates;
-    if (mesh.triangle_polygon.empty() && find_duplicate_triangles(mesh, duplicates))
-        return duplicates;
+    if (mesh.triangle_polygon.empty() && find_duplicate_triangles(mesh, duplicates)) return duplicates;
     return DuplicateFinder(polygons, mesh).find();
 }
 

@@ -16,8 +16,8 @@
 namespace burin {
 namespace {
 
-/// Half-edges whose edges have the same owner, in lists: the newest one of each owner leads to the one before, and so on. The owner of
-/// an edge is one of its vertices; the other one is its key.
+/// Half-edges whose edges have the same owner, in lists: the newest one of each owner leads to the one before, and so
+/// on. The owner of an edge is one of its vertices; the other one is its key.
 struct EdgeLists {
     HalfEdge none;                       // the number behind the last half-edge ends the lists, and leads to itself
     std::vector<HalfEdge> newest;        // per vertex
@@ -46,7 +46,8 @@ EdgeLists list_edges(std::span<const std::array<std::uint32_t, 3>> triangles, st
             to[i + 2] = from[i];
         }
         for (std::size_t i = 0; i < size; ++i) {
-            // An even choice, however vertices are numbered: a vertex of a closed surface has six edges on average, and owns three.
+            // An even choice, however vertices are numbered: a vertex of a closed surface has six edges on average, and
+            // owns three.
             const std::uint32_t u = from[i], v = to[i], differing = u ^ v, v_owns = (u < v ? 1u : 0u) ^ (differing & 1);
             owners[i] = u ^ (differing & (0u - v_owns));
             keys[i] = owners[i] ^ differing;
@@ -85,7 +86,8 @@ std::uint32_t find_equal(const std::array<std::uint32_t, kSize>& numbers, std::u
     std::uint32_t equal = 0;
 #ifdef __SSE2__
     const auto four = [&](std::size_t i) {
-        return _mm_cmpeq_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(&numbers[i])), _mm_set1_epi32(static_cast<int>(number)));
+        return _mm_cmpeq_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(&numbers[i])),
+                               _mm_set1_epi32(static_cast<int>(number)));
     };
     for (std::size_t i = 0; i < kSize; i += 8) {
         const __m128i eight = _mm_packs_epi16(_mm_packs_epi32(four(i), four(i + 4)), _mm_setzero_si128());
@@ -105,7 +107,8 @@ bool link_pairs(const Start<kSize>& start, EdgeLists& lists) {
     std::uint32_t more = 0;
     for (std::size_t i = 0; i < kSize; ++i) {
         const std::uint32_t own = 1u << i, others = find_equal(start.keys, start.keys[i]) ^ own;
-        next[start.half_edges[i]] = start.half_edges[static_cast<std::size_t>(std::countr_zero(others != 0 ? others : own))];
+        next[start.half_edges[i]] =
+            start.half_edges[static_cast<std::size_t>(std::countr_zero(others != 0 ? others : own))];
         more |= others & (others - 1) & used;
     }
     return more != 0;
@@ -132,7 +135,8 @@ bool link_start(const Start<kSize>& start, EdgeLists& lists, std::vector<HalfEdg
     if (start.rest != lists.none) return false;
     if (link_pairs(start, lists)) {
         KeyedList list;
-        for (std::size_t i = 0; i < kSize && start.half_edges[i] != lists.none; ++i) list.emplace_back(start.keys[i], start.half_edges[i]);
+        for (std::size_t i = 0; i < kSize && start.half_edges[i] != lists.none; ++i)
+            list.emplace_back(start.keys[i], start.half_edges[i]);
         link_by_sorting(std::move(list), lists, crowded);
     }
     return true;
@@ -148,12 +152,14 @@ void link_list(HalfEdge newest, EdgeLists& lists, std::vector<HalfEdge>& crowded
 }
 
 /// Equal for two triangles on one edge if and only if they have the same third vertex.
-std::uint32_t vertices_xor(const std::array<std::uint32_t, 3>& triangle) { return triangle[0] ^ triangle[1] ^ triangle[2]; }
+std::uint32_t vertices_xor(const std::array<std::uint32_t, 3>& triangle) {
+    return triangle[0] ^ triangle[1] ^ triangle[2];
+}
 
 /// Whether a triangle has the vertices of an earlier one in the ring of its half-edge h; true also for
 /// long rings. Triangles on one edge are twins if their third vertices are one.
-bool has_twin(std::span<const std::array<std::uint32_t, 3>> triangles,
-              const std::vector<HalfEdge>& next_on_edge, HalfEdge h) {
+bool has_twin(std::span<const std::array<std::uint32_t, 3>> triangles, const std::vector<HalfEdge>& next_on_edge,
+              HalfEdge h) {
     const std::uint32_t own = vertices_xor(triangles[h / 3]);
     int length = 0;
     for (HalfEdge g = next_on_edge[h]; g != h; g = next_on_edge[g]) {
@@ -164,11 +170,12 @@ bool has_twin(std::span<const std::array<std::uint32_t, 3>> triangles,
 
 }  // namespace
 
-std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
-                                 std::size_t vertex_count, bool* has_twins) {
+std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count,
+                                 bool* has_twins) {
     EdgeLists lists = list_edges(triangles, vertex_count);
     std::vector<HalfEdge> crowded;
-    constexpr std::size_t kBatch = 32;  // some are read before the first is linked: what was just written is slow to read as vectors
+    constexpr std::size_t kBatch =
+        32;  // some are read before the first is linked: what was just written is slow to read as vectors
     std::array<Start<8>, kBatch> starts;
     for (std::size_t first = 0; first < vertex_count; first += kBatch) {
         if (first % (4096 * kBatch) == 0) throw_if_interrupted();
@@ -208,7 +215,8 @@ BorderIndex index_borders(const Mesh& mesh) {
         for (auto h = static_cast<HalfEdge>(first); h < end; ++h) {
             if (next[h] != h) continue;
             const auto& t = mesh.triangles[h / 3];
-            segments.push_back({h, mesh.polygon_of(h / 3), mesh.local_position(t[h % 3]), mesh.local_position(t[(h + 1) % 3])});
+            segments.push_back(
+                {h, mesh.polygon_of(h / 3), mesh.local_position(t[h % 3]), mesh.local_position(t[(h + 1) % 3])});
         }
     }
     return BorderIndex(std::move(segments));

@@ -15,8 +15,8 @@ namespace burin {
 ///
 /// `has_twins`, if given, is set to whether a triangle has the same three vertices as an earlier one; true
 /// also where very many triangles meet at an edge and it takes more than a look to tell.
-std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
-                                 std::size_t vertex_count, bool* has_twins = nullptr);
+std::vector<HalfEdge> link_edges(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count,
+                                 bool* has_twins = nullptr);
 
 /// The border edges of a mesh that is linked.
 BorderIndex index_borders(const Mesh& mesh);

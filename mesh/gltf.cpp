@@ -67,8 +67,7 @@ class GltfReader {
         }
         const auto asset = root_.at("asset");
         // A text, but a number in some files of glTF 1.0.
-        const std::string version =
-            asset.has("version") ? asset.at("version").text_or_number() : "2.0";
+        const std::string version = asset.has("version") ? asset.at("version").text_or_number() : "2.0";
         if (!version.starts_with("2")) {
             throw InputError(path_ + ": glTF version " + printable(version) +
                              " is not read; re-export the model as glTF 2.0");
@@ -79,18 +78,14 @@ class GltfReader {
         std::map<std::string, std::uint32_t> known;
         for (std::size_t i = 0; i < root_.size_of("meshes"); ++i) {
             throw_if_interrupted();
-            plans_.push_back(
-                plan_gltf_mesh(root_.at("meshes").element(i), i, *buffers_, materials_));
+            plans_.push_back(plan_gltf_mesh(root_.at("meshes").element(i), i, *buffers_, materials_));
             const auto number = static_cast<std::uint32_t>(i);
-            first_like_.push_back(
-                known.try_emplace(std::move(plans_[i].key), number).first->second);
+            first_like_.push_back(known.try_emplace(std::move(plans_[i].key), number).first->second);
         }
         poses_.resize(plans_.size());
     }
 
-    JsonPlace node(const GltfMeshNode& shown) const {
-        return root_.at("nodes").element(shown.node);
-    }
+    JsonPlace node(const GltfMeshNode& shown) const { return root_.at("nodes").element(shown.node); }
 
     Pose pose_of(const GltfMeshNode& shown) const {
         const JsonPlace place = node(shown);
@@ -141,8 +136,7 @@ class GltfReader {
                 if (pose->skin) {
                     std::optional<GltfSkin>& known = skins[*pose->skin];
                     if (!known) {
-                        known = read_gltf_skin(root_.at("skins").element(*pose->skin), nodes_,
-                                               *buffers_);
+                        known = read_gltf_skin(root_.at("skins").element(*pose->skin), nodes_, *buffers_);
                     }
                     skin = &*known;
                 }
@@ -175,15 +169,13 @@ class GltfReader {
         }
     }
 
-    void place_instances(const GltfObject& object, const std::vector<glm::dmat4>& matrices,
-                         const JsonPlace& place) {
+    void place_instances(const GltfObject& object, const std::vector<glm::dmat4>& matrices, const JsonPlace& place) {
         for (std::size_t i = 0; i < matrices.size(); ++i) {
             GltfObject instance = object;
             if (matrices.size() > 1) instance.name += "#" + std::to_string(i + 1);
             instance.to_world = object.to_world * matrices[i];
             if (!is_within_reason(instance.to_world)) {
-                place.fail("the transform of instance " + std::to_string(i) +
-                           " is not finite or beyond 1e30");
+                place.fail("the transform of instance " + std::to_string(i) + " is not finite or beyond 1e30");
             }
             scene_.objects.push_back(std::move(instance));
         }
@@ -202,15 +194,18 @@ class GltfReader {
             if (count == 0) return;
             const std::string what = std::to_string(count) + " " + (count == 1 ? one : more);
             if (is_unreadable && strict_) {
-                throw InputError(path_ + ": " + what + ", which cannot be drawn; re-export the model without, or leave out --strict");
+                throw InputError(path_ + ": " + what +
+                                 ", which cannot be drawn; re-export the model without, or leave out --strict");
             }
             scene_.notes.push_back("left out " + what);
         };
         note(points, "primitive of points", "primitives of points", true);
         note(without_positions, "primitive without positions", "primitives without positions", true);
-        note(polygons, "polygon that its alphaCutoff makes invisible", "polygons that their alphaCutoff makes invisible");
+        note(polygons, "polygon that its alphaCutoff makes invisible",
+             "polygons that their alphaCutoff makes invisible");
         note(lines, "line that its alphaCutoff makes invisible", "lines that their alphaCutoff makes invisible");
-        note(nodes_.invisible_mesh_nodes, "node with a mesh that is not visible", "nodes with a mesh that are not visible");
+        note(nodes_.invisible_mesh_nodes, "node with a mesh that is not visible",
+             "nodes with a mesh that are not visible");
     }
 
     std::string path_;
@@ -226,8 +221,8 @@ class GltfReader {
     std::vector<std::uint32_t> first_like_;  // per glTF mesh, the first one that holds the same
     GltfNodes nodes_;
     std::vector<std::map<Pose, std::size_t>> poses_;  // per glTF mesh, numbered as nodes show them
-    std::vector<std::size_t> shown_pose_;  // per node that shows a mesh: the number of its pose
-    std::vector<std::size_t> first_soup_;  // per glTF mesh: its first pose in the scene
+    std::vector<std::size_t> shown_pose_;             // per node that shows a mesh: the number of its pose
+    std::vector<std::size_t> first_soup_;             // per glTF mesh: its first pose in the scene
     GltfScene scene_;
 };
 

@@ -29,13 +29,20 @@ std::string decode_base64(const JsonPlace& place, std::string_view text) {
     int bit_count = 0;
     for (const char c : text) {
         int value = 0;
-        if (c >= 'A' && c <= 'Z') value = c - 'A';
-        else if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
-        else if (is_digit(c)) value = c - '0' + 52;
-        else if (c == '+' || c == '-') value = 62;
-        else if (c == '/' || c == '_') value = 63;
-        else if (c == '=') break;
-        else place.fail("the data URI is not base64");
+        if (c >= 'A' && c <= 'Z')
+            value = c - 'A';
+        else if (c >= 'a' && c <= 'z')
+            value = c - 'a' + 26;
+        else if (is_digit(c))
+            value = c - '0' + 52;
+        else if (c == '+' || c == '-')
+            value = 62;
+        else if (c == '/' || c == '_')
+            value = 63;
+        else if (c == '=')
+            break;
+        else
+            place.fail("the data URI is not base64");
         bits = bits << 6 | static_cast<std::uint32_t>(value);
         bit_count += 6;
         if (bit_count >= 8) {
@@ -52,8 +59,7 @@ std::string decode_percent(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         unsigned value = 0;
         if (text[i] == '%' && i + 2 < text.size() &&
-            std::from_chars(text.data() + i + 1, text.data() + i + 3, value, 16).ptr ==
-                text.data() + i + 3) {
+            std::from_chars(text.data() + i + 1, text.data() + i + 3, value, 16).ptr == text.data() + i + 3) {
             result += static_cast<char>(value);
             i += 2;
         } else {
@@ -65,10 +71,17 @@ std::string decode_percent(std::string_view text) {
 
 std::size_t component_size(std::uint64_t type) {
     switch (type) {
-        case 5120: case 5121: return 1;
-        case 5122: case 5123: return 2;
-        case 5125: case 5126: return 4;
-        default: return 0;
+        case 5120:
+        case 5121:
+            return 1;
+        case 5122:
+        case 5123:
+            return 2;
+        case 5125:
+        case 5126:
+            return 4;
+        default:
+            return 0;
     }
 }
 
@@ -78,14 +91,18 @@ double load_component(const char* p, std::uint64_t type, bool normalized) {
             const double v = load<std::int8_t>(p);
             return normalized ? std::max(v / 127.0, -1.0) : v;
         }
-        case 5121: return load<std::uint8_t>(p) / (normalized ? 255.0 : 1.0);
+        case 5121:
+            return load<std::uint8_t>(p) / (normalized ? 255.0 : 1.0);
         case 5122: {
             const double v = load<std::int16_t>(p);
             return normalized ? std::max(v / 32767.0, -1.0) : v;
         }
-        case 5123: return load<std::uint16_t>(p) / (normalized ? 65535.0 : 1.0);
-        case 5125: return load<std::uint32_t>(p);
-        default: return static_cast<double>(load<float>(p));
+        case 5123:
+            return load<std::uint16_t>(p) / (normalized ? 65535.0 : 1.0);
+        case 5125:
+            return load<std::uint32_t>(p);
+        default:
+            return static_cast<double>(load<float>(p));
     }
 }
 
@@ -106,13 +123,12 @@ bool is_fallback_buffer(const JsonPlace& buffer) {
 
 double GltfAccessor::number(std::uint64_t element, int component) const {
     if (data == nullptr) return 0;
-    const char* const p = data + element * stride +
-                          static_cast<std::size_t>(component) * component_size(component_type);
+    const char* const p =
+        data + element * stride + static_cast<std::size_t>(component) * component_size(component_type);
     return load_component(p, component_type, normalized);
 }
 
-GltfBuffers::GltfBuffers(const std::string& path, const JsonPlace& root, std::string_view binary,
-                         ModelBudget& budget)
+GltfBuffers::GltfBuffers(const std::string& path, const JsonPlace& root, std::string_view binary, ModelBudget& budget)
     : path_(path), root_(root) {
     for (std::size_t i = 0; i < root_.size_of("buffers"); ++i) {
         const JsonPlace buffer = root_.at("buffers").element(i);
@@ -136,8 +152,7 @@ GltfBuffers::GltfBuffers(const std::string& path, const JsonPlace& root, std::st
     for (std::size_t i = 0; i < root_.size_of("bufferViews"); ++i) {
         const JsonPlace view = root_.at("bufferViews").element(i);
         if (!view.has_extension(kMeshoptExtension)) continue;
-        const std::uint64_t size =
-            meshopt_layout(view, view.extension(kMeshoptExtension)).size_bytes();
+        const std::uint64_t size = meshopt_layout(view, view.extension(kMeshoptExtension)).size_bytes();
         decompressed += std::min(size, UINT64_MAX - decompressed);
     }
     budget.add(decompressed, path + ": what it has compressed");
@@ -192,15 +207,13 @@ std::string_view GltfBuffers::slice(const JsonPlace& view) const {
     const std::uint64_t offset = view.integer_or("byteOffset", 0);
     const std::uint64_t length = view.at("byteLength").integer();
     if (offset > buffer.size() || length > buffer.size() - offset) {
-        view.fail("the view reaches beyond its buffer of " + std::to_string(buffer.size()) +
-                  " bytes");
+        view.fail("the view reaches beyond its buffer of " + std::to_string(buffer.size()) + " bytes");
     }
     return buffer.substr(offset, length);
 }
 
 std::string_view GltfBuffers::view(const JsonPlace& place) {
-    const std::uint32_t number =
-        place.at("bufferView").index_below(root_.size_of("bufferViews"), "buffer view");
+    const std::uint32_t number = place.at("bufferView").index_below(root_.size_of("bufferViews"), "buffer view");
     const JsonPlace view = root_.at("bufferViews").element(number);
     if (!view.has_extension(kMeshoptExtension)) return slice(view);
     const auto known = decompressed_.find(number);
@@ -211,8 +224,7 @@ std::string_view GltfBuffers::view(const JsonPlace& place) {
 }
 
 /// The bytes [offset, offset + size) of the view of `place`, checked.
-const char* GltfBuffers::bytes_of(const JsonPlace& place, std::uint64_t offset,
-                                  std::uint64_t size) {
+const char* GltfBuffers::bytes_of(const JsonPlace& place, std::uint64_t offset, std::uint64_t size) {
     const std::string_view bytes = view(place);
     if (offset > bytes.size() || size > bytes.size() - offset) {
         place.fail("reaches beyond its buffer view of " + std::to_string(bytes.size()) + " bytes");
@@ -222,13 +234,11 @@ const char* GltfBuffers::bytes_of(const JsonPlace& place, std::uint64_t offset,
 
 /// The stride that the view of `place` sets; 0: none.
 std::uint64_t GltfBuffers::stride_of(const JsonPlace& place) const {
-    const std::uint32_t number =
-        place.at("bufferView").index_below(root_.size_of("bufferViews"), "buffer view");
+    const std::uint32_t number = place.at("bufferView").index_below(root_.size_of("bufferViews"), "buffer view");
     return root_.at("bufferViews").element(number).integer_or("byteStride", 0);
 }
 
-GltfAccessor GltfBuffers::without_sparse(const JsonPlace& reference, std::string_view type,
-                                         std::uint64_t known_count) {
+GltfAccessor GltfBuffers::without_sparse(const JsonPlace& reference, std::string_view type, std::uint64_t known_count) {
     const std::uint32_t number = reference.index_below(root_.size_of("accessors"), "accessor");
     const JsonPlace place = root_.at("accessors").element(number);
     GltfAccessor accessor;
@@ -252,8 +262,7 @@ GltfAccessor GltfBuffers::without_sparse(const JsonPlace& reference, std::string
             }
             accessor.stride = stride;
         }
-        accessor.data =
-            bytes_of(place, offset, (accessor.count - 1) * accessor.stride + element_size);
+        accessor.data = bytes_of(place, offset, (accessor.count - 1) * accessor.stride + element_size);
     }
     // Elements without data must not let a small file fill the memory.
     if (accessor.data == nullptr && accessor.count > std::max(known_count, kMaxImplicitZeros)) {
@@ -262,8 +271,7 @@ GltfAccessor GltfBuffers::without_sparse(const JsonPlace& reference, std::string
     return accessor;
 }
 
-GltfAccessor GltfBuffers::accessor(const JsonPlace& reference, std::string_view type,
-                                   std::uint64_t known_count) {
+GltfAccessor GltfBuffers::accessor(const JsonPlace& reference, std::string_view type, std::uint64_t known_count) {
     GltfAccessor result = without_sparse(reference, type, known_count);
     const std::uint32_t number = reference.index_below(root_.size_of("accessors"), "accessor");
     const JsonPlace place = root_.at("accessors").element(number);
@@ -284,12 +292,10 @@ GltfAccessor GltfBuffers::with_sparse_values(const JsonPlace& place, const GltfA
     const std::uint64_t index_type = indices.at("componentType").integer();
     const std::size_t index_size = component_size(index_type);
     if (index_size == 0 || index_type == kGltfFloat) indices.fail("unknown componentType");
-    const char* const index_data =
-        bytes_of(indices, indices.integer_or("byteOffset", 0), count * index_size);
+    const char* const index_data = bytes_of(indices, indices.integer_or("byteOffset", 0), count * index_size);
     const std::uint64_t element_size = base.element_size;
     const JsonPlace values = sparse.at("values");
-    const char* const value_data =
-        bytes_of(values, values.integer_or("byteOffset", 0), count * element_size);
+    const char* const value_data = bytes_of(values, values.integer_or("byteOffset", 0), count * element_size);
 
     auto copy = std::make_shared<std::string>(base.count * element_size, '\0');
     if (base.data != nullptr) {
@@ -302,8 +308,8 @@ GltfAccessor GltfBuffers::with_sparse_values(const JsonPlace& place, const GltfA
         if (index < 0 || index >= static_cast<double>(base.count)) {
             indices.fail("a sparse index lies beyond the accessor");
         }
-        std::memcpy(copy->data() + static_cast<std::uint64_t>(index) * element_size,
-                    value_data + i * element_size, element_size);
+        std::memcpy(copy->data() + static_cast<std::uint64_t>(index) * element_size, value_data + i * element_size,
+                    element_size);
     }
     GltfAccessor result = base;
     result.data = copy->data();

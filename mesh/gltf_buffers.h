@@ -18,7 +18,7 @@ namespace burin {
 struct GltfAccessor {
     const char* data = nullptr;  ///< nullptr: all zero
     std::uint64_t count = 0;
-    std::uint64_t stride = 0;    ///< bytes from one element to the next
+    std::uint64_t stride = 0;        ///< bytes from one element to the next
     std::uint64_t element_size = 0;  ///< bytes of an element
     int components = 1;
     std::uint64_t component_type = 0;  ///< as in the file
@@ -29,8 +29,8 @@ struct GltfAccessor {
 };
 
 /// The components of a number in an accessor, by glTF's name of the type.
-constexpr std::uint64_t kGltfByte = 5120, kGltfUnsignedByte = 5121, kGltfShort = 5122,
-                        kGltfUnsignedShort = 5123, kGltfUnsignedInt = 5125, kGltfFloat = 5126;
+constexpr std::uint64_t kGltfByte = 5120, kGltfUnsignedByte = 5121, kGltfShort = 5122, kGltfUnsignedShort = 5123,
+                        kGltfUnsignedInt = 5125, kGltfFloat = 5126;
 
 /// The buffers of a glTF file: its binary chunk, data URIs, and files in the model's own folder. All
 /// accesses are checked; what is wrong throws InputError with the place in the file.
@@ -38,8 +38,7 @@ class GltfBuffers {
   public:
     /// `root` is the whole JSON, `binary` the GLB's chunk; both must outlive this. What compressed
     /// views take is counted in `budget`; each is decompressed when it is needed.
-    GltfBuffers(const std::string& path, const JsonPlace& root, std::string_view binary,
-                ModelBudget& budget);
+    GltfBuffers(const std::string& path, const JsonPlace& root, std::string_view binary, ModelBudget& budget);
 
     /// The paths of the files among the buffers.
     std::vector<std::string> files() const;
@@ -49,11 +48,9 @@ class GltfBuffers {
     /// The accessor that `reference` names, as if it had no "sparse" part. `type`: SCALAR, VEC3, VEC4
     /// or MAT4. It may have up to `known_count` elements that the file has no data for: so many the
     /// caller has memory for.
-    GltfAccessor without_sparse(const JsonPlace& reference, std::string_view type,
-                                std::uint64_t known_count = 0);
+    GltfAccessor without_sparse(const JsonPlace& reference, std::string_view type, std::uint64_t known_count = 0);
     /// The accessor as it is.
-    GltfAccessor accessor(const JsonPlace& reference, std::string_view type,
-                          std::uint64_t known_count = 0);
+    GltfAccessor accessor(const JsonPlace& reference, std::string_view type, std::uint64_t known_count = 0);
     /// The content of the view that `place.bufferView` names.
     std::string_view view(const JsonPlace& place);
 

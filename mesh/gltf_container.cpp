@@ -31,8 +31,7 @@ GltfContainer split_gltf_container(const std::string& path, std::string_view byt
     }
     const std::uint32_t size = load_u32(bytes.data() + 8);
     if (size > bytes.size()) {
-        throw InputError(path + ": the file is shorter than its header says; " +
-                         "was it written completely?");
+        throw InputError(path + ": the file is shorter than its header says; " + "was it written completely?");
     }
     bytes = bytes.substr(0, std::max<std::size_t>(size, 12));
     GltfContainer container;

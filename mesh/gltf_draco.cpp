@@ -27,9 +27,8 @@ DracoGeometry decode_draco(const GltfPrimitive& primitive, GltfBuffers& buffers)
     const JsonPlace ids = place.at("attributes");
     for (const auto& [name, id] : ids.json().items()) {
         if (!is_needed(name)) continue;
-        GltfAccessor accessor =
-            buffers.without_sparse(primitive.place.at("attributes").at(name.c_str()),
-                                   name == "POSITION" ? "VEC3" : "VEC4", primitive.vertices);
+        GltfAccessor accessor = buffers.without_sparse(primitive.place.at("attributes").at(name.c_str()),
+                                                       name == "POSITION" ? "VEC3" : "VEC4", primitive.vertices);
         if (accessor.count != primitive.vertices) {
             primitive.place.at("attributes")
                 .at(name.c_str())
@@ -37,8 +36,8 @@ DracoGeometry decode_draco(const GltfPrimitive& primitive, GltfBuffers& buffers)
         }
         auto room = std::make_shared<std::string>(accessor.count * accessor.element_size, '\0');
         wanted.push_back({ids.at(name.c_str()).index_below(0xFFFFFFFFu, "attribute"),
-                          static_cast<unsigned>(accessor.components),
-                          static_cast<unsigned>(accessor.component_type), room->data()});
+                          static_cast<unsigned>(accessor.components), static_cast<unsigned>(accessor.component_type),
+                          room->data()});
         accessor.data = room->data();
         accessor.stride = accessor.element_size;
         accessor.owned = std::move(room);
@@ -48,12 +47,10 @@ DracoGeometry decode_draco(const GltfPrimitive& primitive, GltfBuffers& buffers)
     static auto* const decode = reinterpret_cast<decltype(&burin_draco_decode)>(
         module_function("burin_draco.so", "burin_draco_decode", "reads glTF that Draco compressed",
                         "export the model without KHR_draco_mesh_compression"));
-    const char* const failure =
-        decode(bytes.data(), bytes.size(), primitive.vertices, primitive.corners / 3,
-               geometry.indices.data(), wanted.data(), static_cast<unsigned>(wanted.size()));
+    const char* const failure = decode(bytes.data(), bytes.size(), primitive.vertices, primitive.corners / 3,
+                                       geometry.indices.data(), wanted.data(), static_cast<unsigned>(wanted.size()));
     if (failure != nullptr) {
-        place.fail("the compressed data are broken or not as the accessors say: " +
-                   std::string(failure));
+        place.fail("the compressed data are broken or not as the accessors say: " + std::string(failure));
     }
     return geometry;
 }

@@ -40,14 +40,12 @@ bool is_about_looks(std::string_view name) {
     const std::size_t vendor = name.find('_');
     if (vendor == std::string_view::npos) return false;
     const std::string_view rest = name.substr(vendor + 1);
-    return rest.starts_with("materials_") || rest.starts_with("texture_") ||
-           rest.starts_with("lights_");
+    return rest.starts_with("materials_") || rest.starts_with("texture_") || rest.starts_with("lights_");
 }
 
 bool may_be_required(std::string_view name) {
     return std::find(kRead.begin(), kRead.end(), name) != kRead.end() ||
-           std::find(kHarmless.begin(), kHarmless.end(), name) != kHarmless.end() ||
-           is_about_looks(name);
+           std::find(kHarmless.begin(), kHarmless.end(), name) != kHarmless.end() || is_about_looks(name);
 }
 
 }  // namespace

@@ -13,17 +13,14 @@ constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
 /// One of the lists of a node; none if it is not there.
 class InstanceList {
   public:
-    InstanceList(const JsonPlace& attributes, const char* key, std::string_view type,
-                 GltfBuffers& buffers) {
+    InstanceList(const JsonPlace& attributes, const char* key, std::string_view type, GltfBuffers& buffers) {
         if (!attributes.has(key)) return;
         place_ = attributes.at(key);
         accessor_ = buffers.accessor(*place_, type);
         const std::uint64_t number = accessor_.component_type;
-        const bool is_small =
-            type == "VEC4" && accessor_.normalized && (number == kGltfByte || number == kGltfShort);
+        const bool is_small = type == "VEC4" && accessor_.normalized && (number == kGltfByte || number == kGltfShort);
         if (number != kGltfFloat && !is_small) {
-            place_->fail(type == "VEC4" ? "must be floats, or normalized bytes or shorts"
-                                        : "must be floats");
+            place_->fail(type == "VEC4" ? "must be floats, or normalized bytes or shorts" : "must be floats");
         }
     }
 
@@ -54,8 +51,8 @@ std::optional<std::uint64_t> gltf_instance_count(const JsonPlace& node, GltfBuff
         const std::string_view type = std::string_view(key) == "ROTATION" ? "VEC4" : "VEC3";
         const std::uint64_t own = buffers.without_sparse(attributes.at(key), type).count;
         if (count && own != *count) {
-            attributes.at(key).fail("has " + std::to_string(own) + " entries, and not " +
-                                    std::to_string(*count) + " as those before it");
+            attributes.at(key).fail("has " + std::to_string(own) + " entries, and not " + std::to_string(*count) +
+                                    " as those before it");
         }
         count = own;
     }

@@ -35,16 +35,19 @@ std::string word_at(std::string_view text, std::size_t end) {
     const std::size_t before = text.substr(0, end - 1).find_last_of(kBetween);
     const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
     std::string word(text.substr(begin, std::min(text.find_first_of(kBetween, end), begin + kLongest) - begin));
-    std::replace_if(word.begin(), word.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::replace_if(
+        word.begin(), word.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     return word;
 }
 
 /// What is wrong at a byte, counted from 1.
 std::string malformed_at(std::string_view text, std::size_t byte) {
     const std::string word = byte == 0 || byte > text.size() ? std::string() : word_at(text, byte);
-    if (word.empty()) return "the JSON breaks off at byte " + std::to_string(byte) + "; was the file written completely?";
+    if (word.empty())
+        return "the JSON breaks off at byte " + std::to_string(byte) + "; was the file written completely?";
     std::string lower = word;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     const bool is_no_number = lower.find("nan") != std::string::npos || lower.find("inf") != std::string::npos;
     return "the JSON is malformed at byte " + std::to_string(byte) + ", at '" + word + "'; " +
            (is_no_number ? "JSON has no such number: find what made it in the program that exported the file"

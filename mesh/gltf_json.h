@@ -51,9 +51,7 @@ class JsonPlace {
         if (!(std::abs(number) <= kLargestCoordinate)) fail("the number is not finite or beyond 1e30");
         return number;
     }
-    double number_or(const char* key, double fallback) const {
-        return has(key) ? at(key).number() : fallback;
-    }
+    double number_or(const char* key, double fallback) const { return has(key) ? at(key).number() : fallback; }
     std::uint64_t integer() const {
         if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
         if (value_->is_number_float()) {  // some writers put 3.0
@@ -89,9 +87,7 @@ class JsonPlace {
         if (!value_->is_boolean()) fail("must be true or false");
         return value_->get<bool>();
     }
-    bool has_extension(const char* name) const {
-        return has("extensions") && at("extensions").has(name);
-    }
+    bool has_extension(const char* name) const { return has("extensions") && at("extensions").has(name); }
     JsonPlace extension(const char* name) const { return at("extensions").at(name); }
 
   private:

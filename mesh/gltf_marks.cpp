@@ -7,14 +7,9 @@ namespace {
 
 class MarkAppender {
   public:
-    MarkAppender(const GltfPrimitive& primitive, const GltfCorners& corners,
-                 const GltfVertices& vertices, GltfBuffers& buffers,
-                 std::vector<std::array<std::uint32_t, 2>>& marks)
-        : primitive_(primitive),
-          corners_(corners),
-          vertices_(vertices),
-          buffers_(buffers),
-          marks_(marks) {}
+    MarkAppender(const GltfPrimitive& primitive, const GltfCorners& corners, const GltfVertices& vertices,
+                 GltfBuffers& buffers, std::vector<std::array<std::uint32_t, 2>>& marks)
+        : primitive_(primitive), corners_(corners), vertices_(vertices), buffers_(buffers), marks_(marks) {}
 
     void add_segments() {
         const bool are_pairs = primitive_.mode == 1;
@@ -55,8 +50,8 @@ class MarkAppender {
         const std::uint64_t triangles = primitive_.triangles();
         const std::uint64_t bytes = (6 * triangles + 7) / 8;
         if (bits.count != bytes) {
-            place.fail("has " + std::to_string(bits.count) + " bytes; " +
-                       std::to_string(triangles) + " triangles need " + std::to_string(bytes));
+            place.fail("has " + std::to_string(bits.count) + " bytes; " + std::to_string(triangles) +
+                       " triangles need " + std::to_string(bytes));
         }
         for (std::uint64_t t = 0; t < triangles; ++t) {
             if ((t & 0xFFFF) == 0) throw_if_interrupted();
@@ -92,12 +87,11 @@ class MarkAppender {
         return indices;
     }
 
-    std::uint64_t element(const GltfAccessor& indices, std::uint64_t i,
-                          const JsonPlace& place) const {
+    std::uint64_t element(const GltfAccessor& indices, std::uint64_t i, const JsonPlace& place) const {
         const double index = indices.number(i, 0);
         if (index >= static_cast<double>(primitive_.vertices)) {
-            place.fail("vertex " + std::to_string(static_cast<std::uint64_t>(index)) +
-                       " does not exist (there are " + std::to_string(primitive_.vertices) + ")");
+            place.fail("vertex " + std::to_string(static_cast<std::uint64_t>(index)) + " does not exist (there are " +
+                       std::to_string(primitive_.vertices) + ")");
         }
         return static_cast<std::uint64_t>(index);
     }
@@ -115,8 +109,7 @@ class MarkAppender {
 
 }  // namespace
 
-GltfCorners::GltfCorners(const GltfPrimitive& primitive, const DracoGeometry* draco,
-                         GltfBuffers& buffers)
+GltfCorners::GltfCorners(const GltfPrimitive& primitive, const DracoGeometry* draco, GltfBuffers& buffers)
     : primitive_(primitive), draco_(draco), count_(primitive.corners) {
     if (draco != nullptr) {
         count_ = draco->indices.size();
@@ -131,9 +124,8 @@ std::uint64_t GltfCorners::operator[](std::uint64_t i) const {
     if (primitive_.index_size == 0) return i;
     const double index = indices_.number(i, 0);
     if (index < 0 || index >= static_cast<double>(primitive_.vertices)) {
-        primitive_.place.at("indices").fail(
-            "vertex " + std::to_string(static_cast<std::int64_t>(index)) +
-            " does not exist (there are " + std::to_string(primitive_.vertices) + ")");
+        primitive_.place.at("indices").fail("vertex " + std::to_string(static_cast<std::int64_t>(index)) +
+                                            " does not exist (there are " + std::to_string(primitive_.vertices) + ")");
     }
     return static_cast<std::uint64_t>(index);
 }
@@ -144,9 +136,8 @@ std::array<std::uint64_t, 3> gltf_triangle(std::uint64_t mode, std::uint64_t t) 
     return {t + 1, t + 2, 0};
 }
 
-void append_gltf_marks(const GltfPrimitive& primitive, const GltfCorners& corners,
-                       const GltfVertices& vertices, GltfBuffers& buffers,
-                       std::vector<std::array<std::uint32_t, 2>>& marks) {
+void append_gltf_marks(const GltfPrimitive& primitive, const GltfCorners& corners, const GltfVertices& vertices,
+                       GltfBuffers& buffers, std::vector<std::array<std::uint32_t, 2>>& marks) {
     MarkAppender appender(primitive, corners, vertices, buffers, marks);
     if (primitive.has_lines()) return appender.add_segments();
     appender.add_visible_edges();

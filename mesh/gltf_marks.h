@@ -31,8 +31,7 @@ std::array<std::uint64_t, 3> gltf_triangle(std::uint64_t mode, std::uint64_t t);
 
 /// Appends pairs of vertices: the segments of a primitive of lines, or those edges of triangles
 /// that EXT_mesh_primitive_edge_visibility or CESIUM_primitive_outline name as always visible.
-void append_gltf_marks(const GltfPrimitive& primitive, const GltfCorners& corners,
-                       const GltfVertices& vertices, GltfBuffers& buffers,
-                       std::vector<std::array<std::uint32_t, 2>>& marks);
+void append_gltf_marks(const GltfPrimitive& primitive, const GltfCorners& corners, const GltfVertices& vertices,
+                       GltfBuffers& buffers, std::vector<std::array<std::uint32_t, 2>>& marks);
 
 }  // namespace burin

@@ -12,8 +12,7 @@ GltfMaterials read_gltf_materials(const JsonPlace& root) {
         material.name = place.text_or("name", "material" + std::to_string(i));
         material.color = glm::vec3(1.0f);
         double alpha = 1;
-        if (place.has("pbrMetallicRoughness") &&
-            place.at("pbrMetallicRoughness").has("baseColorFactor")) {
+        if (place.has("pbrMetallicRoughness") && place.at("pbrMetallicRoughness").has("baseColorFactor")) {
             const JsonPlace color = place.at("pbrMetallicRoughness").at("baseColorFactor");
             for (int c = 0; c < 3; ++c) {
                 const double value = color.element(static_cast<std::size_t>(c)).number();

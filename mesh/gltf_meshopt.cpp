@@ -28,8 +28,7 @@ void store(char* p, T value) {
 /// A number of -1..1 as a normalized integer of type T.
 template <typename T>
 T normalized(double value) {
-    return static_cast<T>(
-        std::lround(std::clamp(value, -1.0, 1.0) * std::numeric_limits<T>::max()));
+    return static_cast<T>(std::lround(std::clamp(value, -1.0, 1.0) * std::numeric_limits<T>::max()));
 }
 
 /// Unit vectors from two coordinates on an octahedron and what stands for 1.
@@ -117,30 +116,25 @@ MeshoptLayout meshopt_layout(const JsonPlace& view, const JsonPlace& compressed)
     if (layout.mode == Mode::triangles && layout.count % 3 != 0) {
         compressed.at("count").fail("triangles have three numbers each");
     }
-    if (view.integer_or("byteStride", stride) != stride ||
-        view.at("byteLength").integer() != layout.size_bytes()) {
+    if (view.integer_or("byteStride", stride) != stride || view.at("byteLength").integer() != layout.size_bytes()) {
         compressed.fail("count and byteStride do not fit those of the view");
     }
     return layout;
 }
 
-std::string decode_meshopt(const JsonPlace& compressed, const MeshoptLayout& layout,
-                           std::string_view bytes) {
+std::string decode_meshopt(const JsonPlace& compressed, const MeshoptLayout& layout, std::string_view bytes) {
     std::string result(layout.size_bytes(), '\0');
     const auto* const from = reinterpret_cast<const unsigned char*>(bytes.data());
     int status = 0;
     switch (layout.mode) {
         case MeshoptLayout::Mode::attributes:
-            status = meshopt_decodeVertexBuffer(result.data(), layout.count, layout.stride, from,
-                                                bytes.size());
+            status = meshopt_decodeVertexBuffer(result.data(), layout.count, layout.stride, from, bytes.size());
             break;
         case MeshoptLayout::Mode::triangles:
-            status = meshopt_decodeIndexBuffer(result.data(), layout.count, layout.stride, from,
-                                               bytes.size());
+            status = meshopt_decodeIndexBuffer(result.data(), layout.count, layout.stride, from, bytes.size());
             break;
         case MeshoptLayout::Mode::indices:
-            status = meshopt_decodeIndexSequence(result.data(), layout.count, layout.stride, from,
-                                                 bytes.size());
+            status = meshopt_decodeIndexSequence(result.data(), layout.count, layout.stride, from, bytes.size());
             break;
     }
     if (status != 0) compressed.fail("the compressed data are broken");
@@ -148,8 +142,7 @@ std::string decode_meshopt(const JsonPlace& compressed, const MeshoptLayout& lay
         case MeshoptLayout::Filter::none:
             break;
         case MeshoptLayout::Filter::octahedral:
-            layout.stride == 4 ? decode_octahedral<std::int8_t>(result)
-                               : decode_octahedral<std::int16_t>(result);
+            layout.stride == 4 ? decode_octahedral<std::int8_t>(result) : decode_octahedral<std::int16_t>(result);
             break;
         case MeshoptLayout::Filter::quaternion:
             decode_quaternions(result);

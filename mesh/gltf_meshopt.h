@@ -28,7 +28,6 @@ struct MeshoptLayout {
 MeshoptLayout meshopt_layout(const JsonPlace& view, const JsonPlace& compressed);
 
 /// Decompresses `bytes`. Throws InputError at `compressed` if they are broken.
-std::string decode_meshopt(const JsonPlace& compressed, const MeshoptLayout& layout,
-                           std::string_view bytes);
+std::string decode_meshopt(const JsonPlace& compressed, const MeshoptLayout& layout, std::string_view bytes);
 
 }  // namespace burin

@@ -33,16 +33,14 @@ glm::dmat4 local_matrix(const JsonPlace& node) {
 
 class NodeWalk {
   public:
-    explicit NodeWalk(const JsonPlace& root)
-        : root_(root), count_(root.size_of("nodes")), visited_(count_, false) {
+    explicit NodeWalk(const JsonPlace& root) : root_(root), count_(root.size_of("nodes")), visited_(count_, false) {
         result_.to_world.assign(count_, glm::dmat4(1.0));
     }
 
     GltfNodes walk() {
         const std::size_t scene_count = root_.size_of("scenes");
         if (scene_count > 0) {
-            const std::uint32_t number =
-                root_.has("scene") ? root_.at("scene").index_below(scene_count, "scene") : 0;
+            const std::uint32_t number = root_.has("scene") ? root_.at("scene").index_below(scene_count, "scene") : 0;
             const JsonPlace scene = root_.at("scenes").element(number);
             if (scene.has("nodes")) push_list(scene.at("nodes"), glm::dmat4(1.0), true);
         } else {
@@ -114,8 +112,7 @@ class NodeWalk {
         if (node.has("children")) push_list(node.at("children"), to_world, is_visible);
     }
 
-    void show(std::uint32_t number, const JsonPlace& node, const glm::dmat4& to_world,
-              bool is_visible) {
+    void show(std::uint32_t number, const JsonPlace& node, const glm::dmat4& to_world, bool is_visible) {
         const std::string name = node.text_or("name", "node" + std::to_string(number));
         if (node.has("mesh")) {
             const std::uint32_t mesh = node.at("mesh").index_below(root_.size_of("meshes"), "mesh");
@@ -134,10 +131,8 @@ class NodeWalk {
         return !extension.has("visible") || extension.at("visible").boolean();
     }
 
-    void read_camera(const JsonPlace& node, const std::string& node_name,
-                     const glm::dmat4& to_world) {
-        const std::uint32_t number =
-            node.at("camera").index_below(root_.size_of("cameras"), "camera");
+    void read_camera(const JsonPlace& node, const std::string& node_name, const glm::dmat4& to_world) {
+        const std::uint32_t number = node.at("camera").index_below(root_.size_of("cameras"), "camera");
         const JsonPlace place = root_.at("cameras").element(number);
         GltfCamera camera;
         camera.name = place.text_or("name", node_name);
@@ -161,12 +156,9 @@ class NodeWalk {
 
 }  // namespace
 
-GltfNodes read_gltf_nodes(const JsonPlace& root) {
-    return NodeWalk(root).walk();
-}
+GltfNodes read_gltf_nodes(const JsonPlace& root) { return NodeWalk(root).walk(); }
 
-glm::dmat4 gltf_matrix(const glm::dvec3& translation, const glm::dvec4& rotation,
-                       const glm::dvec3& scale) {
+glm::dmat4 gltf_matrix(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale) {
     glm::dmat4 matrix = glm::mat4_cast(glm::dquat(rotation.w, rotation.x, rotation.y, rotation.z));
     for (int axis = 0; axis < 3; ++axis) matrix[axis] *= scale[axis];
     matrix[3] = glm::dvec4(translation, 1.0);

@@ -38,8 +38,7 @@ struct GltfNodes {
 GltfNodes read_gltf_nodes(const JsonPlace& root);
 
 /// The matrix of a translation, a rotation by a quaternion (x, y, z, w), and a scale before both.
-glm::dmat4 gltf_matrix(const glm::dvec3& translation, const glm::dvec4& rotation,
-                       const glm::dvec3& scale);
+glm::dmat4 gltf_matrix(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
 
 /// Whether all numbers of a matrix are finite and within 1e30.
 bool is_within_reason(const glm::dmat4& matrix);

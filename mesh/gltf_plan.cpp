@@ -13,8 +13,7 @@ namespace {
 constexpr double kTriangleBytes = 160, kVertexBytes = 70, kMarkBytes = 150, kObjectBytes = 700;
 constexpr double kInstanceBytes = 12;  // a translation in the file
 
-constexpr std::array<const char*, 3> kExtensions = {kDracoExtension, kEdgeVisibilityExtension,
-                                                    kOutlineExtension};
+constexpr std::array<const char*, 3> kExtensions = {kDracoExtension, kEdgeVisibilityExtension, kOutlineExtension};
 
 /// What the vertices come from, as text.
 std::string vertex_key(const JsonPlace& place) {
@@ -36,8 +35,8 @@ std::string vertex_key(const JsonPlace& place) {
 
 /// The same for its polygons and lines.
 std::string primitive_key(const JsonPlace& place, const GltfPrimitive& primitive) {
-    std::string key = std::to_string(primitive.vertex_group) + ' ' +
-                      std::to_string(primitive.mode) + ' ' + std::to_string(primitive.material);
+    std::string key = std::to_string(primitive.vertex_group) + ' ' + std::to_string(primitive.mode) + ' ' +
+                      std::to_string(primitive.material);
     if (place.has("indices")) key += ' ' + place.at("indices").json().dump();
     for (const char* name : kExtensions) {
         if (place.has_extension(name)) key += ' ' + place.extension(name).json().dump();
@@ -67,9 +66,7 @@ bool GltfPrimitive::has_marked_edges() const {
     return place.has_extension(kEdgeVisibilityExtension) || place.has_extension(kOutlineExtension);
 }
 
-bool GltfPrimitive::is_draco() const {
-    return place.has_extension(kDracoExtension);
-}
+bool GltfPrimitive::is_draco() const { return place.has_extension(kDracoExtension); }
 
 GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffers& buffers,
                             const GltfMaterials& materials) {
@@ -96,8 +93,7 @@ GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffe
         primitive.vertex_size = positions.element_size;
         primitive.material = static_cast<std::uint32_t>(material_of(place, materials));
         if (place.has("indices") || primitive.is_draco()) {
-            const GltfAccessor indices =
-                buffers.without_sparse(place.at("indices"), "SCALAR", known_count);
+            const GltfAccessor indices = buffers.without_sparse(place.at("indices"), "SCALAR", known_count);
             if (indices.component_type == kGltfFloat) {
                 place.at("indices").fail("indices must be integers");
             }
@@ -142,8 +138,8 @@ void GltfExpansion::add_mesh(const GltfMeshPlan& mesh, std::uint64_t times) {
         if (p.has_marked_edges()) needed += triangles * kMarkBytes;
         if (has_group[p.vertex_group]) continue;
         has_group[p.vertex_group] = true;
-        const auto vertices = static_cast<double>(
-            uses_few_vertices(mesh, p) ? mesh.group_corners[p.vertex_group] : p.vertices);
+        const auto vertices =
+            static_cast<double>(uses_few_vertices(mesh, p) ? mesh.group_corners[p.vertex_group] : p.vertices);
         read += vertices * static_cast<double>(p.vertex_size);
         needed += vertices * kVertexBytes;
     }

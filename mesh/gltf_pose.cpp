@@ -31,10 +31,8 @@ class SkinWeights {
                 attributes_.at(set.joints_name.c_str()).fail("must be unsigned bytes or shorts");
             }
             const std::uint64_t weight = set.weights.component_type;
-            if (weight != kGltfFloat && weight != kGltfUnsignedByte &&
-                weight != kGltfUnsignedShort) {
-                attributes_.at(set.weights_name.c_str())
-                    .fail("must be floats, or normalized unsigned bytes or shorts");
+            if (weight != kGltfFloat && weight != kGltfUnsignedByte && weight != kGltfUnsignedShort) {
+                attributes_.at(set.weights_name.c_str()).fail("must be floats, or normalized unsigned bytes or shorts");
             }
             set.weights.normalized = weight != kGltfFloat;
             sets_.push_back(std::move(set));
@@ -48,10 +46,9 @@ class SkinWeights {
         for (const Set& set : sets_) {
             for (int c = 0; c < 4; ++c) add(set, element, c);
         }
-        std::sort(influences_.begin(), influences_.end(),
-                  [](const Influence& a, const Influence& b) {
-                      return a.joint != b.joint ? a.joint < b.joint : a.weight < b.weight;
-                  });
+        std::sort(influences_.begin(), influences_.end(), [](const Influence& a, const Influence& b) {
+            return a.joint != b.joint ? a.joint < b.joint : a.weight < b.weight;
+        });
         std::size_t count = 0;
         double sum = 0;
         for (const Influence influence : influences_) {
@@ -68,8 +65,7 @@ class SkinWeights {
     }
 
     [[noreturn]] void fail(std::uint64_t element) const {
-        attributes_.at("WEIGHTS_0")
-            .fail("the weights of vertex " + std::to_string(element) + " sum to 0");
+        attributes_.at("WEIGHTS_0").fail("the weights of vertex " + std::to_string(element) + " sum to 0");
     }
 
   private:
@@ -86,8 +82,7 @@ class SkinWeights {
         if (weight == 0) return;
         if (!(weight > 0 && weight <= kLargestCoordinate)) {
             attributes_.at(set.weights_name.c_str())
-                .fail("vertex " + std::to_string(element) +
-                      " has a weight that is below 0 or not finite");
+                .fail("vertex " + std::to_string(element) + " has a weight that is below 0 or not finite");
         }
         const auto joint = static_cast<std::uint32_t>(set.joints.number(element, component));
         if (joint >= joint_count_) {
@@ -105,8 +100,8 @@ class SkinWeights {
 };
 
 /// Adds the targets of some vertices.
-void add_targets(const GltfVertices& vertices, const std::vector<double>& weights,
-                 GltfBuffers& buffers, std::vector<glm::dvec3>& positions) {
+void add_targets(const GltfVertices& vertices, const std::vector<double>& weights, GltfBuffers& buffers,
+                 std::vector<glm::dvec3>& positions) {
     const std::size_t count = vertices.place.size_of("targets");
     if (count != weights.size()) {
         vertices.place.fail("has " + std::to_string(count) + " morph targets, but there are " +
@@ -123,15 +118,13 @@ void add_targets(const GltfVertices& vertices, const std::vector<double>& weight
                            std::to_string(vertices.elements) + " positions");
         }
         for (std::uint64_t i = 0; i < vertices.size(); ++i) {
-            positions[vertices.first + i] +=
-                weights[t] * gltf_position(deltas, vertices.element_of(i), reference);
+            positions[vertices.first + i] += weights[t] * gltf_position(deltas, vertices.element_of(i), reference);
         }
     }
 }
 
-void apply_skin(const GltfVertices& vertices, const GltfSkin& skin,
-                const std::vector<bool>& is_used, GltfBuffers& buffers,
-                std::vector<glm::dvec3>& positions) {
+void apply_skin(const GltfVertices& vertices, const GltfSkin& skin, const std::vector<bool>& is_used,
+                GltfBuffers& buffers, std::vector<glm::dvec3>& positions) {
     SkinWeights skin_weights(vertices, skin.joint_matrices.size(), buffers);
     for (std::uint64_t i = 0; i < vertices.size(); ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
@@ -169,8 +162,8 @@ GltfSkin read_gltf_skin(const JsonPlace& skin, const GltfNodes& nodes, GltfBuffe
         matrices = buffers.accessor(place, "MAT4");
         if (matrices.component_type != kGltfFloat) place.fail("must be floats");
         if (matrices.count < joints.size()) {
-            place.fail("has " + std::to_string(matrices.count) + " matrices for " +
-                       std::to_string(joints.size()) + " joints");
+            place.fail("has " + std::to_string(matrices.count) + " matrices for " + std::to_string(joints.size()) +
+                       " joints");
         }
     }
     for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -216,8 +209,8 @@ void pose_gltf_mesh(GltfSurface& surface, const std::vector<double>& weights, co
                 std::abs(p.z) <= kLargestCoordinate) {
                 continue;
             }
-            vertices.place.fail("morph targets or joints move vertex " +
-                                std::to_string(vertices.element_of(i)) + " beyond 1e30");
+            vertices.place.fail("morph targets or joints move vertex " + std::to_string(vertices.element_of(i)) +
+                                " beyond 1e30");
         }
     }
 }

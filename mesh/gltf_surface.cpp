@@ -55,8 +55,7 @@ class SurfaceBuilder {
         vertices.first = positions.size();
         vertices.elements = primitive.vertices;
         if (primitive.is_draco()) {
-            vertices.draco =
-                std::make_shared<const DracoGeometry>(decode_draco(primitive, buffers_));
+            vertices.draco = std::make_shared<const DracoGeometry>(decode_draco(primitive, buffers_));
         }
         if (uses_few_vertices(plan_, primitive)) {
             vertices.used = used_elements(primitive.vertex_group);
@@ -66,9 +65,8 @@ class SurfaceBuilder {
         if (vertices.first + vertices.size() > 0xFFFFFFFFu) {
             attribute.fail("more than 4 billion vertices");
         }
-        const GltfAccessor accessor = vertices.elements == 0
-                                          ? GltfAccessor()
-                                          : vertices.attribute("POSITION", "VEC3", buffers_);
+        const GltfAccessor accessor =
+            vertices.elements == 0 ? GltfAccessor() : vertices.attribute("POSITION", "VEC3", buffers_);
         for (std::uint64_t i = 0; i < vertices.size(); ++i) {
             positions.push_back(gltf_position(accessor, vertices.element_of(i), attribute));
         }
@@ -92,8 +90,7 @@ class SurfaceBuilder {
         return used;
     }
 
-    void add_triangles(const GltfPrimitive& primitive, const GltfCorners& corners,
-                       const GltfVertices& vertices) {
+    void add_triangles(const GltfPrimitive& primitive, const GltfCorners& corners, const GltfVertices& vertices) {
         PolygonSoup& soup = surface_.soup;
         const std::uint64_t triangles = primitive.triangles();
         if (soup.corners.size() + 3 * triangles > PolygonSoup::kMaxCorners) {

@@ -24,9 +24,7 @@ struct GltfVertices {
     std::shared_ptr<const DracoGeometry> draco;  ///< if it is compressed so
 
     std::uint64_t size() const { return used.empty() ? elements : used.size(); }
-    std::uint64_t element_of(std::uint64_t vertex) const {
-        return used.empty() ? vertex : used[vertex];
-    }
+    std::uint64_t element_of(std::uint64_t vertex) const { return used.empty() ? vertex : used[vertex]; }
     /// The vertex, counted in the mesh, that is an element. It must be one that is used.
     std::uint32_t vertex_of(std::uint64_t element) const;
     /// An accessor that must have as many elements: "JOINTS_0".
@@ -35,7 +33,6 @@ struct GltfVertices {
 
 /// A position that must be finite and within 1e30: an element of `accessor`, which stands at
 /// `place`.
-glm::dvec3 gltf_position(const GltfAccessor& accessor, std::uint64_t element,
-                         const JsonPlace& place);
+glm::dvec3 gltf_position(const GltfAccessor& accessor, std::uint64_t element, const JsonPlace& place);
 
 }  // namespace burin

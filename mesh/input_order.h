@@ -13,7 +13,8 @@ namespace burin {
 class InputOrder {
   public:
     InputOrder() = default;
-    /// Of each polygon its number in the input, in which those with the numbers `dropped`, in ascending order, were left out.
+    /// Of each polygon its number in the input, in which those with the numbers `dropped`, in ascending order, were
+    /// left out.
     InputOrder(UnfilledVector<std::uint32_t> numbers, std::vector<std::uint32_t> dropped)
         : numbers_(std::move(numbers)), dropped_(std::move(dropped)) {}
 
@@ -21,7 +22,8 @@ class InputOrder {
     std::uint32_t place_of(std::uint32_t polygon) const {
         if (numbers_.empty()) return polygon;
         const std::uint32_t number = numbers_[polygon];
-        return number - static_cast<std::uint32_t>(std::lower_bound(dropped_.begin(), dropped_.end(), number) - dropped_.begin());
+        return number - static_cast<std::uint32_t>(std::lower_bound(dropped_.begin(), dropped_.end(), number) -
+                                                   dropped_.begin());
     }
 
     /// Leaves out more polygons: their numbers in the mesh, in ascending order. Later ones move up.

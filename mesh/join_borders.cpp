@@ -56,9 +56,11 @@ class Middles {
         near.clear();
         if (tree_.is_empty()) return borders_.find_in_box(place - reach, place + reach, near);
         // Middles were rounded.
-        const glm::dvec3 around = reach * (1 + 1e-6) + 1e-6 * glm::abs(place), low = place - around, high = place + around;
+        const glm::dvec3 around = reach * (1 + 1e-6) + 1e-6 * glm::abs(place), low = place - around,
+                         high = place + around;
         const auto may_be_near = [&](const glm::vec3& box_low, const glm::vec3& box_high) {
-            return glm::all(glm::lessThanEqual(glm::dvec3(box_low), high)) && glm::all(glm::lessThanEqual(low, glm::dvec3(box_high)));
+            return glm::all(glm::lessThanEqual(glm::dvec3(box_low), high)) &&
+                   glm::all(glm::lessThanEqual(low, glm::dvec3(box_high)));
         };
         tree_.visit_leaves(may_be_near, [&](std::uint32_t i) {
             near.push_back(i);
@@ -108,7 +110,8 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
         }
         is_in_pile[i] = beside.size() > kMostBeside;
         if (is_in_pile[i]) continue;
-        std::copy_if(beside.begin(), beside.end(), std::back_inserter(cracks), [](const Crack& c) { return c.sides[0] < c.sides[1]; });
+        std::copy_if(beside.begin(), beside.end(), std::back_inserter(cracks),
+                     [](const Crack& c) { return c.sides[0] < c.sides[1]; });
     }
     std::erase_if(cracks, [&](const Crack& c) { return is_in_pile[c.sides[0]] || is_in_pile[c.sides[1]]; });
     std::sort(cracks.begin(), cracks.end(), is_before);

@@ -10,9 +10,7 @@ namespace burin {
 
 /// Lines end in LF, in CR and LF, or, as old Mac programs have it, in CR alone; in one file each
 /// line may do as it likes.
-inline bool is_line_end(char c) {
-    return c == '\n' || c == '\r';
-}
+inline bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 /// The first LF or CR from `p` on; `end` where there is none.
 inline const char* find_line_end(const char* p, const char* end) {
@@ -20,8 +18,8 @@ inline const char* find_line_end(const char* p, const char* end) {
     const __m128i feed = _mm_set1_epi8('\n'), carriage_return = _mm_set1_epi8('\r');
     for (; end - p >= 16; p += 16) {
         const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-        const int found = _mm_movemask_epi8(
-            _mm_or_si128(_mm_cmpeq_epi8(text, feed), _mm_cmpeq_epi8(text, carriage_return)));
+        const int found =
+            _mm_movemask_epi8(_mm_or_si128(_mm_cmpeq_epi8(text, feed), _mm_cmpeq_epi8(text, carriage_return)));
         if (found != 0) return p + std::countr_zero(static_cast<unsigned>(found));
     }
 #endif

@@ -12,18 +12,16 @@ namespace {
 /// A mesh's marks, found by their vertices.
 class MarkIndex {
   public:
-    explicit MarkIndex(const std::vector<std::array<std::uint32_t, 2>>& marks)
-        : is_met_(marks.size(), false) {
-        for (std::uint32_t i = 0; i < marks.size(); ++i)
-            keys_.push_back({key(marks[i][0], marks[i][1]), i});
+    explicit MarkIndex(const std::vector<std::array<std::uint32_t, 2>>& marks) : is_met_(marks.size(), false) {
+        for (std::uint32_t i = 0; i < marks.size(); ++i) keys_.push_back({key(marks[i][0], marks[i][1]), i});
         std::sort(keys_.begin(), keys_.end());
     }
     /// Whether the edge between two vertices is marked; if so, its marks count as met.
     bool meet(std::uint32_t a, std::uint32_t b) {
         const Vertices own = key(a, b);
         bool is_any = false;
-        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), Key{own, 0});
-             i != keys_.end() && i->first == own; ++i) {
+        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), Key{own, 0}); i != keys_.end() && i->first == own;
+             ++i) {
             is_met_[i->second] = is_any = true;
         }
         return is_any;
@@ -33,9 +31,7 @@ class MarkIndex {
   private:
     using Vertices = std::pair<std::uint32_t, std::uint32_t>;
     using Key = std::pair<Vertices, std::uint32_t>;
-    static Vertices key(std::uint32_t a, std::uint32_t b) {
-        return {std::min(a, b), std::max(a, b)};
-    }
+    static Vertices key(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
     std::vector<Key> keys_;
     std::vector<bool> is_met_;
@@ -45,8 +41,7 @@ class MarkIndex {
 
 MarkedEdges::MarkedEdges(const PolygonSoup& soup, const std::vector<std::uint32_t>& welded) {
     for (std::size_t i = 0; i < soup.marked_edges.size(); ++i) {
-        const std::uint32_t u = welded[soup.marked_edges[i][0]],
-                            v = welded[soup.marked_edges[i][1]];
+        const std::uint32_t u = welded[soup.marked_edges[i][0]], v = welded[soup.marked_edges[i][1]];
         if (u != v) marks_.push_back({{std::min(u, v), std::max(u, v)}, soup.object_of_mark(i)});
     }
     std::sort(marks_.begin(), marks_.end());
@@ -55,9 +50,8 @@ MarkedEdges::MarkedEdges(const PolygonSoup& soup, const std::vector<std::uint32_
 }
 
 std::size_t MarkedEdges::first_from(std::uint32_t vertex) const {
-    const auto it =
-        std::lower_bound(marks_.begin(), marks_.end(), vertex,
-                         [](const Mark& m, std::uint32_t v) { return m.vertices[0] < v; });
+    const auto it = std::lower_bound(marks_.begin(), marks_.end(), vertex,
+                                     [](const Mark& m, std::uint32_t v) { return m.vertices[0] < v; });
     return static_cast<std::size_t>(it - marks_.begin());
 }
 
@@ -66,8 +60,7 @@ std::vector<MarkedEdges::Mark> MarkedEdges::loose_edges() const {
     for (std::size_t i = 0; i < marks_.size(); ++i) {
         if (!is_of_polygon_[i]) loose.push_back(marks_[i]);
     }
-    std::stable_sort(loose.begin(), loose.end(),
-                     [](const Mark& a, const Mark& b) { return a.object < b.object; });
+    std::stable_sort(loose.begin(), loose.end(), [](const Mark& a, const Mark& b) { return a.object < b.object; });
     return loose;
 }
 
@@ -79,7 +72,8 @@ void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPosi
         std::uint32_t in_mesh;
     };
     const auto place_of = [](const auto& vertices, std::size_t v) {
-        const glm::vec3 p = vertices.positions[v], r = vertices.residuals.empty() ? glm::vec3(0) : vertices.residuals[v];
+        const glm::vec3 p = vertices.positions[v],
+                        r = vertices.residuals.empty() ? glm::vec3(0) : vertices.residuals[v];
         return Place{p.x, p.y, p.z, r.x, r.y, r.z};
     };
     const bool keeps_residuals = !rounded.residuals.empty() && (mesh.positions.empty() || mesh.has_residuals());
@@ -91,7 +85,8 @@ void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPosi
     const auto is_same = [](const Vertex& a, const Vertex& b) { return a.place == b.place; };
     vertices.erase(std::unique(vertices.begin(), vertices.end(), is_same), vertices.end());
     const auto find = [&](const Place& place) {
-        const auto it = std::lower_bound(vertices.begin(), vertices.end(), place, [](const Vertex& v, const Place& p) { return v.place < p; });
+        const auto it = std::lower_bound(vertices.begin(), vertices.end(), place,
+                                         [](const Vertex& v, const Place& p) { return v.place < p; });
         return it != vertices.end() && it->place == place ? &*it : nullptr;
     };
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
@@ -111,8 +106,7 @@ void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPosi
         }
     }
     if (3 * mesh.triangles.size() + mesh.loose_edges.size() >= kNoHalfEdge) {
-        throw InputError("object '" + mesh.name +
-                         "': more than 4 billion edges and lines; split the model");
+        throw InputError("object '" + mesh.name + "': more than 4 billion edges and lines; split the model");
     }
 }
 

@@ -27,8 +27,7 @@ class MarkedEdges {
     /// `vertex`.
     template <typename Visit>
     void for_marks_from(std::uint32_t vertex, const Visit& visit) const {
-        for (std::size_t i = first_from(vertex);
-             i < marks_.size() && marks_[i].vertices[0] == vertex; ++i)
+        for (std::size_t i = first_from(vertex); i < marks_.size() && marks_[i].vertices[0] == vertex; ++i)
             visit(i, marks_[i].vertices[1]);
     }
     void note_polygon_has(std::size_t mark) { is_of_polygon_[mark] = true; }

@@ -14,10 +14,8 @@ namespace burin {
 class MaterialList {
   public:
     MaterialList() = default;
-    MaterialList(const std::vector<std::uint32_t>& materials)
-        : MaterialList(materials.data(), materials.size()) {}
-    MaterialList(std::initializer_list<std::uint32_t> materials)
-        : MaterialList(materials.begin(), materials.size()) {}
+    MaterialList(const std::vector<std::uint32_t>& materials) : MaterialList(materials.data(), materials.size()) {}
+    MaterialList(std::initializer_list<std::uint32_t> materials) : MaterialList(materials.begin(), materials.size()) {}
     /// The same one for all of `size` numbers. It takes the memory of one.
     static MaterialList all_alike(std::size_t size, std::uint32_t material) {
         MaterialList list(&material, 1);
@@ -33,8 +31,7 @@ class MaterialList {
     /// Calls use(material) for all that are in it, some of them perhaps several times.
     template <typename Use>
     void for_each(const Use& use) const {
-        for (std::size_t i = 0; i < (mask_ == 0 ? std::min<std::size_t>(size_, 1) : size_); ++i)
-            use(materials_[i]);
+        for (std::size_t i = 0; i < (mask_ == 0 ? std::min<std::size_t>(size_, 1) : size_); ++i) use(materials_[i]);
     }
 
     friend bool operator==(const MaterialList& a, const MaterialList& b) {
@@ -47,8 +44,7 @@ class MaterialList {
 
   private:
     MaterialList(const std::uint32_t* materials, std::size_t size)
-        : materials_(std::make_shared<std::uint32_t[]>(std::max<std::size_t>(size, 1))),
-          size_(size) {
+        : materials_(std::make_shared<std::uint32_t[]>(std::max<std::size_t>(size, 1))), size_(size) {
         std::copy(materials, materials + size, materials_.get());
     }
 

@@ -19,8 +19,7 @@ EdgeCounts count_edges(const Mesh& mesh) {
         if (mesh.next_on_edge[h] > h) continue;  // rings are in order: only the last one turns back
         std::uint64_t ring = 1;
         for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) ++ring;
-        const bool is_diagonal =
-            ring == 2 && mesh.polygon_of(h / 3) == mesh.polygon_of(mesh.next_on_edge[h] / 3);
+        const bool is_diagonal = ring == 2 && mesh.polygon_of(h / 3) == mesh.polygon_of(mesh.next_on_edge[h] / 3);
         counts.marked += mesh.is_marked(h);
         if (is_diagonal) continue;
         ++counts.edges;

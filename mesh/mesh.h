@@ -17,7 +17,7 @@ constexpr HalfEdge kNoHalfEdge = 0xFFFFFFFFu;
 /// What was done to the polygons of the input on the way to a Mesh.
 struct MeshRepairs {
     std::uint64_t input_polygons = 0;
-    std::uint64_t input_triangles = 0;  ///< a polygon of n corners counts as n - 2
+    std::uint64_t input_triangles = 0;      ///< a polygon of n corners counts as n - 2
     std::uint64_t degenerate_polygons = 0;  ///< dropped: under 3 distinct corners, or no area
     std::uint64_t duplicate_polygons = 0;   ///< dropped: the same edges as an earlier polygon
     std::uint64_t cut_polygons = 0;         ///< cut into pieces: they passed an edge twice in one direction
@@ -38,12 +38,12 @@ struct Mesh {
     /// that single precision would blur it.
     glm::dvec3 origin{0.0};
     std::vector<glm::vec3> positions;
-    /// What single precision leaves of each position, 0 too. Empty unless the model is so much larger than what it is made of that
-    /// single precision would blur that, wherever the origin is.
+    /// What single precision leaves of each position, 0 too. Empty unless the model is so much larger than what it is
+    /// made of that single precision would blur that, wherever the origin is.
     std::vector<glm::vec3> residuals;
 
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< vertex numbers
-    std::vector<std::uint32_t> triangle_polygon;  ///< empty: triangle i is polygon i
+    std::vector<std::uint32_t> triangle_polygon;          ///< empty: triangle i is polygon i
     std::uint32_t polygon_count = 0;
     InputOrder input_order;  ///< of polygons; large meshes are put in spatial order
     /// Area vectors (Newell) of the polygons; empty if and only if all polygons are triangles.
@@ -76,9 +76,7 @@ struct Mesh {
         return static_cast<HalfEdge>(3 * triangles.size() + loose_edge);
     }
     bool is_loose(HalfEdge h) const { return h >= 3 * triangles.size(); }
-    const std::array<std::uint32_t, 2>& loose_edge(HalfEdge h) const {
-        return loose_edges[h - 3 * triangles.size()];
-    }
+    const std::array<std::uint32_t, 2>& loose_edge(HalfEdge h) const { return loose_edges[h - 3 * triangles.size()]; }
     bool has_residuals() const { return !residuals.empty(); }
     /// As seen from the origin.
     glm::dvec3 local_position(std::uint32_t vertex) const {
@@ -95,7 +93,7 @@ struct EdgeCounts {
     std::uint64_t edges = 0;  ///< between two vertices, without triangulation diagonals
     std::uint64_t border = 0;
     std::uint64_t non_manifold = 0;
-    std::uint64_t seam = 0;  ///< border edges with an unstitched neighbour at their middle
+    std::uint64_t seam = 0;    ///< border edges with an unstitched neighbour at their middle
     std::uint64_t marked = 0;  ///< of them, and of diagonals; and loose ones
     std::uint64_t loose = 0;   ///< lines that no polygon has
 };

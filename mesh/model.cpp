@@ -14,8 +14,7 @@ namespace burin {
 namespace {
 
 /// build_meshes, with the file in the message of an error.
-std::vector<Mesh> build_meshes_of(const std::string& path, PolygonSoup soup,
-                                  const MeshOptions& options) {
+std::vector<Mesh> build_meshes_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     try {
         return build_meshes(std::move(soup), options);
     } catch (const InputError& error) {
@@ -80,10 +79,10 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
     if (extension == ".off") return model_of(path, read_off(path), options);
     if (extension == ".gltf" || extension == ".glb") {
         ModelBudget by_default;
-        return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict), options);
+        return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict),
+                        options);
     }
-    throw InputError(path + ": unknown kind of model '" + extension +
-                     "'; burin reads .obj .ply .stl .off .gltf .glb");
+    throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads .obj .ply .stl .off .gltf .glb");
 }
 
 }  // namespace

@@ -9,8 +9,7 @@ namespace fs = std::filesystem;
 
 std::string path_inside_model_folder(const std::string& model_path, std::string_view reference) {
     const fs::path relative(reference);
-    if (reference.empty() || reference.find('\0') != std::string_view::npos ||
-        relative.is_absolute()) {
+    if (reference.empty() || reference.find('\0') != std::string_view::npos || relative.is_absolute()) {
         return {};
     }
     std::error_code error;
@@ -20,8 +19,7 @@ std::string path_inside_model_folder(const std::string& model_path, std::string_
     if (error) return {};
     const fs::path target = fs::weakly_canonical(folder / relative, error);
     if (error) return {};
-    const auto [end_of_folder, rest] = std::mismatch(folder.begin(), folder.end(), target.begin(),
-                                                     target.end());
+    const auto [end_of_folder, rest] = std::mismatch(folder.begin(), folder.end(), target.begin(), target.end());
     if (end_of_folder != folder.end() || rest == target.end()) return {};
     return target.string();
 }

@@ -39,13 +39,9 @@ class NameUses {
     const std::vector<std::string>& names() const { return names_; }
 
     /// The number of the name of each of `count` polygons.
-    std::vector<std::uint32_t> per_polygon(std::size_t count) const {
-        return per_item(count, &Place::polygon);
-    }
+    std::vector<std::uint32_t> per_polygon(std::size_t count) const { return per_item(count, &Place::polygon); }
     /// The same of lines.
-    std::vector<std::uint32_t> per_line(std::size_t count) const {
-        return per_item(count, &Place::line);
-    }
+    std::vector<std::uint32_t> per_line(std::size_t count) const { return per_item(count, &Place::line); }
 
   private:
     struct Use {
@@ -66,8 +62,7 @@ class NameUses {
     }
 
     std::uint32_t number_of(std::string_view name) {
-        const auto [it, is_new] =
-            numbers_.try_emplace(std::string(name), static_cast<std::uint32_t>(names_.size()));
+        const auto [it, is_new] = numbers_.try_emplace(std::string(name), static_cast<std::uint32_t>(names_.size()));
         if (is_new) names_.push_back(it->first);
         return it->second;
     }

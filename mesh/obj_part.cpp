@@ -98,8 +98,7 @@ class ObjParser {
         const std::string_view keyword = scan.word();
         if (parse_statement(keyword, scan)) return;
         // Some programs write all in capitals. No keyword means another thing in the other case.
-        if (std::any_of(keyword.begin(), keyword.end(),
-                        [](char c) { return c >= 'A' && c <= 'Z'; })) {
+        if (std::any_of(keyword.begin(), keyword.end(), [](char c) { return c >= 'A' && c <= 'Z'; })) {
             parse_statement(lower_case(keyword), scan);
         }
     }
@@ -130,9 +129,7 @@ class ObjParser {
         return true;
     }
 
-    NameUses::Place next_place() const {
-        return {soup_.polygon_ends.size(), soup_.marked_edges.size()};
-    }
+    NameUses::Place next_place() const { return {soup_.polygon_ends.size(), soup_.marked_edges.size()}; }
 
     void parse_vertex(LineScanner& scan) {
         glm::dvec3 p;
@@ -159,8 +156,8 @@ class ObjParser {
         const auto vertices = static_cast<std::int64_t>(soup_.positions.size());
         if (number < 0 && (number >= -vertices || !is_whole_)) return counted_back(vertices + number);
         if (number <= 0 || number > std::int64_t{0xFFFFFFFF}) {
-            fail("vertex " + std::to_string(number) + " does not exist (there are " +
-                 std::to_string(vertices) + " so far); repair or re-export the file");
+            fail("vertex " + std::to_string(number) + " does not exist (there are " + std::to_string(vertices) +
+                 " so far); repair or re-export the file");
         }
         note_reference(number);
         return static_cast<std::uint32_t>(number - 1);

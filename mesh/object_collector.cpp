@@ -59,8 +59,8 @@ ObjectCollector::ObjectCollector(const PolygonSoup& soup, const std::vector<glm:
       is_welded_corner_(positions.size(), false),
       marks_(marks) {}
 
-PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end, MeshRepairs& repairs,
-                                     std::vector<std::uint32_t>& dropped) {
+PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end,
+                                     MeshRepairs& repairs, std::vector<std::uint32_t>& dropped) {
     PolygonMesh mesh;
     mesh.corners.reserve(3 * (end - begin));
     for (std::size_t i = begin; i < end; ++i) {

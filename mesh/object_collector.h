@@ -28,13 +28,14 @@ glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners);
 /// nothing without area.
 class ObjectCollector {
   public:
-    /// `residuals`: of positions, as Mesh has them. `welded`: per vertex of the soup the number of the first one at its place.
-    /// `marks`: of the soup.
-    ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& residuals,
-                    const std::vector<std::uint32_t>& welded, const MarkedEdges& marks);
+    /// `residuals`: of positions, as Mesh has them. `welded`: per vertex of the soup the number of the first one at its
+    /// place. `marks`: of the soup.
+    ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
+                    const std::vector<glm::vec3>& residuals, const std::vector<std::uint32_t>& welded,
+                    const MarkedEdges& marks);
 
-    /// The polygons groups.order[begin, end), which are all of one object. `dropped`: gets the places, from `begin` on, of those
-    /// without area.
+    /// The polygons groups.order[begin, end), which are all of one object. `dropped`: gets the places, from `begin` on,
+    /// of those without area.
     PolygonMesh collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end, MeshRepairs& repairs,
                         std::vector<std::uint32_t>& dropped);
     /// The numbers of the marks that the last object got, in the order of its marked edges.

@@ -31,8 +31,7 @@ std::optional<PlyType> type_of(std::string_view word) {
 
 class HeaderParser {
   public:
-    HeaderParser(const std::string& path, std::string_view bytes)
-        : path_(path), bytes_(bytes), lines_(bytes) {}
+    HeaderParser(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes), lines_(bytes) {}
 
     PlyHeader parse() {
         std::string_view line;
@@ -87,8 +86,7 @@ class HeaderParser {
         } else if (name == "binary_big_endian") {
             header_.encoding = PlyEncoding::big_endian;
         } else {
-            fail("unknown format '" + printable(name) +
-                 "'; expected ascii, binary_little_endian or binary_big_endian");
+            fail("unknown format '" + printable(name) + "'; expected ascii, binary_little_endian or binary_big_endian");
         }
     }
 
@@ -106,8 +104,7 @@ class HeaderParser {
     PlyType parse_type(std::string_view word) {
         if (const std::optional<PlyType> type = type_of(word)) return *type;
         const std::string name = lower_case(word);
-        if (name != "long" && name != "ulong")
-            fail("unknown property type '" + printable(word) + "'; repair the file");
+        if (name != "long" && name != "ulong") fail("unknown property type '" + printable(word) + "'; repair the file");
         if (line_of_long_ == 0) line_of_long_ = lines_.line_number();
         return name == "long" ? PlyType::int64 : PlyType::uint64;
     }
@@ -149,10 +146,8 @@ class HeaderParser {
 int PlyElement::find(std::string_view name_a, std::string_view name_b) const {
     for (const bool any_case : {false, true}) {
         for (std::size_t i = 0; i < properties.size(); ++i) {
-            const std::string property =
-                any_case ? lower_case(properties[i].name) : properties[i].name;
-            if (property == name_a || (!name_b.empty() && property == name_b))
-                return static_cast<int>(i);
+            const std::string property = any_case ? lower_case(properties[i].name) : properties[i].name;
+            if (property == name_a || (!name_b.empty() && property == name_b)) return static_cast<int>(i);
         }
     }
     return -1;
@@ -168,8 +163,6 @@ std::uint64_t PlyElement::smallest_binary_size() const {
     return size;
 }
 
-PlyHeader read_ply_header(const std::string& path, std::string_view bytes) {
-    return HeaderParser(path, bytes).parse();
-}
+PlyHeader read_ply_header(const std::string& path, std::string_view bytes) { return HeaderParser(path, bytes).parse(); }
 
 }  // namespace burin

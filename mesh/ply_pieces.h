@@ -35,8 +35,8 @@ inline std::size_t read_position_rows(AsciiValues& values, std::span<const int> 
 /// returns how many rows it could. Ends with the first piece that has anything else, and leaves `values` there.
 /// Returns how many rows were read. `copy` copies what stands from a place in the rest of `values` on.
 template <typename Value, typename ReadPiece>
-std::uint64_t read_in_pieces(AsciiValues& values, const LineCutter::Copy& copy, std::size_t piece_size, int threads, std::uint64_t rows,
-                             std::size_t per_row, std::vector<Value>& all, const ReadPiece& read) {
+std::uint64_t read_in_pieces(AsciiValues& values, const LineCutter::Copy& copy, std::size_t piece_size, int threads,
+                             std::uint64_t rows, std::size_t per_row, std::vector<Value>& all, const ReadPiece& read) {
     const std::string_view text = values.rest();
     const std::size_t before = all.size();
     all.reserve(before + per_row * rows);

@@ -28,7 +28,8 @@ inline bool to_integer(double number, std::int64_t& value) {
 
 /// Neither infinite nor NaN, and not too large either.
 inline bool is_coordinate(const glm::dvec3& p) {
-    return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate && std::abs(p.z) <= kLargestCoordinate;
+    return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate &&
+           std::abs(p.z) <= kLargestCoordinate;
 }
 
 /// Values of an ASCII body, in order. The values of one item stand on one line by convention, but
@@ -37,7 +38,11 @@ class AsciiValues {
   public:
     /// `margin`: so many line feeds stand in front of the body and behind it, and may be read.
     AsciiValues(std::string_view body, std::size_t first_line, std::size_t margin = 0)
-        : p_(body.data()), end_(p_ + body.size()), readable_begin_(p_ - margin), readable_end_(end_ + margin), line_(first_line) {}
+        : p_(body.data()),
+          end_(p_ + body.size()),
+          readable_begin_(p_ - margin),
+          readable_end_(end_ + margin),
+          line_(first_line) {}
 
     bool number(PlyType, double& value) {
         skip_space();
@@ -131,7 +136,9 @@ class AsciiValues {
     /// The same for triangles, each of them a row of the number 3 and three vertex numbers on one line.
     std::size_t plain_triangles(std::span<std::uint32_t> corners) {
         const std::size_t max_count = corners.size() / 3;
-        const auto read_some = [&](std::size_t row) { return read_lines(kernels_->triangles, max_count - row, corners.data() + 3 * row); };
+        const auto read_some = [&](std::size_t row) {
+            return read_lines(kernels_->triangles, max_count - row, corners.data() + 3 * row);
+        };
         return plain_rows(max_count, read_some, [&](const char* p, std::size_t row, std::size_t) {
             if (!has_scan_reach(p) || p[0] != '3' || !is_blank(p[1])) return kNotPlain;
             ++p;
@@ -150,7 +157,8 @@ class AsciiValues {
 
     /// Rows that are a line each, from here on; how many there were.
     template <typename Value>
-    std::size_t read_lines(std::size_t (*read)(const char*&, const char*, std::size_t, Value*), std::size_t max_count, Value* values) {
+    std::size_t read_lines(std::size_t (*read)(const char*&, const char*, std::size_t, Value*), std::size_t max_count,
+                           Value* values) {
         skip_space();
         if (!has_reach(p_) || max_count == 0) return 0;
         const std::size_t count = read(p_, std::min(end_, readable_end_ - kRowReach), max_count, values);
@@ -181,7 +189,9 @@ class AsciiValues {
         }
         return max_count;
     }
-    bool has_reach(const char* p) const { return p - readable_begin_ >= kRowReachBack && readable_end_ - p >= kRowReach; }
+    bool has_reach(const char* p) const {
+        return p - readable_begin_ >= kRowReachBack && readable_end_ - p >= kRowReach;
+    }
     bool has_scan_reach(const char* p) const { return readable_end_ - p >= kScanReach; }
     const char* skip_blanks(const char* p) const {
         while (p < end_ && (*p == ' ' || *p == '\t')) ++p;

@@ -46,7 +46,8 @@ bool next_statement(LineReader& lines, std::string_view& statement, std::string&
 
 void read_material_file(const std::string& path, MaterialLibrary& library, Misunderstood& misunderstood) {
     const MappedFile file(path);
-    if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF")) throw InputError(path + ": the text is UTF-16");
+    if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF"))
+        throw InputError(path + ": the text is UTF-16");
     LineReader lines(without_byte_order_mark(file.bytes()));
     std::string joined;
     Material* current = nullptr;
@@ -91,7 +92,8 @@ void read_material_file(const std::string& path, MaterialLibrary& library, Misun
 /// Reads the material files of an OBJ, each once, by whatever names it is called.
 class MaterialFiles {
   public:
-    MaterialFiles(const std::string& obj_path, std::vector<std::string>* files_read) : obj_path_(obj_path), files_read_(files_read) {
+    MaterialFiles(const std::string& obj_path, std::vector<std::string>* files_read)
+        : obj_path_(obj_path), files_read_(files_read) {
         folder_ = std::filesystem::path(obj_path).parent_path().string();
         if (folder_.empty()) folder_ = ".";
         if (const auto obj = file_at(obj_path)) outcomes_[*obj] = false;
@@ -175,16 +177,17 @@ MaterialLibrary read_material_files(const std::string& obj_path, const std::vect
         if (files.read(names)) continue;  // one name, perhaps with blanks in it
         LineScanner scan(names);
         bool is_any_read = false;
-        for (std::string_view name = scan.word(); !name.empty(); name = scan.word()) is_any_read = files.read(name) || is_any_read;
+        for (std::string_view name = scan.word(); !name.empty(); name = scan.word())
+            is_any_read = files.read(name) || is_any_read;
         if (!is_any_read && unread++ == 0) first_unread = names;
     }
     if (notes != nullptr && unread > 0) {
-        notes->push_back("material files that are not read: " + std::to_string(unread) + "; the first one is '" + printable(first_unread) +
-                         "'; materials have the default colour");
+        notes->push_back("material files that are not read: " + std::to_string(unread) + "; the first one is '" +
+                         printable(first_unread) + "'; materials have the default colour");
     }
     if (const Misunderstood& wrong = files.misunderstood(); notes != nullptr && wrong.count > 0) {
-        notes->push_back("values of Kd, d and Tr that are not understood: " + std::to_string(wrong.count) + "; the first one is at " +
-                         to_string(wrong.first));
+        notes->push_back("values of Kd, d and Tr that are not understood: " + std::to_string(wrong.count) +
+                         "; the first one is at " + to_string(wrong.first));
     }
     return files.take();
 }

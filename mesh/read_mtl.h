@@ -17,8 +17,9 @@ namespace burin {
 /// that is missing or broken is left out: materials then keep the default colour, and the lines are
 /// the same. `files_read`: gets the paths of the others. `notes`: gets what is not
 /// read or not understood, a line each with the count.
-std::map<std::string, Material, std::less<>> read_material_files(
-    const std::string& obj_path, const std::vector<std::string>& file_names, std::vector<std::string>* files_read = nullptr,
-    std::vector<std::string>* notes = nullptr);
+std::map<std::string, Material, std::less<>> read_material_files(const std::string& obj_path,
+                                                                 const std::vector<std::string>& file_names,
+                                                                 std::vector<std::string>* files_read = nullptr,
+                                                                 std::vector<std::string>* notes = nullptr);
 
 }  // namespace burin

@@ -44,8 +44,7 @@ PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::str
     const bool has_objects = file.objects.names().size() > 1;
     const NameUses& objects = has_objects ? file.objects : file.groups;
     soup.polygon_object = objects.per_polygon(soup.polygon_ends.size());
-    if (!soup.marked_edges.empty())
-        soup.marked_edge_object = objects.per_line(soup.marked_edges.size());
+    if (!soup.marked_edges.empty()) soup.marked_edge_object = objects.per_line(soup.marked_edges.size());
     soup.polygon_material = file.materials.per_polygon(soup.polygon_ends.size());
     soup.object_names = objects.names();
     soup.object_names[0] = std::filesystem::path(path).stem().string();

@@ -13,8 +13,7 @@ namespace {
 /// OFF as nearly all programs write it: one vertex and one polygon per line.
 class OffParser {
   public:
-    OffParser(const std::string& path, std::string_view text)
-        : path_(path), lines_(text), bytes_(text.size()) {}
+    OffParser(const std::string& path, std::string_view text) : path_(path), lines_(text), bytes_(text.size()) {}
 
     PolygonSoup parse() {
         LineScanner counts = behind_keyword(next_line("the word OFF"));
@@ -59,10 +58,8 @@ class OffParser {
             std::string_view("+-.0123456789").find(word[keyword.size()]) == std::string_view::npos)
             keyword = word;
         check_keyword(keyword);
-        LineScanner rest(
-            {word.data() + keyword.size(),
-             static_cast<std::size_t>(current_.data() + current_.size() - word.data()) -
-                 keyword.size()});
+        LineScanner rest({word.data() + keyword.size(),
+                          static_cast<std::size_t>(current_.data() + current_.size() - word.data()) - keyword.size()});
         if (rest.at_end()) return next_line("the counts");
         if (LineScanner ahead = rest; lower_case(ahead.word()) == "binary")
             fail("binary OFF is not read; save it as text");
@@ -72,8 +69,7 @@ class OffParser {
     void check_keyword(std::string_view keyword) const {
         const std::string small = lower_case(keyword);
         std::string_view prefix = small;
-        if (!prefix.ends_with("off") ||
-            prefix.find_first_not_of("stcn4of") != std::string_view::npos) {
+        if (!prefix.ends_with("off") || prefix.find_first_not_of("stcn4of") != std::string_view::npos) {
             fail("this is no OFF file (it does not start with 'OFF')");
         }
         prefix.remove_suffix(3);
@@ -81,11 +77,9 @@ class OffParser {
         // dimensions.
         const bool in_small_letters = small == keyword;
         if (in_small_letters && prefix.ends_with('n')) {
-            fail("'" + printable(keyword) +
-                 "' may mean normals (NOFF) or dimensions (nOFF); write it so");
+            fail("'" + printable(keyword) + "' may mean normals (NOFF) or dimensions (nOFF); write it so");
         }
-        if (prefix.find('4') != std::string_view::npos ||
-            keyword.find('n') != std::string_view::npos) {
+        if (prefix.find('4') != std::string_view::npos || keyword.find('n') != std::string_view::npos) {
             fail("OFF files with more or fewer than three dimensions are not read");
         }
     }
@@ -98,9 +92,8 @@ class OffParser {
         LineScanner ahead = next;
         for (int words = 0; words < 2; ++words) ahead.word();
         if (ahead.at_end()) return next;
-        throw InputError(
-            {path_, line_number},
-            "the number of polygons is missing behind that of the vertices; repair the file");
+        throw InputError({path_, line_number},
+                         "the number of polygons is missing behind that of the vertices; repair the file");
     }
     void skip_edge_count() {
         const LineReader before = lines_;
@@ -116,8 +109,8 @@ class OffParser {
         }
         // A line needs two characters at least.
         if (static_cast<std::uint64_t>(value) > bytes_ / 2) {
-            fail(std::to_string(value) + " " + what + " do not fit a file of " +
-                 std::to_string(bytes_) + " bytes; was it written completely?");
+            fail(std::to_string(value) + " " + what + " do not fit a file of " + std::to_string(bytes_) +
+                 " bytes; was it written completely?");
         }
         return static_cast<std::uint64_t>(value);
     }
@@ -150,13 +143,12 @@ class OffParser {
             for (std::int64_t k = 0; k < size; ++k) {
                 std::int64_t index = 0;
                 if (!scan.integer(index)) {
-                    fail("a polygon of " + std::to_string(size) + " corners has only " +
-                         std::to_string(k) + " vertex numbers on its line; repair the file");
+                    fail("a polygon of " + std::to_string(size) + " corners has only " + std::to_string(k) +
+                         " vertex numbers on its line; repair the file");
                 }
                 if (index < 0 || static_cast<std::uint64_t>(index) >= soup_.positions.size()) {
                     fail("vertex " + std::to_string(index) + " does not exist (the file has " +
-                         std::to_string(soup_.positions.size()) +
-                         ", counted from 0); repair or re-export the file");
+                         std::to_string(soup_.positions.size()) + ", counted from 0); repair or re-export the file");
                 }
                 corners.push_back(static_cast<std::uint32_t>(index));
             }

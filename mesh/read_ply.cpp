@@ -30,8 +30,8 @@ enum class ItemLayout : std::uint8_t {
 template <typename Values>
 class BodyReader {
   public:
-    BodyReader(const std::string& path, const MappedFile& file, const PlyHeader& header,
-               Values values, int threads, ItemLayout layout = ItemLayout::plain_rows)
+    BodyReader(const std::string& path, const MappedFile& file, const PlyHeader& header, Values values, int threads,
+               ItemLayout layout = ItemLayout::plain_rows)
         : path_(path),
           file_(file),
           header_(header),
@@ -61,8 +61,7 @@ class BodyReader {
                 read_faces(element);
             } else if (element.name == "tristrips") {
                 read_strips(element);
-            } else if (element.name == "edge" && element.find("vertex1") >= 0 &&
-                       element.find("vertex2") >= 0) {
+            } else if (element.name == "edge" && element.find("vertex1") >= 0 && element.find("vertex2") >= 0) {
                 read_edges(element);
             } else {
                 for (item_ = 0; item_ < element.count; ++item_) {
@@ -72,8 +71,7 @@ class BodyReader {
             }
         }
         if (soup_.positions.empty()) {
-            throw InputError(path_ +
-                             ": the file has no vertices; burin draws the lines of surfaces");
+            throw InputError(path_ + ": the file has no vertices; burin draws the lines of surfaces");
         }
         if (soup_.polygon_count() == 0 && soup_.marked_edges.empty()) {
             throw InputError(path_ +
@@ -94,8 +92,7 @@ class BodyReader {
   private:
     [[noreturn]] void fail(const std::string& message) const {
         const std::string item =
-            values_.line() > 0 ? ""
-                               : printable(element_->name) + " " + std::to_string(item_) + ": ";
+            values_.line() > 0 ? "" : printable(element_->name) + " " + std::to_string(item_) + ": ";
         throw InputError({path_, values_.line()}, item + message);
     }
     [[noreturn]] void fail_value() {
@@ -109,18 +106,16 @@ class BodyReader {
 
     /// Refuses counts that the file has no room for, before anything is allocated.
     void check_room(const PlyElement& element) const {
-        const std::uint64_t values_each = header_.encoding == PlyEncoding::ascii
-                                              ? element.properties.size()
-                                              : element.smallest_binary_size();
+        const std::uint64_t values_each =
+            header_.encoding == PlyEncoding::ascii ? element.properties.size() : element.smallest_binary_size();
         if (element.count > 0 && values_each == 0) {
             throw InputError(path_ + ": element '" + printable(element.name) +
                              "' has a count but no properties; repair the file");
         }
         if (element.count > 0 && values_.room() / values_each < element.count) {
-            throw InputError(
-                path_ + ": the header promises " + std::to_string(element.count) + " of element '" +
-                printable(element.name) + "', the file has room for at most " +
-                std::to_string(values_.room() / values_each) + "; was it written completely?");
+            throw InputError(path_ + ": the header promises " + std::to_string(element.count) + " of element '" +
+                             printable(element.name) + "', the file has room for at most " +
+                             std::to_string(values_.room() / values_each) + "; was it written completely?");
         }
         if (element.name == "vertex" && element.count > 0xFFFFFFFFu) {
             throw InputError(path_ + ": more than 4 billion vertices; split the model");
@@ -149,8 +144,7 @@ class BodyReader {
         std::int64_t length = 0;
         if (!values_.integer(property.count_type, length)) fail_value();
         if (length < 0 || static_cast<std::uint64_t>(length) > values_.room()) {
-            fail("a list of " + std::to_string(length) + " values does not fit the file; " +
-                 "repair or re-export it");
+            fail("a list of " + std::to_string(length) + " values does not fit the file; " + "repair or re-export it");
         }
         return static_cast<std::uint64_t>(length);
     }
@@ -203,10 +197,13 @@ class BodyReader {
         if constexpr (kIsText) {
             if (layout_ != ItemLayout::plain_rows || element.has_lists()) return;
             if (item_ == 0 && is_large()) {
-                item_ = read_large(element.count, 1, soup_.positions,
-                                   [&](AsciiValues& values, std::span<glm::dvec3> rows) { return read_position_rows(values, axis_of, rows); });
+                item_ =
+                    read_large(element.count, 1, soup_.positions, [&](AsciiValues& values, std::span<glm::dvec3> rows) {
+                        return read_position_rows(values, axis_of, rows);
+                    });
             }
-            read_blocks<1>(element.count, soup_.positions, [&](std::span<glm::dvec3> rows) { return values_.plain_positions(axis_of, rows); });
+            read_blocks<1>(element.count, soup_.positions,
+                           [&](std::span<glm::dvec3> rows) { return values_.plain_positions(axis_of, rows); });
         }
     }
     void read_plain_triangles(const PlyElement& element) {
@@ -220,11 +217,14 @@ class BodyReader {
                 return count;
             };
             if (item_ == 0 && is_large()) {
-                const std::uint64_t most = std::min(element.count, (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
+                const std::uint64_t most =
+                    std::min(element.count, (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
                 item_ = read_large(most, 3, soup_.corners, read_triangles);
             }
-            const std::uint64_t most = std::min(element.count, item_ + (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
-            read_blocks<3>(most, soup_.corners, [&](std::span<std::uint32_t> corners) { return read_triangles(values_, corners); });
+            const std::uint64_t most =
+                std::min(element.count, item_ + (PolygonSoup::kMaxCorners - soup_.corners.size()) / 3);
+            read_blocks<3>(most, soup_.corners,
+                           [&](std::span<std::uint32_t> corners) { return read_triangles(values_, corners); });
         }
     }
 
@@ -237,7 +237,8 @@ class BodyReader {
         const std::string_view rest = values_.rest();
         const auto begin = static_cast<std::size_t>(rest.data() - file_.bytes().data());
         const auto copy = [this, begin](std::size_t place, std::span<char> to) { file_.copy(begin + place, to); };
-        return read_in_pieces(values_, copy, LineCutter::size_for(rest.size(), threads_), threads_, rows, per_row, all, read);
+        return read_in_pieces(values_, copy, LineCutter::size_for(rest.size(), threads_), threads_, rows, per_row, all,
+                              read);
     }
     /// Reads rows from item_ on, up to the one in front of `end`, as long as read(place for the values of some) can.
     template <std::size_t kPerRow, typename Value, typename ReadBlock>
@@ -252,10 +253,13 @@ class BodyReader {
             goes_on = count > 0 && count == most;
         }
     }
-    /// Where a number in plain rows is too large for the vertices, all is read again, value by value, to see where it stands. Rows of
-    /// pieces that are not used in the end count, too: then there may be no such number, and all is well.
+    /// Where a number in plain rows is too large for the vertices, all is read again, value by value, to see where it
+    /// stands. Rows of pieces that are not used in the end count, too: then there may be no such number, and all is
+    /// well.
     void note_plain_index(std::uint32_t index) {
-        for (std::uint32_t known = largest_plain_; known < index && !largest_plain_.compare_exchange_weak(known, index);) {}
+        for (std::uint32_t known = largest_plain_;
+             known < index && !largest_plain_.compare_exchange_weak(known, index);) {
+        }
     }
 
     /// One value of a vertex number list. Faces may stand before the vertices, so the upper bound
@@ -270,8 +274,7 @@ class BodyReader {
     std::uint32_t vertex_index(const PlyProperty& property) {
         const std::int64_t index = list_index(property);
         if (index < 0 || index > std::int64_t{0xFFFFFFFF}) {
-            fail("vertex " + std::to_string(index) +
-                 " does not exist; repair or re-export the file");
+            fail("vertex " + std::to_string(index) + " does not exist; repair or re-export the file");
         }
         return static_cast<std::uint32_t>(index);
     }
@@ -392,13 +395,11 @@ class BodyReader {
     }
     void check_references() const {
         if (largest_.index < static_cast<std::int64_t>(soup_.positions.size())) return;
-        const std::string item =
-            largest_.line > 0 ? "" : "item " + std::to_string(largest_.item) + ": ";
-        throw InputError({path_, largest_.line},
-                         item + "vertex " + std::to_string(largest_.index) +
-                             " does not exist (the file has " +
-                             std::to_string(soup_.positions.size()) +
-                             ", counted from 0); repair or re-export the file");
+        const std::string item = largest_.line > 0 ? "" : "item " + std::to_string(largest_.item) + ": ";
+        throw InputError({path_, largest_.line}, item + "vertex " + std::to_string(largest_.index) +
+                                                     " does not exist (the file has " +
+                                                     std::to_string(soup_.positions.size()) +
+                                                     ", counted from 0); repair or re-export the file");
     }
 
     static constexpr bool kIsText = std::is_same_v<Values, AsciiValues>;
@@ -456,10 +457,9 @@ PolygonSoup read_text(const std::string& path, const MappedFile& file, const Ply
                          "the line has more values than the header declares; re-export the file, "
                          "or leave out --strict");
     }
-    soup.notes.push_back((surplus.count == 1
-                              ? "line " + std::to_string(surplus.first) + " has"
-                              : std::to_string(surplus.count) + " lines, the first one is line " +
-                                    std::to_string(surplus.first) + ", have") +
+    soup.notes.push_back((surplus.count == 1 ? "line " + std::to_string(surplus.first) + " has"
+                                             : std::to_string(surplus.count) + " lines, the first one is line " +
+                                                   std::to_string(surplus.first) + ", have") +
                          " more values than the header declares; the rest of the line is left out");
     return soup;
 }

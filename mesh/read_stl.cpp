@@ -22,8 +22,7 @@ constexpr const char* kRepair = "; repair or re-export the file";
 std::uint32_t little_endian_u32(const char* p) {
     unsigned char b[4];
     std::memcpy(b, p, 4);
-    return std::uint32_t{b[0]} | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 |
-           std::uint32_t{b[3]} << 24;
+    return std::uint32_t{b[0]} | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[3]} << 24;
 }
 
 float little_endian_float(const char* p) {
@@ -48,35 +47,30 @@ constexpr const char* kNotFinite = "a coordinate is not finite or beyond 1e30";
 /// What is left when triangles without finite coordinates are left out.
 void note_non_finite(const SourcePosition& place, PolygonSoup& soup, const std::string& first) {
     if (soup.non_finite_polygons == 0) return;
-    if (soup.corners.empty())
-        throw InputError(place, std::string("no triangle has finite coordinates") + kRepair);
-    soup.notes.push_back("triangles left out: " + std::to_string(soup.non_finite_polygons) +
-                         "; the first one " + first + ": " + kNotFinite);
+    if (soup.corners.empty()) throw InputError(place, std::string("no triangle has finite coordinates") + kRepair);
+    soup.notes.push_back("triangles left out: " + std::to_string(soup.non_finite_polygons) + "; the first one " +
+                         first + ": " + kNotFinite);
 }
 
 /// Text of any kind that is no STL. Triangles have zero bytes, nearly always.
 bool is_plain_text(std::string_view bytes) {
-    return std::all_of(
-        bytes.begin(),
-        bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 4096)),
-        [](char c) { return static_cast<unsigned char>(c) >= 0x20 || (c >= '\t' && c <= '\r'); });
+    return std::all_of(bytes.begin(),
+                       bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 4096)),
+                       [](char c) { return static_cast<unsigned char>(c) >= 0x20 || (c >= '\t' && c <= '\r'); });
 }
 
 /// The number of triangles, which `count` should be. Where it is not and the file holds whole
 /// triangles behind the header, it is their number that counts: some exporters do not go back to
 /// write it.
-std::uint64_t triangle_count(const std::string& path, std::uint64_t count,
-                             std::string_view triangles, bool strict, PolygonSoup& soup) {
+std::uint64_t triangle_count(const std::string& path, std::uint64_t count, std::string_view triangles, bool strict,
+                             PolygonSoup& soup) {
     const std::uint64_t room = triangles.size() / kBinaryTriangle;
-    const bool is_whole =
-        triangles.size() % kBinaryTriangle == 0 && room > 0 && !is_plain_text(triangles);
-    if (count == room || (count < room && !is_whole))
-        return count;  // what follows the triangles is ignored
-    const std::string found =
-        "the header promises " + std::to_string(count) + " triangles, the file has ";
+    const bool is_whole = triangles.size() % kBinaryTriangle == 0 && room > 0 && !is_plain_text(triangles);
+    if (count == room || (count < room && !is_whole)) return count;  // what follows the triangles is ignored
+    const std::string found = "the header promises " + std::to_string(count) + " triangles, the file has ";
     if (!is_whole || strict) {
-        throw InputError(path + ": " + found + (count > room ? "room for " : "") +
-                         std::to_string(room) + "; was it written completely?");
+        throw InputError(path + ": " + found + (count > room ? "room for " : "") + std::to_string(room) +
+                         "; was it written completely?");
     }
     soup.notes.push_back(found + std::to_string(room) + ", which are read" +
                          (count > room ? "; was it written completely?" : ""));
@@ -85,9 +79,8 @@ std::uint64_t triangle_count(const std::string& path, std::uint64_t count,
 
 PolygonSoup read_binary(const std::string& path, std::string_view bytes, bool strict) {
     PolygonSoup soup;
-    const std::uint64_t count =
-        triangle_count(path, little_endian_u32(bytes.data() + kBinaryHeader),
-                       bytes.substr(kBinaryHeader + 4), strict, soup);
+    const std::uint64_t count = triangle_count(path, little_endian_u32(bytes.data() + kBinaryHeader),
+                                               bytes.substr(kBinaryHeader + 4), strict, soup);
     if (3 * count > PolygonSoup::kMaxCorners) {
         throw InputError(path + ": more than 4 billion polygon corners; split the model");
     }
@@ -100,13 +93,11 @@ PolygonSoup read_binary(const std::string& path, std::string_view bytes, bool st
         std::array<glm::dvec3, 3> corners;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const char* const q = p + 12 + 12 * corner;
-            corners[corner] = glm::dvec3(little_endian_float(q), little_endian_float(q + 4),
-                                         little_endian_float(q + 8));
+            corners[corner] =
+                glm::dvec3(little_endian_float(q), little_endian_float(q + 4), little_endian_float(q + 8));
         }
         if (!is_usable(corners[0]) || !is_usable(corners[1]) || !is_usable(corners[2])) {
-            if (strict)
-                throw InputError(path + ": triangle " + std::to_string(t) + ": " + kNotFinite +
-                                 kRepair);
+            if (strict) throw InputError(path + ": triangle " + std::to_string(t) + ": " + kNotFinite + kRepair);
             if (soup.non_finite_polygons++ == 0) first_non_finite = t;
             continue;
         }
@@ -124,8 +115,7 @@ bool read_coordinate(LineScanner& scan, double& value) {
     LineScanner ahead = scan;
     std::string word = lower_case(ahead.word());
     word.erase(0, word.find_first_not_of("+-"));
-    if (!word.starts_with("nan") && !word.starts_with("inf") && !word.starts_with("1.#") &&
-        !word.starts_with("1#"))
+    if (!word.starts_with("nan") && !word.starts_with("inf") && !word.starts_with("1.#") && !word.starts_with("1#"))
         return false;
     value = std::numeric_limits<double>::quiet_NaN();
     scan = ahead;
@@ -163,8 +153,7 @@ class AsciiParser {
         if (in_solid_) {
             fail("the file ends in the middle of a solid; was it written completely?");
         }
-        note_non_finite({path_, first_non_finite_line_}, soup_,
-                        "is on line " + std::to_string(first_non_finite_line_));
+        note_non_finite({path_, first_non_finite_line_}, soup_, "is on line " + std::to_string(first_non_finite_line_));
         return std::move(soup_);
     }
 
@@ -187,8 +176,7 @@ class AsciiParser {
     void add_vertex(LineScanner& scan) {
         if (!in_solid_) fail("a vertex stands outside of any solid" + std::string(kRepair));
         glm::dvec3 p;
-        if (!read_coordinate(scan, p.x) || !read_coordinate(scan, p.y) ||
-            !read_coordinate(scan, p.z)) {
+        if (!read_coordinate(scan, p.x) || !read_coordinate(scan, p.y) || !read_coordinate(scan, p.z)) {
             fail("a vertex needs three numbers" + std::string(kRepair));
         }
         in_loop_ = true;
@@ -234,9 +222,9 @@ PolygonSoup read_stl(const std::string& path, bool strict) {
     const std::string_view bytes = file.bytes();
     const bool has_binary_header = bytes.size() >= kBinaryHeader + 4;
     const std::uint64_t binary_size =
-        has_binary_header ? kBinaryHeader + 4 + std::uint64_t{kBinaryTriangle} *
-                                                    little_endian_u32(bytes.data() + kBinaryHeader)
-                          : 0;
+        has_binary_header
+            ? kBinaryHeader + 4 + std::uint64_t{kBinaryTriangle} * little_endian_u32(bytes.data() + kBinaryHeader)
+            : 0;
     // Binary files may start with "solid" as well; their size gives them away.
     const std::string_view text = without_byte_order_mark(bytes);
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());

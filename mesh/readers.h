@@ -20,26 +20,27 @@ namespace burin {
 /// Lines of text end in LF, CRLF or CR alone. Keywords may be in capitals.
 
 /// Wavefront OBJ. `o` names start objects (`g` names, in a file without any `o`), `usemtl` sets the
-/// material, `l` marks edges, or draws lines of the current object. Texture coordinates, normals, free-form surfaces, points are skipped.
-/// Colours and opacities come from the `mtllib` files that lie in the model's folder or below.
-/// Read on `threads` threads (0 = all cores), which changes nothing else. `material_files`: gets the paths of those that were read.
+/// material, `l` marks edges, or draws lines of the current object. Texture coordinates, normals, free-form surfaces,
+/// points are skipped. Colours and opacities come from the `mtllib` files that lie in the model's folder or below. Read
+/// on `threads` threads (0 = all cores), which changes nothing else. `material_files`: gets the paths of those that
+/// were read.
 PolygonSoup read_obj(const std::string& path, int threads = 1, std::vector<std::string>* material_files = nullptr);
 /// The same for the text of the file, in pieces of at least `piece_size` bytes, which changes nothing either.
 PolygonSoup read_obj_text(const std::string& path, std::string_view text, int threads, std::size_t piece_size,
                           std::vector<std::string>* material_files = nullptr);
 
 /// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
-/// `element edge` marks edges, or draws lines; other elements and properties are skipped. Plain ASCII is read on `threads`
-/// threads (0 = all cores), which changes nothing else. Values of an ASCII file may stand on any lines; where that fails
-/// each item begins a line, and what follows its last value there is left out.
+/// `element edge` marks edges, or draws lines; other elements and properties are skipped. Plain ASCII is read on
+/// `threads` threads (0 = all cores), which changes nothing else. Values of an ASCII file may stand on any lines; where
+/// that fails each item begins a line, and what follows its last value there is left out.
 PolygonSoup read_ply(const std::string& path, int threads = 1, bool strict = false);
 
-/// STL, ASCII and binary. Each `solid` of an ASCII file is an object. Triangles whose coordinates are not finite or beyond
-/// 1e30 are left out. A binary file of whole triangles is read to its end, whatever its count says.
+/// STL, ASCII and binary. Each `solid` of an ASCII file is an object. Triangles whose coordinates are not finite or
+/// beyond 1e30 are left out. A binary file of whole triangles is read to its end, whatever its count says.
 PolygonSoup read_stl(const std::string& path, bool strict = false);
 
-/// OFF as text, with or without the prefixes for colours, normals and texture coordinates. The counts may follow the word
-/// OFF without a blank, or stand on several lines, and that of the edges may be missing.
+/// OFF as text, with or without the prefixes for colours, normals and texture coordinates. The counts may follow the
+/// word OFF without a blank, or stand on several lines, and that of the edges may be missing.
 PolygonSoup read_off(const std::string& path);
 
 }  // namespace burin

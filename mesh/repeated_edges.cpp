@@ -43,14 +43,11 @@ class Pieces {
         path_.assign(1, polygon[0]);
         for (std::size_t i = 1; i <= polygon.size(); ++i) {
             const std::uint32_t next = polygon[i % polygon.size()];
-            const auto [known, is_new] =
-                edges_.try_emplace(key(path_.back(), next), path_.size() - 1);
+            const auto [known, is_new] = edges_.try_emplace(key(path_.back(), next), path_.size() - 1);
             if (!is_new) {
-                const std::size_t first =
-                    known->second;  // of the path's corners, from where it passes the edge
+                const std::size_t first = known->second;  // of the path's corners, from where it passes the edge
                 add({path_.begin() + static_cast<std::ptrdiff_t>(first), path_.end() - 1});
-                for (std::size_t k = first + 1; k + 1 < path_.size(); ++k)
-                    edges_.erase(key(path_[k], path_[k + 1]));
+                for (std::size_t k = first + 1; k + 1 < path_.size(); ++k) edges_.erase(key(path_[k], path_[k + 1]));
                 path_.resize(first + 1);
             }
             path_.push_back(next);
@@ -64,9 +61,7 @@ class Pieces {
     }
 
   private:
-    static std::uint64_t key(std::uint32_t from, std::uint32_t to) {
-        return std::uint64_t{from} << 32 | to;
-    }
+    static std::uint64_t key(std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32 | to; }
     void add(std::vector<std::uint32_t> piece) {
         remove_spikes(piece);
         corners_.insert(corners_.end(), piece.begin(), piece.end());
@@ -107,8 +102,7 @@ void remove_spikes(std::vector<std::uint32_t>& corners) {
     corners.erase(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-std::vector<CutPolygons> cut_at_repeated_edges(PolygonSoup& soup,
-                                               const std::vector<std::uint32_t>& welded) {
+std::vector<CutPolygons> cut_at_repeated_edges(PolygonSoup& soup, const std::vector<std::uint32_t>& welded) {
     std::vector<CutPolygons> cut;
     PolygonSoup result;  // its polygons, from the first one on that is cut
     std::vector<std::uint32_t> corners, sorted;
@@ -116,8 +110,7 @@ std::vector<CutPolygons> cut_at_repeated_edges(PolygonSoup& soup,
     const auto add = [&](std::span<const std::uint32_t> polygon, std::size_t i) {
         result.add_polygon(polygon);
         if (!soup.polygon_object.empty()) result.polygon_object.push_back(soup.polygon_object[i]);
-        if (!soup.polygon_material.empty())
-            result.polygon_material.push_back(soup.polygon_material[i]);
+        if (!soup.polygon_material.empty()) result.polygon_material.push_back(soup.polygon_material[i]);
     };
     for (std::size_t i = 0; i < soup.polygon_ends.size(); ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();

@@ -29,7 +29,6 @@ struct CutPolygons {
 ///
 /// `welded`: per vertex the number of the first one at its place. Pieces stand where the polygon
 /// stood. Returns what was done per object; empty if nothing was.
-std::vector<CutPolygons> cut_at_repeated_edges(PolygonSoup& soup,
-                                               const std::vector<std::uint32_t>& welded);
+std::vector<CutPolygons> cut_at_repeated_edges(PolygonSoup& soup, const std::vector<std::uint32_t>& welded);
 
 }  // namespace burin

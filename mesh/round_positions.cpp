@@ -21,9 +21,7 @@ constexpr std::size_t kMostSamples = 1024;
 /// must not keep vertices apart.
 constexpr int kBitsWithResiduals = 46;
 
-double largest_of(const glm::dvec3& p) {
-    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
+double largest_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
 struct Bounds {
     glm::dvec3 low, high;
@@ -36,9 +34,7 @@ struct Bounds {
     glm::dvec3 center() const { return 0.5 * (low + high); }
     double half_size() const { return largest_of(0.5 * (high - low)); }
     /// How far from a place it reaches along an axis.
-    double reach_from(const glm::dvec3& p) const {
-        return std::max(largest_of(low - p), largest_of(high - p));
-    }
+    double reach_from(const glm::dvec3& p) const { return std::max(largest_of(low - p), largest_of(high - p)); }
 };
 
 /// Around vertices that polygons or marked edges have.
@@ -59,8 +55,7 @@ double plainly_near(const PolygonSoup& soup) {
     if (soup.corners.empty()) return 0;
     Bounds bounds(soup.positions[soup.corners[0]]);
     const std::size_t step = soup.corners.size() / kMostSamples + 1;
-    for (std::size_t i = 0; i < soup.corners.size(); i += step)
-        bounds.add(soup.positions[soup.corners[i]]);
+    for (std::size_t i = 0; i < soup.corners.size(); i += step) bounds.add(soup.positions[soup.corners[i]]);
     return 16 * bounds.half_size();
 }
 
@@ -86,8 +81,7 @@ double typical_polygon_size(const PolygonSoup& soup) {
 
 bool is_blurred(const PolygonSoup& soup, double reach) {
     const double size = typical_polygon_size(soup);
-    return size > 0 &&
-           reach > kLargestReach * size * std::sqrt(static_cast<double>(soup.polygon_count()));
+    return size > 0 && reach > kLargestReach * size * std::sqrt(static_cast<double>(soup.polygon_count()));
 }
 
 /// In each coordinate, of some corners. Where most of the model is, it is there, too.
@@ -122,7 +116,8 @@ RoundedPositions round_positions(const PolygonSoup& soup) {
     if (result.origin == glm::dvec3(0.0) && !has_residuals) return result;
     if (has_residuals) reserve_large(result.residuals, soup.positions.size());
     // Without residuals the model may be a single place, which reaches nowhere.
-    const double step = has_residuals ? std::ldexp(1.0, std::ilogb(bounds.reach_from(result.origin)) + 1 - kBitsWithResiduals) : 0;
+    const double step =
+        has_residuals ? std::ldexp(1.0, std::ilogb(bounds.reach_from(result.origin)) + 1 - kBitsWithResiduals) : 0;
     for (std::size_t v = 0; v < soup.positions.size(); ++v) {
         glm::dvec3 place = soup.positions[v] - result.origin;
         if (has_residuals) place = glm::round(place / step) * step;
@@ -149,8 +144,7 @@ std::vector<std::uint32_t> weld_vertices(const RoundedPositions& rounded) {
     });
     std::vector<std::uint32_t> result(first.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-        result[order[i]] =
-            i > 0 && key(order[i - 1]) == key(order[i]) ? result[order[i - 1]] : order[i];
+        result[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? result[order[i - 1]] : order[i];
     }
     return result;
 }

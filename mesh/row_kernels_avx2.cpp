@@ -48,7 +48,8 @@ std::size_t triangles(const char*& p, const char* limit, std::size_t max_rows, s
         const unsigned digits_1 = end_1 - end_0 - 1, digits_2 = end_2 - end_1 - 1;
         // The first character that is neither digit nor space: the row's end, perhaps behind a space.
         const unsigned feed = _tzcnt_u32(others & ~find_equal(text, ' '));
-        const bool has_sizes = (((end_0 - 1) | end_0 | (digits_1 - 1) | digits_1 | (digits_2 - 1) | digits_2) & ~7u) == 0;  // 1..7
+        const bool has_sizes =
+            (((end_0 - 1) | end_0 | (digits_1 - 1) | digits_1 | (digits_2 - 1) | digits_2) & ~7u) == 0;  // 1..7
         if (!has_sizes || feed - end_2 > 1 || q[feed] != '\n') return count;
         const __m128i two = _mm_set_epi64x(load_before(q + end_1, digits_1), load_before(q + end_0, end_0));
         const __m128i third = _mm_cvtsi64_si128(load_before(q + end_2, digits_2));
@@ -64,7 +65,8 @@ std::size_t triangles(const char*& p, const char* limit, std::size_t max_rows, s
 }
 
 constexpr unsigned kMostDigits = 15;
-constexpr double kPowers[kMostDigits] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
+constexpr double kPowers[kMostDigits] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
+                                         1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
 
 /// Leaves the point out of sixteen characters, of which so many stand behind it.
 struct PointShuffles {
@@ -110,7 +112,8 @@ std::size_t positions(const char*& p, const char* limit, std::size_t max_rows, d
             const __m128i shuffle = _mm_load_si128(reinterpret_cast<const __m128i*>(kPointShuffles.of[places]));
             const __m128i digits = _mm_and_si128(_mm_shuffle_epi8(_mm_xor_si128(text, _mm_set1_epi8('0')), shuffle),
                                                  last_bytes(whole + places));
-            fours[k] = _mm_madd_epi16(_mm_maddubs_epi16(digits, _mm_set1_epi16(1 << 8 | 10)), _mm_set1_epi32(1 << 16 | 100));
+            fours[k] =
+                _mm_madd_epi16(_mm_maddubs_epi16(digits, _mm_set1_epi16(1 << 8 | 10)), _mm_set1_epi32(1 << 16 | 100));
             scale[k] = kPowers[places];
             sign[k] = negative << 63;
             minus_signs |= negative << begin;

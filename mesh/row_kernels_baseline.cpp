@@ -46,8 +46,7 @@ const RowKernels& baseline_row_kernels() {
 
 const RowKernels& best_row_kernels() {
     const InstructionSet allowed = allowed_instruction_set();
-    const RowKernels* const avx512 =
-        allowed >= InstructionSet::avx512 ? avx512_row_kernels() : nullptr;
+    const RowKernels* const avx512 = allowed >= InstructionSet::avx512 ? avx512_row_kernels() : nullptr;
     if (avx512 != nullptr) return *avx512;
     const RowKernels* const avx2 = allowed >= InstructionSet::avx2 ? avx2_row_kernels() : nullptr;
     return avx2 != nullptr ? *avx2 : baseline_row_kernels();

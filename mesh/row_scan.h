@@ -61,8 +61,7 @@ inline __m128i eights_of_fours(__m128i first_two, __m128i last_two) {
 
 /// Reads three integers of 1..7 digits. Returns the place behind them, where a space or a line feed
 /// stands, or nullptr for any other text. `values` has a fourth place, which is overwritten.
-inline const char* scan_three_integers([[maybe_unused]] const char* p,
-                                       [[maybe_unused]] std::uint32_t* values) {
+inline const char* scan_three_integers([[maybe_unused]] const char* p, [[maybe_unused]] std::uint32_t* values) {
 #ifdef __SSE2__
     std::uint64_t others = find_marks<32>(p).others;
     __m128i digits[3];
@@ -76,8 +75,10 @@ inline const char* scan_three_integers([[maybe_unused]] const char* p,
         others &= others - 1;
         begin = end + 1;
     }
-    const __m128i first_two = _mm_unpackhi_epi64(digits[0], digits[1]), last_two = _mm_unpackhi_epi64(digits[2], digits[2]);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(values), eights_of_fours(fours_of_digits(first_two), fours_of_digits(last_two)));
+    const __m128i first_two = _mm_unpackhi_epi64(digits[0], digits[1]),
+                  last_two = _mm_unpackhi_epi64(digits[2], digits[2]);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(values),
+                     eights_of_fours(fours_of_digits(first_two), fours_of_digits(last_two)));
     return p + begin - 1;
 #else
     return nullptr;
@@ -87,8 +88,7 @@ inline const char* scan_three_integers([[maybe_unused]] const char* p,
 /// Reads three numbers like -12.345, each with a digit at least on either side of its point and 15 at most.
 /// Returns the place behind them, where a space or a line feed stands, or nullptr for any other text.
 /// Values are those of scan_number().
-inline const char* scan_three_decimals([[maybe_unused]] const char* p,
-                                       [[maybe_unused]] double* values) {
+inline const char* scan_three_decimals([[maybe_unused]] const char* p, [[maybe_unused]] double* values) {
 #ifdef __SSE2__
     const RowMarks marks = find_marks<64>(p);
     std::uint64_t others = marks.others & ~marks.minus, minus_signs = 0;

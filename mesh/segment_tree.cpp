@@ -34,7 +34,8 @@ SegmentTree::SegmentTree(std::span<const SegmentPiece> pieces) {
     build(pieces, 0, 0, places);
 }
 
-void SegmentTree::build(std::span<const SegmentPiece> pieces, std::uint32_t node, std::uint32_t first, std::span<Place> places) {
+void SegmentTree::build(std::span<const SegmentPiece> pieces, std::uint32_t node, std::uint32_t first,
+                        std::span<Place> places) {
     const auto count = static_cast<std::uint32_t>(places.size());
     if (count > 0xFFFF) throw_if_interrupted();
     Node box;

@@ -47,15 +47,17 @@ class SegmentTree {
         }
     }
 
-    /// Calls visit(segment) for all pieces in boxes that may be as near to a point as `reach`, which visit() may lower meanwhile.
-    /// Nearer boxes mostly come first.
+    /// Calls visit(segment) for all pieces in boxes that may be as near to a point as `reach`, which visit() may lower
+    /// meanwhile. Nearer boxes mostly come first.
     template <typename Visit>
     void visit_nearest(const glm::dvec3& at, const double& reach, const Visit& visit) const {
-        visit_nearest(at, reach, [](const glm::vec3&, const glm::vec3&) { return true; }, visit);
+        visit_nearest(
+            at, reach, [](const glm::vec3&, const glm::vec3&) { return true; }, visit);
     }
     /// The same for pieces in boxes that also may_be_near(low, high).
     template <typename MayBeNear, typename Visit>
-    void visit_nearest(const glm::dvec3& at, const double& reach, const MayBeNear& may_be_near, const Visit& visit) const {
+    void visit_nearest(const glm::dvec3& at, const double& reach, const MayBeNear& may_be_near,
+                       const Visit& visit) const {
         if (nodes_.empty()) return;
         struct Waiting {
             std::uint32_t node;
@@ -99,7 +101,8 @@ class SegmentTree {
     /// The margin keeps rounding from hiding an equally near one.
     static bool is_near(double square, double reach) { return square <= reach * reach * (1 + 1e-9); }
     static double square_of_distance(const glm::dvec3& p, const Node& box) {
-        const glm::dvec3 outside = glm::max(glm::max(glm::dvec3(box.low) - p, p - glm::dvec3(box.high)), glm::dvec3(0.0));
+        const glm::dvec3 outside =
+            glm::max(glm::max(glm::dvec3(box.low) - p, p - glm::dvec3(box.high)), glm::dvec3(0.0));
         return glm::dot(outside, outside);
     }
     void build(std::span<const SegmentPiece> pieces, std::uint32_t node, std::uint32_t first, std::span<Place> places);

@@ -33,8 +33,7 @@ glm::dvec2 on_circle(int i, int segments) {
 PolygonSoup make_box(glm::dvec3 size) {
     PolygonSoup soup = empty_soup("box");
     for (int i = 0; i < 8; ++i) {
-        soup.positions.push_back(0.5 * size *
-                                 glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+        soup.positions.push_back(0.5 * size * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
     }
     add(soup, {0, 4, 6, 2});  // -X
     add(soup, {1, 3, 7, 5});  // +X
@@ -130,13 +129,10 @@ PolygonSoup make_torus(double radius, double tube_radius, int segments, int tube
         const glm::dvec2 around = on_circle(s, segments);
         for (int t = 0; t < tube_segments; ++t) {
             const glm::dvec2 tube = on_circle(t, tube_segments) * tube_radius;
-            soup.positions.emplace_back(around.x * (radius + tube.x), tube.y,
-                                        around.y * (radius + tube.x));
+            soup.positions.emplace_back(around.x * (radius + tube.x), tube.y, around.y * (radius + tube.x));
         }
     }
-    const auto at = [&](int s, int t) {
-        return (s % segments) * tube_segments + t % tube_segments;
-    };
+    const auto at = [&](int s, int t) { return (s % segments) * tube_segments + t % tube_segments; };
     for (int s = 0; s < segments; ++s) {
         throw_if_interrupted();
         for (int t = 0; t < tube_segments; ++t) {

@@ -11,17 +11,19 @@
 namespace burin {
 namespace {
 
-constexpr std::int32_t kCellsAlong = 16;  // cells of some hundred triangles in a mesh of a million; 32 are as good, and take longer
+constexpr std::int32_t kCellsAlong =
+    16;  // cells of some hundred triangles in a mesh of a million; 32 are as good, and take longer
 constexpr std::size_t kCells = std::size_t{kCellsAlong} * kCellsAlong * kCellsAlong;
 
-/// Numbers below `count` by their cells, and in a cell in ascending order. Both halves of them are counted and put to their places
-/// at the same time: many that follow each other are in one cell, and each has to wait for the one before.
+/// Numbers below `count` by their cells, and in a cell in ascending order. Both halves of them are counted and put to
+/// their places at the same time: many that follow each other are in one cell, and each has to wait for the one before.
 template <typename CellOf>
 UnfilledVector<std::uint32_t> order_by_cell(std::size_t count, const CellOf& cell_of) {
     UnfilledVector<std::uint16_t> cells;
     reserve_large(cells, count);
     cells.resize(count);
-    std::vector<std::array<std::uint32_t, 2>> next(kCells);  // place of each cell's first one in the first half, and in the second
+    std::vector<std::array<std::uint32_t, 2>> next(
+        kCells);  // place of each cell's first one in the first half, and in the second
     const std::size_t half = count / 2;
     const auto for_all = [half, count](const auto& work) {
         for (std::size_t i = 0; i < half; ++i) {
@@ -42,7 +44,8 @@ UnfilledVector<std::uint32_t> order_by_cell(std::size_t count, const CellOf& cel
     UnfilledVector<std::uint32_t> order;
     reserve_large(order, count);
     order.resize(count);
-    for_all([&](std::size_t i, std::size_t of_half) { order[next[cells[i]][of_half]++] = static_cast<std::uint32_t>(i); });
+    for_all(
+        [&](std::size_t i, std::size_t of_half) { order[next[cells[i]][of_half]++] = static_cast<std::uint32_t>(i); });
     return order;
 }
 
@@ -78,7 +81,8 @@ SpatialOrder::SpatialOrder(std::span<const glm::vec3> positions, std::span<const
             along[i] = static_cast<std::int32_t>(cell > 0 ? (cell < kLast ? cell : kLast) : 0.0f);
         }
         for (std::size_t i = 0; i < count; ++i) {
-            cells_[first + i] = static_cast<std::uint16_t>((along[3 * i + 2] * kCellsAlong + along[3 * i + 1]) * kCellsAlong + along[3 * i]);
+            cells_[first + i] = static_cast<std::uint16_t>(
+                (along[3 * i + 2] * kCellsAlong + along[3 * i + 1]) * kCellsAlong + along[3 * i]);
         }
     }
 }
@@ -90,7 +94,8 @@ UnfilledVector<std::uint32_t> SpatialOrder::of_triangles(std::span<const std::ui
     });
 }
 
-UnfilledVector<std::uint32_t> SpatialOrder::of_polygons(const PolygonSoup& soup, std::span<const std::uint32_t> polygons) const {
+UnfilledVector<std::uint32_t> SpatialOrder::of_polygons(const PolygonSoup& soup,
+                                                        std::span<const std::uint32_t> polygons) const {
     return order_by_cell(polygons.size(), [&](std::size_t i) {
         std::uint16_t first = kCells - 1;
         for (const std::uint32_t v : soup.polygon(polygons[i])) first = std::min(first, cells_[v]);

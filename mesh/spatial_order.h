@@ -13,12 +13,13 @@ namespace burin {
 /// Meshes of so many polygons and more are put in spatial order; smaller ones fit the caches in any.
 constexpr std::size_t kWorthSpatialOrder = std::size_t{1} << 16;
 
-/// Puts polygons together that are near each other: by the first cell that has a corner of theirs, of 16 x 16 x 16 cells over the
-/// model, row by row, and in a cell in the order given. So triangles with corners at the same places keep their order.
+/// Puts polygons together that are near each other: by the first cell that has a corner of theirs, of 16 x 16 x 16
+/// cells over the model, row by row, and in a cell in the order given. So triangles with corners at the same places
+/// keep their order.
 class SpatialOrder {
   public:
-    /// `positions`: of vertices, all of them finite. `corners`: of polygons, numbers of vertices; of other vertices, where they are
-    /// does not count.
+    /// `positions`: of vertices, all of them finite. `corners`: of polygons, numbers of vertices; of other vertices,
+    /// where they are does not count.
     SpatialOrder(std::span<const glm::vec3> positions, std::span<const std::uint32_t> corners);
 
     /// The numbers of all triangles. `corners`: three vertices per triangle.

@@ -36,18 +36,21 @@ class Corners {
         std::vector<SegmentPiece> ends;
         ends.reserve(2 * borders.segments().size());
         for (std::uint32_t i = 0; i < borders.segments().size(); ++i) {
-            for (const glm::dvec3& end : {borders.segments()[i].a, borders.segments()[i].b}) ends.push_back(piece_around(end, end, i));
+            for (const glm::dvec3& end : {borders.segments()[i].a, borders.segments()[i].b})
+                ends.push_back(piece_around(end, end, i));
         }
         ends_ = SegmentTree(ends);
     }
 
-    /// The numbers of borders, each once, in no order: all with an end as near as `most` to the way from a to b, but for those whose
-    /// ends are as near as `least` to a or b.
-    void find(const glm::dvec3& a, const glm::dvec3& b, double most, double least, std::vector<std::uint32_t>& near) const {
+    /// The numbers of borders, each once, in no order: all with an end as near as `most` to the way from a to b, but
+    /// for those whose ends are as near as `least` to a or b.
+    void find(const glm::dvec3& a, const glm::dvec3& b, double most, double least,
+              std::vector<std::uint32_t>& near) const {
         near.clear();
         if (ends_.is_empty()) return borders_.find_in_box(glm::min(a, b) - most, glm::max(a, b) + most, near);
         const NearSegment may_be_near{a, b, most * (1 + 1e-6)};
-        const auto is_at = [least](const glm::dvec3& place, const glm::vec3& low, const glm::vec3& high) {  // all of a box
+        const auto is_at = [least](const glm::dvec3& place, const glm::vec3& low,
+                                   const glm::vec3& high) {  // all of a box
             const glm::dvec3 farthest = glm::max(glm::abs(glm::dvec3(low) - place), glm::abs(glm::dvec3(high) - place));
             return glm::dot(farthest, farthest) < least * least * (1 - 1e-6);
         };
@@ -69,7 +72,8 @@ class Corners {
 };
 
 /// Cuts of one border, in order along it.
-void find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i, std::vector<std::uint32_t>& near, std::vector<Cut>& cuts) {
+void find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i, std::vector<std::uint32_t>& near,
+               std::vector<Cut>& cuts) {
     const Segment& s = sides.segments()[i];
     const double length = sides.length(i), most = sides.widest(i, length);
     if (!(most > 0)) return;
@@ -85,16 +89,20 @@ void find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i,
         const std::size_t before = cuts.size();
         for (const glm::dvec3 corner : {t.a, t.b}) {
             const double at = glm::dot(corner - a, along);
-            const bool is_inside = at > 0 && at < length && glm::distance(corner, a) > widest && glm::distance(corner, b) > widest;
-            if (is_inside && glm::distance(corner, a + at * along) <= widest) cuts.push_back({s.half_edge, at / length});
+            const bool is_inside =
+                at > 0 && at < length && glm::distance(corner, a) > widest && glm::distance(corner, b) > widest;
+            if (is_inside && glm::distance(corner, a + at * along) <= widest)
+                cuts.push_back({s.half_edge, at / length});
         }
-        if (cuts.size() > before && !sides.are_beside(i, j)) cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(before), cuts.end());
+        if (cuts.size() > before && !sides.are_beside(i, j))
+            cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(before), cuts.end());
     }
     const auto begin = cuts.begin() + static_cast<std::ptrdiff_t>(first);
     std::sort(begin, cuts.end(), [](const Cut& p, const Cut& q) { return p.share < q.share; });
     // Corners of several polygons in one place are one.
     constexpr double kSamePlace = 1e-4;
-    const auto end = std::unique(begin, cuts.end(), [](const Cut& p, const Cut& q) { return q.share - p.share < kSamePlace; });
+    const auto end =
+        std::unique(begin, cuts.end(), [](const Cut& p, const Cut& q) { return q.share - p.share < kSamePlace; });
     cuts.erase(end, cuts.end());
 }
 
@@ -114,7 +122,8 @@ void cut_fan(std::vector<Part>& parts, std::uint8_t edge, std::span<const std::u
             std::vector<Part> fan;
             std::uint32_t from = whole.corners[k];
             for (const std::uint32_t point : points) {
-                fan.push_back({{from, point, whole.corners[apex]}, {edge, 3, fan.empty() ? whole.edges[apex] : std::uint8_t{3}}});
+                fan.push_back(
+                    {{from, point, whole.corners[apex]}, {edge, 3, fan.empty() ? whole.edges[apex] : std::uint8_t{3}}});
                 from = point;
             }
             fan.push_back({{from, whole.corners[n], whole.corners[apex]}, {edge, whole.edges[n], 3}});
@@ -156,7 +165,8 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
         const auto corner = [&](HalfEdge h) { return mesh.local_position(mesh.triangles[t][h % 3]); };
         std::array<HalfEdge, 3> edges{3 * t, 3 * t + 1, 3 * t + 2};
         const auto length = [&](HalfEdge h) { return glm::distance(corner(h), corner(h + 1)); };
-        if (cut != first) std::stable_sort(edges.begin(), edges.end(), [&](HalfEdge g, HalfEdge h) { return length(g) > length(h); });
+        if (cut != first)
+            std::stable_sort(edges.begin(), edges.end(), [&](HalfEdge g, HalfEdge h) { return length(g) > length(h); });
         for (const HalfEdge h : edges) {
             points.clear();
             for (auto it = first; it != cut; ++it) {

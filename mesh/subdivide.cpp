@@ -111,8 +111,8 @@ PolygonMesh subdivide_as(const PolygonMesh& cage, int levels, const std::string&
     std::vector<std::uint32_t> materials = cage.polygon_material;
     std::vector<bool> marked(om.n_edges(), false);
     for (const auto& [a, b] : cage.marked_edges) {
-        const auto h = om.find_halfedge(OpenMesh::VertexHandle(static_cast<int>(a)),
-                                        OpenMesh::VertexHandle(static_cast<int>(b)));
+        const auto h =
+            om.find_halfedge(OpenMesh::VertexHandle(static_cast<int>(a)), OpenMesh::VertexHandle(static_cast<int>(b)));
         if (h.is_valid()) marked[static_cast<std::size_t>(om.edge_handle(h).idx())] = true;
     }
     for (int level = 0; level < levels; ++level) {
@@ -153,7 +153,8 @@ PolygonMesh subdivide_as(const PolygonMesh& cage, int levels, const std::string&
 
 }  // namespace
 
-PolygonCounts count_subdivided(PolygonCounts mesh, SubdivisionScheme scheme, int levels, const std::string& object_name) {
+PolygonCounts count_subdivided(PolygonCounts mesh, SubdivisionScheme scheme, int levels,
+                               const std::string& object_name) {
     const bool all_triangles = mesh.corners == 3 * mesh.polygons;
     const bool is_loop = scheme == SubdivisionScheme::loop || (scheme == SubdivisionScheme::automatic && all_triangles);
     for (int level = 0; level < levels; ++level) {
@@ -172,11 +173,11 @@ void count_mesh(ModelBudget& budget, PolygonCounts mesh, const std::string& obje
     constexpr std::uint64_t kBytesPerCorner = 60;  // while it is built; measured
     char million[32];
     std::snprintf(million, sizeof million, "%.1f", 1e-6 * static_cast<double>(mesh.polygons));
-    budget.add(saturating_product(kBytesPerCorner, mesh.corners), object + " of " + million + " million polygons (" + settings + ")");
+    budget.add(saturating_product(kBytesPerCorner, mesh.corners),
+               object + " of " + million + " million polygons (" + settings + ")");
 }
 
-PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
-                      const std::string& object_name) {
+PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels, const std::string& object_name) {
     static std::once_flag silenced;  // OpenMesh reports every refused face on standard error
     std::call_once(silenced, [] { omerr().disable(); });
 
@@ -187,7 +188,8 @@ PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int lev
     if (scheme == SubdivisionScheme::automatic) {
         scheme = all_triangles ? SubdivisionScheme::loop : SubdivisionScheme::catmull_clark;
     }
-    count_subdivided({mesh.polygon_count(), mesh.corners.size()}, scheme, levels, object_name);  // refuses what is too large
+    count_subdivided({mesh.polygon_count(), mesh.corners.size()}, scheme, levels,
+                     object_name);  // refuses what is too large
     if (scheme == SubdivisionScheme::catmull_clark) {
         return subdivide_as<PolyMesh>(mesh, levels, object_name);
     }

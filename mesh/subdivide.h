@@ -21,9 +21,11 @@ struct PolygonCounts {
 };
 
 /// What subdivide() makes of a mesh, without doing it. Throws InputError if that is more than 2^28 polygons.
-PolygonCounts count_subdivided(PolygonCounts mesh, SubdivisionScheme scheme, int levels, const std::string& object_name);
+PolygonCounts count_subdivided(PolygonCounts mesh, SubdivisionScheme scheme, int levels,
+                               const std::string& object_name);
 
-/// Counts what a mesh of this size takes. `object` and `settings` are for the message: "object 'ball'" and "subdivide 8".
+/// Counts what a mesh of this size takes. `object` and `settings` are for the message: "object 'ball'" and "subdivide
+/// 8".
 void count_mesh(ModelBudget& budget, PolygonCounts mesh, const std::string& object, const std::string& settings);
 
 /// Subdivides the control mesh `levels` times. Materials and edge marks go to the children. The
@@ -32,7 +34,6 @@ void count_mesh(ModelBudget& budget, PolygonCounts mesh, const std::string& obje
 /// Throws InputError if the surface is not two-manifold or not wound consistently (subdivision has
 /// no meaning there), if Loop is asked for polygons that are not triangles, or if more than
 /// 2^28 polygons would result. `object_name` is for messages.
-PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
-                      const std::string& object_name);
+PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels, const std::string& object_name);
 
 }  // namespace burin

@@ -95,8 +95,7 @@ void add_patch(const Patch& patch, bool mirror_x, bool mirror_y, int n, PolygonS
     for (std::uint32_t r = 0; r + 1 < row; ++r) {
         for (std::uint32_t c = 0; c + 1 < row; ++c) {
             const std::uint32_t a = first + r * row + c;
-            const std::uint32_t quad[4] = {a, turned ? a + row : a + 1, a + row + 1,
-                                           turned ? a + 1 : a + row};
+            const std::uint32_t quad[4] = {a, turned ? a + row : a + 1, a + row + 1, turned ? a + 1 : a + row};
             soup.add_polygon(quad);
         }
     }

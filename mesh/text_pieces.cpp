@@ -37,7 +37,8 @@ LineCutter::LineCutter(std::size_t text_size, std::size_t first_line, std::size_
     : text_size_(text_size), piece_size_(piece_size), line_(first_line), copy_(std::move(copy)) {}
 
 std::size_t LineCutter::size_for(std::size_t text_size, int threads) {
-    return std::clamp<std::size_t>(text_size / (8 * static_cast<std::size_t>(resolve_thread_count(threads))), 4096, 1 << 18);
+    return std::clamp<std::size_t>(text_size / (8 * static_cast<std::size_t>(resolve_thread_count(threads))), 4096,
+                                   1 << 18);
 }
 
 std::optional<TextPiece> LineCutter::take(std::vector<char>& buffer) {

@@ -18,8 +18,8 @@ struct TextPiece {
     std::size_t feeds = 0;  ///< how many line feeds are in them
 };
 
-/// Cuts a text, whose first line has the number `first_line`, into pieces of about `piece_size` bytes, but a line at least.
-/// Each is copied, and its lines are counted, when it is taken: whoever reads it then finds it in the caches.
+/// Cuts a text, whose first line has the number `first_line`, into pieces of about `piece_size` bytes, but a line at
+/// least. Each is copied, and its lines are counted, when it is taken: whoever reads it then finds it in the caches.
 class LineCutter {
   public:
     /// Copies what stands in the text from a place on.

@@ -57,8 +57,7 @@ inline const char* scan_number(const char* p, const char* end, double& value) {
     }
     if (simple) {
         const double magnitude = static_cast<double>(mantissa);
-        const double scaled =
-            exponent < 0 ? magnitude / kPowersOfTen[-exponent] : magnitude * kPowersOfTen[exponent];
+        const double scaled = exponent < 0 ? magnitude / kPowersOfTen[-exponent] : magnitude * kPowersOfTen[exponent];
         value = negative ? -scaled : scaled;
         return p;
     }

@@ -55,8 +55,7 @@ class ReflexGrid {
         cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (is_reflex[i]) {
-                cells_[cell(column(points[i].x), row(points[i].y))].push_back(
-                    static_cast<std::uint32_t>(i));
+                cells_[cell(column(points[i].x), row(points[i].y))].push_back(static_cast<std::uint32_t>(i));
             }
         }
     }
@@ -74,9 +73,7 @@ class ReflexGrid {
         return false;
     }
 
-    void remove(std::uint32_t i, glm::dvec2 p) {
-        std::erase(cells_[cell(column(p.x), row(p.y))], i);
-    }
+    void remove(std::uint32_t i, glm::dvec2 p) { std::erase(cells_[cell(column(p.x), row(p.y))], i); }
 
   private:
     int place(double value, double low, double high) const {
@@ -86,8 +83,7 @@ class ReflexGrid {
     int column(double x) const { return place(x, low_.x, high_.x); }
     int row(double y) const { return place(y, low_.y, high_.y); }
     std::size_t cell(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) +
-               static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
     }
 
     glm::dvec2 low_, high_;
@@ -151,9 +147,7 @@ class EarClipper {
         return reflex;
     }
 
-    double turn_at(std::uint32_t i) const {
-        return turn(points_[previous_[i]], points_[i], points_[next_[i]]);
-    }
+    double turn_at(std::uint32_t i) const { return turn(points_[previous_[i]], points_[i], points_[next_[i]]); }
 
     /// An ear is a corner whose triangle holds no other corner. Only reflex corners can be in it.
     bool is_ear(std::uint32_t i) const {
@@ -161,14 +155,13 @@ class EarClipper {
         const std::uint32_t before = previous_[i];
         const std::uint32_t after = next_[i];
         const glm::dvec2 a = points_[before], b = points_[i], c = points_[after];
-        return !grid_.any_in_box(
-            glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), [&](std::uint32_t k) {
-                if (k == before || k == i || k == after) return false;
-                const glm::dvec2 p = points_[k];
-                // A repeated corner (the cut to a hole) does not block.
-                if (p == a || p == b || p == c) return false;
-                return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
-            });
+        return !grid_.any_in_box(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), [&](std::uint32_t k) {
+            if (k == before || k == i || k == after) return false;
+            const glm::dvec2 p = points_[k];
+            // A repeated corner (the cut to a hole) does not block.
+            if (p == a || p == b || p == c) return false;
+            return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+        });
     }
 
     /// Removes corner i and returns where to go on: two corners further, which avoids slivers.

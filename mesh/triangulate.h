@@ -17,9 +17,8 @@ glm::dvec3 area_vector(std::span<const glm::dvec3> corners);
 /// its winding. The first one begins with a side of the polygon.
 ///
 /// Ear clipping (Meisters 1975), with the reflex corners in a grid so that large polygons stay
-/// fast, then flips to Delaunay (delaunay_flips.h). Corners may repeat coordinates (holes joined by a cut). A polygon that crosses itself
-/// still gives n - 2 triangles.
-void triangulate_polygon(std::span<const glm::dvec3> corners,
-                         std::vector<std::array<std::uint32_t, 3>>& triangles);
+/// fast, then flips to Delaunay (delaunay_flips.h). Corners may repeat coordinates (holes joined by a cut). A polygon
+/// that crosses itself still gives n - 2 triangles.
+void triangulate_polygon(std::span<const glm::dvec3> corners, std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 }  // namespace burin

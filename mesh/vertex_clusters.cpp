@@ -104,7 +104,8 @@ glm::dvec3 VertexClusters::area_of(const Positions& positions, std::uint32_t tri
     return glm::cross(positions[t[1]] - a, positions[t[2]] - a);
 }
 
-/// Whether a triangle is a needle whose end is about as short as what its corners are moved by: then its normal says nothing.
+/// Whether a triangle is a needle whose end is about as short as what its corners are moved by: then its normal says
+/// nothing.
 bool VertexClusters::is_needle(const Positions& moved, std::uint32_t triangle) const {
     const auto& t = mesh_.triangles[triangle];
     std::array<double, 3> lengths{};
@@ -126,7 +127,8 @@ bool VertexClusters::undo_turned(const Positions& moved) {
         const auto turns = [&](std::uint32_t m) {
             return std::any_of(triangles_[m].begin(), triangles_[m].end(), [&](std::uint32_t t) {
                 const glm::dvec3 before = area_of(given_, t), after = area_of(moved, t);
-                return glm::dot(before, after) < kCosLargestTurn * glm::length(before) * glm::length(after) && !is_needle(moved, t);
+                return glm::dot(before, after) < kCosLargestTurn * glm::length(before) * glm::length(after) &&
+                       !is_needle(moved, t);
             });
         };
         if (std::any_of(members.begin(), members.end(), turns)) undone.push_back(cluster_[members.front()]);
@@ -153,7 +155,9 @@ Mesh VertexClusters::merge() {
         const auto& [a, b, c] = mesh_.triangles[t];
         return std::array{stand_in(a), stand_in(b), stand_in(c)};
     };
-    const auto has_collapsed = [](const std::array<std::uint32_t, 3>& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; };
+    const auto has_collapsed = [](const std::array<std::uint32_t, 3>& c) {
+        return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+    };
     Mesh result = with_polygons_of(mesh_);
     result.positions.reserve(moved.size());
     for (const glm::dvec3& p : moved) add_position(result, p, mesh_.has_residuals());

@@ -24,8 +24,9 @@ class VertexClusters {
     bool may_join(Pair pair, double largest, bool may_collapse = false) const;
     void join(Pair pair);
 
-    /// The mesh with one vertex for each cluster. Triangles that have collapsed are left out. Clusters that would turn another
-    /// one by more than 60 degrees fall apart, unless that is a needle whose end is about as short as what they move.
+    /// The mesh with one vertex for each cluster. Triangles that have collapsed are left out. Clusters that would turn
+    /// another one by more than 60 degrees fall apart, unless that is a needle whose end is about as short as what they
+    /// move.
     Mesh merge();
 
   private:
@@ -39,7 +40,7 @@ class VertexClusters {
     std::uint32_t stand_in(std::uint32_t vertex) const;
 
     const Mesh& mesh_;
-    Positions given_;  // before anything moves
+    Positions given_;                      // before anything moves
     std::vector<std::uint32_t> number_;    // per vertex of the mesh, of those in pairs
     std::vector<std::uint32_t> vertices_;  // the other way round
     std::vector<std::uint32_t> cluster_;
@@ -47,8 +48,8 @@ class VertexClusters {
     std::vector<std::vector<std::uint32_t>> triangles_;  // per vertex
 };
 
-/// Copies what does not depend on triangles and their corners. Polygons get their normals, also where they had none since
-/// all were triangles, for they may no longer be what they were made of.
+/// Copies what does not depend on triangles and their corners. Polygons get their normals, also where they had none
+/// since all were triangles, for they may no longer be what they were made of.
 Mesh with_polygons_of(const Mesh& mesh);
 
 }  // namespace burin

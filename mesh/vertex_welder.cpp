@@ -11,8 +11,7 @@ namespace burin {
 namespace {
 
 std::uint32_t hash(const glm::vec3& p) {
-    const std::uint64_t xy =
-        std::uint64_t{std::bit_cast<std::uint32_t>(p.x)} << 32 | std::bit_cast<std::uint32_t>(p.y);
+    const std::uint64_t xy = std::uint64_t{std::bit_cast<std::uint32_t>(p.x)} << 32 | std::bit_cast<std::uint32_t>(p.y);
     std::uint64_t h = xy * 0x9E3779B97F4A7C15u;
     h = (h ^ h >> 32 ^ std::bit_cast<std::uint32_t>(p.z)) * 0xD6E8FEB86659FD93u;
     return static_cast<std::uint32_t>(h >> 32);
@@ -45,8 +44,8 @@ bool have_many_again(std::span<const std::uint32_t> hashes) {
 }
 
 /// first[v] for vertices in ascending order, as weld_vertices() has it: there are no equal ones but among these.
-void weld(std::span<const glm::vec3> positions, std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> hashes,
-          std::vector<std::uint32_t>& first) {
+void weld(std::span<const glm::vec3> positions, std::span<const std::uint32_t> vertices,
+          std::span<const std::uint32_t> hashes, std::vector<std::uint32_t>& first) {
     constexpr std::uint32_t kEmpty = 0xFFFFFFFFu;
     const std::size_t mask = std::bit_ceil(std::max<std::size_t>(16, 2 * vertices.size())) - 1;
     std::vector<std::uint32_t> table = large_vector(mask + 1, kEmpty);
@@ -69,7 +68,8 @@ std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> positions) {
     reserve_large(first, count);
     first.resize(count);
     std::iota(first.begin(), first.end(), 0u);
-    // Where most have a hash of their own, these need not be looked for. Which have not is told by sets that the caches hold.
+    // Where most have a hash of their own, these need not be looked for. Which have not is told by sets that the caches
+    // hold.
     UnfilledVector<std::uint32_t> hashes;
     reserve_large(hashes, count);
     hashes.resize(count);

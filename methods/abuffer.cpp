@@ -43,7 +43,8 @@ void drop_above(double y, std::vector<std::vector<Segment>>& lists) {
 
 /// Edges that are lines from anywhere, wherever they are on the screen.
 void add_features(const Frame& frame, const ScreenSurfaces& screen, int threads, std::vector<WholeLine>& features) {
-    const std::vector<WholeLine> lines = find_edge_lines(frame, screen, PossibleLines(screen, threads), anywhere_on_screen(), threads);
+    const std::vector<WholeLine> lines =
+        find_edge_lines(frame, screen, PossibleLines(screen, threads), anywhere_on_screen(), threads);
     std::copy_if(lines.begin(), lines.end(), std::back_inserter(features), is_feature);
 }
 
@@ -73,7 +74,9 @@ void prepare_for_abuffer(Scene& scene, int threads, bool saves_memory) {
 }
 
 /// Hidden lines are drawn below visible ones.
-bool abuffer_finishes_in_bands(const Frame& frame) { return !HiddenPass::is_needed(*frame.scene) && !needs_all_visible_lines(frame); }
+bool abuffer_finishes_in_bands(const Frame& frame) {
+    return !HiddenPass::is_needed(*frame.scene) && !needs_all_visible_lines(frame);
+}
 
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
     Frame frame = given;
@@ -116,7 +119,8 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     for (const PictureSlice& piece : plan.visible) {
         show(piece.instances);
         const PixelRect rows = tiles.only(piece.rows).rect();
-        StrokePrinter::Lists unfinished = surfaces.draw(rows, tile_samples, waits ? nullptr : &finisher, segments, film, stats);
+        StrokePrinter::Lists unfinished =
+            surfaces.draw(rows, tile_samples, waits ? nullptr : &finisher, segments, film, stats);
         const bool is_last = &piece == &plan.visible.back();
         if (waits && !is_last) continue;
         watch.lap();

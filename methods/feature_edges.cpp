@@ -104,8 +104,7 @@ class InstanceEdges {
         const glm::dvec3 seen = 0.5 * (view(a) + view(b));
         LineClassSet classes;
         if (-seen.z > surfaces_.projection.near_distance) {
-            classes = contact_classes(surfaces_, own, other, surfaces_.projection.to_pixel(seen),
-                                      frame_.criteria);
+            classes = contact_classes(surfaces_, own, other, surfaces_.projection.to_pixel(seen), frame_.criteria);
         }
         // The patches need not agree in winding: they face apart if both lie on one side of the edge.
         if (same_side_of_edge(view(a), view(b), third_corner(h), third_corner(*partner))) {
@@ -113,14 +112,10 @@ class InstanceEdges {
         }
         return classes;
     }
-    glm::dvec3 third_corner(HalfEdge h) const {
-        return view(mesh_.triangles[h / 3][(h % 3 + 2) % 3]);
-    }
+    glm::dvec3 third_corner(HalfEdge h) const { return view(mesh_.triangles[h / 3][(h % 3 + 2) % 3]); }
     /// As the eye sees it.
-    bool same_side_of_edge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p,
-                           const glm::dvec3& q) const {
-        const glm::dvec3 towards_eye =
-            surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -a;
+    bool same_side_of_edge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p, const glm::dvec3& q) const {
+        const glm::dvec3 towards_eye = surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -a;
         const glm::dvec3 side = glm::cross(b - a, towards_eye);
         return glm::dot(side, p - a) * glm::dot(side, q - a) > 0;
     }
@@ -153,12 +148,10 @@ FeatureEdges::FeatureEdges(const Frame& frame, int threads) {
         InstanceEdges edges(frame, i, outlines(i));
         std::vector<std::uint8_t>& classes = classes_[i];
         classes.resize(3 * mesh.triangles.size());
-        parallel_for_each(mesh.polygon_count, threads, [&](std::size_t p) {
-            edges.find_facing(static_cast<std::uint32_t>(p));
-        });
-        parallel_for_each(classes.size(), threads, [&](std::size_t h) {
-            classes[h] = edges.classes_of(static_cast<HalfEdge>(h)).bits;
-        });
+        parallel_for_each(mesh.polygon_count, threads,
+                          [&](std::size_t p) { edges.find_facing(static_cast<std::uint32_t>(p)); });
+        parallel_for_each(classes.size(), threads,
+                          [&](std::size_t h) { classes[h] = edges.classes_of(static_cast<HalfEdge>(h)).bits; });
     }
 }
 

@@ -10,9 +10,8 @@ namespace burin {
 
 /// The classes that an edge of a mesh can have by itself. Where surfaces of different objects meet or
 /// pass through each other there need not be an edge.
-constexpr LineClassSet kEdgeClasses = LineClassSet(LineClass::mark) | LineClass::border |
-                                      LineClass::silhouette | LineClass::material |
-                                      LineClass::crease | LineClass::polygon;
+constexpr LineClassSet kEdgeClasses = LineClassSet(LineClass::mark) | LineClass::border | LineClass::silhouette |
+                                      LineClass::material | LineClass::crease | LineClass::polygon;
 
 /// Which edges of the polygons of a frame are lines in this view: for methods that draw mesh edges.
 ///
@@ -33,12 +32,8 @@ class FeatureEdges {
         return LineClassSet::from_bits(classes_[s.instance][3 * std::size_t{s.triangle} + half_edge]);
     }
     /// What the line along the edge is called, if it is one.
-    std::optional<LineClass> drawn(SurfaceId s, HalfEdge half_edge) const {
-        return classes(s, half_edge).first();
-    }
-    const PolygonOutlines& outlines(std::uint32_t instance) const {
-        return outlines_[outlines_of_instance_[instance]];
-    }
+    std::optional<LineClass> drawn(SurfaceId s, HalfEdge half_edge) const { return classes(s, half_edge).first(); }
+    const PolygonOutlines& outlines(std::uint32_t instance) const { return outlines_[outlines_of_instance_[instance]]; }
 
   private:
     std::vector<std::vector<std::uint8_t>> classes_;  // per instance and half-edge

@@ -21,9 +21,7 @@ class PolygonOutlines {
     std::span<const std::uint32_t> triangles(std::uint32_t polygon) const {
         return part(triangles_, first_triangle_, polygon);
     }
-    std::uint32_t polygon_count() const {
-        return static_cast<std::uint32_t>(first_triangle_.size()) - 1;
-    }
+    std::uint32_t polygon_count() const { return static_cast<std::uint32_t>(first_triangle_.size()) - 1; }
 
     /// The triangle of the same polygon on the other side of a diagonal; kNoHalfEdge if `h` lies on
     /// the outline of its polygon.
@@ -31,8 +29,7 @@ class PolygonOutlines {
 
   private:
     static std::span<const std::uint32_t> part(const std::vector<std::uint32_t>& all,
-                                               const std::vector<std::uint32_t>& first,
-                                               std::uint32_t polygon) {
+                                               const std::vector<std::uint32_t>& first, std::uint32_t polygon) {
         return std::span(all).subspan(first[polygon], first[polygon + 1] - first[polygon]);
     }
 

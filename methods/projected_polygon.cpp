@@ -57,8 +57,8 @@ DepthRange DepthRange::fitted(const Frame& frame) {
     return between(near_distance, high + margin, projection.orthographic);
 }
 
-void project_polygon(const Frame& frame, const FeatureEdges& features, const DepthRange& depth,
-                     std::uint32_t instance, std::uint32_t polygon, ProjectedPolygon& result) {
+void project_polygon(const Frame& frame, const FeatureEdges& features, const DepthRange& depth, std::uint32_t instance,
+                     std::uint32_t polygon, ProjectedPolygon& result) {
     result.instance = instance;
     result.polygon = polygon;
     result.edges.clear();
@@ -81,8 +81,7 @@ void project_polygon(const Frame& frame, const FeatureEdges& features, const Dep
             const glm::dvec3& b = c[(k + 1) % 3];
             if (is_inside(a)) kept[count++] = project(projection, depth, a);
             if (is_inside(a) == is_inside(b)) continue;
-            const glm::dvec3 cut = is_inside(a) ? cut_at_near(near_distance, a, b)
-                                                : cut_at_near(near_distance, b, a);
+            const glm::dvec3 cut = is_inside(a) ? cut_at_near(near_distance, a, b) : cut_at_near(near_distance, b, a);
             kept[count++] = project(projection, depth, cut);
         }
         for (std::size_t i = 2; i < count; ++i) {

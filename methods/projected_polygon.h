@@ -22,9 +22,7 @@ struct DepthRange {
     static DepthRange fitted(const Frame& frame);
 
     double z(double distance) const { return orthographic ? a + b * distance : a + b / distance; }
-    double distance(double z_value) const {
-        return orthographic ? (z_value - a) / b : b / (z_value - a);
-    }
+    double distance(double z_value) const { return orthographic ? (z_value - a) / b : b / (z_value - a); }
 };
 
 /// A corner on the screen. Nothing is snapped.
@@ -63,7 +61,7 @@ struct ProjectedPolygon {
 };
 
 /// Projects polygon `polygon` of an instance into `result`, whose memory is used again.
-void project_polygon(const Frame& frame, const FeatureEdges& features, const DepthRange& depth,
-                     std::uint32_t instance, std::uint32_t polygon, ProjectedPolygon& result);
+void project_polygon(const Frame& frame, const FeatureEdges& features, const DepthRange& depth, std::uint32_t instance,
+                     std::uint32_t polygon, ProjectedPolygon& result);
 
 }  // namespace burin

@@ -42,8 +42,7 @@ PixelRect touched_pixels(const ScreenPolygon& polygon, int margin_px) {
 
 }  // namespace
 
-SurfaceBins::SurfaceBins(const SurfaceSet& surfaces, PixelRect region, int tile_px, int margin_px,
-                         int threads)
+SurfaceBins::SurfaceBins(const SurfaceSet& surfaces, PixelRect region, int tile_px, int margin_px, int threads)
     : region_(region),
       tile_px_(tile_px),
       columns_((region.width() + tile_px - 1) / tile_px),
@@ -58,8 +57,8 @@ SurfaceBins::SurfaceBins(const SurfaceSet& surfaces, PixelRect region, int tile_
         for (std::uint32_t t = chunks[c].first; t < chunks[c].end; ++t) {
             const SurfaceId surface{chunks[c].instance, t};
             PixelRect box = touched_pixels(surfaces.screen_polygon(surface), margin_px);
-            box = {std::max(box.x0, region.x0), std::max(box.y0, region.y0),
-                   std::min(box.x1, region.x1), std::min(box.y1, region.y1)};
+            box = {std::max(box.x0, region.x0), std::max(box.y0, region.y0), std::min(box.x1, region.x1),
+                   std::min(box.y1, region.y1)};
             if (box.x0 >= box.x1 || box.y0 >= box.y1) continue;
             for (int row = (box.y0 - region.y0) / tile_px; row <= (box.y1 - 1 - region.y0) / tile_px; ++row) {
                 for (int col = (box.x0 - region.x0) / tile_px; col <= (box.x1 - 1 - region.x0) / tile_px; ++col) {

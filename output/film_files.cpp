@@ -27,7 +27,8 @@ void write_output(const Frame& frame, const Film& film, const OutputOptions& opt
 
 BandWriter::BandWriter(Film& film, const OutputOptions& options)
     : film_(film),
-      exr_(std::make_unique<ExrWriter>(options.path, film.display(), film.crop(), film.channels(), exr_options(options))) {}
+      exr_(std::make_unique<ExrWriter>(options.path, film.display(), film.crop(), film.channels(),
+                                       exr_options(options))) {}
 
 void BandWriter::write(std::size_t band) {
     try {

@@ -23,7 +23,9 @@ struct Placing {
     double scale;             // at least that of any direction
 
     auto operator<=>(const Placing& other) const {
-        const auto numbers = [](const Placing& p) { return std::tuple(p.per_position.x, p.per_position.y, p.per_position.z, p.distance, p.scale); };
+        const auto numbers = [](const Placing& p) {
+            return std::tuple(p.per_position.x, p.per_position.y, p.per_position.z, p.distance, p.scale);
+        };
         return numbers(*this) <=> numbers(other);
     }
     bool operator==(const Placing& other) const { return (*this <=> other) == 0; }
@@ -35,7 +37,8 @@ Placing placing_of(const glm::dmat4& to_view, const glm::dvec3& origin) {
     const double x = glm::length(linear[0]), y = glm::length(linear[1]), z = glm::length(linear[2]);
     const double largest = std::max({x, y, z});
     // Of directions at right angles the largest, of others no more than all together.
-    const double skew = std::abs(glm::dot(linear[0], linear[1])) + std::abs(glm::dot(linear[1], linear[2])) + std::abs(glm::dot(linear[0], linear[2]));
+    const double skew = std::abs(glm::dot(linear[0], linear[1])) + std::abs(glm::dot(linear[1], linear[2])) +
+                        std::abs(glm::dot(linear[0], linear[2]));
     const double scale = skew <= 1e-6 * largest * largest ? largest : std::sqrt(x * x + y * y + z * z);
     return {-row, -(glm::dot(row, origin) + to_view[3].z), scale};
 }
@@ -48,7 +51,8 @@ Distances distances_of(const Placing& placing, const Box& box) {
     const glm::dvec3 a = placing.per_position * box.low, b = placing.per_position * box.high;
     const glm::dvec3 low = glm::min(a, b), high = glm::max(a, b), size = glm::max(glm::abs(a), glm::abs(b));
     const double rounding = 1e-12 * (size.x + size.y + size.z + std::abs(placing.distance));
-    return {low.x + low.y + low.z + placing.distance - rounding, high.x + high.y + high.z + placing.distance + rounding};
+    return {low.x + low.y + low.z + placing.distance - rounding,
+            high.x + high.y + high.z + placing.distance + rounding};
 }
 
 /// Whether anything of it is. `box` is around the mesh.

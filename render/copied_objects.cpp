@@ -13,8 +13,7 @@ namespace {
 
 template <typename T>
 bool are_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 bool are_equal(const Mesh& a, const Mesh& b) {
@@ -22,8 +21,7 @@ bool are_equal(const Mesh& a, const Mesh& b) {
            (a.origin == b.origin && are_same_bytes(a.positions, b.positions) &&
             are_same_bytes(a.residuals, b.residuals) && are_same_bytes(a.triangles, b.triangles) &&
             a.triangle_polygon == b.triangle_polygon && a.polygon_count == b.polygon_count &&
-            a.polygon_material == b.polygon_material && a.marked == b.marked &&
-            a.loose_edges == b.loose_edges);
+            a.polygon_material == b.polygon_material && a.marked == b.marked && a.loose_edges == b.loose_edges);
 }
 
 /// Mixes bytes into a number that differs where they do, nearly always.
@@ -43,22 +41,18 @@ std::uint64_t hash_of_place(const Scene& scene, const SceneObject& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     std::uint64_t hash = mixed(mesh.positions.size(), &object.to_world, sizeof object.to_world);
     hash = mixed(hash ^ mesh.triangles.size(), &mesh.origin, sizeof mesh.origin);
-    return mixed(hash, mesh.positions.data(),
-                 std::min(mesh.positions.size(), std::size_t{4}) * sizeof(glm::vec3));
+    return mixed(hash, mesh.positions.data(), std::min(mesh.positions.size(), std::size_t{4}) * sizeof(glm::vec3));
 }
 
 std::uint64_t hash_of_mesh(const Mesh& mesh) {
-    const std::uint64_t hash =
-        mixed(1, mesh.positions.data(), mesh.positions.size() * sizeof(glm::vec3));
+    const std::uint64_t hash = mixed(1, mesh.positions.data(), mesh.positions.size() * sizeof(glm::vec3));
     return mixed(hash, mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
 }
 
 struct HashedObject {
     std::uint64_t hash;
     std::uint32_t number;
-    bool operator<(const HashedObject& o) const {
-        return std::tie(hash, number) < std::tie(o.hash, o.number);
-    }
+    bool operator<(const HashedObject& o) const { return std::tie(hash, number) < std::tie(o.hash, o.number); }
 };
 
 /// Calls use(objects) for all that have a hash in common with others.
@@ -80,8 +74,7 @@ std::vector<bool> find_copies(const Scene& scene) {
     }
     for_equal_hashes(objects, [&](std::vector<HashedObject> some) {
         throw_if_interrupted();
-        for (HashedObject& o : some)
-            o.hash = hash_of_mesh(scene.meshes[scene.objects[o.number].mesh]);
+        for (HashedObject& o : some) o.hash = hash_of_mesh(scene.meshes[scene.objects[o.number].mesh]);
         for_equal_hashes(some, [&](const std::vector<HashedObject>& equal) {
             const SceneObject& first = scene.objects[equal.front().number];
             bool is_opaque = true;
@@ -91,10 +84,8 @@ std::vector<bool> find_copies(const Scene& scene) {
             for (std::size_t i = 1; i < equal.size(); ++i) {
                 const SceneObject& other = scene.objects[equal[i].number];
                 is_copy[equal[i].number] =
-                    other.to_world == first.to_world &&
-                    are_equal(scene.meshes[first.mesh], scene.meshes[other.mesh]) &&
-                    (other.materials.address() == first.materials.address() ||
-                     other.materials == first.materials);
+                    other.to_world == first.to_world && are_equal(scene.meshes[first.mesh], scene.meshes[other.mesh]) &&
+                    (other.materials.address() == first.materials.address() || other.materials == first.materials);
             }
         });
     });

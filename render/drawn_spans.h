@@ -8,8 +8,8 @@
 
 namespace burin {
 
-/// Which spans of a picture's rows may have anything but background, so that what is blank is not cleared again for the next
-/// picture. Columns and rows are counted from 0. Different threads may note and ask at the same time.
+/// Which spans of a picture's rows may have anything but background, so that what is blank is not cleared again for the
+/// next picture. Columns and rows are counted from 0. Different threads may note and ask at the same time.
 class DrawnSpans {
   public:
     /// Keeps no record: all may have been drawn, always.
@@ -28,7 +28,8 @@ class DrawnSpans {
     void note(int begin, int end, int row) {
         for (int at = begin; at < end; at = next(at)) note(at, row);
     }
-    /// Calls use(begin, end) for the parts of columns [begin, end) that may have been drawn, in this picture or the one before.
+    /// Calls use(begin, end) for the parts of columns [begin, end) that may have been drawn, in this picture or the one
+    /// before.
     template <typename Use>
     void for_drawn(int begin, int end, int row, const Use& use) const {
         if (per_row_ == 0) return use(begin, end);
@@ -52,7 +53,9 @@ class DrawnSpans {
     static void set(Flags& flags, std::uint8_t value) {
         for (auto& flag : flags) flag.store(value, std::memory_order_relaxed);
     }
-    std::size_t place(int column, int row) const { return static_cast<std::size_t>(row) * per_row_ + static_cast<std::size_t>(column >> kShift); }
+    std::size_t place(int column, int row) const {
+        return static_cast<std::size_t>(row) * per_row_ + static_cast<std::size_t>(column >> kShift);
+    }
 
     std::size_t per_row_ = 0;
     Flags before_, now_;

@@ -18,14 +18,20 @@
 namespace burin {
 namespace {
 
-/// Calls add(name, type, plane, background) for the channels of the chosen layers; the last one is what a channel has where
-/// there is no surface and no line.
+/// Calls add(name, type, plane, background) for the channels of the chosen layers; the last one is what a channel has
+/// where there is no surface and no line.
 template <typename Planes, typename Add>
 void for_channels(const LayerSet& layers, LineClassSet classes, Planes& planes, const Add& add) {
-    const auto add_half = [&](const std::string& name, std::uint16_t*& plane) { add(name, PixelType::float16, plane, std::uint16_t{0}); };
-    const auto add_float = [&](const std::string& name, float*& plane, float background) { add(name, PixelType::float32, plane, background); };
-    const auto add_number = [&](const std::string& name, std::uint32_t*& plane) { add(name, PixelType::uint32, plane, std::uint32_t{0}); };
-    const auto add_rgba = [&](const std::string& prefix, std::uint16_t* (&of)[4]) {
+    const auto add_half = [&](const std::string& name, std::uint16_t*& plane) {
+        add(name, PixelType::float16, plane, std::uint16_t{0});
+    };
+    const auto add_float = [&](const std::string& name, float*& plane, float background) {
+        add(name, PixelType::float32, plane, background);
+    };
+    const auto add_number = [&](const std::string& name, std::uint32_t*& plane) {
+        add(name, PixelType::uint32, plane, std::uint32_t{0});
+    };
+    const auto add_rgba = [&](const std::string& prefix, std::uint16_t*(&of)[4]) {
         const char* const names[4] = {"R", "G", "B", "A"};
         for (int c = 0; c < 4; ++c) add_half(prefix + names[c], of[c]);
     };
@@ -83,7 +89,8 @@ inline void prefetch_to_write(const void* at) {
 }
 
 /// Draws a colour over one pixel of four channels.
-__attribute__((always_inline)) inline void blend(std::uint16_t* const (&planes)[4], std::size_t i, const glm::vec4& over) {
+__attribute__((always_inline)) inline void blend(std::uint16_t* const (&planes)[4], std::size_t i,
+                                                 const glm::vec4& over) {
     std::uint16_t* const places[4] = {planes[0] + i, planes[1] + i, planes[2] + i, planes[3] + i};
     const FourFloats color = {over.r, over.g, over.b, over.a};
     const FourFloats before = floats_from_halves(FourHalves{*places[0], *places[1], *places[2], *places[3]});
@@ -98,9 +105,9 @@ std::uint16_t Film::to_half(float value) { return half_from_float(std::min(value
 
 struct Film::Pool {
     std::mutex mutex;
-    std::size_t used = 0;                       // pixels, of blocks in the film
+    std::size_t used = 0;  // pixels, of blocks in the film
     std::vector<std::unique_ptr<Block>> made;
-    std::vector<Block*> closed;                 // of them, for others: between them a heap would fall to pieces
+    std::vector<Block*> closed;  // of them, for others: between them a heap would fall to pieces
 };
 
 Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes)
@@ -114,7 +121,8 @@ Film Film::in_bands(PixelRect display, PixelRect crop, const LayerSet& layers, L
     return {display, crop, layers, classes, shift(kBlockColumns), shift(kBandRows)};
 }
 
-Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int column_shift, int row_shift)
+Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int column_shift,
+           int row_shift)
     : display_(display),
       crop_(crop),
       layers_(layers),
@@ -134,12 +142,15 @@ Film& Film::operator=(Film&&) noexcept = default;
 std::vector<ChannelFormat> Film::channels() const {
     std::vector<ChannelFormat> channels;
     Planes none;
-    for_channels(layers_, classes_, none, [&](const std::string& name, PixelType type, const auto*, auto) { channels.push_back({name, type}); });
+    for_channels(layers_, classes_, none, [&](const std::string& name, PixelType type, const auto*, auto) {
+        channels.push_back({name, type});
+    });
     return channels;
 }
 
 void Film::check_memory(std::size_t pixels) const {
-    static const double physical = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    static const double physical =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     const double needed = static_cast<double>(pixels) * static_cast<double>(bytes_per_pixel_);
     if (needed <= 0.8 * physical) return;
     throw InputError("an image of " + std::to_string(crop_.width()) + "x" + std::to_string(crop_.height()) +
@@ -229,7 +240,8 @@ Film::Place Film::place_of(int x, int y) {
     const std::size_t number = number_of(x, y);
     Block* block = block_of(number);
     if (block == nullptr) block = &add_block(number);
-    const auto row = static_cast<std::size_t>(y - block->image.data().y0), column = static_cast<std::size_t>(x - block->image.data().x0);
+    const auto row = static_cast<std::size_t>(y - block->image.data().y0),
+               column = static_cast<std::size_t>(x - block->image.data().x0);
     return {block->planes, row * static_cast<std::size_t>(block->image.width()) + column};
 }
 
@@ -258,7 +270,8 @@ void Film::put_background(int x0, int x1, int y) {
             if (plane != nullptr) stream_fill(plane + at + (from - first), static_cast<std::size_t>(to - from), value);
         };
         for (std::size_t c = 0; c < 4; ++c) {
-            for (std::uint16_t* plane : {planes.beauty[c], planes.lines[c], planes.surface[c], planes.lines_hidden[c]}) {
+            for (std::uint16_t* plane :
+                 {planes.beauty[c], planes.lines[c], planes.surface[c], planes.lines_hidden[c]}) {
                 clear(plane, std::uint16_t{0});
             }
         }
@@ -408,7 +421,7 @@ void Film::add_lines(int x, int y, const LinePixel& lines) {
 void Film::put(int x, int y, const PixelResult& pixel) {
     note_drawn(x, y);
     const auto [planes, i] = place_of(x, y);
-    const auto put_rgba = [at = i](std::uint16_t* const (&of)[4], const glm::vec4& color) {
+    const auto put_rgba = [at = i](std::uint16_t* const(&of)[4], const glm::vec4& color) {
         if (of[0] == nullptr) return;
         for (int c = 0; c < 4; ++c) of[c][at] = to_half(color[c]);
     };

@@ -20,24 +20,24 @@ namespace burin {
 
 /// The layers that an output file can have.
 struct LayerSet {
-    bool beauty = true;     ///< R G B A: surfaces and lines together
-    bool lines = true;      ///< lines.R G B A
-    bool depth = true;      ///< Z
-    bool normal = true;     ///< N.X N.Y N.Z
-    bool ids = true;        ///< id.object id.material id.polygon
-    bool coverage = false;  ///< coverage.silhouette, ... one per class drawn
-    bool surface = false;   ///< surface.R G B A
+    bool beauty = true;         ///< R G B A: surfaces and lines together
+    bool lines = true;          ///< lines.R G B A
+    bool depth = true;          ///< Z
+    bool normal = true;         ///< N.X N.Y N.Z
+    bool ids = true;            ///< id.object id.material id.polygon
+    bool coverage = false;      ///< coverage.silhouette, ... one per class drawn
+    bool surface = false;       ///< surface.R G B A
     bool lines_hidden = false;  ///< lines_hidden.R G B A
 };
 
 /// What a method finds out about one pixel. Colours are linear and premultiplied.
 struct PixelResult {
     glm::vec4 beauty{0.0f};
-    glm::vec4 lines{0.0f};    ///< a = coverage of all lines drawn
+    glm::vec4 lines{0.0f};  ///< a = coverage of all lines drawn
     glm::vec4 surface{0.0f};
     std::array<float, kLineClassCount> coverage{};
-    float distance;           ///< along the view axis, world units; infinite for the background
-    glm::vec3 normal{0.0f};   ///< world space, towards the eye
+    float distance;          ///< along the view axis, world units; infinite for the background
+    glm::vec3 normal{0.0f};  ///< world space, towards the eye
     std::uint32_t object_id = 0;
     std::uint32_t material_id = 0;
     std::uint32_t polygon_id = 0;
@@ -62,8 +62,8 @@ struct LineInk {
     std::array<std::uint16_t, kLineClassCount> coverage{};
 };
 
-/// Hidden lines of one pixel, in the same way: `seen` is the part of them that no visible line will cover, as share of what
-/// will be left.
+/// Hidden lines of one pixel, in the same way: `seen` is the part of them that no visible line will cover, as share of
+/// what will be left.
 struct HiddenInk {
     HiddenInk(const glm::vec4& color, const glm::vec4& seen_part);
 
@@ -74,19 +74,19 @@ struct HiddenInk {
 /// Collects pixels into the channels of the chosen layers. Different threads may put different
 /// pixels at the same time.
 ///
-/// A film lies in memory as a whole, or in blocks, of which there are only those that something was put into, until their
-/// band, a row of blocks, is closed: so a picture whose rows are written as they are finished takes no more than some of
-/// them, and its background nothing.
+/// A film lies in memory as a whole, or in blocks, of which there are only those that something was put into, until
+/// their band, a row of blocks, is closed: so a picture whose rows are written as they are finished takes no more than
+/// some of them, and its background nothing.
 class Film {
   public:
-    static constexpr int kBandRows = 32;      ///< whole chunks of an EXR
+    static constexpr int kBandRows = 32;  ///< whole chunks of an EXR
     static constexpr int kBlockColumns = 32;
 
     /// `display` is the whole picture, `crop` the part that pixels are put for: each of them must be. Throws InputError
     /// when this machine has not enough memory for it.
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
-    /// In blocks. What is not put is background. Putting throws InputError when this machine has not enough memory for the
-    /// blocks that are there.
+    /// In blocks. What is not put is background. Putting throws InputError when this machine has not enough memory for
+    /// the blocks that are there.
     static Film in_bands(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
     ~Film();
     Film(Film&&) noexcept;
@@ -114,8 +114,8 @@ class Film {
         }
     }
 
-    /// Before all pixels of a part of one block are put, with surfaces or without: where it is the whole block, this need not begin as
-    /// background. Due before put_color() and put_colors().
+    /// Before all pixels of a part of one block are put, with surfaces or without: where it is the whole block, this
+    /// need not begin as background. Due before put_color() and put_colors().
     void expect_all_of(PixelRect part);
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
@@ -123,18 +123,20 @@ class Film {
     /// Puts the colours of pixels [x0, x1) of a row without lines, one for all or one for each, channel by channel.
     void put_color(int x0, int x1, int y, const HalfColor& color);
     void put_colors(int x0, int x1, int y, const std::array<const std::uint16_t*, 4>& colors);
-    /// Has the memory of beauty and lines fetched that either will write: another core may have it. The pixels lie in one block;
-    /// where that is not made yet, nothing happens.
+    /// Has the memory of beauty and lines fetched that either will write: another core may have it. The pixels lie in
+    /// one block; where that is not made yet, nothing happens.
     void prefetch_color(int x0, int x1, int y) const;
-    /// Puts their depth, normals and ids, if has_geometry(). Before other threads read these, finish_stream_stores() is due.
+    /// Puts their depth, normals and ids, if has_geometry(). Before other threads read these, finish_stream_stores() is
+    /// due.
     void put_geometry(int x0, int x1, int y, const GeometryRow& row);
-    /// Of a film in blocks: where put_geometry() would copy a row to that begins with a pixel and lies in one block, so that it
-    /// may be made there; `spare` for layers that are not kept.
+    /// Of a film in blocks: where put_geometry() would copy a row to that begins with a pixel and lies in one block, so
+    /// that it may be made there; `spare` for layers that are not kept.
     GeometryRow geometry_place(int x, int y, const GeometryRow& spare);
-    /// Puts the background into pixels [x0, x1) of a row that nothing else is put into; then finish_stream_stores() is due,
-    /// too.
+    /// Puts the background into pixels [x0, x1) of a row that nothing else is put into; then finish_stream_stores() is
+    /// due, too.
     void put_background(int x0, int x1, int y);
-    /// Has the memory fetched that draw_over() will change of a pixel and of those to its right, up to 32 pixels in all.
+    /// Has the memory fetched that draw_over() will change of a pixel and of those to its right, up to 32 pixels in
+    /// all.
     void prefetch(int x, int y) const;
     /// Draws lines over a pixel that was put without any.
     void draw_over(int x, int y, const LinePixel& lines) { draw_over(x, y, LineInk(lines)); }
@@ -148,8 +150,8 @@ class Film {
     void draw_hidden(int x, int y, const HiddenInk& lines);
     /// After draw_over(): adds to the line channels, but not to the beauty.
     void add_lines(int x, int y, const LinePixel& lines);
-    /// After every pixel was put and all was drawn: another picture may be put, for which background is not cleared again where
-    /// there was nothing else. Without it another one may be put, too.
+    /// After every pixel was put and all was drawn: another picture may be put, for which background is not cleared
+    /// again where there was nothing else. Without it another one may be put, too.
     void end_picture() { drawn_.end_picture(); }
     /// Of a whole film.
     const Image& image() const { return block_of(0)->image; }
@@ -172,7 +174,8 @@ class Film {
     struct Pool;
 
     /// Blocks have 2^`column_shift` columns and 2^`row_shift` rows.
-    Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int column_shift, int row_shift);
+    Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes, int column_shift,
+         int row_shift);
     /// The first pixel of the next block, along one axis.
     static int first_of_next(int at, int origin, int shift) {
         const std::int64_t next = ((std::int64_t{at} - origin) >> shift) + 1;

@@ -63,9 +63,8 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         instance.materials = object.materials;
         Box own;
         if (!mesh.positions.empty()) {
-            mesh_boxes[object.mesh].for_each_corner([&](const glm::dvec3& corner) {
-                own.add(glm::dvec3(instance.to_view * glm::dvec4(corner, 1.0)));
-            });
+            mesh_boxes[object.mesh].for_each_corner(
+                [&](const glm::dvec3& corner) { own.add(glm::dvec3(instance.to_view * glm::dvec4(corner, 1.0))); });
             view_box.add(own.low);
             view_box.add(own.high);
         }

@@ -13,15 +13,13 @@ namespace burin {
 struct Frame {
     const Scene* scene = nullptr;
     Camera camera;
-    int width = 0;   ///< of the whole picture, in pixels
+    int width = 0;  ///< of the whole picture, in pixels
     int height = 0;
     PixelRect crop;  ///< the part to render
     SurfaceSet surfaces;
     LineCriteria criteria;
 
-    const Material& material_of(SurfaceId s) const {
-        return scene->materials[surfaces.material_id(s) - 1];
-    }
+    const Material& material_of(SurfaceId s) const { return scene->materials[surfaces.material_id(s) - 1]; }
 };
 
 /// Throws InputError when the scene has more than 4 billion polygons or coordinates out of range.

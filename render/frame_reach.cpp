@@ -24,9 +24,7 @@ constexpr double kNear = 0x1p-20, kNearest = 0x1p-40;
 /// no deeper than this.
 constexpr double kDeepestPx = 0x1p18;
 
-double half_diagonal(const Box& box) {
-    return box.is_empty() ? 0 : 0.5 * glm::distance(box.low, box.high);
-}
+double half_diagonal(const Box& box) { return box.is_empty() ? 0 : 0.5 * glm::distance(box.low, box.high); }
 
 Box around(std::span<const Box> boxes) {
     Box all;
@@ -58,30 +56,25 @@ struct MeshError {
         constexpr std::uint32_t kLowBits = 63;
         for (const glm::vec3& p : mesh.positions) {
             for (int k = 0; k < 3; ++k) {
-                if (!mesh.has_residuals() && (std::bit_cast<std::uint32_t>(p[k]) & kLowBits) == 0)
-                    continue;
-                of_coordinates[k] =
-                    std::max(of_coordinates[k], part * static_cast<double>(std::abs(p[k])));
+                if (!mesh.has_residuals() && (std::bit_cast<std::uint32_t>(p[k]) & kLowBits) == 0) continue;
+                of_coordinates[k] = std::max(of_coordinates[k], part * static_cast<double>(std::abs(p[k])));
             }
         }
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             const glm::dvec3 area = mesh.polygon_area_vector(t);
-            largest_normal =
-                glm::max(largest_normal, glm::abs(area) / std::max(glm::length(area), 1e-300));
+            largest_normal = glm::max(largest_normal, glm::abs(area) / std::max(glm::length(area), 1e-300));
         }
     }
 
     /// By how much that moves surfaces along their normals, in view space.
     double in_view(const glm::dmat4& to_view) const {
-        const glm::dvec3 scale(glm::length(glm::dvec3(to_view[0])),
-                               glm::length(glm::dvec3(to_view[1])),
+        const glm::dvec3 scale(glm::length(glm::dvec3(to_view[0])), glm::length(glm::dvec3(to_view[1])),
                                glm::length(glm::dvec3(to_view[2])));
         return glm::dot(of_coordinates, glm::min(scale, glm::length(scale) * largest_normal));
     }
 };
 
-double coordinate_error(const SurfaceSet& surfaces, std::span<const Box> view_boxes, double size,
-                        double places) {
+double coordinate_error(const SurfaceSet& surfaces, std::span<const Box> view_boxes, double size, double places) {
     if (!is_uneven(surfaces, view_boxes, size)) return kError * size;
     std::map<const Mesh*, MeshError> known;
     double error = 0;
@@ -99,22 +92,19 @@ double distance_from_eye(const Box& box) {
 
 double distance_from_eye(const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 way = b - a;
-    const double square = glm::dot(way, way),
-                 share = square > 0 ? std::clamp(-glm::dot(a, way) / square, 0.0, 1.0) : 0;
+    const double square = glm::dot(way, way), share = square > 0 ? std::clamp(-glm::dot(a, way) / square, 0.0, 1.0) : 0;
     return glm::length(a + share * way);
 }
 
 double distance_from_eye(const glm::dvec3 (&c)[3]) {
-    const double least = std::min({distance_from_eye(c[0], c[1]), distance_from_eye(c[1], c[2]),
-                                   distance_from_eye(c[2], c[0])});
+    const double least =
+        std::min({distance_from_eye(c[0], c[1]), distance_from_eye(c[1], c[2]), distance_from_eye(c[2], c[0])});
     const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
     const double length = glm::length(normal), height = glm::dot(normal, c[0]);
     // Whether the foot of the perpendicular lies within.
     int left = 0, right = 0;
-    for (int k = 0; k < 3; ++k)
-        (glm::dot(glm::cross(c[k], c[(k + 1) % 3]), normal) < 0 ? right : left) += 1;
-    return length > 0 && (left == 0 || right == 0) ? std::min(least, std::abs(height) / length)
-                                                   : least;
+    for (int k = 0; k < 3; ++k) (glm::dot(glm::cross(c[k], c[(k + 1) % 3]), normal) < 0 ? right : left) += 1;
+    return length > 0 && (left == 0 || right == 0) ? std::min(least, std::abs(height) / length) : least;
 }
 
 /// How near the surfaces come to the eye, or `most`.
@@ -137,11 +127,9 @@ double nearest_surface(const SurfaceSet& surfaces, std::span<const Box> view_box
 double near_distance(const SurfaceSet& surfaces, std::span<const Box> view_boxes, double farthest) {
     const Projection& p = surfaces.projection;
     const double usual = kNear * farthest;
-    const double to_corner =
-        glm::length(glm::dvec3(p.center_px / p.focal_px, 1));  // of the picture, at depth 1
+    const double to_corner = glm::length(glm::dvec3(p.center_px / p.focal_px, 1));  // of the picture, at depth 1
     const double nearest = nearest_surface(surfaces, view_boxes, usual * to_corner);
-    return nearest < usual * to_corner ? std::max(0.5 * nearest / to_corner, kNearest * farthest)
-                                       : usual;
+    return nearest < usual * to_corner ? std::max(0.5 * nearest / to_corner, kNearest * farthest) : usual;
 }
 
 /// The distance of the farthest vertex that is on the screen; nothing if none is.
@@ -151,8 +139,7 @@ double farthest_on_screen(const SurfaceSet& surfaces, double otherwise) {
         const auto count = static_cast<std::uint32_t>(surfaces.instances[i].mesh->positions.size());
         for (std::uint32_t v = 0; v < count; ++v) {
             const glm::dvec3 view = surfaces.view_position(i, v);
-            if (needs_no_clipping(surfaces.projection, view))
-                farthest = std::max(farthest, -view.z);
+            if (needs_no_clipping(surfaces.projection, view)) farthest = std::max(farthest, -view.z);
         }
     }
     return farthest > -std::numeric_limits<double>::infinity() ? farthest : otherwise;
@@ -166,14 +153,12 @@ void set_reach(SurfaceSet& surfaces, std::span<const Box> view_boxes, double eye
     double farthest = 0, depth = 1;
     if (!all.is_empty()) {
         farthest = glm::length(glm::max(glm::abs(all.low), glm::abs(all.high)));
-        surfaces.coordinate_error =
-            coordinate_error(surfaces, view_boxes, half_diagonal(all), farthest + eye_distance);
+        surfaces.coordinate_error = coordinate_error(surfaces, view_boxes, half_diagonal(all), farthest + eye_distance);
         depth = -all.low.z;
     }
-    if (!projection.orthographic)
-        projection.near_distance = near_distance(surfaces, view_boxes, farthest);
-    const double depth_px = projection.orthographic ? (all.high.z - all.low.z) * projection.focal_px
-                                                    : projection.focal_px;
+    if (!projection.orthographic) projection.near_distance = near_distance(surfaces, view_boxes, farthest);
+    const double depth_px =
+        projection.orthographic ? (all.high.z - all.low.z) * projection.focal_px : projection.focal_px;
     if (!all.is_empty() && depth_px > kDeepestPx) depth = farthest_on_screen(surfaces, depth);
     if (!projection.orthographic) depth = std::max(depth, projection.near_distance);
     surfaces.farthest_nearness = projection.nearness({0, 0, -depth});

@@ -11,7 +11,7 @@ struct RenderStats {
     double resolve_s = 0;  ///< visibility
     double lines_s = 0;
     double shade_s = 0;
-    double write_s = 0;    ///< in RunOptions::finished_band
+    double write_s = 0;  ///< in RunOptions::finished_band
     std::uint64_t triangles = 0;
     std::uint64_t fragments = 0;
     int threads = 1;

@@ -54,15 +54,15 @@ glm::dmat3 orientation(const glm::dvec3& back, const glm::dvec3& up) {
 /// In camera axes, a point p is inside if |p.x - e.x| <= kx (e.z - p.z), and the same in y. Each of
 /// these is linear in the eye e, so only four maxima over the points matter. No point comes nearer
 /// than `nearest`: with a wide angle the eye would otherwise sit on the model's foremost corner.
-glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double kx, double ky,
-                      double nearest) {
+glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double kx, double ky, double nearest) {
     const glm::dmat3 to_axes = glm::transpose(axes);
     std::array<double, 5> most;  // the last one tells how far in front they are
     most.fill(-std::numeric_limits<double>::infinity());
     const glm::dvec3 x = axes[0], y = axes[1], z = axes[2];
     const std::array<glm::dvec3, 5> along = {x + kx * z, -x + kx * z, y + ky * z, -y + ky * z, z};
     const auto needs = [&](const Box& box, bool) {
-        const double slack = kRounding * glm::dot(glm::abs(x) + glm::abs(y) + (1 + kx + ky) * glm::abs(z), largest_in(box));
+        const double slack =
+            kRounding * glm::dot(glm::abs(x) + glm::abs(y) + (1 + kx + ky) * glm::abs(z), largest_in(box));
         for (std::size_t i = 0; i < most.size(); ++i) {
             if (!(farthest_along(along[i], box) + slack <= most[i])) return true;
         }
@@ -72,20 +72,19 @@ glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double 
                 std::array<double, 5> m = most;  // in registers
                 for (const glm::dvec3& p : some) {
                     const glm::dvec3 q = to_axes * p;
-                    m = {std::max(m[0], q.x + kx * q.z), std::max(m[1], -q.x + kx * q.z), std::max(m[2], q.y + ky * q.z),
-                         std::max(m[3], -q.y + ky * q.z), std::max(m[4], q.z)};
+                    m = {std::max(m[0], q.x + kx * q.z), std::max(m[1], -q.x + kx * q.z),
+                         std::max(m[2], q.y + ky * q.z), std::max(m[3], -q.y + ky * q.z), std::max(m[4], q.z)};
                 }
                 most = m;
             }});
-    const double eye_z = std::max(
-        {(most[0] + most[1]) / (2 * kx), (most[2] + most[3]) / (2 * ky), most[4] + nearest});
+    const double eye_z = std::max({(most[0] + most[1]) / (2 * kx), (most[2] + most[3]) / (2 * ky), most[4] + nearest});
     return axes * glm::dvec3((most[0] - most[1]) / 2, (most[2] - most[3]) / 2, eye_z);
 }
 
 /// The distance from a target, along a direction, from which all points fit, none of them nearer
 /// than `nearest`.
-double fitted_distance(const PointSource& points, const glm::dvec3& target, const glm::dmat3& axes,
-                       double kx, double ky, double nearest) {
+double fitted_distance(const PointSource& points, const glm::dvec3& target, const glm::dmat3& axes, double kx,
+                       double ky, double nearest) {
     const glm::dmat3 to_axes = glm::transpose(axes);
     const glm::dvec3 x = axes[0] / kx, y = axes[1] / ky, z = axes[2];
     double distance = 0;
@@ -93,8 +92,9 @@ double fitted_distance(const PointSource& points, const glm::dvec3& target, cons
         const Box seen{box.low - target, box.high - target};
         const glm::dvec3 size = largest_in(box) + glm::abs(target);
         const double slack = kRounding * (glm::dot(glm::abs(x) + glm::abs(y) + glm::abs(z), size) + nearest);
-        const double most = std::max({farthest_along(x + z, seen), farthest_along(z - x, seen), farthest_along(y + z, seen),
-                                      farthest_along(z - y, seen), farthest_along(z, seen) + nearest});
+        const double most =
+            std::max({farthest_along(x + z, seen), farthest_along(z - x, seen), farthest_along(y + z, seen),
+                      farthest_along(z - y, seen), farthest_along(z, seen) + nearest});
         return !(most + slack <= distance);
     };
     points({needs, [&](std::span<const glm::dvec3> some) {
@@ -166,8 +166,7 @@ Projection Camera::projection(int width, int height_px, double near_distance) co
     Projection p;
     p.orthographic = orthographic;
     p.center_px = {0.5 * width, 0.5 * height_px};
-    p.focal_px = orthographic ? height_px / height
-                              : 0.5 * height_px / std::tan(glm::radians(fov_deg) / 2);
+    p.focal_px = orthographic ? height_px / height : 0.5 * height_px / std::tan(glm::radians(fov_deg) / 2);
     p.near_distance = near_distance;
     return p;
 }
@@ -176,7 +175,8 @@ Box box_of(const PointSource& points) {
     Box all;
     points({[&](const Box& box, bool is_smallest) {
                 if (!is_smallest) {
-                    return !(glm::all(glm::lessThanEqual(all.low, box.low)) && glm::all(glm::lessThanEqual(box.high, all.high)));
+                    return !(glm::all(glm::lessThanEqual(all.low, box.low)) &&
+                             glm::all(glm::lessThanEqual(box.high, all.high)));
                 }
                 all.add(box.low);
                 all.add(box.high);
@@ -215,8 +215,9 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     }
     const glm::dmat3 axes = orientation(back, up);
     if (fits && !(radius > 0)) {
-        throw InputError("the scene has no extent that a camera could be fitted to; "
-                         "give eye and target");
+        throw InputError(
+            "the scene has no extent that a camera could be fitted to; "
+            "give eye and target");
     }
 
     Camera camera;
@@ -243,9 +244,8 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
                         }
                     }});
         }
-        const glm::dvec2 center = settings.target || settings.eye
-                                      ? glm::dvec2(to_axes * settings.eye.value_or(target))
-                                      : 0.5 * (low + high);
+        const glm::dvec2 center =
+            settings.target || settings.eye ? glm::dvec2(to_axes * settings.eye.value_or(target)) : 0.5 * (low + high);
         const glm::dvec2 reach = glm::max(high - center, center - low);
         camera.height = settings.height.value_or(2 * std::max(reach.y, reach.x / aspect) / settings.fit);
         const double depth = (to_axes * center_of(bounds)).z + 2 * radius;
@@ -254,8 +254,7 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     } else if (settings.eye) {
         camera.to_world = rigid(axes, *settings.eye);
     } else if (settings.target) {
-        const double distance =
-            fitted_distance(points, target, axes, half_y * aspect, half_y, nearest);
+        const double distance = fitted_distance(points, target, axes, half_y * aspect, half_y, nearest);
         camera.to_world = rigid(axes, target + back * distance);
     } else {
         camera.to_world = rigid(axes, fitted_eye(points, axes, half_y * aspect, half_y, nearest));

@@ -44,8 +44,8 @@ struct Camera {
 
 /// Is called with points, some at a time.
 struct PointVisitor {
-    /// Is asked before, with a box around points to come: false where they need not come. `is_smallest`: around these points
-    /// there is no smaller box, so that it tells how far they reach.
+    /// Is asked before, with a box around points to come: false where they need not come. `is_smallest`: around these
+    /// points there is no smaller box, so that it tells how far they reach.
     std::function<bool(const Box&, bool is_smallest)> needs;
     std::function<void(std::span<const glm::dvec3>)> visit;
 
@@ -57,7 +57,8 @@ using PointSource = std::function<void(const PointVisitor&)>;
 
 template <typename Visit>
 void for_each_point(const PointSource& points, const Visit& visit) {
-    points({[](const Box&, bool) { return true; }, [&](std::span<const glm::dvec3> some) {
+    points({[](const Box&, bool) { return true; },
+            [&](std::span<const glm::dvec3> some) {
                 for (const glm::dvec3& p : some) visit(p);
             }});
 }

@@ -22,17 +22,14 @@ enum class GBufferOperator : std::uint8_t {
 };
 constexpr int kGBufferOperatorCount = 10;
 constexpr std::array<std::string_view, kGBufferOperatorCount> kGBufferOperatorNames = {
-    "first",   "second", "profile", "internal", "sobel",
-    "roberts", "id",     "normal",  "decaudin", "hertzmann"};
+    "first", "second", "profile", "internal", "sobel", "roberts", "id", "normal", "decaudin", "hertzmann"};
 
 /// A set of operators, one bit each.
 struct GBufferOperatorSet {
     std::uint16_t bits = 0;
 
     constexpr bool has(GBufferOperator o) const { return (bits >> static_cast<int>(o) & 1) != 0; }
-    constexpr void add(GBufferOperator o) {
-        bits = static_cast<std::uint16_t>(bits | 1u << static_cast<int>(o));
-    }
+    constexpr void add(GBufferOperator o) { bits = static_cast<std::uint16_t>(bits | 1u << static_cast<int>(o)); }
     constexpr bool operator==(const GBufferOperatorSet&) const = default;
     static constexpr GBufferOperatorSet of(std::initializer_list<GBufferOperator> members) {
         GBufferOperatorSet set;
@@ -59,17 +56,16 @@ enum class ContourField : std::uint8_t { none, x, y, z, distance };
 /// What only the method `gbuffer` looks at. Depth is in samples: a face turned by an angle has the
 /// slope tan(angle) per sample at the reference distance.
 struct GBufferSettings {
-    GBufferOperatorSet operators = GBufferOperatorSet::of(
-        {GBufferOperator::profile, GBufferOperator::internal, GBufferOperator::id});
+    GBufferOperatorSet operators =
+        GBufferOperatorSet::of({GBufferOperator::profile, GBufferOperator::internal, GBufferOperator::id});
     int supersample = 1;  ///< samples per pixel and axis: 1, 2, 4 or 8
     bool dilate = true;   ///< widen lines that are thinner than the line width
     bool smooth = false;  ///< blur along the lines afterwards, as FXAA does
     LineComposition composition = LineComposition::multiply;
 
-    double depth_scale = 1;  ///< multiplies depth
-    double reference_distance =
-        0;               ///< where depth is in samples, world units; 0: middle of the scene
-    int depth_bits = 0;  ///< 8, 16, 24: depth is stored in so many bits; 0: as it is
+    double depth_scale = 1;         ///< multiplies depth
+    double reference_distance = 0;  ///< where depth is in samples, world units; 0: middle of the scene
+    int depth_bits = 0;             ///< 8, 16, 24: depth is stored in so many bits; 0: as it is
 
     double jump_limit = 4;           ///< k_g: first-order differential that is a depth jump
     double profile_limit = 2;        ///< k_p: variation of it that makes a line black

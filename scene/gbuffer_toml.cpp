@@ -24,8 +24,8 @@ GBufferOperatorSet read_operators(TomlReader& t, GBufferOperatorSet fallback) {
 }
 
 ContourField read_field(TomlReader& t, std::string_view key) {
-    static constexpr ContourField kFields[] = {ContourField::none, ContourField::x, ContourField::y,
-                                               ContourField::z, ContourField::distance};
+    static constexpr ContourField kFields[] = {ContourField::none, ContourField::x, ContourField::y, ContourField::z,
+                                               ContourField::distance};
     return kFields[t.choice(key, {"none", "x", "y", "z", "distance"}).value_or(0)];
 }
 
@@ -47,8 +47,7 @@ GBufferSettings read_gbuffer(TomlReader& t) {
     }
     s.dilate = t.boolean("dilate").value_or(s.dilate);
     s.smooth = t.boolean("smooth").value_or(s.smooth);
-    static constexpr LineComposition kCompositions[] = {LineComposition::multiply,
-                                                        LineComposition::maximum};
+    static constexpr LineComposition kCompositions[] = {LineComposition::multiply, LineComposition::maximum};
     s.composition = kCompositions[t.choice("composition", {"multiply", "maximum"}).value_or(0)];
 
     s.depth_scale = t.number("depth_scale", kPositive).value_or(s.depth_scale);
@@ -64,19 +63,15 @@ GBufferSettings read_gbuffer(TomlReader& t) {
     s.gate = t.boolean("gate").value_or(s.gate);
     s.crease_limit = t.number("crease_limit", kPositive).value_or(s.crease_limit);
     s.relative_jump = t.number("relative_jump", kPositive).value_or(s.relative_jump);
-    s.relative_jump_slope =
-        t.number("relative_jump_slope", {0, 1e30}).value_or(s.relative_jump_slope);
-    static constexpr IdComparison kComparisons[] = {IdComparison::differs, IdComparison::less,
-                                                    IdComparison::greater};
-    s.id_comparison =
-        kComparisons[t.choice("id_comparison", {"differs", "less", "greater"}).value_or(0)];
+    s.relative_jump_slope = t.number("relative_jump_slope", {0, 1e30}).value_or(s.relative_jump_slope);
+    static constexpr IdComparison kComparisons[] = {IdComparison::differs, IdComparison::less, IdComparison::greater};
+    s.id_comparison = kComparisons[t.choice("id_comparison", {"differs", "less", "greater"}).value_or(0)];
     s.id_neighbours = t.integer("id_neighbours", 4, 8).value_or(s.id_neighbours);
     if (s.id_neighbours != 4 && s.id_neighbours != 8) t.fail("id_neighbours", "must be 4 or 8");
 
     s.contours = read_field(t, "contours");
     s.contour_step = t.number("contour_step", kPositive).value_or(s.contour_step);
-    s.contour_width_px =
-        t.number("contour_width", {0, 1024, true, false}).value_or(s.contour_width_px);
+    s.contour_width_px = t.number("contour_width", {0, 1024, true, false}).value_or(s.contour_width_px);
     s.hatching = t.boolean("hatching").value_or(s.hatching);
     s.cross_hatching = read_field(t, "cross_hatching");
     s.cross_darkness = t.number("cross_darkness", {0, 1}).value_or(s.cross_darkness);

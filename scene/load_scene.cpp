@@ -40,7 +40,11 @@ struct LoadedModel {
 class SceneLoader {
   public:
     SceneLoader(SceneDescription description, const LoadOptions& options, std::vector<std::string>* files)
-        : from_(std::move(description)), threads_(options.threads), strict_(options.strict), budget_(options.budget), files_read_(files) {
+        : from_(std::move(description)),
+          threads_(options.threads),
+          strict_(options.strict),
+          budget_(options.budget),
+          files_read_(files) {
         scene_.materials = from_.materials;
         scene_.cameras = from_.cameras;
         scene_.picture = from_.picture;
@@ -52,7 +56,8 @@ class SceneLoader {
         scene_.gbuffer = from_.gbuffer;
         scene_.zbuffer = from_.zbuffer;
         scene_.wire = from_.wire;
-        for (std::uint32_t i = 0; i < from_.materials.size(); ++i) material_numbers_.emplace(from_.materials[i].name, i);
+        for (std::uint32_t i = 0; i < from_.materials.size(); ++i)
+            material_numbers_.emplace(from_.materials[i].name, i);
     }
 
     Scene load() {
@@ -83,9 +88,11 @@ class SceneLoader {
     }
 
   private:
-    /// What has no polygon has marks only: they are drawn unless the scene file wants other classes than those by default.
+    /// What has no polygon has marks only: they are drawn unless the scene file wants other classes than those by
+    /// default.
     void draw_lines_without_polygons() {
-        const bool has_polygons = std::any_of(scene_.meshes.begin(), scene_.meshes.end(), [](const Mesh& mesh) { return !mesh.triangles.empty(); });
+        const bool has_polygons = std::any_of(scene_.meshes.begin(), scene_.meshes.end(),
+                                              [](const Mesh& mesh) { return !mesh.triangles.empty(); });
         if (!has_polygons && scene_.lines.classes == kDefaultLineClasses) scene_.lines.classes |= LineClass::mark;
     }
 
@@ -117,7 +124,8 @@ class SceneLoader {
     void count_shape(const ObjectDescription& object) {
         const Shape& shape = object.shape;
         std::string settings = shape.settings;
-        if (object.subdivide > 0) settings += (settings.empty() ? "" : ", ") + ("subdivide " + std::to_string(object.subdivide));
+        if (object.subdivide > 0)
+            settings += (settings.empty() ? "" : ", ") + ("subdivide " + std::to_string(object.subdivide));
         const PolygonCounts counts =
             count_subdivided({shape.polygons, shape.corners}, object.scheme, object.subdivide, shape.name);
         count_mesh(budget_, counts, quoted(object), settings);
@@ -126,7 +134,8 @@ class SceneLoader {
     }
 
     /// Counts what instances of an object take that has so many parts.
-    void count_instances(const ObjectDescription& object, std::uint64_t instances, std::uint64_t parts, std::uint64_t name_bytes) {
+    void count_instances(const ObjectDescription& object, std::uint64_t instances, std::uint64_t parts,
+                         std::uint64_t name_bytes) {
         constexpr std::uint64_t kBytesPerPart = 600;  // here and in a frame; measured
         const std::uint64_t bytes = parts * (kBytesPerPart + object.name.size()) + name_bytes;
         budget_.add(saturating_product(instances, bytes),
@@ -165,7 +174,8 @@ class SceneLoader {
     static std::string spelled_one_way(const std::string& file) {
         const std::filesystem::path path(file);
         std::error_code error;
-        const std::filesystem::path folder = std::filesystem::canonical(path.has_parent_path() ? path.parent_path() : ".", error);
+        const std::filesystem::path folder =
+            std::filesystem::canonical(path.has_parent_path() ? path.parent_path() : ".", error);
         return error ? file : (folder / path.filename()).string();
     }
 
@@ -205,7 +215,8 @@ class SceneLoader {
         scene_.non_finite_polygons += model.non_finite_polygons;
         for (std::string& note : model.notes) {
             // A file that is read twice, with and without subdivision, says the same twice.
-            if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end()) scene_.notes.push_back(std::move(note));
+            if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end())
+                scene_.notes.push_back(std::move(note));
         }
         return loaded;
     }
@@ -224,22 +235,23 @@ class SceneLoader {
                 placed.to_world = object.to_world * object.instances[i] * part.to_world;
                 placed.materials = materials;
                 if (!is_finite(placed.to_world)) {
-                    throw InputError("object '" + placed.name + "' has a transform that is not finite or far too large");
+                    throw InputError("object '" + placed.name +
+                                     "' has a transform that is not finite or far too large");
                 }
                 scene_.objects.push_back(std::move(placed));
             }
         }
     }
 
-    static std::string name_of(const ObjectDescription& object, const ModelObject& part,
-                               std::size_t instance) {
+    static std::string name_of(const ObjectDescription& object, const ModelObject& part, std::size_t instance) {
         std::string name = object.name;
         if (!object.file.empty() && !part.name.empty()) name += (name.empty() ? "" : "/") + part.name;
         if (object.instances.size() > 1) name += "#" + std::to_string(instance + 1);
         return name;
     }
 
-    static constexpr std::uint64_t kMostPolygons = std::numeric_limits<std::uint32_t>::max() - 1;  // as make_frame() numbers them
+    static constexpr std::uint64_t kMostPolygons =
+        std::numeric_limits<std::uint32_t>::max() - 1;  // as make_frame() numbers them
 
     SceneDescription from_;
     int threads_;
@@ -260,12 +272,14 @@ Scene load_scene(SceneDescription description, const LoadOptions& options, std::
 }
 
 bool has_transparent_surfaces(const Scene& scene) {
-    if (std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.opacity >= 1; })) return false;
+    if (std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.opacity >= 1; }))
+        return false;
     std::set<const std::uint32_t*> seen;  // objects share lists
     bool is_transparent = false;
     for (const SceneObject& object : scene.objects) {
         if (!seen.insert(object.materials.address()).second) continue;
-        object.materials.for_each([&](std::uint32_t m) { is_transparent = is_transparent || scene.materials[m].opacity < 1; });
+        object.materials.for_each(
+            [&](std::uint32_t m) { is_transparent = is_transparent || scene.materials[m].opacity < 1; });
     }
     return is_transparent;
 }

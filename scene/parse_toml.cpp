@@ -22,12 +22,10 @@ class StoppableText : public std::streambuf {
         return gptr() == egptr() ? traits_type::eof() : traits_type::to_int_type(*gptr());
     }
     // toml++ goes back to the beginning if there is no byte order mark.
-    pos_type seekoff(off_type offset, std::ios_base::seekdir from,
-                     std::ios_base::openmode) override {
-        const off_type start = from == std::ios_base::beg ? 0
-                               : from == std::ios_base::cur
-                                   ? static_cast<off_type>(gptr() - text_.data())
-                                   : static_cast<off_type>(text_.size());
+    pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+        const off_type start = from == std::ios_base::beg   ? 0
+                               : from == std::ios_base::cur ? static_cast<off_type>(gptr() - text_.data())
+                                                            : static_cast<off_type>(text_.size());
         return seekpos(start + offset, std::ios_base::in);
     }
     pos_type seekpos(pos_type position, std::ios_base::openmode) override {

@@ -23,7 +23,7 @@ struct PictureSettings {
     int width = 1920;
     int height = 1080;
     std::optional<glm::vec3> background;  ///< linear RGB
-    bool transparent = false;  ///< PNG and TIFF get an alpha channel instead of white paper
+    bool transparent = false;             ///< PNG and TIFF get an alpha channel instead of white paper
 };
 
 /// Where a smooth surface turns away from the eye.

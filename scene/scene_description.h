@@ -17,14 +17,14 @@ namespace burin {
 /// One object of a scene file: a model file or a built-in shape, and where it stands.
 struct ObjectDescription {
     std::string name;
-    std::string file;             ///< path, already relative to where the program runs; or empty
-    Shape shape;                  ///< if there is no file
+    std::string file;  ///< path, already relative to where the program runs; or empty
+    Shape shape;       ///< if there is no file
     int subdivide = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
-    std::string material;         ///< name; empty: the file's own materials
+    std::string material;  ///< name; empty: the file's own materials
     glm::dmat4 to_world{1.0};
     std::vector<glm::dmat4> instances;  ///< each within to_world; never empty
-    SourcePosition where;         ///< for messages
+    SourcePosition where;               ///< for messages
 };
 
 /// A scene file (docs/scene-format.md), checked, but with no model loaded yet.
@@ -58,14 +58,15 @@ SceneDescription bare_model_scene(const std::string& path, const std::vector<Ove
 
 /// How to load a scene.
 struct LoadOptions {
-    int threads = 1;      ///< 0 = all cores. Changes no result.
-    bool strict = false;  ///< refuses a model of which a reader would leave a part out with a note
-    ModelBudget budget{};   ///< what shapes, subdivisions and instances may take
+    int threads = 1;       ///< 0 = all cores. Changes no result.
+    bool strict = false;   ///< refuses a model of which a reader would leave a part out with a note
+    ModelBudget budget{};  ///< what shapes, subdivisions and instances may take
 };
 
-/// Loads the models that a description names, each file once, and makes its shapes, one after the other. Throws InputError;
-/// where shapes, subdivisions or instances take more memory than the budget allows, before they are made. `files`: gets the
-/// paths of all files that were read.
-Scene load_scene(SceneDescription description, const LoadOptions& options = {}, std::vector<std::string>* files = nullptr);
+/// Loads the models that a description names, each file once, and makes its shapes, one after the other. Throws
+/// InputError; where shapes, subdivisions or instances take more memory than the budget allows, before they are made.
+/// `files`: gets the paths of all files that were read.
+Scene load_scene(SceneDescription description, const LoadOptions& options = {},
+                 std::vector<std::string>* files = nullptr);
 
 }  // namespace burin

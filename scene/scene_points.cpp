@@ -26,7 +26,8 @@ class BoxTree {
             Box box = box_of(positions.subspan(first, count));
             if (mesh.has_residuals()) {
                 box = {};
-                for (std::size_t v = first; v < first + count; ++v) box.add(mesh.local_position(static_cast<std::uint32_t>(v)));
+                for (std::size_t v = first; v < first + count; ++v)
+                    box.add(mesh.local_position(static_cast<std::uint32_t>(v)));
             }
             box.low += mesh.origin;  // rounds as points do
             box.high += mesh.origin;
@@ -54,8 +55,7 @@ class BoxTree {
 
   private:
     template <typename IsNeeded, typename Use>
-    void visit(std::size_t level, std::size_t number, const IsNeeded& is_needed,
-               const Use& use) const {
+    void visit(std::size_t level, std::size_t number, const IsNeeded& is_needed, const Use& use) const {
         if (!is_needed(levels_[level][number])) return;
         if (level == 0) return use(number);
         const std::size_t end = std::min((number + 1) * kBoxBlock, levels_[level - 1].size());
@@ -69,8 +69,7 @@ class BoxTree {
 Box transformed(const glm::dmat4& m, const Box& box) {
     glm::dvec3 low(m[3]), high(m[3]), size = glm::abs(glm::dvec3(m[3]));
     for (int axis = 0; axis < 3; ++axis) {
-        const glm::dvec3 a = glm::dvec3(m[axis]) * box.low[axis],
-                         b = glm::dvec3(m[axis]) * box.high[axis];
+        const glm::dvec3 a = glm::dvec3(m[axis]) * box.low[axis], b = glm::dvec3(m[axis]) * box.high[axis];
         low += glm::min(a, b);
         high += glm::max(a, b);
         size += glm::max(glm::abs(a), glm::abs(b));
@@ -83,8 +82,7 @@ Box transformed(const glm::dmat4& m, const Box& box) {
 
 PointSource scene_points(const Scene& scene) {
     // Of each mesh, once they are needed: a camera's fit runs twice over all points.
-    const auto trees =
-        std::make_shared<std::vector<std::unique_ptr<const BoxTree>>>(scene.meshes.size());
+    const auto trees = std::make_shared<std::vector<std::unique_ptr<const BoxTree>>>(scene.meshes.size());
     return [&scene, trees](const PointVisitor& visit) {
         std::array<glm::dvec3, kPointBlock> some;
         for (const SceneObject& object : scene.objects) {
@@ -102,18 +100,16 @@ PointSource scene_points(const Scene& scene) {
                 visit(std::span(some).first(count));
             };
             if (to_world == glm::dmat4(1.0)) {
-                tree->for_each_block([&](const Box& box) { return visit.needs(box, true); },
-                                     [&](std::size_t block) {
-                                         visit_block(block, [](const glm::dvec3& p) { return p; });
-                                     });
-            } else {
                 tree->for_each_block(
-                    [&](const Box& box) { return visit.needs(transformed(to_world, box), false); },
-                    [&](std::size_t block) {
-                        visit_block(block, [&](const glm::dvec3& p) {
-                            return glm::dvec3(to_world * glm::dvec4(p, 1.0));
-                        });
-                    });
+                    [&](const Box& box) { return visit.needs(box, true); },
+                    [&](std::size_t block) { visit_block(block, [](const glm::dvec3& p) { return p; }); });
+            } else {
+                tree->for_each_block([&](const Box& box) { return visit.needs(transformed(to_world, box), false); },
+                                     [&](std::size_t block) {
+                                         visit_block(block, [&](const glm::dvec3& p) {
+                                             return glm::dvec3(to_world * glm::dvec4(p, 1.0));
+                                         });
+                                     });
             }
         }
     };

@@ -45,7 +45,8 @@ glm::dmat4 read_transform(TomlReader& t) {
         if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1) {
             t.fail("matrix", "the last row must be 0 0 0 1");
         }
-        if (glm::determinant(glm::dmat3(matrix)) == 0) t.fail("matrix", "makes everything flat; its determinant must not be 0");
+        if (glm::determinant(glm::dmat3(matrix)) == 0)
+            t.fail("matrix", "makes everything flat; its determinant must not be 0");
         return matrix;
     }
     const glm::dvec3 translate = t.vector("translate").value_or(glm::dvec3(0.0));
@@ -136,15 +137,15 @@ class SceneReader {
         if (has_file && t.has("shape")) t.fail("shape", "cannot stand beside a file; remove one");
         if (!has_file && !t.has("shape")) {
             for (const char* key : {"file", "shape"}) {
-                if (const auto other = t.misspelled(key)) t.fail(*other, std::string("unknown key; did you mean '") + key + "'?");
+                if (const auto other = t.misspelled(key))
+                    t.fail(*other, std::string("unknown key; did you mean '") + key + "'?");
             }
             t.fail("needs either a file or a shape");
         }
         if (has_file) {
             const std::filesystem::path file(*t.text("file"));
-            object.file = file.is_absolute()
-                              ? file.string()
-                              : (std::filesystem::path(path_).parent_path() / file).string();
+            object.file =
+                file.is_absolute() ? file.string() : (std::filesystem::path(path_).parent_path() / file).string();
             object.where = t.position("file");
         } else {
             object.shape = read_shape(t);
@@ -152,12 +153,12 @@ class SceneReader {
         object.name = t.text("name").value_or(has_file ? "" : object.shape.name);
         object.material = t.text("material").value_or("");
         if (!object.material.empty() && !material_names_.contains(object.material)) {
-            t.fail("material", "there is no [[material]] named '" + printable(object.material) +
-                                   "'; add it or correct the name");
+            t.fail("material",
+                   "there is no [[material]] named '" + printable(object.material) + "'; add it or correct the name");
         }
         object.subdivide = t.integer("subdivide", 0, 8).value_or(0);
-        static constexpr SubdivisionScheme kSchemes[] = {
-            SubdivisionScheme::automatic, SubdivisionScheme::loop, SubdivisionScheme::catmull_clark};
+        static constexpr SubdivisionScheme kSchemes[] = {SubdivisionScheme::automatic, SubdivisionScheme::loop,
+                                                         SubdivisionScheme::catmull_clark};
         object.scheme = kSchemes[t.choice("scheme", {"automatic", "loop", "catmull-clark"}).value_or(0)];
         object.to_world = read_transform(t);
         for (TomlReader& instance : t.tables("instance")) {
@@ -249,7 +250,8 @@ class SceneReader {
         const auto dash = t.numbers("dash", 2);
         if (!dash) return std::nullopt;
         for (const double length : *dash) {
-            if (!(length > 0 && length <= 65535)) t.fail("dash", "must be two lengths in pixels, greater than 0 and at most 65535");
+            if (!(length > 0 && length <= 65535))
+                t.fail("dash", "must be two lengths in pixels, greater than 0 and at most 65535");
         }
         return std::array{(*dash)[0], (*dash)[1]};
     }
@@ -393,8 +395,8 @@ std::optional<toml::table> parse_value(const Override& o, const std::string& tex
     return std::nullopt;
 }
 
-/// Numbers as options take them, in TOML: ".5" is 0.5; "1,2,3" and "400x300" are lists. Nothing for other texts and for what
-/// is a text by its key.
+/// Numbers as options take them, in TOML: ".5" is 0.5; "1,2,3" and "400x300" are lists. Nothing for other texts and for
+/// what is a text by its key.
 std::optional<std::string> numbers_in_toml(std::string_view key, std::string_view text) {
     for (const std::string_view name : {"name", "file", "material", "highlight"}) {
         if (key.ends_with(name)) return std::nullopt;
@@ -411,7 +413,8 @@ std::optional<std::string> numbers_in_toml(std::string_view key, std::string_vie
         while (part.ends_with(' ')) part.remove_suffix(1);
         if (part.starts_with('+')) part.remove_prefix(1);
         // 001122 is rather a colour.
-        if (part.size() > 1 && part[0] == '0' && part.find_first_not_of("0123456789") == std::string_view::npos) return std::nullopt;
+        if (part.size() > 1 && part[0] == '0' && part.find_first_not_of("0123456789") == std::string_view::npos)
+            return std::nullopt;
         const auto [last, error] = std::from_chars(part.data(), part.data() + part.size(), value);
         if (error != std::errc() || last != part.data() + part.size() || !std::isfinite(value)) return std::nullopt;
         char number[40];
@@ -427,8 +430,7 @@ toml::table override_value(const Override& o) {
     if (const auto numbers = numbers_in_toml(o.key, o.value)) {
         if (auto value = parse_value(o, *numbers)) return *std::move(value);
     }
-    if (auto value = parse_value(o, quoted(o.value)))
-        return *std::move(value);  // typed without quotes
+    if (auto value = parse_value(o, quoted(o.value))) return *std::move(value);  // typed without quotes
     fail_override(o, "the value is not UTF-8");
 }
 
@@ -449,12 +451,11 @@ void apply_override(toml::table& root, const Override& o) {
             std::size_t index = 0;
             const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
             if (error != std::errc() || end != part.data() + part.size() || index >= array->size()) {
-                fail_override(o, "there is no element '" + printable(part) + "', the list has " +
-                                     std::to_string(array->size()));
+                fail_override(
+                    o, "there is no element '" + printable(part) + "', the list has " + std::to_string(array->size()));
             }
             if (is_last) {
-                array->replace(array->begin() + static_cast<std::ptrdiff_t>(index),
-                               std::move(value));
+                array->replace(array->begin() + static_cast<std::ptrdiff_t>(index), std::move(value));
                 return;
             }
             at = array->get(index);
@@ -476,8 +477,7 @@ void apply_override(toml::table& root, const Override& o) {
     fail_override(o, "the key has too many parts");
 }
 
-SceneDescription read_tables(const std::string& path, toml::table root,
-                             const std::vector<Override>& overrides) {
+SceneDescription read_tables(const std::string& path, toml::table root, const std::vector<Override>& overrides) {
     for (const Override& o : overrides) apply_override(root, o);
     return SceneReader(path, TomlReader(root, "", path)).read();
 }
@@ -503,8 +503,7 @@ SceneDescription read_scene_file(const std::string& path, const std::vector<Over
 
 SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides) {
     toml::table object;
-    object.insert(
-        "file", std::filesystem::path(path).filename().string());  // relative to the scene: itself
+    object.insert("file", std::filesystem::path(path).filename().string());  // relative to the scene: itself
     toml::table root;
     root.insert("object", toml::array(std::move(object)));
     return read_tables(path, std::move(root), overrides);

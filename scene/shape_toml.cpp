@@ -40,25 +40,18 @@ class ShapeReader {
     }
 
   private:
-    double positive(std::string_view key, double fallback) {
-        return t_.number(key, kPositive).value_or(fallback);
-    }
+    double positive(std::string_view key, double fallback) { return t_.number(key, kPositive).value_or(fallback); }
     int count(std::string_view key, int low, int high, int fallback) {
         const int n = t_.integer(key, low, high).value_or(fallback);
-        shape_.settings +=
-            (shape_.settings.empty() ? "" : ", ") + std::string(key) + " " + std::to_string(n);
+        shape_.settings += (shape_.settings.empty() ? "" : ", ") + std::string(key) + " " + std::to_string(n);
         return n;
     }
-    int count(std::string_view key, int low, int fallback) {
-        return count(key, low, 4096, fallback);
-    }
+    int count(std::string_view key, int low, int fallback) { return count(key, low, 4096, fallback); }
     void set_size(std::uint64_t polygons, std::uint64_t corners) {
         shape_.polygons = polygons;
         shape_.corners = corners;
     }
-    static std::uint64_t product(int a, int b) {
-        return static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b);
-    }
+    static std::uint64_t product(int a, int b) { return static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b); }
 
     void read_box() {
         const glm::dvec3 size = t_.vector("size").value_or(glm::dvec3(1.0));
@@ -76,31 +69,27 @@ class ShapeReader {
     void read_sphere() {
         const double radius = positive("radius", 0.5);
         const int segments = count("segments", 3, 64), rings = count("rings", 2, 32);
-        set_size(product(segments, rings), 4 * product(segments, rings) -
-                                               2 * product(segments, 1));  // triangles at the poles
+        set_size(product(segments, rings),
+                 4 * product(segments, rings) - 2 * product(segments, 1));  // triangles at the poles
         shape_.make = [=] { return make_sphere(radius, segments, rings); };
     }
     void read_cylinder(bool is_cone) {
-        const double radius = positive("radius", 0.5),
-                     top_radius = is_cone ? 0 : positive("top_radius", radius);
+        const double radius = positive("radius", 0.5), top_radius = is_cone ? 0 : positive("top_radius", radius);
         const double height = positive("height", 1);
         const int segments = count("segments", 3, 64);
         const int ends = is_cone ? 1 : 2;  // each a polygon
-        set_size(product(segments, 1) + product(ends, 1),
-                 product(segments, is_cone ? 3 : 4) + product(segments, ends));
+        set_size(product(segments, 1) + product(ends, 1), product(segments, is_cone ? 3 : 4) + product(segments, ends));
         shape_.make = [=] { return make_cylinder(radius, top_radius, height, segments); };
     }
     void read_torus() {
         const double radius = positive("radius", 0.5), tube_radius = positive("tube_radius", 0.2);
-        const int segments = count("segments", 3, 64),
-                  tube_segments = count("tube_segments", 3, 32);
+        const int segments = count("segments", 3, 64), tube_segments = count("tube_segments", 3, 32);
         set_size(product(segments, tube_segments), 4 * product(segments, tube_segments));
         shape_.make = [=] { return make_torus(radius, tube_radius, segments, tube_segments); };
     }
     void read_teapot() {
         const int tessellation = count("tessellation", 1, 256, 10);
-        set_size(32 * product(tessellation, tessellation),
-                 128 * product(tessellation, tessellation));
+        set_size(32 * product(tessellation, tessellation), 128 * product(tessellation, tessellation));
         shape_.make = [=] { return make_teapot(tessellation); };
     }
 
@@ -110,8 +99,6 @@ class ShapeReader {
 
 }  // namespace
 
-Shape read_shape(TomlReader& t) {
-    return ShapeReader(t).read();
-}
+Shape read_shape(TomlReader& t) { return ShapeReader(t).read(); }
 
 }  // namespace burin

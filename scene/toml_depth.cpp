@@ -47,9 +47,7 @@ class DepthScanner {
     /// A part of a header may be a list of tables, and so is each part before it that is one.
     static constexpr std::size_t kLevelsPerPart = 2;
 
-    std::size_t depth() const {
-        return is_header_ ? kLevelsPerPart * (dots_ + 1) : header_ + around_ + dots_ + 1;
-    }
+    std::size_t depth() const { return is_header_ ? kLevelsPerPart * (dots_ + 1) : header_ + around_ + dots_ + 1; }
 
     void bracket(char c) {
         if (c == '[' || c == '{') {
@@ -101,8 +99,6 @@ class DepthScanner {
 
 }  // namespace
 
-std::optional<std::size_t> line_nested_too_deep(std::string_view text) {
-    return DepthScanner(text).run();
-}
+std::optional<std::size_t> line_nested_too_deep(std::string_view text) { return DepthScanner(text).run(); }
 
 }  // namespace burin

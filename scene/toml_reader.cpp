@@ -43,8 +43,7 @@ SourcePosition TomlReader::position(std::string_view key) const {
 }
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
-    fail_at(position(key),
-            context_ + (context_.empty() ? "" : " ") + std::string(key) + ": " + message);
+    fail_at(position(key), context_ + (context_.empty() ? "" : " ") + std::string(key) + ": " + message);
 }
 
 void TomlReader::fail(const std::string& message) const {
@@ -65,8 +64,7 @@ std::optional<double> TomlReader::number(std::string_view key, Range range) {
     const bool inside = (range.open_low ? value > range.low : value >= range.low) &&
                         (range.open_high ? value < range.high : value <= range.high);
     if (!inside) {
-        fail(key, "must be " + std::string(range.open_low ? "greater than " : "at least ") +
-                      number_text(range.low) +
+        fail(key, "must be " + std::string(range.open_low ? "greater than " : "at least ") + number_text(range.low) +
                       (range.high < 1e300 ? std::string(range.open_high ? " and less than " : " and at most ") +
                                                 number_text(range.high)
                                           : "") +
@@ -81,8 +79,8 @@ std::optional<int> TomlReader::integer(std::string_view key, int low, int high) 
     const auto value = node->value_exact<std::int64_t>();
     if (!value) fail(key, "must be a whole number");
     if (*value < low || *value > high) {
-        fail(key, "must be at least " + std::to_string(low) + " and at most " + std::to_string(high) +
-                      ", got " + std::to_string(*value));
+        fail(key, "must be at least " + std::to_string(low) + " and at most " + std::to_string(high) + ", got " +
+                      std::to_string(*value));
     }
     return static_cast<int>(*value);
 }
@@ -149,8 +147,7 @@ std::optional<glm::vec3> TomlReader::color(std::string_view key) {
     return color;
 }
 
-std::optional<std::size_t> TomlReader::choice(std::string_view key,
-                                              const std::vector<std::string_view>& words) {
+std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::vector<std::string_view>& words) {
     const auto value = text(key);
     if (!value) return std::nullopt;
     const auto it = std::find(words.begin(), words.end(), *value);
@@ -167,7 +164,8 @@ std::optional<TomlReader> TomlReader::table(std::string_view key) {
     if (node == nullptr) return std::nullopt;
     const toml::table* const table = node->as_table();
     if (table == nullptr) fail(key, "must be a table");
-    const std::string_view within = context_.empty() ? std::string_view() : std::string_view(context_).substr(1, context_.size() - 2);
+    const std::string_view within =
+        context_.empty() ? std::string_view() : std::string_view(context_).substr(1, context_.size() - 2);
     return TomlReader(*table, "[" + std::string(within) + (within.empty() ? "" : ".") + std::string(key) + "]", file_);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <toml++/toml.h>
 #include <functional>
 #include <glm/glm.hpp>
 #include <initializer_list>
@@ -7,7 +8,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <vector>
 
 #include "base/error.h"
@@ -42,8 +42,7 @@ class TomlReader {
     /// "#rrggbb" or three linear numbers.
     std::optional<glm::vec3> color(std::string_view key);
     /// One of the given words; its index.
-    std::optional<std::size_t> choice(std::string_view key,
-                                      const std::vector<std::string_view>& words);
+    std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string_view>& words);
     /// A table within this one, or nothing.
     std::optional<TomlReader> table(std::string_view key);
     /// An array of tables; a single table counts as an array of one.

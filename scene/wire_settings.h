@@ -44,10 +44,10 @@ struct WireSettings {
     double q_px = 100;
     double fade_distance = 0;  ///< lines are fade_distance / distance as dark; world units, 0 = off
     WireThinning thinning = WireThinning::none;
-    double alpha_test = 0;  ///< pixels of surfaces with less line than this are removed; 0 = off
+    double alpha_test = 0;          ///< pixels of surfaces with less line than this are removed; 0 = off
     bool dotted_diagonals = false;  ///< solid-wireframe: diagonals within polygons as dots
     double transition_px = 1.8;     ///< id-buffer: where the flank of the profile is cut off
-    bool slope = false;  ///< id-buffer: allow for the slope of the surface beside the line
+    bool slope = false;             ///< id-buffer: allow for the slope of the surface beside the line
 
     WirePattern pattern = WirePattern::solid;
     double period_px = 12;    ///< of dashes

@@ -21,8 +21,9 @@ double cover_of_gap(double gap_px, double width_px) {
     return x < 1e-4 ? 1.0 : 0.5 * (std::sqrt(1 - x * x) + std::asin(x) / x);
 }
 
-/// Dots as wide as the pen touch each other below half a pixel, and in the limit they would be a solid line whatever the gaps between
-/// them are. So from half a pixel down to 1/64 their ink goes over to their share of the line, evenly per halving of the period.
+/// Dots as wide as the pen touch each other below half a pixel, and in the limit they would be a solid line whatever
+/// the gaps between them are. So from half a pixel down to 1/64 their ink goes over to their share of the line, evenly
+/// per halving of the period.
 double opacity_of_short(std::array<double, 2> dash_px, double width_px) {
     const double period_px = dash_px[0] + dash_px[1], share = dash_px[0] / period_px;
     const double steps = std::log2(kShortestPeriodPx / kFinestPeriodPx);
@@ -40,14 +41,18 @@ DashStyle style_of(std::array<double, 2> dash_px, double width_px) {
 }  // namespace
 
 double ink_of_dashes(std::array<double, 2> dash_px, double width_px) {
-    const double period_px = dash_px[0] + dash_px[1], straight = std::max(dash_px[0] - width_px, 0.0), gap = period_px - straight;
+    const double period_px = dash_px[0] + dash_px[1], straight = std::max(dash_px[0] - width_px, 0.0),
+                 gap = period_px - straight;
     return (straight + gap * cover_of_gap(gap, 2 * Pen(width_px).radius_px)) / period_px;
 }
 
-DashStyle visible_dashes(const LineStyle& style) { return style.dash_px ? style_of(*style.dash_px, style.width_px) : DashStyle{}; }
+DashStyle visible_dashes(const LineStyle& style) {
+    return style.dash_px ? style_of(*style.dash_px, style.width_px) : DashStyle{};
+}
 
 DashStyle hidden_dashes(const LineStyle& style) {
-    return style.hidden.style == HiddenStyle::dashed ? style_of(style.hidden_dash_px(), style.hidden_width_px()) : DashStyle{};
+    return style.hidden.style == HiddenStyle::dashed ? style_of(style.hidden_dash_px(), style.hidden_width_px())
+                                                     : DashStyle{};
 }
 
 }  // namespace burin

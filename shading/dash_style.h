@@ -7,8 +7,8 @@
 
 namespace burin {
 
-/// How dashes are drawn. Those with a period below half a pixel cannot be seen, and there would be any number of them: they are drawn
-/// as a solid line that lets through what the gaps do.
+/// How dashes are drawn. Those with a period below half a pixel cannot be seen, and there would be any number of them:
+/// they are drawn as a solid line that lets through what the gaps do.
 struct DashStyle {
     std::optional<std::array<double, 2>> dash_px;  ///< that are laid out along lines; none: lines are drawn solid
     double opacity = 1;                            ///< of such a solid line

@@ -32,8 +32,8 @@ enum class HiddenStyle : std::uint8_t { none, solid, dashed };
 /// How lines look that opaque surfaces hide.
 struct HiddenLineStyle {
     HiddenStyle style = HiddenStyle::none;
-    std::optional<double> width_px;               ///< as visible lines where not set
-    std::optional<std::array<double, 2>> dash_px; ///< lengths of a dash and of a gap
+    std::optional<double> width_px;                ///< as visible lines where not set
+    std::optional<std::array<double, 2>> dash_px;  ///< lengths of a dash and of a gap
     glm::vec3 color{0.21586f};                     ///< linear RGB; sRGB #808080
 };
 
@@ -49,9 +49,7 @@ struct LineStyle {
 
     const glm::vec3& color_of(LineClass c) const { return colors[static_cast<std::size_t>(c)]; }
     /// How far from a line its stroke changes pixels, hidden or not.
-    double reach_px() const {
-        return 0.5 * std::max(width_px, hidden_width_px()) + burin::reach_px(filter);
-    }
+    double reach_px() const { return 0.5 * std::max(width_px, hidden_width_px()) + burin::reach_px(filter); }
     double hidden_width_px() const { return hidden.width_px.value_or(width_px); }
     std::array<double, 2> hidden_dash_px() const {
         const double unit = std::max(1.0, hidden_width_px());

@@ -12,8 +12,8 @@ namespace burin {
 struct Pen {
     /// Narrower strokes are drawn this wide and as much lighter: masks have no finer samples.
     static constexpr double kFinestWidthPx = 0.25;
-    /// Below a pixel, widths are whole steps of the samples along the rows, and lighter by what that adds: else such a stroke
-    /// would have the energy of one step more or less.
+    /// Below a pixel, widths are whole steps of the samples along the rows, and lighter by what that adds: else such a
+    /// stroke would have the energy of one step more or less.
     static constexpr double kStepsPerPx = kStrokeRows * kStrokeColumnSets;
 
     double radius_px;

@@ -4,11 +4,13 @@
 
 namespace burin {
 
-glm::vec4 surface_color(const SurfaceStyle& style, const Material& material,
-                        const glm::dvec3& normal, const glm::dvec3& to_eye) {
+glm::vec4 surface_color(const SurfaceStyle& style, const Material& material, const glm::dvec3& normal,
+                        const glm::dvec3& to_eye) {
     switch (style.shading) {
-        case SurfaceShading::none: return glm::vec4(0.0f);
-        case SurfaceShading::paper: return glm::vec4(style.paper_color, 1.0f);
+        case SurfaceShading::none:
+            return glm::vec4(0.0f);
+        case SurfaceShading::paper:
+            return glm::vec4(style.paper_color, 1.0f);
         case SurfaceShading::lambert: {
             // A little light from everywhere, so that grazing surfaces do not turn black.
             const double facing = std::abs(glm::dot(normal, to_eye));

@@ -21,7 +21,7 @@ struct SurfaceStyle {
 
 /// Colour of a flat surface, linear and premultiplied by its opacity. `normal` is its unit normal in
 /// view space and `to_eye` the unit direction towards the eye; surfaces are two-sided.
-glm::vec4 surface_color(const SurfaceStyle& style, const Material& material,
-                        const glm::dvec3& normal, const glm::dvec3& to_eye);
+glm::vec4 surface_color(const SurfaceStyle& style, const Material& material, const glm::dvec3& normal,
+                        const glm::dvec3& to_eye);
 
 }  // namespace burin

@@ -28,7 +28,8 @@ class FadedStrokes {
     }
     /// As StrokeCanvas::eight_touched().
     std::uint64_t eight_touched(int column, int row) const {
-        return masks_.empty() ? 0 : StrokeCanvas::eight_bytes(&touched_[static_cast<std::size_t>(row * width_ + column)]);
+        return masks_.empty() ? 0
+                              : StrokeCanvas::eight_bytes(&touched_[static_cast<std::size_t>(row * width_ + column)]);
     }
     /// Calls use(mask, samples taken, opacity 0..1) for what there is in a pixel, the most opaque one first.
     template <typename Use>
@@ -48,7 +49,7 @@ class FadedStrokes {
     std::span<const PixelMask> masks_of(int column, int row) const;
 
     StrokeCanvas canvas_;
-    std::vector<PixelMask> masks_;  // by pixel, and in each the most opaque ones first
+    std::vector<PixelMask> masks_;       // by pixel, and in each the most opaque ones first
     std::vector<std::uint8_t> touched_;  // pixels that have masks, and room to read eight at once
     int width_ = 0;                      // of the rectangle, rounded up to eights
 };

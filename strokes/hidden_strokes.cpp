@@ -14,8 +14,9 @@ TileLists<const LayerSegment*> sort_by_tile(std::span<const std::vector<LayerSeg
     std::vector<std::vector<TileLists<const LayerSegment*>::Record>> records(segments.size());
     for (std::size_t i = 0; i < segments.size(); ++i) {
         for (const LayerSegment& s : segments[i]) {
-            grid.visit(glm::min(s.from, s.to) - reach_px, glm::max(s.from, s.to) + reach_px,
-                       [&](std::uint32_t tile) { records[i].push_back({tile, &s}); });
+            grid.visit(glm::min(s.from, s.to) - reach_px, glm::max(s.from, s.to) + reach_px, [&](std::uint32_t tile) {
+                records[i].push_back({tile, &s});
+            });
         }
     }
     return TileLists<const LayerSegment*>(records, grid.count());
@@ -35,8 +36,8 @@ class TileStrokes {
         StrokeMask visible, through, hidden;  // samples drawn by each kind of line
         float ink = 0;                        // coverage of visible lines and those seen through
         LinePixel seen_through;
-        float hidden_share = 0;               // coverage of hidden lines
-        float hidden_seen = 0;                // of that, what no other line covers
+        float hidden_share = 0;  // coverage of hidden lines
+        float hidden_seen = 0;   // of that, what no other line covers
         bool is_used = false;
         bool is_touched = false;
     };
@@ -88,7 +89,9 @@ class TileStrokes {
 
     static constexpr int kSamples = StrokeMask::kRows * StrokeMask::kColumns;
     /// Of a pixel, without the samples taken.
-    int count(const StrokeMask& mask, const StrokeMask& taken = {}) const { return kernels_.count_bits(mask.rows.data(), taken.rows.data()); }
+    int count(const StrokeMask& mask, const StrokeMask& taken = {}) const {
+        return kernels_.count_bits(mask.rows.data(), taken.rows.data());
+    }
     float share(const StrokeMask& mask, const StrokeMask& taken = {}) const { return share(count(mask, taken)); }
     static float share(int samples) { return static_cast<float>(samples) / kSamples; }
 
@@ -127,8 +130,7 @@ void draw_seen_through(std::span<const LayerSegment* const> layers, int transmis
     }
 }
 
-void draw_hidden(std::span<const LayerSegment* const> layers, int transmission, const Pen& pen,
-                 TileStrokes& strokes) {
+void draw_hidden(std::span<const LayerSegment* const> layers, int transmission, const Pen& pen, TileStrokes& strokes) {
     const auto is_it = [&](const LayerSegment& s) { return s.is_hidden && s.transmission == transmission; };
     const float strength = pen.strength * static_cast<float>(transmission) / 255.0f;
     strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
@@ -162,7 +164,8 @@ StrokeMask taken_by(const VisibleStrokes& visible, int column, int row) {
 }
 
 /// All kinds of lines are disjoint; visible ones come later and cover their share, `ink`.
-HiddenInk hidden_ink(const LineStyle& style, float ink, const glm::vec4& seen_through, float hidden_share, float hidden_seen) {
+HiddenInk hidden_ink(const LineStyle& style, float ink, const glm::vec4& seen_through, float hidden_share,
+                     float hidden_seen) {
     const float left = 1.0f - ink;
     const glm::vec4 hidden_color(style.hidden.color, 1.0f);
     glm::vec4 seen = seen_through + hidden_color * hidden_seen;
@@ -175,16 +178,20 @@ HiddenInk hidden_ink(const LineStyle& style, float ink, const glm::vec4& seen_th
 class HiddenStrokes::Worker {
   public:
     Worker(const LineStyle& style, const FilterTable* filter, const TileKernels& kernels)
-        : style_(style), filter_(filter), reach_(reach_px(style.filter)), 
+        : style_(style),
+          filter_(filter),
+          reach_(reach_px(style.filter)),
           pen_(style.width_px, StrokeSide::both, visible_dashes(style).opacity),
-          hidden_pen_(style.hidden_width_px(), StrokeSide::both, hidden_dashes(style).opacity), strokes_(filter, kernels) {}
+          hidden_pen_(style.hidden_width_px(), StrokeSide::both, hidden_dashes(style).opacity),
+          strokes_(filter, kernels) {}
 
-    void draw_below(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible, Film& film) {
+    void draw_below(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible,
+                    Film& film) {
         seen_through_.clear();
         const LayerSegment& first = *list.front();
         const bool is_plain = filter_ == nullptr && std::all_of(list.begin(), list.end(), [&](const LayerSegment* s) {
-            return s->is_hidden && s->transmission == first.transmission;
-        });
+                                  return s->is_hidden && s->transmission == first.transmission;
+                              });
         strokes_.reset({inner.x0 - reach_, inner.y0 - reach_, inner.x1 + reach_, inner.y1 + reach_});
         if (is_plain) {
             draw_plain(list, inner, visible, film);
@@ -203,7 +210,8 @@ class HiddenStrokes::Worker {
         LinePixel lines;
     };
 
-    void draw_all(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible, Film& film) {
+    void draw_all(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible,
+                  Film& film) {
         const PixelRect rect = strokes_.rect();
         visible.for_touched([&](int column, int row) {
             const auto i = static_cast<std::size_t>(row * rect.width() + column);
@@ -227,13 +235,15 @@ class HiddenStrokes::Worker {
             const bool is_inner = x >= inner.x0 && y >= inner.y0 && x < inner.x1 && y < inner.y1;
             if (!pixel.is_touched || !is_inner) continue;
             if (filter_ != nullptr) cut_off_lobes(pixel);
-            film.draw_hidden(x, y, hidden_ink(style_, pixel.ink, pixel.seen_through.color, pixel.hidden_share, pixel.hidden_seen));
+            film.draw_hidden(
+                x, y, hidden_ink(style_, pixel.ink, pixel.seen_through.color, pixel.hidden_share, pixel.hidden_seen));
             if (pixel.seen_through.color.a > 0) seen_through_.push_back({x, y, pixel.seen_through});
         }
     }
 
     /// The same where all lines are hidden and none covers another: pixels by themselves.
-    void draw_plain(std::span<const LayerSegment* const> list, PixelRect rect, const VisibleStrokes& visible, Film& film) {
+    void draw_plain(std::span<const LayerSegment* const> list, PixelRect rect, const VisibleStrokes& visible,
+                    Film& film) {
         const float strength = hidden_pen_.strength * static_cast<float>(list.front()->transmission) / 255.0f;
         const auto all = [](const LayerSegment&) { return true; };
         touched_.clear();
@@ -251,7 +261,9 @@ class HiddenStrokes::Worker {
             }
             const StrokeMask taken = taken_by(visible, column, row);
             const float ink = visible.pen().strength * strokes_.share(taken);
-            film.draw_hidden(x, y, hidden_ink(style_, ink, glm::vec4(0.0f), strength * strokes_.share(*mask), strength * strokes_.share(*mask, taken)));
+            film.draw_hidden(x, y,
+                             hidden_ink(style_, ink, glm::vec4(0.0f), strength * strokes_.share(*mask),
+                                        strength * strokes_.share(*mask, taken)));
         }
     }
     /// Of hidden lines alone, by how many samples of the pixel they cover.
@@ -280,7 +292,7 @@ class HiddenStrokes::Worker {
 };
 
 HiddenStrokes::HiddenStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
-                           std::span<const std::vector<LayerSegment>> layers)
+                             std::span<const std::vector<LayerSegment>> layers)
     : filter_(FilterTable::make(frame.scene->lines.style.filter)), grid_(part, kTilePx) {
     // What is not in front of all is drawn on both sides.
     const LineStyle& style = frame.scene->lines.style;
@@ -295,6 +307,8 @@ void HiddenStrokes::draw_below(int worker, std::size_t tile, const VisibleStroke
     workers_[static_cast<std::size_t>(worker)].draw_below(lists_.of(tile), grid_.tile(tile), visible, film);
 }
 
-void HiddenStrokes::draw_above(int worker, Film& film) const { workers_[static_cast<std::size_t>(worker)].draw_above(film); }
+void HiddenStrokes::draw_above(int worker, Film& film) const {
+    workers_[static_cast<std::size_t>(worker)].draw_above(film);
+}
 
 }  // namespace burin

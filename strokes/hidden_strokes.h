@@ -17,20 +17,20 @@ namespace burin {
 struct LayerSegment {
     glm::dvec2 from{0.0}, to{0.0};
     LineClass drawn_as = LineClass::silhouette;
-    bool is_hidden = false;         ///< by an opaque surface; else seen through transparent ones
+    bool is_hidden = false;           ///< by an opaque surface; else seen through transparent ones
     std::uint8_t transmission = 255;  ///< what transparent surfaces in front let through, 255 = all
 };
 
-/// Draws lines behind surfaces in one part of the picture: below the visible lines into the beauty, hidden ones into their
-/// own channels, and those seen through transparent surfaces into the channels of the visible lines. Tile by tile, together
-/// with the visible strokes, which cover them.
+/// Draws lines behind surfaces in one part of the picture: below the visible lines into the beauty, hidden ones into
+/// their own channels, and those seen through transparent surfaces into the channels of the visible lines. Tile by
+/// tile, together with the visible strokes, which cover them.
 class HiddenStrokes {
   public:
     static constexpr int kTilePx = 32;
 
     /// `layers` must outlive it.
     HiddenStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
-                 std::span<const std::vector<LayerSegment>> layers);
+                  std::span<const std::vector<LayerSegment>> layers);
     ~HiddenStrokes();
 
     bool has_any(std::size_t tile) const { return !lists_.of(tile).empty(); }

@@ -64,7 +64,8 @@ class StrokePrinter::Bins {
             double low, high;
         };
         const auto range = [reach](double from, double to, int origin) {
-            return Range{(std::min(from, to) - reach - origin) / double(kTilePx), (std::max(from, to) + reach - origin) / double(kTilePx)};
+            return Range{(std::min(from, to) - reach - origin) / double(kTilePx),
+                         (std::max(from, to) + reach - origin) / double(kTilePx)};
         };
         // Most of those that reach no tile lie above or below all of them.
         const Range y = range(s.from.y, s.to.y, region_.y0);
@@ -72,7 +73,8 @@ class StrokePrinter::Bins {
         const Range x = range(s.from.x, s.to.x, region_.x0);
         if (!(x.high >= 0 && x.low < columns_)) return std::nullopt;
         return Place{&s, static_cast<int>(std::max(x.low, 0.0)), static_cast<int>(std::max(y.low, 0.0)),
-                     static_cast<int>(std::min(x.high, columns_ - 1.0)), static_cast<int>(std::min(y.high, rows_ - 1.0))};
+                     static_cast<int>(std::min(x.high, columns_ - 1.0)),
+                     static_cast<int>(std::min(y.high, rows_ - 1.0))};
     }
     template <typename Visit>
     void for_tiles(const Place& place, const Visit& visit) const {
@@ -129,16 +131,18 @@ class StrokePrinter::Printer {
         for (const auto [column, row] : touched_) {
             const int x = rect.x0 + column, y = rect.y0 + row;
             if (const std::optional<LineClass> c = strokes_.only_class(column, row)) {  // mostly
-                const int samples = kernels_.count_bits(strokes_.mask_of(*c, column, row).rows.data(), nothing.rows.data());
+                const int samples =
+                    kernels_.count_bits(strokes_.mask_of(*c, column, row).rows.data(), nothing.rows.data());
                 film.draw_over(x, y, ink_of(*c)[samples]);
                 continue;
             }
             LinePixel pixel;
             LineClassSet present;
-            strokes_.for_classes(column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
-                present |= c;
-                add(c, opacity, kernels_.count_bits(mask.rows.data(), taken.rows.data()), pixel);
-            });
+            strokes_.for_classes(column, row,
+                                 [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
+                                     present |= c;
+                                     add(c, opacity, kernels_.count_bits(mask.rows.data(), taken.rows.data()), pixel);
+                                 });
             color(pixel, present);
             film.draw_over(x, y, pixel);
         }
@@ -148,10 +152,11 @@ class StrokePrinter::Printer {
     void print(PixelRect rect, const FilterTable& filter, Film& film) {
         filtered_.assign(static_cast<std::size_t>(rect.width() * rect.height()), Coverages{});
         strokes_.for_touched([&](int column, int row) {
-            strokes_.for_classes(column, row, [&](LineClass c, StrokeMask mask, const StrokeMask& taken, float opacity) {
-                for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
-                spread(filter.shares_of(mask), opacity * strokes_.pen().strength, c, column, row, rect);
-            });
+            strokes_.for_classes(
+                column, row, [&](LineClass c, StrokeMask mask, const StrokeMask& taken, float opacity) {
+                    for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
+                    spread(filter.shares_of(mask), opacity * strokes_.pen().strength, c, column, row, rect);
+                });
         });
         for (std::size_t i = 0; i < filtered_.size(); ++i) {
             if (filtered_[i] == Coverages{}) continue;
@@ -178,13 +183,14 @@ class StrokePrinter::Printer {
     }
 
     void add(LineClass c, float opacity, int samples, LinePixel& pixel) const {
-        pixel.coverage[static_cast<std::size_t>(c)] +=
-            opacity * strokes_.pen().strength * static_cast<float>(samples) / (StrokeMask::kRows * StrokeMask::kColumns);
+        pixel.coverage[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(samples) /
+                                                       (StrokeMask::kRows * StrokeMask::kColumns);
     }
     /// Of a class alone, by how many samples of the pixel it covers.
     const LineInk* ink_of(LineClass c) {
         std::vector<LineInk>& inks = inks_[static_cast<std::size_t>(c)];
-        for (int samples = static_cast<int>(inks.size()); samples <= StrokeMask::kRows * StrokeMask::kColumns; ++samples) {
+        for (int samples = static_cast<int>(inks.size()); samples <= StrokeMask::kRows * StrokeMask::kColumns;
+             ++samples) {
             LinePixel pixel;
             add(c, 1.0f, samples, pixel);
             color(pixel, c);

@@ -22,8 +22,8 @@ class StrokePrinter {
     StrokePrinter(const Frame& frame, const TileKernels& kernels, int threads, Film& film);
     ~StrokePrinter();
 
-    /// Draws a part of the picture, on all threads. `lines`: all whose strokes reach it; `behind`: nullptr or those behind
-    /// surfaces in the same part.
+    /// Draws a part of the picture, on all threads. `lines`: all whose strokes reach it; `behind`: nullptr or those
+    /// behind surfaces in the same part.
     void draw(PixelRect part, Lists lines, HiddenStrokes* behind = nullptr);
     /// Draws it on one thread, while others draw other parts. `worker`: which thread, [0, threads).
     void draw_as(int worker, PixelRect part, Lists lines);
@@ -37,7 +37,7 @@ class StrokePrinter {
     const Frame& frame_;
     Film& film_;
     std::unique_ptr<const FilterTable> filter_;  // nullptr: each pixel sees its own square
-    std::vector<Printer> printers_;  // of each thread
+    std::vector<Printer> printers_;              // of each thread
 };
 
 }  // namespace burin

@@ -9,7 +9,8 @@
 
 namespace burin {
 
-RowPrinter::RowPrinter(const Frame& frame, const TileKernels& kernels, int threads, const RunOptions& options, Film& film)
+RowPrinter::RowPrinter(const Frame& frame, const TileKernels& kernels, int threads, const RunOptions& options,
+                       Film& film)
     : options_(options),
       threads_(threads),
       crop_(frame.crop),

@@ -22,18 +22,20 @@ class RowPrinter {
     int taken_y() const { return taken_y_; }
     /// Whether somebody waits for finished bands.
     bool hands_on() const { return options_.finished_band != nullptr; }
-    /// Takes the rows of the crop that strokes of lines from row `known_y` on do not reach, whole bands of them, less those
-    /// that are taken: at most so many bands. May be empty. Any thread may call it.
+    /// Takes the rows of the crop that strokes of lines from row `known_y` on do not reach, whole bands of them, less
+    /// those that are taken: at most so many bands. May be empty. Any thread may call it.
     PixelRect take(int known_y, int most_bands = kAllBands);
     /// All that are left.
     PixelRect take_rest();
 
-    /// Strokes over rows that were taken, and what the next one does: on one thread, while others do the same with other
-    /// rows. Returns the seconds that the latter took.
+    /// Strokes over rows that were taken, and what the next one does: on one thread, while others do the same with
+    /// other rows. Returns the seconds that the latter took.
     double finish_as(int worker, PixelRect rows, StrokePrinter::Lists lines);
 
     /// The same in two steps, each on all threads.
-    void draw(PixelRect rows, StrokePrinter::Lists lines, HiddenStrokes* behind = nullptr) { strokes_.draw(rows, lines, behind); }
+    void draw(PixelRect rows, StrokePrinter::Lists lines, HiddenStrokes* behind = nullptr) {
+        strokes_.draw(rows, lines, behind);
+    }
     void hand_on(PixelRect rows) const;
 
   private:

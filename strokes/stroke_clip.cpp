@@ -75,7 +75,8 @@ void StrokeClipper::reset(int x0, int y0, int width, int height) {
 
 bool StrokeClipper::may_hide(const ClipPiece& boundary, const ClipPiece& piece, double radius_px, StrokeSide side) {
     if (!boundary.occludes || &boundary == &piece) return false;
-    const glm::dvec2 low = glm::min(piece.from, piece.to) - radius_px, high = glm::max(piece.from, piece.to) + radius_px;
+    const glm::dvec2 low = glm::min(piece.from, piece.to) - radius_px,
+                     high = glm::max(piece.from, piece.to) + radius_px;
     const glm::dvec2 b_low = glm::min(boundary.from, boundary.to), b_high = glm::max(boundary.from, boundary.to);
     if (b_low.x > high.x || b_low.y > high.y || b_high.x < low.x || b_high.y < low.y) return false;
     if (side != StrokeSide::both) return true;  // its own neighbours bound it
@@ -93,7 +94,8 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
 
 /// Of some columns, with samples so many rows further down.
 template <typename Visit>
-void StrokeClipper::for_spans_of(std::span<const HalfPlane> sides, double down, std::uint32_t columns, const Visit& visit) const {
+void StrokeClipper::for_spans_of(std::span<const HalfPlane> sides, double down, std::uint32_t columns,
+                                 const Visit& visit) const {
     const double middle = 0.5 + down;  // of a row
     // Each side bounds the columns of a row, linearly in the row, or the rows.
     struct Bound {
@@ -103,7 +105,8 @@ void StrokeClipper::for_spans_of(std::span<const HalfPlane> sides, double down, 
     std::array<Bound, 4> bounds{};
     std::size_t count = 0;
     double first = first_row_, last = end_row_;  // rows in [first, last)
-    const double left = x0_ + (first_column_ - 1.0) / StrokeMask::kColumns, right = x0_ + (end_column_ + 1.0) / StrokeMask::kColumns;
+    const double left = x0_ + (first_column_ - 1.0) / StrokeMask::kColumns,
+                 right = x0_ + (end_column_ + 1.0) / StrokeMask::kColumns;
     for (const HalfPlane& side : sides) {
         if (side.normal.x == 0) {
             const double row = (side.offset / side.normal.y - y0_) * StrokeMask::kRows - middle;
@@ -146,15 +149,16 @@ void StrokeClipper::for_spans_of(std::span<const HalfPlane> sides, double down, 
         if (!(low < high)) continue;
         for_pixels(static_cast<int>(low), static_cast<int>(high), [&](int pixel, std::uint32_t bits) {
             if ((bits & columns) == 0) return;
-            visit(row / StrokeMask::kRows * width_ + pixel, static_cast<std::size_t>(row % StrokeMask::kRows), bits & columns);
+            visit(row / StrokeMask::kRows * width_ + pixel, static_cast<std::size_t>(row % StrokeMask::kRows),
+                  bits & columns);
         });
     }
 }
 
 /// The parts of a boundary beside a piece and beyond either of its ends: what lies behind each, seen at
 /// right angles from the piece, or from its end.
-void StrokeClipper::add_shadows(const ClipPiece& boundary, const ClipPiece& piece, const Frame& frame,
-                                double radius_px, StrokeSide side) {
+void StrokeClipper::add_shadows(const ClipPiece& boundary, const ClipPiece& piece, const Frame& frame, double radius_px,
+                                StrokeSide side) {
     const glm::dvec2 p = frame.to_local(boundary.from), q = frame.to_local(boundary.to), along = q - p;
     if (glm::dot(along, along) == 0) return;
     // Where the boundary's front is.
@@ -166,7 +170,8 @@ void StrokeClipper::add_shadows(const ClipPiece& boundary, const ClipPiece& piec
     const auto add = [&](double begin, double end, double nearest, glm::dvec2 seen_from, HalfPlane low, HalfPlane high,
                          HalfPlane beside) {
         const glm::dvec2 middle = p + along * (0.5 * (begin + end));
-        const double depth = boundary.depth_from_px + (boundary.depth_to_px - boundary.depth_from_px) * 0.5 * (begin + end);
+        const double depth =
+            boundary.depth_from_px + (boundary.depth_to_px - boundary.depth_from_px) * 0.5 * (begin + end);
         const double share = length > 0 ? std::clamp(middle.x / length, 0.0, 1.0) : 0;
         const double own = piece.depth_from_px + (piece.depth_to_px - piece.depth_from_px) * share;
         Shadow shadow;
@@ -191,8 +196,8 @@ void StrokeClipper::add_shadows(const ClipPiece& boundary, const ClipPiece& piec
             if (std::min(std::abs(a.y), std::abs(b.y)) > radius_px || a.x == b.x) continue;
             const auto [low, high] = std::minmax(a.x, b.x);
             const glm::dvec2 middle = 0.5 * (a + b);
-            add(from, to, std::abs(middle.y), {middle.x, 0}, frame.to_screen({1, 0}, low), frame.to_screen({-1, 0}, -high),
-                frame.to_screen({0, sign}, 0));
+            add(from, to, std::abs(middle.y), {middle.x, 0}, frame.to_screen({1, 0}, low),
+                frame.to_screen({-1, 0}, -high), frame.to_screen({0, sign}, 0));
         }
     }
     const double back = std::min(kOvershootPx, 0.5 * length);
@@ -203,7 +208,9 @@ void StrokeClipper::add_shadows(const ClipPiece& boundary, const ClipPiece& piec
         if (!clip(sign * (p.x - eye.x), sign * (q.x - eye.x), from, to)) continue;
         const glm::dvec2 a = p + along * from - eye, b = p + along * to - eye;
         const double turn = cross(a, b);
-        if ((drawn != 0 && a.y * drawn < 0 && b.y * drawn < 0) || std::abs(turn) < 1e-9 || distance_to_piece({last, 0}, a + eye, b + eye) > radius_px) continue;
+        if ((drawn != 0 && a.y * drawn < 0 && b.y * drawn < 0) || std::abs(turn) < 1e-9 ||
+            distance_to_piece({last, 0}, a + eye, b + eye) > radius_px)
+            continue;
         const double way = turn > 0 ? 1 : -1;
         const glm::dvec2 low = glm::dvec2(-a.y, a.x) * way, high = glm::dvec2(b.y, -b.x) * way;
         add(from, to, glm::length(0.5 * (a + b)) - back, eye, frame.to_screen(low, glm::dot(low, eye)),
@@ -227,7 +234,8 @@ void StrokeClipper::apply(const Shadow& shadow, bool blocks_outside) {
 
 StrokeCanvas::Box StrokeClipper::pixels() const {
     const auto up = [](int samples, int per_px) { return (samples + per_px - 1) / per_px; };
-    return {first_column_ / StrokeMask::kColumns, first_row_ / StrokeMask::kRows, up(end_column_, StrokeMask::kColumns), up(end_row_, StrokeMask::kRows)};
+    return {first_column_ / StrokeMask::kColumns, first_row_ / StrokeMask::kRows, up(end_column_, StrokeMask::kColumns),
+            up(end_row_, StrokeMask::kRows)};
 }
 
 bool StrokeClipper::cut_to(const StrokeCanvas::Box& box) {
@@ -248,8 +256,11 @@ StrokeCanvas::Box StrokeClipper::pixels_to_add(const StrokeCanvas& onto, bool kn
             const StrokeMask &own = canvas_.at(x, y), &other = onto.at(x, y);
             const auto& behind = behind_[static_cast<std::size_t>(y * width_ + x)];
             std::uint32_t any = 0;
-            for (std::size_t r = 0; r < own.rows.size(); ++r) any |= own.rows[r] & ~other.rows[r] & ~(knows_behind ? behind[r].off : 0u);
-            if (any != 0) found = {std::min(found.x0, x), std::min(found.y0, y), std::max(found.x1, x + 1), std::max(found.y1, y + 1)};
+            for (std::size_t r = 0; r < own.rows.size(); ++r)
+                any |= own.rows[r] & ~other.rows[r] & ~(knows_behind ? behind[r].off : 0u);
+            if (any != 0)
+                found = {std::min(found.x0, x), std::min(found.y0, y), std::max(found.x1, x + 1),
+                         std::max(found.y1, y + 1)};
         }
     }
     return found;
@@ -282,7 +293,8 @@ bool StrokeClipper::is_between(const ClipPiece& boundary, const Frame& frame) co
 }
 
 /// Adds the shadows of the boundaries that are so many cells away.
-void StrokeClipper::find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side) {
+void StrokeClipper::find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px,
+                                 StrokeSide side) {
     cells_.for_ring(cells_.cells_of({piece.from, piece.to}), ring, [&](std::uint32_t i) {
         if (asked_[i] == stroke_count_) return;
         asked_[i] = stroke_count_;
@@ -294,8 +306,10 @@ void StrokeClipper::find_shadows(int ring, const ClipPiece& piece, const Frame& 
     });
 }
 
-/// Passes the boundaries on the ways from a piece, the nearest ones first, until nothing of the stroke is left: then it is false.
-bool StrokeClipper::pass_boundaries(const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side, const StrokeCanvas& onto) {
+/// Passes the boundaries on the ways from a piece, the nearest ones first, until nothing of the stroke is left: then it
+/// is false.
+bool StrokeClipper::pass_boundaries(const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side,
+                                    const StrokeCanvas& onto) {
     // Beyond its own surface a stroke on the inside is cut off for good, mostly by the first boundaries.
     constexpr std::size_t kLookEvery = 6;
     const bool is_inside = side == StrokeSide::inside;

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "shading/line_style.h"
 #include "lines/boundary_cells.h"
+#include "shading/line_style.h"
 #include "strokes/stroke_mask.h"
 
 namespace burin {
@@ -16,8 +16,8 @@ namespace burin {
 struct ClipPiece {
     glm::dvec2 from{0.0}, to{0.0};
     double depth_from_px = 0, depth_to_px = 0;  ///< in pixels' widths; only differences mean anything
-    bool occludes = false;     ///< a surface in front ends here
-    bool front_on_left = false;  ///< of the way, as seen on the screen: where that surface is
+    bool occludes = false;                      ///< a surface in front ends here
+    bool front_on_left = false;                 ///< of the way, as seen on the screen: where that surface is
 };
 
 /// Draws strokes on one side of a line only, and cuts off what would lie over nearer surfaces.
@@ -77,11 +77,12 @@ class StrokeClipper {
     StrokeCanvas::Box pixels_to_add(const StrokeCanvas& onto, bool knows_behind) const;
     bool is_between(const ClipPiece& boundary, const Frame& frame) const;
     void find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side);
-    bool pass_boundaries(const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side, const StrokeCanvas& onto);
+    bool pass_boundaries(const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side,
+                         const StrokeCanvas& onto);
 
     StrokeCanvas canvas_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
-    bool in_sets_ = false;  // is_level(), as its canvas samples it
+    bool in_sets_ = false;                                                 // is_level(), as its canvas samples it
     int first_row_ = 0, end_row_ = 0, first_column_ = 0, end_column_ = 0;  // of the stroke, in samples
     std::vector<Shadow> shadows_;
     std::vector<std::array<Behind, StrokeMask::kRows>> behind_;

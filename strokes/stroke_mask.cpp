@@ -21,14 +21,17 @@ void StrokeCanvas::reset(int x0, int y0, int width, int height) {
         std::uint64_t eight = eight_bytes(&touched_[first]);
         if (eight == 0) continue;
         std::fill_n(&touched_[first], 8, std::uint8_t{0});
-        for (; eight != 0; eight &= eight - 1) masks_[first + static_cast<std::size_t>(std::countr_zero(eight) / 8)] = StrokeMask{};
+        for (; eight != 0; eight &= eight - 1)
+            masks_[first + static_cast<std::size_t>(std::countr_zero(eight) / 8)] = StrokeMask{};
     }
 }
 
 StrokeCanvas::Box StrokeCanvas::box_around(const glm::dvec2& from, const glm::dvec2& to, double radius_px) const {
-    const glm::dvec2 origin(x0_, y0_), low = glm::min(from, to) - radius_px - origin, high = glm::max(from, to) + radius_px - origin;
+    const glm::dvec2 origin(x0_, y0_), low = glm::min(from, to) - radius_px - origin,
+                                       high = glm::max(from, to) + radius_px - origin;
     const auto pixel = [](double v, int end) { return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(end))); };
-    return {pixel(std::floor(low.x), width_), pixel(std::floor(low.y), height_), pixel(std::ceil(high.x), width_), pixel(std::ceil(high.y), height_)};
+    return {pixel(std::floor(low.x), width_), pixel(std::floor(low.y), height_), pixel(std::ceil(high.x), width_),
+            pixel(std::ceil(high.y), height_)};
 }
 
 bool StrokeCanvas::is_open(int column, int row) {
@@ -50,7 +53,8 @@ StrokeCanvas::Box StrokeCanvas::open_part(Box box) {
     };
     const auto end_of_open = [&](int row, int from, int to) {
         for (int x = to; x > from; --x) {
-            while (x % 8 == 0 && x - 8 >= from && eight_bytes(&known_full_[index(x - 8, row)]) == 0x0101010101010101u) x -= 8;
+            while (x % 8 == 0 && x - 8 >= from && eight_bytes(&known_full_[index(x - 8, row)]) == 0x0101010101010101u)
+                x -= 8;
             if (x <= from || is_open(x - 1, row)) return x;
         }
         return from;

@@ -14,8 +14,8 @@
 
 namespace burin {
 
-/// A pixel's coverage mask for strokes: 16 rows of 32 samples, bit c of row r at ((c + 1/2 + shift) / 32, (r + 1/2) / 16) of
-/// the pixel with the row's stroke_row_shift(); for level boundaries, see kStrokeColumnShifts.
+/// A pixel's coverage mask for strokes: 16 rows of 32 samples, bit c of row r at ((c + 1/2 + shift) / 32, (r + 1/2) /
+/// 16) of the pixel with the row's stroke_row_shift(); for level boundaries, see kStrokeColumnShifts.
 struct StrokeMask {
     static constexpr int kRows = kStrokeRows;
     static constexpr int kColumns = kStrokeColumns;
@@ -39,7 +39,8 @@ class StrokeCanvas {
     void draw(const glm::dvec2& from, const glm::dvec2& to, double radius_px) {
         // Wide strokes lie on each other, and soon most of their pixels are full.
         if (radius_px > kWideRadiusPx && open_part(box_around(from, to, radius_px + 1)).is_empty()) return;
-        kernels_->draw_stroke({{from.x, from.y}, {to.x, to.y}, radius_px}, {masks_.data()->rows.data(), touched_.data(), x0_, y0_, width_, height_, stride_});
+        kernels_->draw_stroke({{from.x, from.y}, {to.x, to.y}, radius_px},
+                              {masks_.data()->rows.data(), touched_.data(), x0_, y0_, width_, height_, stride_});
     }
 
     /// Adds samples of one pixel.
@@ -54,9 +55,7 @@ class StrokeCanvas {
     const StrokeMask& at(int column, int row) const { return masks_[index(column, row)]; }
     bool is_touched(int column, int row) const { return touched_[index(column, row)] != 0; }
     /// Whether eight pixels from a multiple of eight on are touched, those beyond the canvas not: a byte each, 0 or 1.
-    std::uint64_t eight_touched(int column, int row) const {
-        return eight_bytes(&touched_[index(column, row)]);
-    }
+    std::uint64_t eight_touched(int column, int row) const { return eight_bytes(&touched_[index(column, row)]); }
     /// The first byte in the lowest bits.
     static std::uint64_t eight_bytes(const std::uint8_t* first) {
         static_assert(std::endian::native == std::endian::little);
@@ -68,7 +67,8 @@ class StrokeCanvas {
     template <typename Visit>
     void for_touched(const Visit& visit) const {
         for (int row = 0; row < height_; ++row) {
-            for (int column = 0; column < width_; column += 8) visit_touched(eight_touched(column, row), column, row, visit);
+            for (int column = 0; column < width_; column += 8)
+                visit_touched(eight_touched(column, row), column, row, visit);
         }
     }
     /// The same for those of eight pixels.

@@ -68,8 +68,8 @@ bool VisibleStrokes::needs_clipping(std::span<const LineSegment* const> segments
 void VisibleStrokes::draw_clipped(std::span<const LineSegment* const> segments) {
     pieces_.clear();
     for (const LineSegment* s : segments) {
-        pieces_.push_back({s->from, s->to, depth_px(s->nearness_from), depth_px(s->nearness_to), s->occludes,
-                           s->front_on_left});
+        pieces_.push_back(
+            {s->from, s->to, depth_px(s->nearness_from), depth_px(s->nearness_to), s->occludes, s->front_on_left});
     }
     clipper_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
     const bool is_wide = pen_.radius_px > kWideRadiusPx;
@@ -82,7 +82,8 @@ void VisibleStrokes::draw_clipped(std::span<const LineSegment* const> segments) 
             if (!segments[i]->is_drawn || segments[i]->opacity < 255 || segments[i]->drawn_as != c) continue;
             strokes.push_back({is_wide ? distance_to(middle, pieces_[i]) : 0, i});
         }
-        // In any order they make the same masks. Of wide ones, the nearest fill the tile, and then nothing is left of the others.
+        // In any order they make the same masks. Of wide ones, the nearest fill the tile, and then nothing is left of
+        // the others.
         if (is_wide) std::sort(strokes.begin(), strokes.end());
         for (std::size_t k = 0; k < strokes.size(); ++k) {
             if (is_wide && k % kLookEvery == 0 && canvas_of(c).open_part(all).is_empty()) break;
@@ -90,9 +91,8 @@ void VisibleStrokes::draw_clipped(std::span<const LineSegment* const> segments) 
         }
     }
     find_boundaries(segments, LineClass::crease);
-    faded_.draw(segments, rect_, [&](std::size_t i, StrokeCanvas& canvas) {
-        clipper_.draw(pieces_[i], pen_.radius_px, side_, canvas);
-    });
+    faded_.draw(segments, rect_,
+                [&](std::size_t i, StrokeCanvas& canvas) { clipper_.draw(pieces_[i], pen_.radius_px, side_, canvas); });
 }
 
 /// What hides strokes of a class.
@@ -109,8 +109,8 @@ void VisibleStrokes::find_boundaries(std::span<const LineSegment* const> segment
 
 /// In pixels' widths at that distance: a difference of 1 is a pixel's width.
 double VisibleStrokes::depth_px(float nearness) const {
-    return projection_.focal_px * (projection_.orthographic ? -static_cast<double>(nearness)
-                                                            : -std::log(static_cast<double>(nearness)));
+    return projection_.focal_px *
+           (projection_.orthographic ? -static_cast<double>(nearness) : -std::log(static_cast<double>(nearness)));
 }
 
 }  // namespace burin

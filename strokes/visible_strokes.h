@@ -48,8 +48,9 @@ class VisibleStrokes {
     }
     const StrokeMask& mask_of(LineClass c, int column, int row) const { return canvas_of(c).at(column, row); }
     bool is_touched(int column, int row) const {
-        return faded_.is_touched(column, row) ||
-               std::any_of(classes_.begin(), classes_.end(), [&](LineClass c) { return canvas_of(c).is_touched(column, row); });
+        return faded_.is_touched(column, row) || std::any_of(classes_.begin(), classes_.end(), [&](LineClass c) {
+                   return canvas_of(c).is_touched(column, row);
+               });
     }
     /// Calls use(class, mask, samples taken by others, opacity 0..1) for the strokes at a pixel, class by class;
     /// what fades comes last. Where several overlap, the first one counts.

@@ -16,8 +16,8 @@ namespace {
 
 /// Planes that meet at an angle drift apart by more than kCoincidentPx within so many pixels, or are taken for one.
 constexpr double kAroundPx = 2;
-/// Programs round coordinates on the way to a file. By less than this, in pixels, nothing is in front for certain, unless that is
-/// more than single precision loses anywhere in the scene.
+/// Programs round coordinates on the way to a file. By less than this, in pixels, nothing is in front for certain,
+/// unless that is more than single precision loses anywhere in the scene.
 constexpr double kLeastCertainPx = 1.0 / 2048;
 
 /// A convex polygon on the screen, in pixels, clockwise as seen.
@@ -29,7 +29,8 @@ class Region {
             corners_[count_++] = glm::dvec2(p.x, p.y) / double{kSubpixelsPerPixel};
         }
         double area = 0;
-        for (std::size_t i = 2; i < count_; ++i) area += cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
+        for (std::size_t i = 2; i < count_; ++i)
+            area += cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
         if (area < 0) std::reverse(corners_.begin(), corners_.begin() + count_);
     }
 
@@ -60,7 +61,8 @@ class Region {
         for (std::size_t i = 0; i < count_ && kept_count + 2 <= kMost; ++i) {
             const std::size_t next = i + 1 == count_ ? 0 : i + 1;
             if (side[i] >= 0) kept[kept_count++] = corners_[i];
-            if ((side[i] < 0) != (side[next] < 0)) kept[kept_count++] = glm::mix(corners_[i], corners_[next], side[i] / (side[i] - side[next]));
+            if ((side[i] < 0) != (side[next] < 0))
+                kept[kept_count++] = glm::mix(corners_[i], corners_[next], side[i] / (side[i] - side[next]));
         }
         std::copy_n(kept.begin(), kept_count, corners_.begin());
         count_ = kept_count;
@@ -103,12 +105,14 @@ Region common_region(const Projection& projection, const ScreenPolygon& a, const
     common.clip(Region(b));
     const glm::dvec2 size = 2.0 * projection.center_px, right(size.x, 0), below(0, size.y);
     Region seen = common;
-    for (const auto& [from, to] : {std::pair{glm::dvec2(0.0), right}, {right, size}, {size, below}, {below, glm::dvec2(0.0)}}) seen.clip(from, to);
+    for (const auto& [from, to] :
+         {std::pair{glm::dvec2(0.0), right}, {right, size}, {size, below}, {below, glm::dvec2(0.0)}})
+        seen.clip(from, to);
     return seen.is_sliver() ? common : seen;
 }
 
-/// How much nearness changes when a plane moves by `error` along its normal: by error / normal.z (orthographic), or by a
-/// factor of error / distance of the plane from the eye.
+/// How much nearness changes when a plane moves by `error` along its normal: by error / normal.z (orthographic), or by
+/// a factor of error / distance of the plane from the eye.
 class Sensitivity {
   public:
     Sensitivity(const Projection& projection, const glm::dvec3 (&corners)[3]) : projection_(projection) {
@@ -142,7 +146,9 @@ class PlanePair {
     bool has_both() const { return of_a_.has_plane() && of_b_.has_plane(); }
     SurfaceOrder at(glm::dvec2 p, bool may_be_one_plane, const CoordinateErrors& errors) const {
         const double nearness = plane_a_.extended_to(p), gap = nearness - plane_b_.extended_to(p);
-        const auto change = [&](double of_a, double of_b) { return of_a_.change(nearness, of_a) + of_b_.change(nearness, of_b); };
+        const auto change = [&](double of_a, double of_b) {
+            return of_a_.change(nearness, of_a) + of_b_.change(nearness, of_b);
+        };
         const double pixel = projection_.pixel_size(projection_.distance(nearness));
         const double error = change(errors.any, errors.any), per_pixel = change(0.5 * pixel, 0.5 * pixel);
         const double visible = change(0.5 * kCoincidentPx * pixel, 0.5 * kCoincidentPx * pixel);
@@ -150,7 +156,8 @@ class PlanePair {
         SurfaceOrder order;
         order.have_common_place = true;
         (gap > certain ? order.has_front : gap < -certain ? order.has_behind : order.has_level) = true;
-        const double own_error = std::min(error, std::max(change(errors.of_a, errors.of_b), kLeastCertainPx * per_pixel));
+        const double own_error =
+            std::min(error, std::max(change(errors.of_a, errors.of_b), kLeastCertainPx * per_pixel));
         (gap > own_error ? order.has_nearer : gap < -own_error ? order.has_farther : order.has_equal) = true;
         const double allowed = may_be_one_plane ? std::max(error, visible) : error;
         order.is_apart = !(std::abs(gap) + kAroundPx * drift_ <= allowed);  // so is what is not a number
@@ -183,7 +190,9 @@ void SurfaceOrder::operator+=(const SurfaceOrder& o) {
     is_far = is_far || o.is_far;
 }
 
-bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]) { return Sensitivity(projection, corners).is_front(); }
+bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]) {
+    return Sensitivity(projection, corners).is_front();
+}
 
 SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
                               bool may_be_one_plane, const CoordinateErrors& errors) {
@@ -198,8 +207,8 @@ SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a
     return order;
 }
 
-SurfaceOrder compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], glm::dvec2 place,
-                            bool may_be_one_plane, const CoordinateErrors& errors) {
+SurfaceOrder compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
+                            glm::dvec2 place, bool may_be_one_plane, const CoordinateErrors& errors) {
     const PlanePair planes(projection, a, b);
     return planes.has_both() ? planes.at(place, may_be_one_plane, errors) : SurfaceOrder{};
 }

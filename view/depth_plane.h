@@ -18,13 +18,9 @@ struct DepthPlane {
     double highest = 0;    ///< planes that run wild as soon as one leaves the triangle
 
     /// Nearness of the plane anywhere on the screen.
-    double extended_to(glm::dvec2 pixel) const {
-        return at_origin + per_x * pixel.x + per_y * pixel.y;
-    }
+    double extended_to(glm::dvec2 pixel) const { return at_origin + per_x * pixel.x + per_y * pixel.y; }
     /// Nearness at a position on the triangle.
-    double nearness(glm::dvec2 pixel) const {
-        return std::clamp(extended_to(pixel), lowest, highest);
-    }
+    double nearness(glm::dvec2 pixel) const { return std::clamp(extended_to(pixel), lowest, highest); }
     /// How much nearness changes over 1/256 pixel: what snapping may do.
     double snapping_error() const { return (std::abs(per_x) + std::abs(per_y)) / 256; }
 };

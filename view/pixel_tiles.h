@@ -69,8 +69,8 @@ class PixelTiles {
         }
     }
 
-    /// The same, but for tiles that a polygon within the box passes by, farther than a pixel. Its corners are in units of which
-    /// there are `per_px` in a pixel.
+    /// The same, but for tiles that a polygon within the box passes by, farther than a pixel. Its corners are in units
+    /// of which there are `per_px` in a pixel.
     template <typename Visit>
     void visit(glm::dvec2 low, glm::dvec2 high, const PolygonRows& polygon, double per_px, const Visit& visit) const {
         if (!(high.x >= region_.x0 && high.y >= region_.y0 && low.x <= region_.x1 && low.y <= region_.y1)) return;
@@ -80,7 +80,8 @@ class PixelTiles {
         const int y1 = std::min(index_along(high.y - region_.y0, rows_.end), chosen_.end - 1);
         for (int y = y0; y <= y1; ++y) {
             // Tiles at the border stand for what is beyond it.
-            const double top = y == 0 ? -kFarPx : region_.y0 + y * tile_px_, bottom = y == rows_.end - 1 ? kFarPx : region_.y0 + (y + 1) * tile_px_;
+            const double top = y == 0 ? -kFarPx : region_.y0 + y * tile_px_,
+                         bottom = y == rows_.end - 1 ? kFarPx : region_.y0 + (y + 1) * tile_px_;
             const PolygonRows::Range range = polygon.between((top - kBesidePx) * per_px, (bottom + kBesidePx) * per_px);
             if (range.is_empty()) continue;
             const int first = std::max(x0, index_along(range.low / per_px - kBesidePx - region_.x0, columns_));

@@ -8,8 +8,8 @@
 
 namespace burin {
 
-/// The half planes beside the edges of a convex polygon, which tell rectangles that lie beside it though within its box: long
-/// triangles touch few of the tiles there.
+/// The half planes beside the edges of a convex polygon, which tell rectangles that lie beside it though within its
+/// box: long triangles touch few of the tiles there.
 class PolygonSides {
   public:
     explicit PolygonSides(const ScreenPolygon& polygon) {
@@ -30,8 +30,8 @@ class PolygonSides {
         }
     }
 
-    /// Whether a rectangle lies beside the polygon, with all of its border, for certain. 1/256 pixel, no farther than the
-    /// guard band.
+    /// Whether a rectangle lies beside the polygon, with all of its border, for certain. 1/256 pixel, no farther than
+    /// the guard band.
     bool leave_out(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) const {
         return std::any_of(sides_.begin(), sides_.begin() + count_,
                            [&](const Side& s) { return s.at(s.dy > 0 ? x0 : x1, s.dx > 0 ? y1 : y0) < 0; });

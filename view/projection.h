@@ -24,13 +24,9 @@ struct Projection {
         return {center_px.x + view.x * scale, center_px.y - view.y * scale};
     }
     double nearness(const glm::dvec3& view) const { return orthographic ? view.z : -1 / view.z; }
-    double distance(double nearness_value) const {
-        return orthographic ? -nearness_value : 1 / nearness_value;
-    }
+    double distance(double nearness_value) const { return orthographic ? -nearness_value : 1 / nearness_value; }
     /// The size of a pixel at a distance from the eye, in world units.
-    double pixel_size(double distance_value) const {
-        return orthographic ? 1 / focal_px : distance_value / focal_px;
-    }
+    double pixel_size(double distance_value) const { return orthographic ? 1 / focal_px : distance_value / focal_px; }
     /// The view ray through a pixel position: points on it are origin + t * direction, with
     /// direction.z = -1, so that t is the distance along the view axis.
     void view_ray(glm::dvec2 pixel, glm::dvec3& origin, glm::dvec3& direction) const {

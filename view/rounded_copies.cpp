@@ -8,11 +8,11 @@
 namespace burin {
 namespace {
 
-/// So many pairs of triangles are looked at in a search at most. One that climbs to where surfaces are farthest apart finds in some
-/// steps whether they drift apart.
+/// So many pairs of triangles are looked at in a search at most. One that climbs to where surfaces are farthest apart
+/// finds in some steps whether they drift apart.
 constexpr std::size_t kMostPairs = 48;
-/// Planes at a greater angle have no more than a strip in common where surfaces run along each other: at an edge, where one of two
-/// copies has gone on to the next facet. Of 6 degrees.
+/// Planes at a greater angle have no more than a strip in common where surfaces run along each other: at an edge, where
+/// one of two copies has gone on to the next facet. Of 6 degrees.
 constexpr double kCosAlong = 0.9945;
 /// What two copies may be apart there.
 constexpr double kMostAtEdgePx = 2 * kCopiesApartPx;
@@ -20,15 +20,18 @@ constexpr double kMostAtEdgePx = 2 * kCopiesApartPx;
 /// Pairs of triangles, one of either surface, that overlap on the screen, from neighbour to neighbour.
 class PairSearch {
   public:
-    PairSearch(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b) : surfaces_(surfaces), start_{std::min(a, b), std::max(a, b)} {}
+    PairSearch(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b)
+        : surfaces_(surfaces), start_{std::min(a, b), std::max(a, b)} {}
 
-    /// Whether they are near each other all over. Goes where they are farthest apart. `place`: on both, if that is known.
+    /// Whether they are near each other all over. Goes where they are farthest apart. `place`: on both, if that is
+    /// known.
     bool are_near(const glm::dvec2* place = nullptr) {
         begin();
         if (place != nullptr && !has_left_ && open_.empty()) add_at(*place);
         has_left_ = has_left_ || open_.empty();
-        return !has_left_ && search([](const Pair& p) { return std::max(std::abs(p.least_gap_px), std::abs(p.greatest_gap_px)); },
-                                    [](const PairSearch&) { return false; });
+        return !has_left_ &&
+               search([](const Pair& p) { return std::max(std::abs(p.least_gap_px), std::abs(p.greatest_gap_px)); },
+                      [](const PairSearch&) { return false; });
     }
     /// Whether the first is in front here and behind there. Goes where the one is in front that was not yet.
     bool pass_through() {
@@ -55,14 +58,16 @@ class PairSearch {
     void add_at(glm::dvec2 place) {
         const SurfaceOrder order = surfaces_.order_at(start_[0], start_[1], place);
         const double gap_px = order.least_gap_px;
-        if (order.have_common_place && std::abs(gap_px) <= kMostAtEdgePx) open_.push_back({start_[0], start_[1], gap_px, gap_px});
+        if (order.have_common_place && std::abs(gap_px) <= kMostAtEdgePx)
+            open_.push_back({start_[0], start_[1], gap_px, gap_px});
     }
 
     /// False where two surfaces are too far apart.
     template <typename Rank, typename IsDone>
     bool search(const Rank& rank, const IsDone& is_done) {
         for (std::size_t count = 0; count < kMostPairs && !open_.empty() && !is_done(*this); ++count) {
-            const auto best = std::max_element(open_.begin(), open_.end(), [&](const Pair& p, const Pair& q) { return rank(p) < rank(q); });
+            const auto best = std::max_element(open_.begin(), open_.end(),
+                                               [&](const Pair& p, const Pair& q) { return rank(p) < rank(q); });
             const Pair pair = *best;
             open_.erase(best);
             const std::vector<SurfaceId> beside_a = neighbours(pair.a), beside_b = neighbours(pair.b);
@@ -72,7 +77,8 @@ class PairSearch {
             for (const SurfaceId b : beside_b) {
                 if (!add(pair.a, b)) return false;
             }
-            // Where both go on over an edge at one place, not even a sliver of a neighbour may lie before the other one.
+            // Where both go on over an edge at one place, not even a sliver of a neighbour may lie before the other
+            // one.
             for (const SurfaceId a : beside_a) {
                 for (const SurfaceId b : beside_b) {
                     if (are_parallel(a, b) && !add(a, b)) known_.pop_back();  // it is no neighbour yet
@@ -106,10 +112,14 @@ class PairSearch {
         for (HalfEdge h = 3 * s.triangle; h < 3 * s.triangle + 3; ++h) {
             const HalfEdge g = mesh.next_on_edge[h];
             if (g == h || mesh.next_on_edge[g] != h) continue;
-            const auto corner = [&](HalfEdge of, HalfEdge k) { return surfaces_.view_position(s.instance, mesh.triangles[of / 3][(of + k) % 3]); };
-            const glm::dvec3 from = corner(h, 0), to = corner(h, 1), to_eye = surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -from;
+            const auto corner = [&](HalfEdge of, HalfEdge k) {
+                return surfaces_.view_position(s.instance, mesh.triangles[of / 3][(of + k) % 3]);
+            };
+            const glm::dvec3 from = corner(h, 0), to = corner(h, 1),
+                             to_eye = surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -from;
             const glm::dvec3 across = glm::cross(to - from, to_eye);
-            if (glm::dot(across, corner(h, 2) - from) * glm::dot(across, corner(g, 2) - from) < 0) found.push_back({s.instance, g / 3});
+            if (glm::dot(across, corner(h, 2) - from) * glm::dot(across, corner(g, 2) - from) < 0)
+                found.push_back({s.instance, g / 3});
         }
         return found;
     }

@@ -23,9 +23,7 @@ static_assert(kPitch == 2 * kSubpixelsPerPixel);
 constexpr double kLargestProduct = 0x1p52;
 
 /// The first sample at or behind a position.
-int first_sample_from(std::int64_t position) {
-    return static_cast<int>(ceil_divide(position - kHalfPitch, kPitch));
-}
+int first_sample_from(std::int64_t position) { return static_cast<int>(ceil_divide(position - kHalfPitch, kPitch)); }
 
 }  // namespace
 
@@ -44,7 +42,8 @@ ScanConverter::ScanConverter(const ScreenPolygon& polygon, int samples_per_pixel
         low_y = std::min(low_y, ay);
         high_y = std::max(high_y, ay);
         if (ay == by) continue;
-        const double height = static_cast<double>(std::abs(by - ay)), per_dy = 1.0 / (static_cast<double>(kPitch) * height);
+        const double height = static_cast<double>(std::abs(by - ay)),
+                     per_dy = 1.0 / (static_cast<double>(kPitch) * height);
         edges_[edge_count_++] = ay < by ? ScanEdge{ax, ay, bx, by, per_dy} : ScanEdge{bx, by, ax, ay, per_dy};
         const auto farthest = static_cast<double>(std::max(std::abs(ax), std::abs(bx)) + kPitch);
         fits_doubles_ = fits_doubles_ && 4 * farthest * height < kLargestProduct;
@@ -65,11 +64,13 @@ SampleSpan ScanConverter::columns_in(int first, int end) const {
         if (y1 <= top || y0 > bottom) continue;
         const double per_row = static_cast<double>(e.x1 - e.x0) * e.per_dy;  // samples per unit
         const double column = (x0 - kHalfPitch) / kPitch;
-        const double at_top = column + (std::max(top, y0) - y0) * per_row, at_bottom = column + (std::min(bottom, y1) - y0) * per_row;
+        const double at_top = column + (std::max(top, y0) - y0) * per_row,
+                     at_bottom = column + (std::min(bottom, y1) - y0) * per_row;
         low = std::min({low, at_top, at_bottom});
         high = std::max({high, at_top, at_bottom});
     }
-    // Rounding is off by far less than a sample, and a covered one lies at a whole number from `low` on and before `high`.
+    // Rounding is off by far less than a sample, and a covered one lies at a whole number from `low` on and before
+    // `high`.
     if (low > high) return {};
     const int left = static_cast<int>(low), right = static_cast<int>(high);
     return {left - (low < left ? 1 : 0), right + (high > right ? 2 : 1)};

@@ -27,9 +27,7 @@ ViewPolygon clip(const ViewPolygon& polygon, const Inside& inside) {
 }
 
 ViewPolygon clipped(const Projection& p, ViewPolygon polygon) {
-    const auto reach = [&p](const glm::dvec3& v) {
-        return kGuardBandPx * (p.orthographic ? 1.0 : -v.z);
-    };
+    const auto reach = [&p](const glm::dvec3& v) { return kGuardBandPx * (p.orthographic ? 1.0 : -v.z); };
     const double f = p.focal_px;
     polygon = clip(polygon, [&](const glm::dvec3& v) { return -v.z - p.near_distance; });
     polygon = clip(polygon, [&](const glm::dvec3& v) { return reach(v) - f * v.x; });

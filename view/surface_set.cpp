@@ -26,7 +26,8 @@ std::pair<std::uint32_t, std::uint32_t> triangles_of_polygon(const Mesh& mesh, s
 
 SurfaceOrder SurfaceSet::order(SurfaceId a, SurfaceId b) const {
     SurfaceOrder order = order_of_polygons(a, b);
-    const bool may_be_copies = order.have_common_place && !order.is_far && (order.has_nearer || order.has_farther) && !order.are_coincident();
+    const bool may_be_copies =
+        order.have_common_place && !order.is_far && (order.has_nearer || order.has_farther) && !order.are_coincident();
     order.is_of_copies = may_be_copies && are_rounded_copies(*this, a, b);
     return order;
 }
@@ -67,7 +68,8 @@ SurfaceOrder SurfaceSet::compare(SurfaceId s, SurfaceId t, const glm::dvec2* pla
     const BodySides& sides = *instance_of(s).body_sides;
     if (sides.are_same(s.triangle, t.triangle)) return face_alike ? order : exact;
     const int of_s = sides.of(s.triangle), of_t = sides.of(t.triangle);
-    const bool are_on_one_side = of_s == 0 || of_t == 0 ? face_alike : (s_faces_eye ? of_s : -of_s) == (t_faces_eye ? of_t : -of_t);
+    const bool are_on_one_side =
+        of_s == 0 || of_t == 0 ? face_alike : (s_faces_eye ? of_s : -of_s) == (t_faces_eye ? of_t : -of_t);
     return are_on_one_side ? order : exact;
 }
 
@@ -75,11 +77,13 @@ double SurfaceSet::rounding_error(SurfaceId s, const glm::dvec3 (&corners)[3]) c
     constexpr double kRounding = 0x1p-23;  // twice that of one number
     const Mesh& mesh = mesh_of(s);
     const auto& t = mesh.triangles[s.triangle];
-    const glm::dvec3 p[3] = {glm::dvec3(mesh.positions[t[0]]), glm::dvec3(mesh.positions[t[1]]), glm::dvec3(mesh.positions[t[2]])};
+    const glm::dvec3 p[3] = {glm::dvec3(mesh.positions[t[0]]), glm::dvec3(mesh.positions[t[1]]),
+                             glm::dvec3(mesh.positions[t[2]])};
     const glm::dvec3 area = glm::cross(p[1] - p[0], p[2] - p[0]);
     const glm::dvec3 largest = glm::max(glm::abs(p[0]), glm::max(glm::abs(p[1]), glm::abs(p[2])));
     // Volumes grow by the determinant, and this area by that of the triangle: heights by what is left.
-    const double volume = std::abs(glm::determinant(glm::dmat3(instance_of(s).to_view))) * glm::dot(glm::abs(area), largest);
+    const double volume =
+        std::abs(glm::determinant(glm::dmat3(instance_of(s).to_view))) * glm::dot(glm::abs(area), largest);
     const double area_in_view = glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     return area_in_view > 0 ? kRounding * volume / area_in_view : coordinate_error;
 }

@@ -35,14 +35,14 @@ struct SurfacePair {
 /// A mesh placed in front of the camera, with its numbers in the scene.
 struct SurfaceInstance {
     const Mesh* mesh = nullptr;
-    glm::dmat4 to_view{1.0};        ///< takes Mesh::local_position() (the origin included) to view space
-    glm::dmat3 normal_to_view{1.0}; ///< takes area vectors to view space
+    glm::dmat4 to_view{1.0};         ///< takes Mesh::local_position() (the origin included) to view space
+    glm::dmat3 normal_to_view{1.0};  ///< takes area vectors to view space
     /// Of the mesh, see find_sharp_edges(); nullptr: not made yet.
     const std::uint8_t* sharp_edges = nullptr;
     std::shared_ptr<const BodySides> body_sides;  ///< of the mesh
-    std::uint32_t object_id = 0;    ///< from 1
-    std::uint32_t first_polygon_id = 0;        ///< id of the mesh's polygon 0; ids start from 1
-    MaterialList materials;                    ///< per material number of the mesh: scene's material, from 0
+    std::uint32_t object_id = 0;                  ///< from 1
+    std::uint32_t first_polygon_id = 0;           ///< id of the mesh's polygon 0; ids start from 1
+    MaterialList materials;                       ///< per material number of the mesh: scene's material, from 0
 };
 
 /// All surfaces of a frame as the camera sees them: the one source of geometry for visibility and
@@ -52,8 +52,8 @@ struct SurfaceSet {
     Projection projection;
     glm::dmat3 view_to_world{1.0};  ///< rotation, for normals
     std::vector<SurfaceInstance> instances;
-    /// Of the scene's bounding box: all is at least as near. Where nearness would lose its precision for things that are not
-    /// on the screen, of the vertices that are; what is farther than these is below it.
+    /// Of the scene's bounding box: all is at least as near. Where nearness would lose its precision for things that
+    /// are not on the screen, of the vertices that are; what is farther than these is below it.
     double farthest_nearness = 0;
     double coordinate_error = 0;  ///< how exact coordinates are, in world units
 
@@ -77,8 +77,8 @@ struct SurfaceSet {
         view_corners(s, corners);
         return snapped_depth_plane(projection, corners);
     }
-    /// How the polygons of two triangles lie to each other, or the two triangles, if the polygons have many corners. Not all
-    /// places are looked at where they are apart. Nothing for triangles of one polygon.
+    /// How the polygons of two triangles lie to each other, or the two triangles, if the polygons have many corners.
+    /// Not all places are looked at where they are apart. Nothing for triangles of one polygon.
     SurfaceOrder order(SurfaceId a, SurfaceId b) const;
     /// The same of the planes of the two triangles at a place on the screen, in pixels.
     SurfaceOrder order_at(SurfaceId a, SurfaceId b, glm::dvec2 place) const { return compare(a, b, &place); }
@@ -112,16 +112,14 @@ struct SurfaceSet {
         return glm::dot(facet, ray) > 0 ? -normal : normal;
     }
 
-    std::uint32_t object_id(SurfaceId s) const {
-        return s.is_background() ? 0 : instance_of(s).object_id;
-    }
+    std::uint32_t object_id(SurfaceId s) const { return s.is_background() ? 0 : instance_of(s).object_id; }
     std::uint32_t polygon_id(SurfaceId s) const {
-        return s.is_background() ? 0
-                                 : instance_of(s).first_polygon_id + mesh_of(s).input_place_of(s.triangle);
+        return s.is_background() ? 0 : instance_of(s).first_polygon_id + mesh_of(s).input_place_of(s.triangle);
     }
     /// Whether their ids are equal, without looking them up far away in memory.
     bool are_of_one_polygon(SurfaceId a, SurfaceId b) const {
-        return a == b || (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(a).polygon_of(b.triangle));
+        return a == b ||
+               (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(a).polygon_of(b.triangle));
     }
     std::uint32_t material_id(SurfaceId s) const {
         return s.is_background() ? 0 : 1 + instance_of(s).materials[mesh_of(s).material_of(s.triangle)];

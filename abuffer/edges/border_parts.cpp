@@ -12,11 +12,11 @@ namespace {
 
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = kWidestCrackPx * kSubpixelsPerPixel;
-/// In heaps of borders only those are told apart that come near: where a mesh has more than kMostPairs pairs of a border and one about
-/// it. Where more than kMostNear come near, the border lies in a crowd.
+/// In heaps of borders only those are told apart that come near: where a mesh has more than kMostPairs pairs of a
+/// border and one about it. Where more than kMostNear come near, the border lies in a crowd.
 constexpr std::size_t kMostPairs = std::size_t{1} << 24, kFewAbout = 256, kMostNear = 32;
-/// What runs along a border in a crowd is looked up at this many places, and at fewer in meshes of more than 2^13 borders, so that
-/// all lookups of a mesh are limited.
+/// What runs along a border in a crowd is looked up at this many places, and at fewer in meshes of more than 2^13
+/// borders, so that all lookups of a mesh are limited.
 constexpr std::size_t kPartsInCrowd = 8, kPlacesInCrowd = std::size_t{1} << 16;
 
 /// As walks over a seam ask it.
@@ -46,8 +46,10 @@ std::optional<HalfEdge> seam_partner(const ScreenSurfaces& screen, SurfaceId s, 
     const double own_nearness = edge.nearness_at(on_screen);
     const SurfaceId beyond{s.instance, *partner / 3};
     const SurfaceSet& surfaces = screen.surfaces();
-    const double in_its_plane = surfaces.plane(beyond).nearness(place / double{kSubpixelsPerPixel}) - surfaces.farthest_nearness;
-    if (!is_level(screen, own_nearness, other->nearness_at(t), beyond) && !is_level(screen, own_nearness, in_its_plane, beyond)) {
+    const double in_its_plane =
+        surfaces.plane(beyond).nearness(place / double{kSubpixelsPerPixel}) - surfaces.farthest_nearness;
+    if (!is_level(screen, own_nearness, other->nearness_at(t), beyond) &&
+        !is_level(screen, own_nearness, in_its_plane, beyond)) {
         return std::nullopt;  // it lies before or behind, as a stair's next tread does
     }
     return partner;
@@ -65,12 +67,15 @@ bool is_crack_beside(const ScreenSurfaces& screen, std::uint32_t instance, const
 
 }  // namespace
 
-std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h, const EdgeOnScreen& edge) {
+std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h,
+                                        const EdgeOnScreen& edge) {
     throw_if_interrupted();  // in a crowd each takes long
     const Mesh& mesh = screen.surfaces().mesh_of(s);
     BorderIndex::SeamCandidates about, near;
-    const std::size_t most_about = std::max(kMostPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
-    const bool is_crowd = !mesh.borders.find_candidates(h, most_about, about) && !mesh.borders.find_near(h, kMostNear, about);
+    const std::size_t most_about =
+        std::max(kMostPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
+    const bool is_crowd =
+        !mesh.borders.find_candidates(h, most_about, about) && !mesh.borders.find_near(h, kMostNear, about);
     if (!is_crowd && about.segments().empty()) return {{}};
     const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), along = mesh.local_position(end_of(mesh, h)) - a;
     const double square = glm::dot(along, along);
@@ -85,8 +90,10 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
         }
     }
     if (!has_crack) return {{}};
-    const std::size_t part_count = std::clamp<std::size_t>(kPlacesInCrowd / mesh.borders.segments().size(), 1, kPartsInCrowd);
-    for (std::size_t k = 1; is_crowd && k < part_count; ++k) ends.push_back(static_cast<double>(k) / static_cast<double>(part_count));
+    const std::size_t part_count =
+        std::clamp<std::size_t>(kPlacesInCrowd / mesh.borders.segments().size(), 1, kPartsInCrowd);
+    for (std::size_t k = 1; is_crowd && k < part_count; ++k)
+        ends.push_back(static_cast<double>(k) / static_cast<double>(part_count));
     std::sort(ends.begin(), ends.end());
     // Of those about it, few come near. Where these are many, each place is looked up by itself.
     constexpr std::size_t kFew = 32;

@@ -15,6 +15,7 @@ struct BorderPart {
 };
 
 /// Where other patches begin and end beside a border, what runs along it may change.
-std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h, const EdgeOnScreen& edge);
+std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId s, HalfEdge h,
+                                        const EdgeOnScreen& edge);
 
 }  // namespace burin

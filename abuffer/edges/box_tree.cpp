@@ -15,7 +15,7 @@ constexpr std::size_t kMostPartners = 256, kLeastTasks = 1 << 14;
 constexpr float kLastPlace = (1 << kBitsPerAxis) - 1;
 
 ScreenBox around(const ScreenBox& a, const ScreenBox& b) {
-    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1),
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0),   std::max(a.x1, b.x1),
             std::max(a.y1, b.y1), std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 
@@ -57,7 +57,8 @@ BoxTree::BoxTree(std::span<const ScreenBox> boxes, const TileKernels& kernels, i
         level.resize((below.size() + kFan - 1) / kFan);
         parallel_for_each(level.size(), threads, [&](std::size_t i) {
             ScreenBox all = below[kFan * i];
-            for (std::size_t k = kFan * i + 1; k < std::min(kFan * (i + 1), below.size()); ++k) all = around(all, below[k]);
+            for (std::size_t k = kFan * i + 1; k < std::min(kFan * (i + 1), below.size()); ++k)
+                all = around(all, below[k]);
             level.set(i, all);
         });
         levels_.push_back(std::move(level));

@@ -28,8 +28,8 @@ class BoxTree {
     /// The numbers of the boxes, as given, in the tree's order.
     std::span<const std::uint32_t> order() const { return order_; }
 
-    /// Calls visit(a, b, found) for pairs of leaves in a task, by the places of their first boxes in that order; `found`
-    /// says which of their boxes overlap, see for_bits().
+    /// Calls visit(a, b, found) for pairs of leaves in a task, by the places of their first boxes in that order;
+    /// `found` says which of their boxes overlap, see for_bits().
     template <typename Visit>
     void for_leaf_pairs(const NodePair& task, const Visit& visit) const {
         descend(task_level_, task, visit);
@@ -51,7 +51,8 @@ class BoxTree {
         const ScreenBoxes& parts = levels_[level - 1];
         const auto end = static_cast<std::uint32_t>(parts.size());
         const std::uint32_t a = nodes.a * kFan, b = nodes.b * kFan;
-        const std::uint64_t found = kernels_.find_overlaps(parts.view(), a, std::min(kFan, end - a), b, std::min(kFan, end - b));
+        const std::uint64_t found =
+            kernels_.find_overlaps(parts.view(), a, std::min(kFan, end - a), b, std::min(kFan, end - b));
         // In one node, every pair once; a box overlaps itself, which says nothing.
         constexpr std::uint64_t kBehind = 0x0080C0E0F0F8FCFEu, kBehindOrSame = 0x80C0E0F0F8FCFEFFu;
         return a == b ? found & (level == 1 ? kBehind : kBehindOrSame) : found;

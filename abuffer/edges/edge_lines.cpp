@@ -27,17 +27,18 @@ void ask_for_vertices(const ScreenMesh& mesh, HalfEdge h) {
     }
 }
 
-/// A contour is found from the side that comes first in this order, so that half of a surface without sharp edges need not
-/// be read.
+/// A contour is found from the side that comes first in this order, so that half of a surface without sharp edges need
+/// not be read.
 constexpr unsigned rank_of_side(std::uint8_t facing) {
     constexpr unsigned kRanks = 1 << 2 * counterclockwise | 2 << 2 * clockwise;
     return kRanks >> 2 * facing & 3;
 }
 
-/// The sides of edges of some triangles that may be lines in this view: that are sharp, or whose triangles do not face one
-/// way. Of a contour, one side may be missing. The facing of all triangles must be known. Returns how many there are, the first ones of
-/// `sides`.
-std::size_t find_sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, UnfilledVector<HalfEdge>& sides) {
+/// The sides of edges of some triangles that may be lines in this view: that are sharp, or whose triangles do not face
+/// one way. Of a contour, one side may be missing. The facing of all triangles must be known. Returns how many there
+/// are, the first ones of `sides`.
+std::size_t find_sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end,
+                                         UnfilledVector<HalfEdge>& sides) {
     constexpr std::uint32_t kGroup = 64, kWord = 8;
     constexpr std::uint64_t kFirstEdges = 0x0101010101010101u, kToOneByte = 0x0102040810204080u;
     static_assert(std::endian::native == std::endian::little);
@@ -70,7 +71,8 @@ std::size_t find_sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t b
 }
 
 /// `sides`: used for each call.
-std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, UnfilledVector<HalfEdge>& sides) {
+std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end,
+                                     UnfilledVector<HalfEdge>& sides) {
     const std::size_t side_count = find_sides_of_possible_lines(mesh, begin, end, sides);
     std::size_t count = 0;
     // What is on the other side of an edge may lie anywhere in memory.
@@ -83,8 +85,9 @@ std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin
         const HalfEdge h = sides[i], g = mesh.partners[h];
         const bool is_pair = is_surely_pair(mesh, h) || (g != h && mesh.partners[g] == h);
         const unsigned own = rank_of_side(mesh.facing[h / 3]), other = rank_of_side(mesh.facing[g / 3]);
-        const bool is_found_from_other = is_pair & ((own > other) | ((own == other) & (g < h)));  // a branch would be a guess
-        sides[count] = is_pair ? std::min(h, g) : h;  // no side that is still to be looked at
+        const bool is_found_from_other =
+            is_pair & ((own > other) | ((own == other) & (g < h)));  // a branch would be a guess
+        sides[count] = is_pair ? std::min(h, g) : h;                 // no side that is still to be looked at
         count += is_found_from_other ? 0 : 1;
     }
     return {sides.data(), sides.data() + count};
@@ -92,10 +95,12 @@ std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin
 
 }  // namespace
 
-PossibleLines::PossibleLines(const ScreenSurfaces& screen, int threads) : chunks(screen.chunks_of_triangles(kChunkTriangles)), edges(chunks.size()) {
+PossibleLines::PossibleLines(const ScreenSurfaces& screen, int threads)
+    : chunks(screen.chunks_of_triangles(kChunkTriangles)), edges(chunks.size()) {
     std::vector<UnfilledVector<HalfEdge>> sides(static_cast<std::size_t>(resolve_thread_count(threads)));
     parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int worker) {
-        edges[c] = possible_lines(screen.mesh(chunks[c].instance), chunks[c].begin, chunks[c].end, sides[static_cast<std::size_t>(worker)]);
+        edges[c] = possible_lines(screen.mesh(chunks[c].instance), chunks[c].begin, chunks[c].end,
+                                  sides[static_cast<std::size_t>(worker)]);
     });
 }
 
@@ -125,8 +130,7 @@ class EdgeLineFinder::Rules {
 
     void visit_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const {
         const auto [a, b] = surfaces_.instances[instance].mesh->loose_edge(number);
-        WholeLine* const line =
-            add_on_screen(instance, ends_in_order(screen_, instance, a, b), lines);
+        WholeLine* const line = add_on_screen(instance, ends_in_order(screen_, instance, a, b), lines);
         if (line == nullptr) return;
         line->owners = {WholeLine::kNoOwner, WholeLine::kNoOwner};
         line->classes = line->drawn_as = LineClass::mark;
@@ -161,9 +165,11 @@ class EdgeLineFinder::Rules {
             solid_h = sides_.solid_behind(s.instance, h);
             solid_g = sides_.solid_behind(s.instance, g);
             if (solid_h != kNoHalfEdge && solid_g != kNoHalfEdge) {
-                const int side_h = sides_.side_at(s.instance, solid_h, a, b), side_g = sides_.side_at(s.instance, solid_g, a, b);
+                const int side_h = sides_.side_at(s.instance, solid_h, a, b),
+                          side_g = sides_.side_at(s.instance, solid_g, a, b);
                 const bool is_past_sliver = solid_h != h || solid_g != g;
-                if (side_h != 0 && side_h == side_g && !(is_past_sliver && sides_.is_negligible_fold(s.instance, h))) front_side = side_h;
+                if (side_h != 0 && side_h == side_g && !(is_past_sliver && sides_.is_negligible_fold(s.instance, h)))
+                    front_side = side_h;
             }
             if (front_side != 0) {
                 classes |= LineClass::silhouette;
@@ -179,10 +185,11 @@ class EdgeLineFinder::Rules {
             const bool may_have_any = sharp == nullptr || (sharp[h / 3] >> h % 3 & 1) != 0;
             if (may_have_any) classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
         } else if (solid_h != kNoHalfEdge && solid_g != kNoHalfEdge) {
-            classes |= contact_classes(surfaces_, triangle_of(s, solid_h), triangle_of(s, solid_g),
-                                       middle_px(s, h), criteria_, &crease_cosine);
+            classes |= contact_classes(surfaces_, triangle_of(s, solid_h), triangle_of(s, solid_g), middle_px(s, h),
+                                       criteria_, &crease_cosine);
         }
-        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false, front_side, lines, is_wire);
+        add(s, h, classes, crease_cosine, {screen_.number_of(s), screen_.number_of(triangle_of(s, g))}, false,
+            front_side, lines, is_wire);
     }
 
     /// The half-edge whose surface ends at a wall that begins behind the other.
@@ -190,8 +197,8 @@ class EdgeLineFinder::Rules {
         return sides_.ends_at_wall(instance, h, g) ? h : sides_.ends_at_wall(instance, g, h) ? g : kNoHalfEdge;
     }
 
-    /// Where more than two triangles meet, those that are in front on either side of the edge make the line, as walks over it
-    /// take them: bodies that stand flush have none on their common face.
+    /// Where more than two triangles meet, those that are in front on either side of the edge make the line, as walks
+    /// over it take them: bodies that stand flush have none on their common face.
     void visit_ring(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
@@ -215,16 +222,18 @@ class EdgeLineFinder::Rules {
         }
         double crease_cosine = 1;
         if (fronts[0].half_edge != kNoHalfEdge && fronts[1].half_edge != kNoHalfEdge) {
-            classes |= contact_classes(surfaces_, triangle_of(s, fronts[0].half_edge), triangle_of(s, fronts[1].half_edge),
-                                       middle_px(s, h), criteria_, &crease_cosine);
+            classes |= contact_classes(surfaces_, triangle_of(s, fronts[0].half_edge),
+                                       triangle_of(s, fronts[1].half_edge), middle_px(s, h), criteria_, &crease_cosine);
         } else {
             classes |= edge_classes(surfaces_, {s, h}, criteria_, &crease_cosine);
             if (fronts[0].half_edge != fronts[1].half_edge) classes |= LineClass::silhouette;
         }
         // A wall that is seen edge-on and rises towards the eye is in front on one side or the other.
         for (const Front& front : fronts) {
-            if (front.half_edge == kNoHalfEdge || edge_on.half_edge == kNoHalfEdge || edge_on.towards_eye <= 0) continue;
-            const double cosine = -glm::dot(sides_.across_edge(s.instance, front.half_edge), sides_.across_edge(s.instance, edge_on.half_edge));
+            if (front.half_edge == kNoHalfEdge || edge_on.half_edge == kNoHalfEdge || edge_on.towards_eye <= 0)
+                continue;
+            const double cosine = -glm::dot(sides_.across_edge(s.instance, front.half_edge),
+                                            sides_.across_edge(s.instance, edge_on.half_edge));
             if (cosine >= criteria_.cos_crease_angle) continue;
             classes |= LineClass::crease;
             crease_cosine = std::min(crease_cosine, cosine);
@@ -238,10 +247,12 @@ class EdgeLineFinder::Rules {
         if (!mesh.is_marked(h) && sides_.is_needle_on_edge(s, h)) return;
         const auto edge = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
         if (!edge) return;
-        for (const BorderPart& part : parts_of_border(screen_, s, h, *edge)) visit_border_part(s, h, *edge, part, lines);
+        for (const BorderPart& part : parts_of_border(screen_, s, h, *edge))
+            visit_border_part(s, h, *edge, part, lines);
     }
 
-    void visit_border_part(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, const BorderPart& part, std::vector<WholeLine>& lines) const {
+    void visit_border_part(SurfaceId s, HalfEdge h, const EdgeOnScreen& edge, const BorderPart& part,
+                           std::vector<WholeLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         LineClassSet classes;
         double crease_cosine = 1;
@@ -250,7 +261,9 @@ class EdgeLineFinder::Rules {
         const std::uint32_t number = screen_.number_of(s);
         std::array<std::uint32_t, 2> owners{number, number};
         // Both borders of one narrow strip are no crack.
-        const bool is_strip = part.partner && other_side_of_strip(screen_.mesh(s.instance), h, edge.at(0.5 * (part.begin + part.end))) == *part.partner;
+        const bool is_strip =
+            part.partner &&
+            other_side_of_strip(screen_.mesh(s.instance), h, edge.at(0.5 * (part.begin + part.end))) == *part.partner;
         if (part.partner && !is_strip) {
             const SurfaceId beyond = triangle_of(s, *part.partner);
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
@@ -262,7 +275,8 @@ class EdgeLineFinder::Rules {
             }
             const auto side_of = [&](HalfEdge e, const std::optional<HalfEdge>& solid) {
                 if (!solid) return 0;
-                return *solid == e ? side_of_edge(screen_, s.instance, a, b, apex_of(mesh, e)) : sides_.side_at(s.instance, *solid, a, b);
+                return *solid == e ? side_of_edge(screen_, s.instance, a, b, apex_of(mesh, e))
+                                   : sides_.side_at(s.instance, *solid, a, b);
             };
             const int side_h = side_of(h, solid_h), side_g = side_of(*part.partner, solid_g);
             if (side_h != 0 && side_h == side_g) {
@@ -276,7 +290,8 @@ class EdgeLineFinder::Rules {
             }
             if (solid_h && solid_g) {
                 const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
-                classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g), middle, criteria_, &crease_cosine);
+                classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g), middle,
+                                           criteria_, &crease_cosine);
             }
         } else {
             classes |= LineClass::border;
@@ -284,7 +299,8 @@ class EdgeLineFinder::Rules {
         const std::size_t count = lines.size();
         add(s, h, classes, crease_cosine, owners, false, front_side, lines, is_strip);
         if (lines.size() == count || (part.begin == 0 && part.end == 1)) return;
-        const bool is_reversed = ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h)).first != start_of(mesh, h);
+        const bool is_reversed =
+            ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h)).first != start_of(mesh, h);
         cut(lines.back(), is_reversed ? 1 - part.end : part.begin, is_reversed ? 1 - part.begin : part.end);
     }
 
@@ -323,16 +339,14 @@ class EdgeLineFinder::Rules {
         if (opacity == 0) return;
         const Mesh& mesh = surfaces_.mesh_of(s);
         // One direction, whichever triangle asks.
-        const auto vertices =
-            ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
+        const auto vertices = ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
         WholeLine* const added = add_on_screen(s.instance, vertices, lines);
         if (added == nullptr) return;
         WholeLine& line = *added;
         line.owners = owners;
         line.has_more_owners = has_more;
         line.is_wire = is_wire;
-        line.front_side = static_cast<std::int8_t>(
-            vertices.first == start_of(mesh, h) ? front_side : -front_side);
+        line.front_side = static_cast<std::int8_t>(vertices.first == start_of(mesh, h) ? front_side : -front_side);
         line.classes = classes;
         line.drawn_as = *classes.first();
         line.opacity = opacity;
@@ -340,16 +354,13 @@ class EdgeLineFinder::Rules {
     }
 
     /// A line between two vertices. nullptr if it does not touch the region or is a dot.
-    WholeLine* add_on_screen(std::uint32_t instance,
-                             std::pair<std::uint32_t, std::uint32_t> vertices,
+    WholeLine* add_on_screen(std::uint32_t instance, std::pair<std::uint32_t, std::uint32_t> vertices,
                              std::vector<WholeLine>& lines) const {
         const auto [a, b] = vertices;
         const auto ends = edge_on_screen(screen_, instance, a, b);
         if (!ends) return nullptr;
-        const glm::dvec2 low = glm::min(ends->from, ends->to),
-                         high = glm::max(ends->from, ends->to);
-        if (ends->from == ends->to || high.x < low_.x || high.y < low_.y || low.x > high_.x ||
-            low.y > high_.y)
+        const glm::dvec2 low = glm::min(ends->from, ends->to), high = glm::max(ends->from, ends->to);
+        if (ends->from == ends->to || high.x < low_.x || high.y < low_.y || low.x > high_.x || low.y > high_.y)
             return nullptr;
         WholeLine& line = lines.emplace_back();
         line.from = ends->from;
@@ -371,19 +382,20 @@ class EdgeLineFinder::Rules {
 };
 
 EdgeLineFinder::EdgeLineFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
-                                 bool has_both_of_seam)
+                               bool has_both_of_seam)
     : rules_(std::make_unique<const Rules>(frame, screen, region, has_both_of_seam)) {}
 
 EdgeLineFinder::~EdgeLineFinder() = default;
 
 void EdgeLineFinder::find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const { rules_->visit(s, h, lines); }
 
-void EdgeLineFinder::find_loose(std::uint32_t instance, HalfEdge number,
-                                 std::vector<WholeLine>& lines) const {
+void EdgeLineFinder::find_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const {
     rules_->visit_loose(instance, number, lines);
 }
 
-std::optional<SurfaceId> EdgeLineFinder::solid_at_border(SurfaceId s, HalfEdge h) const { return rules_->solid_at_border(s, h); }
+std::optional<SurfaceId> EdgeLineFinder::solid_at_border(SurfaceId s, HalfEdge h) const {
+    return rules_->solid_at_border(s, h);
+}
 
 std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, LineClassSet classes) {
     std::vector<LooseChunk> chunks;
@@ -402,7 +414,7 @@ std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, Line
 }
 
 std::vector<WholeLine> find_edge_lines(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
-                                        PixelRect region, int threads) {
+                                       PixelRect region, int threads) {
     const EdgeLineFinder finder(frame, screen, region);
     const std::vector<LooseChunk> loose = chunks_of_loose_edges(screen, frame.criteria.classes);
     std::vector<std::vector<WholeLine>> found(possible.chunks.size() + loose.size());
@@ -425,8 +437,7 @@ std::vector<WholeLine> find_edge_lines(const Frame& frame, const ScreenSurfaces&
         found[c].reserve(edges.size());  // nearly all are lines
         for (std::size_t i = 0; i < edges.size() + kAhead; ++i) {
             if (i < edges.size()) ask_for_vertices(mesh, edges[i]);
-            if (i >= kAhead)
-                finder.find({instance, edges[i - kAhead] / 3}, edges[i - kAhead], found[c]);
+            if (i >= kAhead) finder.find({instance, edges[i - kAhead] / 3}, edges[i - kAhead], found[c]);
         }
     });
     std::vector<WholeLine> lines;

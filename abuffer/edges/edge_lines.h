@@ -12,12 +12,14 @@
 
 namespace burin {
 
-/// Whether an edge belongs to exactly two triangles, as its side alone tells: an edge that is not sharp does. False for some that
-/// do, too.
-inline bool is_surely_pair(const ScreenMesh& mesh, HalfEdge h) { return mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0; }
+/// Whether an edge belongs to exactly two triangles, as its side alone tells: an edge that is not sharp does. False for
+/// some that do, too.
+inline bool is_surely_pair(const ScreenMesh& mesh, HalfEdge h) {
+    return mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0;
+}
 
-/// The edges of the instances shown that may be lines in this view, in chunks of triangles. Edges of two triangles are there once,
-/// as the smaller of their half-edges. The facing of all triangles must be known.
+/// The edges of the instances shown that may be lines in this view, in chunks of triangles. Edges of two triangles are
+/// there once, as the smaller of their half-edges. The facing of all triangles must be known.
 struct PossibleLines {
     PossibleLines(const ScreenSurfaces& screen, int threads);
 
@@ -30,8 +32,7 @@ struct PossibleLines {
 class EdgeLineFinder {
   public:
     /// `has_both_of_seam`: where two borders run along each other, both are found, not the longer one only.
-    EdgeLineFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region,
-                    bool has_both_of_seam = false);
+    EdgeLineFinder(const Frame& frame, const ScreenSurfaces& screen, PixelRect region, bool has_both_of_seam = false);
     ~EdgeLineFinder();
 
     /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
@@ -39,8 +40,8 @@ class EdgeLineFinder {
     /// The same of a loose edge of an instance, by its number (Mesh::loose_number()).
     void find_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const;
 
-    /// What counts where a border of triangle `s` is in contact with another surface: the triangle, or behind a sliver the next
-    /// one. Nothing if it is a needle.
+    /// What counts where a border of triangle `s` is in contact with another surface: the triangle, or behind a sliver
+    /// the next one. Nothing if it is a needle.
     std::optional<SurfaceId> solid_at_border(SurfaceId s, HalfEdge h) const;
 
   private:
@@ -64,6 +65,6 @@ std::vector<LooseChunk> chunks_of_loose_edges(const ScreenSurfaces& screen, Line
 
 /// All lines among the edges of the instances shown, be they seen or not.
 std::vector<WholeLine> find_edge_lines(const Frame& frame, const ScreenSurfaces& screen, const PossibleLines& possible,
-                                        PixelRect region, int threads);
+                                       PixelRect region, int threads);
 
 }  // namespace burin

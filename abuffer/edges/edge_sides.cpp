@@ -54,12 +54,15 @@ EdgeSides::PlainPair EdgeSides::plain_pair(std::uint32_t instance, HalfEdge h, H
         const HalfEdge k = e % 3;
         return std::array{mesh.corners[e], mesh.corners[k == 2 ? e - 2 : e + 1], mesh.corners[k == 0 ? e + 2 : e - 1]};
     };
-    const auto has_side = [&](HalfEdge e) { return mesh.facing[e / 3] == clockwise || mesh.facing[e / 3] == counterclockwise; };
+    const auto has_side = [&](HalfEdge e) {
+        return mesh.facing[e / 3] == clockwise || mesh.facing[e / 3] == counterclockwise;
+    };
     const auto [from, to, apex] = corners_from(h);
     const auto [other_from, other_to, other_apex] = corners_from(g);
     const bool have_same_ends = (other_from == to && other_to == from) || (other_from == from && other_to == to);
     if (!have_same_ends || !has_side(h) || !has_side(g)) return {};
-    const ScreenVertex &a = mesh.vertices[from], &b = mesh.vertices[to], &p = mesh.vertices[apex], &q = mesh.vertices[other_apex];
+    const ScreenVertex &a = mesh.vertices[from], &b = mesh.vertices[to], &p = mesh.vertices[apex],
+                       &q = mesh.vertices[other_apex];
     const std::int64_t ab = square(a, b), area_h = doubled_area(a, b, p), area_g = doubled_area(a, b, q);
     const bool is_any_thin = is_thin(area_h, std::max(ab, std::max(square(a, p), square(b, p)))) |
                              is_thin(area_g, std::max(ab, std::max(square(a, q), square(b, q))));
@@ -76,8 +79,10 @@ HalfEdge EdgeSides::longer_of_others(std::uint32_t instance, HalfEdge h) const {
 
 bool EdgeSides::face_alike(std::uint32_t instance, HalfEdge h, HalfEdge g) const {
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
-    const Facing a = screen_.facing(screen_.number_of({instance, h / 3})), b = screen_.facing(screen_.number_of({instance, g / 3}));
-    const bool are_wound_alike = start_of(mesh, h) != start_of(mesh, g), has_side = b == clockwise || b == counterclockwise;
+    const Facing a = screen_.facing(screen_.number_of({instance, h / 3})),
+                 b = screen_.facing(screen_.number_of({instance, g / 3}));
+    const bool are_wound_alike = start_of(mesh, h) != start_of(mesh, g),
+               has_side = b == clockwise || b == counterclockwise;
     if (are_wound_alike || !has_side) return a == b;
     return a == (b == clockwise ? counterclockwise : clockwise);
 }
@@ -106,7 +111,8 @@ HalfEdge EdgeSides::solid_behind(std::uint32_t instance, HalfEdge h) const {
         const HalfEdge one = next(h), two = next(one);
         const ScreenVertex &p = corner(h), &q = corner(one), &apex = corner(two);
         if (is_off_screen(apex)) return h;
-        const std::int64_t first = square(q, apex), second = square(apex, p), longest = std::max(std::max(entered, first), second);
+        const std::int64_t first = square(q, apex), second = square(apex, p),
+                           longest = std::max(std::max(entered, first), second);
         if (!is_thin(doubled_area(p, q, apex), longest)) return h;
         // A wall of many rows may be no wider than one of a single row, if something lies behind it.
         if (step >= kMostSlivers && !(is_long && is_thin(doubled_area(from, to, apex), length))) return last;
@@ -153,13 +159,16 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
     const auto has_side = [](Facing facing) { return facing == clockwise || facing == counterclockwise; };
     if (!has_side(screen_.facing(screen_.number_of(own)))) return false;
     const Mesh& mesh = surfaces_.mesh_of(own);
-    // A wall may also lean by less than makes a contour. Where snapping turned triangles of it over, they do not end there.
+    // A wall may also lean by less than makes a contour. Where snapping turned triangles of it over, they do not end
+    // there.
     const bool is_wall = screen_.facing(screen_.number_of({instance, beyond / 3})) == edge_on
                              ? !is_turned_over(instance, h)
                              : is_beside(instance, h, apex_of(mesh, beyond)) && !is_thin_at(instance, h);
     if (!is_wall) return false;
     const ScreenVertex* const v = screen_.vertices(instance);
-    const auto place = [&](std::uint32_t vertex) { return glm::dvec2(v[vertex].x, v[vertex].y) / double{kSubpixelsPerPixel}; };
+    const auto place = [&](std::uint32_t vertex) {
+        return glm::dvec2(v[vertex].x, v[vertex].y) / double{kSubpixelsPerPixel};
+    };
     const glm::dvec2 a = place(start_of(mesh, h)), b = place(end_of(mesh, h)), middle = 0.5 * (a + b);
     if (a == b) return false;
     // The wall leads away from the eye, else this is its foot.
@@ -172,7 +181,9 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
     if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
     // A short way beyond the wall is enough: a walk that gets there has come past it.
     const glm::dvec2 past = kPastWallPx * out;
-    if (surely_goes_on(screen_, instance, h, double{kSubpixelsPerPixel} * middle, out, kSubpixelsPerPixel * kPastWallPx)) return false;
+    if (surely_goes_on(screen_, instance, h, double{kSubpixelsPerPixel} * middle, out,
+                       kSubpixelsPerPixel * kPastWallPx))
+        return false;
     const SurfaceWalk walk = walk_to_end(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall,
                                          screen_.sharp_edges(instance));
     // Where it turns back behind the wall, it gets farthest anywhere on that.
@@ -193,7 +204,8 @@ bool EdgeSides::is_negligible_fold(std::uint32_t instance, HalfEdge h) const {
 bool EdgeSides::is_front_of_wire(std::uint32_t instance, HalfEdge h) const {
     const ScreenMesh& mesh = screen_.mesh(instance);
     const ScreenVertex &a = mesh.vertices[mesh.corners[h]], &b = mesh.vertices[mesh.corners[h - h % 3 + (h + 1) % 3]];
-    if (is_off_screen(a) || is_off_screen(b) || square(a, b) <= kShortestOfWireSubpixels * kShortestOfWireSubpixels) return false;
+    if (is_off_screen(a) || is_off_screen(b) || square(a, b) <= kShortestOfWireSubpixels * kShortestOfWireSubpixels)
+        return false;
     const glm::dvec2 middle = 0.5 * (glm::dvec2(a.x, a.y) + glm::dvec2(b.x, b.y));
     const double nearness = 0.5 * (static_cast<double>(a.nearness) + static_cast<double>(b.nearness));
     return ring_around(mesh, h, middle, nearness, level_slack(surfaces_, nearness, kCertainPx)) == Ring::in_front;
@@ -232,13 +244,15 @@ bool EdgeSides::is_needle_on_edge(SurfaceId s, HalfEdge h) const {
 }
 
 bool EdgeSides::is_sliver_at(SurfaceId s, HalfEdge h) const {
-    return !FastWalker::is_surely_solid(screen_.mesh(s.instance), h / 3) && is_sliver(surfaces_, SurfaceId{s.instance, h / 3});
+    return !FastWalker::is_surely_solid(screen_.mesh(s.instance), h / 3) &&
+           is_sliver(surfaces_, SurfaceId{s.instance, h / 3});
 }
 
 glm::dvec3 EdgeSides::across_edge(std::uint32_t instance, HalfEdge h) const {
     const Mesh& mesh = surfaces_.mesh_of({instance, h / 3});
     const glm::dvec3 p = surfaces_.view_position(instance, start_of(mesh, h));
-    const glm::dvec3 along = surfaces_.view_position(instance, end_of(mesh, h)) - p, v = surfaces_.view_position(instance, apex_of(mesh, h)) - p;
+    const glm::dvec3 along = surfaces_.view_position(instance, end_of(mesh, h)) - p,
+                     v = surfaces_.view_position(instance, apex_of(mesh, h)) - p;
     const glm::dvec3 across = v - along * (glm::dot(v, along) / glm::dot(along, along));
     return across / std::max(glm::length(across), 1e-300);
 }

@@ -14,15 +14,15 @@ inline std::uint32_t start_of(const Mesh& mesh, HalfEdge h) { return mesh.triang
 inline std::uint32_t end_of(const Mesh& mesh, HalfEdge h) { return mesh.triangles[h / 3][(h + 1) % 3]; }
 inline std::uint32_t apex_of(const Mesh& mesh, HalfEdge h) { return mesh.triangles[h / 3][(h + 2) % 3]; }
 
-/// What the eye sees on either side of a mesh's edges: which triangle counts there where some are so thin that their normals say
-/// nothing, and which way it lies.
+/// What the eye sees on either side of a mesh's edges: which triangle counts there where some are so thin that their
+/// normals say nothing, and which way it lies.
 class EdgeSides {
   public:
     EdgeSides(const ScreenSurfaces& screen, const LineCriteria& criteria)
         : surfaces_(screen.surfaces()), screen_(screen), criteria_(criteria) {}
 
-    /// Of most edges of two triangles, their sides as side_at() tells them: where neither is thin or off the screen, each counts on
-    /// its side, and neither is a wall to the other.
+    /// Of most edges of two triangles, their sides as side_at() tells them: where neither is thin or off the screen,
+    /// each counts on its side, and neither is a wall to the other.
     struct PlainPair {
         bool is_plain = false;
         int side_h = 0, side_g = 0;  ///< from the start of `h` to its end
@@ -40,8 +40,8 @@ class EdgeSides {
     bool is_negligible_fold(std::uint32_t instance, HalfEdge h) const;
     /// Whether an edge of two triangles is the one in front of a wire (ring_around()).
     bool is_front_of_wire(std::uint32_t instance, HalfEdge h) const;
-    /// Of a border: the half-edge itself, or that of the triangle behind its sliver, whose normal says nothing. Nothing if there
-    /// is none: a needle that stands by itself or on an edge of others is no surface.
+    /// Of a border: the half-edge itself, or that of the triangle behind its sliver, whose normal says nothing. Nothing
+    /// if there is none: a needle that stands by itself or on an edge of others is no surface.
     std::optional<HalfEdge> past_sliver(std::uint32_t instance, HalfEdge h) const;
     /// Whether two half-edges' triangles are one, or meet at an edge.
     bool are_neighbours(std::uint32_t instance, HalfEdge h, HalfEdge g) const;
@@ -51,18 +51,19 @@ class EdgeSides {
     bool is_sliver_at(SurfaceId s, HalfEdge h) const;
     /// From an edge into its triangle, in view space: a unit vector.
     glm::dvec3 across_edge(std::uint32_t instance, HalfEdge h) const;
-    /// Of the angle at an edge between its triangle and the way to the eye: of several triangles on one side, the greatest is
-    /// the one in front.
+    /// Of the angle at an edge between its triangle and the way to the eye: of several triangles on one side, the
+    /// greatest is the one in front.
     double cosine_to_eye(std::uint32_t instance, HalfEdge h) const;
 
   private:
-    /// The longest edge of a triangle that is lower than a negligible fold; of others, kNoHalfEdge: an optional would be returned
-    /// through memory, in parts that its reader waits for.
+    /// The longest edge of a triangle that is lower than a negligible fold; of others, kNoHalfEdge: an optional would
+    /// be returned through memory, in parts that its reader waits for.
     HalfEdge base_of_thin(SurfaceId s) const;
     bool is_thin_at(std::uint32_t instance, HalfEdge h) const { return base_of_thin({instance, h / 3}) != kNoHalfEdge; }
     /// Whether a vertex is nearer to a long edge than a negligible fold is wide.
     bool is_beside(std::uint32_t instance, HalfEdge edge, std::uint32_t vertex) const;
-    /// Whether a thin triangle is on the other side of its edge than the surface behind it, as of a wall that leans back.
+    /// Whether a thin triangle is on the other side of its edge than the surface behind it, as of a wall that leans
+    /// back.
     bool is_turned_over(std::uint32_t instance, HalfEdge h) const;
     HalfEdge longer_of_others(std::uint32_t instance, HalfEdge h) const;
     /// Whether the triangles of two half-edges of one edge face the eye alike, whichever way they are wound.

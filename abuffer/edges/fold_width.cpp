@@ -55,17 +55,20 @@ class FoldWalk {
     FoldWalk(const ScreenMesh& mesh, const PlaceOnEdge& from) : mesh_(mesh), from_(from) {}
 
     /// The sign that leads to a side of a triangle's edge.
-    double towards(const EnteredTriangle& t, double side) const { return (-across(place_of(t.b) - place_of(t.a)) < 0) != (side < 0) ? -1 : 1; }
+    double towards(const EnteredTriangle& t, double side) const {
+        return (-across(place_of(t.b) - place_of(t.a)) < 0) != (side < 0) ? -1 : 1;
+    }
 
-    /// How far the surface goes on into a triangle: comes_back is to the edge, at another nearness. `is_level`: and stays at its
-    /// nearness.
+    /// How far the surface goes on into a triangle: comes_back is to the edge, at another nearness. `is_level`: and
+    /// stays at its nearness.
     Reach go(EnteredTriangle t, double sign, double least, bool is_level = false) const {
         const auto differs = [&](double nearness) { return std::abs(nearness - from_.nearness) > from_.level; };
         double entered = 0, nearness_there = from_.nearness;
         for (int step = 0; step < kMaxTriangles; ++step) {
             if (t.is_cut) return Reach::goes_on;
             // Out by one of the two other edges: the one whose ends lie on either side of the way.
-            const bool is_first = (sign * across(place_of(t.c) - from_.at) < 0) == (sign * across(place_of(t.a) - from_.at) < 0);
+            const bool is_first =
+                (sign * across(place_of(t.c) - from_.at) < 0) == (sign * across(place_of(t.a) - from_.at) < 0);
             const ScreenVertex *const begin = is_first ? t.b : t.c, *const end = is_first ? t.c : t.a;
             const glm::dvec2 to_begin = place_of(begin) - from_.at, edge = place_of(end) - place_of(begin);
             const double area = sign * across(edge);
@@ -91,23 +94,27 @@ class FoldWalk {
         return Reach::narrow;
     }
 
-    /// Whether there is no fold at an edge of two triangles: the surface goes on at its depth for a distance on both sides.
+    /// Whether there is no fold at an edge of two triangles: the surface goes on at its depth for a distance on both
+    /// sides.
     bool goes_over_edge(const EnteredTriangle& one, const EnteredTriangle& two, double distance) const {
         if (one.is_cut || two.is_cut) return false;
-        const double own = one.side(), other = cross(place_of(one.b) - place_of(one.a), place_of(two.c) - place_of(one.a));
+        const double own = one.side(),
+                     other = cross(place_of(one.b) - place_of(one.a), place_of(two.c) - place_of(one.a));
         if (own * other > 0 || (own == 0 && other == 0)) return false;
         const double out = towards(one, own != 0 ? own : -other);
         return go(one, out, distance, true) == Reach::goes_on && go(two, -out, distance, true) == Reach::goes_on;
     }
 
-    bool is_wide(const EnteredTriangle& t) const { return go(t, towards(t, t.side()), kNegligibleFoldSubpixels) != Reach::narrow; }
+    bool is_wide(const EnteredTriangle& t) const {
+        return go(t, towards(t, t.side()), kNegligibleFoldSubpixels) != Reach::narrow;
+    }
 
     /// Whether both triangles of an edge, or the only one, go on.
     bool is_fold_wide(const EnteredTriangle& one, const EnteredTriangle* two) const {
         if (!is_wide(one)) return false;
         if (two == nullptr) return true;
-        // At a sliver that rounding turned over there is no fold, if the surface goes on past it: rows or columns cross it within
-        // its height times the root of two.
+        // At a sliver that rounding turned over there is no fold, if the surface goes on past it: rows or columns cross
+        // it within its height times the root of two.
         return is_wide(*two) && !goes_over_edge(one, *two, 2 * kNegligibleFoldSubpixels);
     }
 
@@ -140,13 +147,15 @@ Ring ring_along(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& f
         if (beyond == half_edge) return ring;
         const ScreenVertex *const p = vertex(exit), *const q = vertex(next_of(exit));
         const double share = (row - row_of(p)) / (row_of(q) - row_of(p));
-        if (std::abs(glm::mix(place_in_row(p), place_in_row(q), share) - place) > kWidestWireSubpixels) return Ring::none;
+        if (std::abs(glm::mix(place_in_row(p), place_in_row(q), share) - place) > kWidestWireSubpixels)
+            return Ring::none;
         if (beyond == exit) {
             border = exit;
             return Ring::none;
         }
         const bool may_be_line = (mesh.line_edges[exit / 3] >> exit % 3 & 1) != 0;
-        if (may_be_line && glm::mix(nearness_of(p), nearness_of(q), share) > from.nearness + from.level) ring = Ring::behind;
+        if (may_be_line && glm::mix(nearness_of(p), nearness_of(q), share) > from.nearness + from.level)
+            ring = Ring::behind;
         entry = beyond;
     }
     return Ring::none;
@@ -157,11 +166,13 @@ Ring cut_from(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& pla
     const ScreenVertex &from = mesh.vertices[mesh.corners[half_edge]],
                        &to = mesh.vertices[mesh.corners[half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1]];
     const bool is_steep = std::abs(std::int64_t{to.x} - from.x) < std::abs(std::int64_t{to.y} - from.y);
-    return is_steep ? ring_along<true>(mesh, half_edge, place, border) : ring_along<false>(mesh, half_edge, place, border);
+    return is_steep ? ring_along<true>(mesh, half_edge, place, border)
+                    : ring_along<false>(mesh, half_edge, place, border);
 }
 
-/// The way of FoldWalk::go() at a right angle to an edge that runs along a row or a column, where it gets nowhere: through
-/// triangles that are seen as parts of the edge. The range in which the way is the same, or an empty one. `axis`: 0 if the edge runs along x.
+/// The way of FoldWalk::go() at a right angle to an edge that runs along a row or a column, where it gets nowhere:
+/// through triangles that are seen as parts of the edge. The range in which the way is the same, or an empty one.
+/// `axis`: 0 if the edge runs along x.
 OpenRange range_of_way(const ScreenMesh& mesh, EnteredTriangle t, glm::dvec2 at, int axis) {
     constexpr double kFar = 1e300;
     const double place = at[axis], beside = at[1 - axis];
@@ -171,7 +182,8 @@ OpenRange range_of_way(const ScreenMesh& mesh, EnteredTriangle t, glm::dvec2 at,
         for (const ScreenVertex* const v : {t.a, t.b, t.c}) {
             const glm::dvec2 p = place_of(v);
             if (p[1 - axis] != beside || p[axis] == place) return {};
-            (p[axis] < place ? range.low : range.high) = p[axis] < place ? std::max(range.low, p[axis]) : std::min(range.high, p[axis]);
+            (p[axis] < place ? range.low : range.high) =
+                p[axis] < place ? std::max(range.low, p[axis]) : std::min(range.high, p[axis]);
         }
         // Out by the edge whose ends lie on either side.
         const bool is_first = (place_of(t.c)[axis] < place) == (place_of(t.a)[axis] < place);

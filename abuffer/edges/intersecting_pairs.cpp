@@ -107,7 +107,8 @@ struct Triangles {
     }
     Triangle triangle(const Corners& c) const { return {positions[c[0]], positions[c[1]], positions[c[2]]}; }
     SurfaceId surface(std::uint32_t number) const {
-        const auto o = static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), number) - first.begin()) - 1;
+        const auto o =
+            static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), number) - first.begin()) - 1;
         return {o, number - first[o]};
     }
 };
@@ -120,7 +121,8 @@ IntersectionTest::IntersectionTest(const Scene& scene) {
     Box all;
     for (const SceneObject& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
-        const Place place{&mesh, glm::dmat3(object.to_world), glm::dvec3(object.to_world * glm::dvec4(mesh.origin, 1.0))};
+        const Place place{&mesh, glm::dmat3(object.to_world),
+                          glm::dvec3(object.to_world * glm::dvec4(mesh.origin, 1.0))};
         places_.push_back(place);
         const Box& box = mesh_boxes[object.mesh];
         if (box.is_empty()) continue;
@@ -158,12 +160,14 @@ IntersectionTest::Meeting IntersectionTest::meeting(const Triangle& p, const Tri
     return of_q.is_cut() && of_p.is_cut() ? Meeting::through : Meeting::along_edge;
 }
 
-/// Whether a triangle is cut by the plane of another one, or has an edge in it and its neighbour there on the other side.
+/// Whether a triangle is cut by the plane of another one, or has an edge in it and its neighbour there on the other
+/// side.
 bool IntersectionTest::goes_on_beyond(SurfaceId s, SurfaceId plane) const {
     const Triangle own = triangle(s), other = triangle(plane);
     const Sides sides(other, own, kRounding * extent_);
     if (sides.is_cut()) return true;
-    const auto third = static_cast<HalfEdge>(std::min_element(sides.of_corner.begin(), sides.of_corner.end()) - sides.of_corner.begin());
+    const auto third = static_cast<HalfEdge>(std::min_element(sides.of_corner.begin(), sides.of_corner.end()) -
+                                             sides.of_corner.begin());
     const Mesh& mesh = *places_[s.instance].mesh;
     const HalfEdge edge = 3 * s.triangle + (third + 1) % 3, partner = mesh.next_on_edge[edge];
     if (partner == edge || mesh.next_on_edge[partner] != edge) return false;
@@ -171,7 +175,8 @@ bool IntersectionTest::goes_on_beyond(SurfaceId s, SurfaceId plane) const {
     return beyond.highest() > beyond.slack;
 }
 
-std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& scene, const TileKernels& kernels, int threads) {
+std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& scene, const TileKernels& kernels,
+                                                                int threads) {
     std::size_t count = 0;
     for (const SceneObject& o : scene.objects) count += scene.meshes[o.mesh].triangles.size();
     if (count > kMostTriangles) return std::nullopt;
@@ -212,7 +217,8 @@ std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& sce
                 if (meeting == IntersectionTest::Meeting::none) return;
                 const auto [a, b] = std::minmax(tree.order()[first + i], tree.order()[second + k]);
                 const SurfacePair pair{triangles.surface(a), triangles.surface(b)};
-                if (meeting == IntersectionTest::Meeting::through || test.may_intersect(pair.first, pair.second)) found[task].push_back(pair);
+                if (meeting == IntersectionTest::Meeting::through || test.may_intersect(pair.first, pair.second))
+                    found[task].push_back(pair);
             });
         });
         test_count += tests;

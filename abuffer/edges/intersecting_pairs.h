@@ -21,11 +21,12 @@ class IntersectionTest {
     enum class Meeting : std::uint8_t {
         none,        ///< they are apart, or touch
         through,     ///< they pass through each other, by more than rounding, or almost
-        along_edge,  ///< so they would, but an edge of one lies in the other's plane, to rounding, and the rest of it on one side
+        along_edge,  ///< so they would, but an edge of one lies in the other's plane, to rounding, and the rest of it
+                     ///< on one side
     };
     Meeting meeting(const Triangle& p, const Triangle& q) const;
-    /// Whether two triangles pass through each other, or the surface of one does along its edge, which then stands for one of
-    /// the two triangles there.
+    /// Whether two triangles pass through each other, or the surface of one does along its edge, which then stands for
+    /// one of the two triangles there.
     bool may_intersect(SurfaceId a, SurfaceId b) const {
         const Meeting m = meeting(triangle(a), triangle(b));
         return m == Meeting::through || (m == Meeting::along_edge && goes_on_beyond(a, b) && goes_on_beyond(b, a));
@@ -56,8 +57,9 @@ class IntersectionTest {
 };
 
 /// All pairs of triangles without a vertex in common that may intersect, in ascending order, the smaller one first.
-/// Nothing if there are too many triangles or pairs to be worth their memory, if so many boxes overlap that a view would
-/// have fewer to look at, or if the scene is too large to calculate with.
-std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& scene, const TileKernels& kernels, int threads);
+/// Nothing if there are too many triangles or pairs to be worth their memory, if so many boxes overlap that a view
+/// would have fewer to look at, or if the scene is too large to calculate with.
+std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& scene, const TileKernels& kernels,
+                                                                int threads);
 
 }  // namespace burin

@@ -42,7 +42,8 @@ bool overlap(const ScreenTriangle& a, const ScreenTriangle& b) {
         const auto [b_low, b_high] = range(b);
         return a_high < b_low || b_high < a_low;
     };
-    return !are_apart([](const ScreenVertex& v) { return v.x; }) && !are_apart([](const ScreenVertex& v) { return v.y; }) &&
+    return !are_apart([](const ScreenVertex& v) { return v.x; }) &&
+           !are_apart([](const ScreenVertex& v) { return v.y; }) &&
            !are_apart([](const ScreenVertex& v) { return v.nearness; });
 }
 
@@ -92,8 +93,7 @@ void IntersectionLines::add_pair(const SurfacePair& pair, std::vector<WholeLine>
         return add(occluder_of(screen_, pair.first, a), occluder_of(screen_, pair.second, b), lines);
     }
     const auto parts = [&](SurfaceId s, std::uint32_t number, bool is_off) {
-        return is_off ? clipped_occluders(screen_, s, number)
-                      : std::vector<Occluder>{occluder_of(screen_, s, number)};
+        return is_off ? clipped_occluders(screen_, s, number) : std::vector<Occluder>{occluder_of(screen_, s, number)};
     };
     const std::vector<Occluder> parts_of_b = parts(pair.second, b, is_b_off);
     for (const Occluder& part_of_a : parts(pair.first, a, is_a_off)) {
@@ -101,8 +101,8 @@ void IntersectionLines::add_pair(const SurfacePair& pair, std::vector<WholeLine>
     }
 }
 
-/// How the corners of a triangle lie to the plane of another one, for certain. What counts as certain grows with the nearness,
-/// which is great at corners that are cut off beside the eye.
+/// How the corners of a triangle lie to the plane of another one, for certain. What counts as certain grows with the
+/// nearness, which is great at corners that are cut off beside the eye.
 struct IntersectionLines::Passage {
     bool is_behind = false, is_in_front = false;
     std::optional<std::size_t> edge_in_plane;  // the corner where it begins; the third one is not in the plane

@@ -8,8 +8,8 @@
 namespace burin {
 namespace {
 
-/// What is nearer to a limit may be on its other side by rounding, within so many pixels of the origin and where edges are no
-/// more nearly along the way. 1/256 pixel.
+/// What is nearer to a limit may be on its other side by rounding, within so many pixels of the origin and where edges
+/// are no more nearly along the way. 1/256 pixel.
 constexpr double kMargin = 1.0 / 16;
 constexpr double kFarthestPlace = 8192 * kSubpixelsPerPixel;
 constexpr double kMostAlongPerSide = 256;
@@ -61,7 +61,8 @@ class LevelWalk {
     static Exit exit_at(HalfEdge h, const Corner& a, const Corner& b) {
         const double across = b.side - a.side, along = b.along - a.along, share = -a.side / across;
         if (std::abs(along) > kMostAlongPerSide * std::abs(across)) return {};
-        const double step = b.nearness - a.nearness, nearness = a.nearness + share * step, rounding = kShareRounding * std::abs(step);
+        const double step = b.nearness - a.nearness, nearness = a.nearness + share * step,
+                     rounding = kShareRounding * std::abs(step);
         return {h, {a, b}, a.along + share * along, nearness - rounding, nearness + rounding};
     }
 
@@ -77,7 +78,8 @@ class LevelWalk {
 
 }  // namespace
 
-bool surely_goes_on(const ScreenSurfaces& screen, std::uint32_t instance, HalfEdge h, glm::dvec2 from, glm::dvec2 out, double distance) {
+bool surely_goes_on(const ScreenSurfaces& screen, std::uint32_t instance, HalfEdge h, glm::dvec2 from, glm::dvec2 out,
+                    double distance) {
     if (std::abs(from.x) > kFarthestPlace || std::abs(from.y) > kFarthestPlace) return false;
     const ScreenMesh& mesh = screen.mesh(instance);
     const LevelWalk walk(mesh, from, out);
@@ -89,7 +91,8 @@ bool surely_goes_on(const ScreenSurfaces& screen, std::uint32_t instance, HalfEd
     const SurfaceSet& surfaces = screen.surfaces();
     const auto are_level = [&](double low, double high) {
         const double scale = surfaces.projection.orthographic ? 1 : surfaces.farthest_nearness + low;
-        return high - low <= kSurelyLevelPx / surfaces.projection.focal_px * scale - kNearnessRounding * (std::abs(low) + std::abs(high));
+        return high - low <= kSurelyLevelPx / surfaces.projection.focal_px * scale -
+                                 kNearnessRounding * (std::abs(low) + std::abs(high));
     };
     // Of the places since it last surely got farther: compared in depth is only what lies within these.
     double lowest = exit.lowest, highest = exit.highest, farthest = 0;

@@ -6,9 +6,7 @@
 namespace burin {
 namespace {
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
+double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// The top-left rule, for an edge of a triangle whose corners run clockwise as seen.
 bool owns_edge(double along_x, double along_y) { return (along_y < 0) | ((along_y == 0) & (along_x > 0)); }
@@ -45,8 +43,8 @@ HalfEdge half_edge_at(const ScreenSurfaces& screen, const Occluder& t, std::size
     return 3 * s.triangle + edge;
 }
 
-/// Whether the surface goes on beyond the edge after a corner, so that it hides what lies along the edge. The triangle must lie
-/// on the screen.
+/// Whether the surface goes on beyond the edge after a corner, so that it hides what lies along the edge. The triangle
+/// must lie on the screen.
 bool goes_on_beyond(const ScreenSurfaces& screen, const Occluder& t, std::size_t k) {
     const std::uint32_t from = t.vertices[k], to = t.vertices[k == 2 ? 0 : k + 1];
     const ScreenVertex* const v = screen.vertices(t.instance);
@@ -77,7 +75,8 @@ bool clip_where_positive(double at_0, double at_1, double& begin, double& end) {
     return begin < end;
 }
 
-bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm::dvec2 high, double& begin, double& end) {
+bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm::dvec2 high, double& begin,
+                  double& end) {
     return clip_where_positive(line_from.x - low.x, line_to.x - low.x, begin, end) &&
            clip_where_positive(high.x - line_from.x, high.x - line_to.x, begin, end) &&
            clip_where_positive(line_from.y - low.y, line_to.y - low.y, begin, end) &&
@@ -87,9 +86,11 @@ bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm:
 void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle) {
     const ScreenMesh& mesh = screen.mesh(s.instance);
     const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
-    const ScreenVertex &a = mesh.vertices[corner[0]], &first = mesh.vertices[corner[1]], &second = mesh.vertices[corner[2]];
+    const ScreenVertex &a = mesh.vertices[corner[0]], &first = mesh.vertices[corner[1]],
+                       &second = mesh.vertices[corner[2]];
     const auto area = static_cast<double>(doubled_area(a, first, second));
-    // Which way it is wound is a guess, so without a branch. The plane is the same to the bit: both factors change their signs.
+    // Which way it is wound is a guess, so without a branch. The plane is the same to the bit: both factors change
+    // their signs.
     const std::size_t turned = area < 0 ? 1 : 0;
     const ScreenVertex &b = mesh.vertices[corner[1 + turned]], &c = mesh.vertices[corner[2 - turned]];
     triangle.number = number;
@@ -118,8 +119,7 @@ Occluder occluder_of(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t nu
     return triangle;
 }
 
-std::vector<Occluder> clipped_occluders(const ScreenSurfaces& screen, SurfaceId s,
-                                                   std::uint32_t number) {
+std::vector<Occluder> clipped_occluders(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
     std::vector<Occluder> parts;
     const SurfaceSet& surfaces = screen.surfaces();
     const ScreenPolygon polygon = surfaces.screen_polygon(s);
@@ -185,11 +185,12 @@ double snapping_slack(const WholeLine& line) {
 }
 
 double line_slack(const SurfaceSet& surfaces, const WholeLine& line, double begin, double end, double level_px) {
-    return level_slack(surfaces, std::max(line.nearness_at(begin), line.nearness_at(end)), level_px) + snapping_slack(line);
+    return level_slack(surfaces, std::max(line.nearness_at(begin), line.nearness_at(end)), level_px) +
+           snapping_slack(line);
 }
 
-bool clip_where_hidden(const WholeLine& line, double slack, const Occluder& t, double& begin,
-                       double& end, bool with_edges) {
+bool clip_where_hidden(const WholeLine& line, double slack, const Occluder& t, double& begin, double& end,
+                       bool with_edges) {
     if (!clip_where_positive(t.nearness_at(line.from) - line.nearness_from - slack,
                              t.nearness_at(line.to) - line.nearness_to - slack, begin, end)) {
         return false;

@@ -13,7 +13,7 @@ namespace burin {
 
 /// A triangle on the screen as something that hides lines.
 struct Occluder : TrianglePlane {
-    double transmission = 0;        ///< 0 = opaque
+    double transmission = 0;  ///< 0 = opaque
     std::uint32_t number, instance;
     std::array<std::uint32_t, 3> vertices;
 
@@ -33,7 +33,8 @@ struct Occluder : TrianglePlane {
 bool clip_where_positive(double at_0, double at_1, double& begin, double& end);
 
 /// Keeps the part of [begin, end] of a line that is within a rectangle, in 1/256 pixel.
-bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm::dvec2 high, double& begin, double& end);
+bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm::dvec2 high, double& begin,
+                  double& end);
 inline bool clip_to_rect(const WholeLine& line, glm::dvec2 low, glm::dvec2 high, double& begin, double& end) {
     return clip_to_rect(line.from, line.to, low, high, begin, end);
 }
@@ -43,8 +44,7 @@ Occluder occluder_of(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t nu
 /// The same where it is wanted, but for its transmission.
 void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle);
 /// What the near plane and the guard band leave of any other one.
-std::vector<Occluder> clipped_occluders(const ScreenSurfaces& screen, SurfaceId s,
-                                                   std::uint32_t number);
+std::vector<Occluder> clipped_occluders(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
 
 /// Of a triangle on the screen, the other half-edge on the edge after a corner, if exactly two triangles meet there.
 std::optional<HalfEdge> partner_over(const ScreenSurfaces& screen, const Occluder& triangle, std::size_t corner);
@@ -55,8 +55,8 @@ inline bool is_owner(const WholeLine& line, std::uint32_t triangle) {
 /// Whether a line is an edge of a triangle, which cannot hide it then.
 bool lies_on(const WholeLine& line, const Occluder& triangle);
 
-/// Whether a triangle that has a vertex in common with a line covers only a rim of it narrower than vertices are snapped,
-/// 1/256 pixel, where its surface ends or folds: a fold so narrow may lie on either side of its edge.
+/// Whether a triangle that has a vertex in common with a line covers only a rim of it narrower than vertices are
+/// snapped, 1/256 pixel, where its surface ends or folds: a fold so narrow may lie on either side of its edge.
 bool is_grazed_at_end(const ScreenSurfaces& screen, const WholeLine& line, const Occluder& triangle);
 /// The same of any triangle.
 inline bool only_grazes(const ScreenSurfaces& screen, const WholeLine& line, const Occluder& t) {
@@ -80,11 +80,13 @@ double level_slack(const SurfaceSet& surfaces, double nearness, double level_px 
 /// What snapping does to the nearness of a line.
 double snapping_slack(const WholeLine& line);
 /// Both together for the part [begin, end] of a line.
-double line_slack(const SurfaceSet& surfaces, const WholeLine& line, double begin, double end, double level_px = kLevelPx);
+double line_slack(const SurfaceSet& surfaces, const WholeLine& line, double begin, double end,
+                  double level_px = kLevelPx);
 
-/// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`. `with_edges`: lines along
-/// any of its edges count as within it; else only those along edges that it owns, so that of two neighbours one has them.
-bool clip_where_hidden(const WholeLine& line, double slack, const Occluder& triangle, double& begin,
-                       double& end, bool with_edges = false);
+/// Keeps the part of [begin, end] in which a triangle is in front of a line, by more than `slack`. `with_edges`: lines
+/// along any of its edges count as within it; else only those along edges that it owns, so that of two neighbours one
+/// has them.
+bool clip_where_hidden(const WholeLine& line, double slack, const Occluder& triangle, double& begin, double& end,
+                       bool with_edges = false);
 
 }  // namespace burin

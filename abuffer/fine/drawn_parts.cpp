@@ -17,7 +17,9 @@ int axis_of(glm::dvec2 way) { return std::abs(way.x) >= std::abs(way.y) ? 0 : 1;
 
 DrawnParts::Part DrawnParts::part_of(const WholeLine& line, double begin, double end, Kind kind) {
     const int axis = axis_of(line.to - line.from);
-    Part part{line.from, line.to, line.at(begin)[axis], line.at(end)[axis], line.nearness_at(begin), line.nearness_at(end), kind};
+    Part part{
+        line.from, line.to, line.at(begin)[axis], line.at(end)[axis], line.nearness_at(begin), line.nearness_at(end),
+        kind};
     if (part.end < part.begin) {
         std::swap(part.begin, part.end);
         std::swap(part.nearness_begin, part.nearness_end);
@@ -36,7 +38,9 @@ bool DrawnParts::is_behind(const Part& part, const Part& other, double level) {
         const double share = p.end > p.begin ? (place - p.begin) / (p.end - p.begin) : 0;
         return p.nearness_begin + (p.nearness_end - p.nearness_begin) * share;
     };
-    const auto is_behind_at = [&](double place) { return nearness_at(part, place) <= nearness_at(other, place) + level; };
+    const auto is_behind_at = [&](double place) {
+        return nearness_at(part, place) <= nearness_at(other, place) + level;
+    };
     return is_behind_at(std::max(part.begin, other.begin)) && is_behind_at(std::min(part.end, other.end));
 }
 
@@ -45,11 +49,13 @@ bool DrawnParts::cover(const WholeLine& line, double begin, double end, Kind kin
     const Part part = part_of(line, begin, end, kind);
     const glm::dvec2 along = part.to - part.from;
     const auto goes_on = [&](const Part& other, double reached) {
-        return other.begin <= reached && other.end > reached && other.kind == part.kind && cross(along, other.from - part.from) == 0 &&
-               cross(along, other.to - part.from) == 0 && axis_of(other.to - other.from) == axis_of(along) && is_behind(part, other, level);
+        return other.begin <= reached && other.end > reached && other.kind == part.kind &&
+               cross(along, other.from - part.from) == 0 && cross(along, other.to - part.from) == 0 &&
+               axis_of(other.to - other.from) == axis_of(along) && is_behind(part, other, level);
     };
     for (double reached = part.begin;;) {
-        const auto next = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return goes_on(p, reached); });
+        const auto next =
+            std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return goes_on(p, reached); });
         if (next == parts_.end()) return false;
         reached = next->end;
         if (reached >= part.end) return true;

@@ -10,8 +10,8 @@
 
 namespace burin {
 
-/// Parts of lines that are drawn in one block, to leave out what lies behind them on the same straight line of the picture. A wall
-/// that is seen exactly edge-on has all its edges there, and their strokes would be the same.
+/// Parts of lines that are drawn in one block, to leave out what lies behind them on the same straight line of the
+/// picture. A wall that is seen exactly edge-on has all its edges there, and their strokes would be the same.
 class DrawnParts {
   public:
     /// What strokes must have in common so that one stands for the other.
@@ -24,7 +24,8 @@ class DrawnParts {
 
     void clear() { parts_.clear(); }
     void add(const WholeLine& line, double begin, double end, Kind kind);
-    /// Whether parts of one kind that are nearer than a part of a line, or by at most `level` farther, lie on all of it.
+    /// Whether parts of one kind that are nearer than a part of a line, or by at most `level` farther, lie on all of
+    /// it.
     bool cover(const WholeLine& line, double begin, double end, Kind kind, double level) const;
 
   private:

@@ -48,7 +48,8 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     add_beyond(tile);
 }
 
-/// From the tiles around it, where a border lies so close to the end of this one that what it is in contact with may not touch it.
+/// From the tiles around it, where a border lies so close to the end of this one that what it is in contact with may
+/// not touch it.
 void FineBlocks::add_beyond(std::size_t tile) {
     const glm::ivec2 low = kSubpixelsPerPixel * glm::ivec2(rect_.x0, rect_.y0) + grid_.half_pitch;
     const glm::ivec2 high = kSubpixelsPerPixel * glm::ivec2(rect_.x1, rect_.y1) + grid_.half_pitch;
@@ -91,15 +92,19 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
             triangles_[index].clear();
         }
         candidates_[index].push_back(i);
-        double lowest = line.lowest_in(part.begin, part.end) - line_slack(screen_.surfaces(), line, part.begin, part.end);
+        double lowest =
+            line.lowest_in(part.begin, part.end) - line_slack(screen_.surfaces(), line, part.begin, part.end);
         const glm::dvec2 a = line.at(part.begin), b = line.at(part.end);
-        const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(a, b))) - kReach, high = glm::ivec2(glm::ceil(glm::max(a, b))) + kReach;
+        const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(a, b))) - kReach,
+                         high = glm::ivec2(glm::ceil(glm::max(a, b))) + kReach;
         if (line.classes.has(LineClass::border)) {
             lowest -= kBehindBorder * level_slack(screen_.surfaces(), lowest);
             beyond_low_ = glm::min(beyond_low_, low);
             beyond_high_ = glm::max(beyond_high_, high);
         }
-        const auto cell = [](int subpixel, int from) { return std::clamp((subpixel - from) >> HidingGrid::kCellShift, -1, kCells); };
+        const auto cell = [](int subpixel, int from) {
+            return std::clamp((subpixel - from) >> HidingGrid::kCellShift, -1, kCells);
+        };
         const int from_x = hiding_grid_.first_x + (block_x << SampleBlocks::kShift);
         const int from_y = hiding_grid_.first_y + (block_y << SampleBlocks::kShift);
         float* const farthest = &farthest_[HidingGrid::kPlaces * block_at(block_x, block_y)];
@@ -117,7 +122,9 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
 void FineBlocks::combine_cells() {
     for (std::size_t i = 0; i < count_; ++i) {
         float* const farthest = &farthest_[HidingGrid::kPlaces * block_at(places_[i].x, places_[i].y)];
-        const auto at = [&](int x0, int x1, int y0, int y1) -> float& { return farthest[HidingGrid::place(x0, x1, y0, y1)]; };
+        const auto at = [&](int x0, int x1, int y0, int y1) -> float& {
+            return farthest[HidingGrid::place(x0, x1, y0, y1)];
+        };
         for (int k = 0; k < kCells; ++k) {
             at(0, 1, k, k) = std::min(at(0, 0, k, k), at(1, 1, k, k));
             at(k, k, 0, 1) = std::min(at(k, k, 0, 0), at(k, k, 1, 1));
@@ -151,7 +158,8 @@ void FineBlocks::add_small(const TriangleRun& run) {
     listed_instance_ = run.instance;
     if (nearer_.size() < listed_ + run.count) nearer_.resize(2 * (listed_ + run.count));
     constexpr float kNoLevel = 0;
-    listed_ += kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data() + listed_);
+    listed_ +=
+        kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data() + listed_);
     // Of several runs: of one, too few are left to ask memory for the next ones meanwhile.
     constexpr std::size_t kEnough = 4 * kAtOnce;
     if (listed_ >= kEnough) sort_listed();
@@ -179,7 +187,9 @@ void FineBlocks::add_large(const LargePolygon& large) {
     std::array<PolygonRows::Corner, ScreenPolygon::kMaxCorners> corners;
     const auto count = static_cast<std::size_t>(polygon.count);
     std::transform(polygon.corners.begin(), polygon.corners.begin() + polygon.count, corners.begin(),
-                   [](const SubpixelPoint& p) { return PolygonRows::Corner{static_cast<double>(p.x), static_cast<double>(p.y)}; });
+                   [](const SubpixelPoint& p) {
+                       return PolygonRows::Corner{static_cast<double>(p.x), static_cast<double>(p.y)};
+                   });
     add(triangle, box, std::span(corners).first(count));
 }
 
@@ -191,21 +201,26 @@ void FineBlocks::add(const CrossedTriangle& triangle, const Box& box, std::span<
     const auto touches = [&](glm::ivec2 block) {
         constexpr int kAround = kReach + 1;  // with rounding
         const int y = first_y_ + block.y, x = first_x_ + block.x;
-        const PolygonRows::Range range = PolygonRows(corners).between(grid_.begin(y) - kAround, grid_.begin(y + 1) + kAround);
+        const PolygonRows::Range range =
+            PolygonRows(corners).between(grid_.begin(y) - kAround, grid_.begin(y + 1) + kAround);
         return range.low - kAround <= grid_.begin(x + 1) && range.high + kAround >= grid_.begin(x);
     };
     for (std::size_t i = 0; i < count_; ++i) {
         const glm::ivec2 at = places_[i];
         const bool is_in_box = at.x >= left && at.x <= right && at.y >= top && at.y <= bottom;
-        if (is_in_box && hides_something(box, triangle.highest, at.x, at.y) && (fills_box || touches(at))) triangles_[i].push_back(triangle);
+        if (is_in_box && hides_something(box, triangle.highest, at.x, at.y) && (fills_box || touches(at)))
+            triangles_[i].push_back(triangle);
     }
 }
 
 bool FineBlocks::hides_something(const Box& box, float highest, int block_x, int block_y) const {
     const int origin_x = kCells * (first_x_ + block_x), origin_y = kCells * (first_y_ + block_y);
     // Those beyond the block lie beside the cells at its end.
-    const auto cell = [&](std::int32_t subpixel, int origin) { return std::clamp(cell_of(subpixel) - origin, 0, kCells - 1); };
-    const int x0 = cell(box.x0, origin_x), x1 = cell(box.x1, origin_x), y0 = cell(box.y0, origin_y), y1 = cell(box.y1, origin_y);
+    const auto cell = [&](std::int32_t subpixel, int origin) {
+        return std::clamp(cell_of(subpixel) - origin, 0, kCells - 1);
+    };
+    const int x0 = cell(box.x0, origin_x), x1 = cell(box.x1, origin_x), y0 = cell(box.y0, origin_y),
+              y1 = cell(box.y1, origin_y);
     const std::size_t place = HidingGrid::place(x0, x1, y0, y1);
     return highest > farthest_[HidingGrid::kPlaces * block_at(block_x, block_y) + place];
 }
@@ -213,15 +228,19 @@ bool FineBlocks::hides_something(const Box& box, float highest, int block_x, int
 void FineBlocks::sort_triangles(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count) {
     for (std::size_t first = 0; first < count; first += kAtOnce) {
         std::size_t other_count = 0;
-        const std::size_t found = kernels_.sort_hiding(mesh, listed + first, std::min(kAtOnce, count - first), hiding_grid_, found_.data(),
-                                                       others_.data(), &other_count);
+        const std::size_t found = kernels_.sort_hiding(mesh, listed + first, std::min(kAtOnce, count - first),
+                                                       hiding_grid_, found_.data(), others_.data(), &other_count);
         for (std::size_t i = 0; i < found; ++i) triangles_[index_[found_[i].block]].push_back(found_[i].triangle);
         for (std::size_t i = 0; i < other_count; ++i) {
             const std::uint32_t t = others_[i], *const corner = mesh.corners + 3 * static_cast<std::size_t>(t);
-            const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]], &c = mesh.vertices[corner[2]];
-            const auto corner_of = [](const ScreenVertex& v) { return PolygonRows::Corner{static_cast<double>(v.x), static_cast<double>(v.y)}; };
+            const ScreenVertex &a = mesh.vertices[corner[0]], &b = mesh.vertices[corner[1]],
+                               &c = mesh.vertices[corner[2]];
+            const auto corner_of = [](const ScreenVertex& v) {
+                return PolygonRows::Corner{static_cast<double>(v.x), static_cast<double>(v.y)};
+            };
             add(crossed_triangle(a, b, c, static_cast<Facing>(mesh.facing[t]), mesh.first_number + t),
-                {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})},
+                {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}),
+                 std::max({a.y, b.y, c.y})},
                 std::array{corner_of(a), corner_of(b), corner_of(c)});
         }
     }

@@ -14,8 +14,8 @@ namespace burin {
 /// A surface that covers a place so far beyond a border is in contact there. 1/64 pixel.
 constexpr int kBeyondSubpixels = 4;
 
-/// A part of an edge that is a line if it is visible. The part's begin and end are shares of `line`, which may be a part
-/// of the edge itself.
+/// A part of an edge that is a line if it is visible. The part's begin and end are shares of `line`, which may be a
+/// part of the edge itself.
 struct FineCandidate {
     FineCandidate() = default;
     FineCandidate(const FinePart& on_line, const WholeLine& whole) : part(on_line), line(whole) {}
@@ -24,13 +24,14 @@ struct FineCandidate {
     WholeLine line;
 };
 
-/// The blocks of a tile that have candidates, and the triangles that may hide them there, or that borders may be in contact
-/// with: all that come within kBeyondSubpixels of a block and are nearer, be they seen at a sample or not. Buffers are used
-/// again from tile to tile.
+/// The blocks of a tile that have candidates, and the triangles that may hide them there, or that borders may be in
+/// contact with: all that come within kBeyondSubpixels of a block and are nearer, be they seen at a sample or not.
+/// Buffers are used again from tile to tile.
 class FineBlocks {
   public:
     /// `bins` must have kept thin triangles.
-    FineBlocks(const ScreenSurfaces& screen, const TriangleBins& bins, const TileKernels& kernels, int samples_per_pixel)
+    FineBlocks(const ScreenSurfaces& screen, const TriangleBins& bins, const TileKernels& kernels,
+               int samples_per_pixel)
         : screen_(screen), bins_(bins), kernels_(kernels), grid_(samples_per_pixel) {
         found_.resize(4 * kAtOnce);
         others_.resize(kAtOnce);
@@ -41,8 +42,8 @@ class FineBlocks {
     std::size_t count() const { return count_; }
     /// Numbers of candidates.
     std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_[block]; }
-    /// In no particular order. Some from beyond the tile may be listed twice. Those clipped by the near plane or the guard
-    /// band cover the whole screen.
+    /// In no particular order. Some from beyond the tile may be listed twice. Those clipped by the near plane or the
+    /// guard band cover the whole screen.
     const std::vector<CrossedTriangle>& triangles(std::size_t block) const { return triangles_[block]; }
 
   private:
@@ -81,8 +82,8 @@ class FineBlocks {
     std::vector<std::uint32_t> index_;  // per block: its number, or kNone without candidates
     std::vector<float> farthest_;       // as in a HidingGrid: the least nearness of candidates there
     HidingGrid hiding_grid_;
-    std::vector<float> least_;          // the same as a BlockTable
-    int sample_blocks_ = 0;             // along each side
+    std::vector<float> least_;                   // the same as a BlockTable
+    int sample_blocks_ = 0;                      // along each side
     glm::ivec2 beyond_low_{0}, beyond_high_{0};  // where borders may be in contact
     std::vector<std::uint32_t> nearer_;  // of one instance's triangles, those that are still to be sorted: so many
     std::size_t listed_ = 0;

@@ -9,8 +9,8 @@
 namespace burin {
 namespace {
 
-/// A block is cut into so many cells along each side, at most, that about so many triangles are in one: fewer where there are
-/// very many pairs of a line and a triangle.
+/// A block is cut into so many cells along each side, at most, that about so many triangles are in one: fewer where
+/// there are very many pairs of a line and a triangle.
 constexpr int kMostCells = 32;
 constexpr std::size_t kTrianglesPerCell = 512, kFewTrianglesPerCell = 128, kManyPairs = std::size_t{1} << 18;
 /// For so few lines it is not worth it.
@@ -72,7 +72,8 @@ void FineCells::sort_to_cells() {
 template <typename Visit>
 void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Visit& visit) const {
     const Range cells = range_of(box);
-    if (cells.x0 == cells.x1 || cells.y0 == cells.y1 || screen_.facing(t.number) == off_screen) return for_cells(box, visit);
+    if (cells.x0 == cells.x1 || cells.y0 == cells.y1 || screen_.facing(t.number) == off_screen)
+        return for_cells(box, visit);
     const std::array<PolygonRows::Corner, 3> corners{{{t.x[0], t.y[0]}, {t.x[1], t.y[1]}, {t.x[2], t.y[2]}}};
     const PolygonRows rows(corners);
     const auto [margin, far_margin, near] = kRounding;
@@ -80,15 +81,19 @@ void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Vis
     const int around = std::max(farthest.x, farthest.y) < near ? margin : far_margin;
     for (int y = cells.y0; y <= cells.y1; ++y) {
         // Cells at the block's border stand for what is beyond it.
-        const int top = y == 0 ? box.low.y : corner_.y + (y << cell_shift_), bottom = y == cells_ - 1 ? box.high.y : corner_.y + ((y + 1) << cell_shift_);
+        const int top = y == 0 ? box.low.y : corner_.y + (y << cell_shift_),
+                  bottom = y == cells_ - 1 ? box.high.y : corner_.y + ((y + 1) << cell_shift_);
         const PolygonRows::Range range = rows.between(top - around, bottom + around);
         if (range.is_empty()) continue;
-        const int first = static_cast<int>(std::floor(range.low)) - around, last = static_cast<int>(std::ceil(range.high)) + around;
-        for (int x = cell_along(first, corner_.x); x <= cell_along(last, corner_.x); ++x) visit(static_cast<std::size_t>(y * cells_ + x));
+        const int first = static_cast<int>(std::floor(range.low)) - around,
+                  last = static_cast<int>(std::ceil(range.high)) + around;
+        for (int x = cell_along(first, corner_.x); x <= cell_along(last, corner_.x); ++x)
+            visit(static_cast<std::size_t>(y * cells_ + x));
     }
 }
 
-std::size_t FineCells::find_hiding(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenLine& line, const ScreenBox& box) {
+std::size_t FineCells::find_hiding(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenLine& line,
+                                   const ScreenBox& box) {
     const std::size_t count = kernels_.find_in_front_of_box(boxes, begin, end, box, found_.data());
     if (cells_ > 1) {
         for (std::size_t i = 0; i < count; ++i) found_[i] = in_cells_[found_[i]];
@@ -99,8 +104,14 @@ std::size_t FineCells::find_hiding(const FrontBoxes& boxes, std::size_t begin, s
 ScreenBox FineCells::box_around(glm::dvec2 a, glm::dvec2 b, float low) {
     const glm::vec2 begin(glm::min(a, b)), end(glm::max(a, b));
     const float farthest = std::max({std::abs(begin.x), std::abs(begin.y), std::abs(end.x), std::abs(end.y)});
-    const auto margin = static_cast<float>(farthest < static_cast<float>(kRounding.near) ? kRounding.margin : kRounding.far_margin);
-    return {begin.x - margin, begin.y - margin, end.x + margin, end.y + margin, low, std::numeric_limits<float>::infinity()};
+    const auto margin =
+        static_cast<float>(farthest < static_cast<float>(kRounding.near) ? kRounding.margin : kRounding.far_margin);
+    return {begin.x - margin,
+            begin.y - margin,
+            end.x + margin,
+            end.y + margin,
+            low,
+            std::numeric_limits<float>::infinity()};
 }
 
 FineCells::Box FineCells::box_of(const CrossedTriangle& t) const {

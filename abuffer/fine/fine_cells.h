@@ -11,20 +11,22 @@
 
 namespace burin {
 
-/// The triangles that may hide lines in a block, as kernels want them: where there are many for many lines, cell by cell.
-/// Buffers are used again.
+/// The triangles that may hide lines in a block, as kernels want them: where there are many for many lines, cell by
+/// cell. Buffers are used again.
 class FineCells {
   public:
     FineCells(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels) {}
 
     /// `triangles` must stay. `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
     void set(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count);
-    /// How many triangles are in a cell, on average. Cells are as small as they can be where there are very many pairs of a line
-    /// and a triangle.
-    std::size_t triangles_per_cell() const { return cells_ == 1 ? given_->size() : in_cells_.size() / count_of_cells(); }
+    /// How many triangles are in a cell, on average. Cells are as small as they can be where there are very many pairs
+    /// of a line and a triangle.
+    std::size_t triangles_per_cell() const {
+        return cells_ == 1 ? given_->size() : in_cells_.size() / count_of_cells();
+    }
 
-    /// Calls use(number) for those in the cells from a to b that may hide a line between them, until it says false. Some come
-    /// from several cells.
+    /// Calls use(number) for those in the cells from a to b that may hide a line between them, until it says false.
+    /// Some come from several cells.
     template <typename Use>
     void for_hiding(const ScreenLine& line, glm::dvec2 a, glm::dvec2 b, const Use& use) {
         const ScreenBox box = box_around(a, b, line.low);
@@ -34,11 +36,13 @@ class FineCells {
             return;
         }
         bool goes_on = true;
-        for_cells({glm::ivec2(glm::floor(glm::min(a, b))), glm::ivec2(glm::ceil(glm::max(a, b)))}, [&](std::size_t cell) {
-            if (!goes_on) return;
-            const std::size_t count = find_hiding(listed_boxes_.view(), cell_end_[cell], cell_end_[cell + 1], line, box);
-            for (std::size_t i = 0; i < count && goes_on; ++i) goes_on = use(found_[i]);
-        });
+        for_cells({glm::ivec2(glm::floor(glm::min(a, b))), glm::ivec2(glm::ceil(glm::max(a, b)))},
+                  [&](std::size_t cell) {
+                      if (!goes_on) return;
+                      const std::size_t count =
+                          find_hiding(listed_boxes_.view(), cell_end_[cell], cell_end_[cell + 1], line, box);
+                      for (std::size_t i = 0; i < count && goes_on; ++i) goes_on = use(found_[i]);
+                  });
     }
 
   private:
@@ -49,14 +53,17 @@ class FineCells {
     void sort_to_cells();
     Box box_of(const CrossedTriangle& t) const;
     /// Lists in found_ which of the triangles given may hide a line, of those that have the boxes [begin, end).
-    std::size_t find_hiding(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenLine& line, const ScreenBox& box);
+    std::size_t find_hiding(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenLine& line,
+                            const ScreenBox& box);
     static ScreenBox box_around(glm::dvec2 a, glm::dvec2 b, float low);
 
     /// First and last column and row of cells.
     struct Range {
         int x0, x1, y0, y1;
     };
-    int cell_along(int subpixel, int first) const { return std::clamp((subpixel - first) >> cell_shift_, 0, cells_ - 1); }
+    int cell_along(int subpixel, int first) const {
+        return std::clamp((subpixel - first) >> cell_shift_, 0, cells_ - 1);
+    }
     Range range_of(const Box& box) const {
         return {cell_along(box.low.x, corner_.x), cell_along(box.high.x, corner_.x), cell_along(box.low.y, corner_.y),
                 cell_along(box.high.y, corner_.y)};

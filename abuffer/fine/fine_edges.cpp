@@ -22,9 +22,8 @@ struct EdgeEnds {
 
 }  // namespace
 
-FineEdges::FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible,
-                     std::span<const LooseChunk> loose, const PixelTiles& tiles,
-                     int samples_per_pixel, int threads) {
+FineEdges::FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible, std::span<const LooseChunk> loose,
+                     const PixelTiles& tiles, int samples_per_pixel, int threads) {
     using Records = std::vector<TileLists<TileEdge>::Record>;
     const SampleBlocks blocks(samples_per_pixel);
     const PixelRect region = tiles.rect();  // of whole blocks, as are its tiles
@@ -34,8 +33,8 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible
     const int pitch_shift = std::countr_zero(static_cast<unsigned>(2 * blocks.half_pitch));
     const int tile_shift = std::countr_zero(static_cast<unsigned>(tiles.tile_px() * kSubpixelsPerPixel));
     const int columns = tiles.columns();
-    const auto sort = [&](std::uint32_t instance, const ScreenVertex* vertices, const EdgeEnds& e,
-                          Records& found) __attribute__((always_inline)) {
+    const auto sort = [&](std::uint32_t instance, const ScreenVertex* vertices, const EdgeEnds& e, Records& found)
+        __attribute__((always_inline)) {
         const ScreenVertex &from = vertices[e.from], &to = vertices[e.to];
         glm::ivec2 a(from.x, from.y), b(to.x, to.y);
         float nearest = std::max(from.nearness, to.nearness);
@@ -44,23 +43,19 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible
             if (!cut) return;
             a = glm::floor(cut->from);
             b = glm::floor(cut->to);
-            nearest = std::nextafter(
-                static_cast<float>(std::max(cut->nearness_from, cut->nearness_to)), kInfinity);
+            nearest = std::nextafter(static_cast<float>(std::max(cut->nearness_from, cut->nearness_to)), kInfinity);
         }
         if (a == b) return;
         // From the region's first square of samples.
         const int x0 = std::min(a.x, b.x) - origin_x, x1 = std::max(a.x, b.x) - origin_x;
         const int y0 = std::min(a.y, b.y) - origin_y, y1 = std::max(a.y, b.y) - origin_y;
         if (x1 < 0 || y1 < 0 || x0 >= width || y0 >= height) return;
-        const int first_column = std::max(x0, 0) >> tile_shift,
-                  last_column = std::min(x1, width - 1) >> tile_shift;
-        const int first_row = std::max(y0, 0) >> tile_shift,
-                  last_row = std::min(y1, height - 1) >> tile_shift;
+        const int first_column = std::max(x0, 0) >> tile_shift, last_column = std::min(x1, width - 1) >> tile_shift;
+        const int first_row = std::max(y0, 0) >> tile_shift, last_row = std::min(y1, height - 1) >> tile_shift;
         const auto add = [&](int column, int row) {
             const auto area = [&](int subpixel, int tile, int more) {
                 const int sample = ((subpixel - (tile << tile_shift)) >> pitch_shift) + more;
-                return static_cast<std::uint8_t>(
-                    std::clamp(sample >> TileEdge::kAreaShift, 0, 255));
+                return static_cast<std::uint8_t>(std::clamp(sample >> TileEdge::kAreaShift, 0, 255));
             };
             found.push_back({static_cast<std::uint32_t>(row * columns + column),
                              {{instance, e.half_edge},

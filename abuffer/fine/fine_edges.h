@@ -18,7 +18,8 @@ struct TileEdge {
 
     FineEdge edge;
     float nearest;  ///< its nearness, at the nearer end
-    std::uint8_t left, top, right, bottom;  ///< the areas of the tile's samples that it may touch, or farther right or down
+    std::uint8_t left, top, right,
+        bottom;  ///< the areas of the tile's samples that it may touch, or farther right or down
 };
 
 /// The squares of 2 x 2 samples lie half a sample to the right of and below the pixels. Blocks are the
@@ -28,9 +29,7 @@ struct SampleBlocks {
 
     static constexpr int kShift = 11;  // log2 of a block's width in 1/256 pixel
     int at(std::int32_t subpixel) const { return (subpixel - half_pitch) >> kShift; }
-    double begin(int block) const {
-        return static_cast<double>((std::int64_t{block} << kShift) + half_pitch);
-    }
+    double begin(int block) const { return static_cast<double>((std::int64_t{block} << kShift) + half_pitch); }
 
     std::int32_t half_pitch;
 };
@@ -40,9 +39,8 @@ struct SampleBlocks {
 class FineEdges {
   public:
     /// `possible`: nullptr if there are to be loose edges only.
-    FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible,
-              std::span<const LooseChunk> loose, const PixelTiles& tiles, int samples_per_pixel,
-              int threads);
+    FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible, std::span<const LooseChunk> loose,
+              const PixelTiles& tiles, int samples_per_pixel, int threads);
 
     /// Those that touch squares of samples of a tile.
     std::span<const TileEdge> in(std::size_t tile) const { return lists_.of(tile); }

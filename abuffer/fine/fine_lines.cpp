@@ -25,8 +25,8 @@ constexpr double kFar = 1e300;
 /// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many layers, lines are left to
 /// the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 22;
-/// Where so many triangles lie over each other that cells do not tell them apart, each pair is looked at more closely, and far fewer are
-/// too many: meshes of small triangles and piles of a few hundred large ones stay far below.
+/// Where so many triangles lie over each other that cells do not tell them apart, each pair is looked at more closely,
+/// and far fewer are too many: meshes of small triangles and piles of a few hundred large ones stay far below.
 constexpr std::size_t kManyInCell = 256, kMostLooksInHeap = std::size_t{1} << 18;
 /// In a block with more candidates, those behind others on the same straight line are left out.
 constexpr std::size_t kFewCandidates = 12;
@@ -38,8 +38,14 @@ constexpr double kRounding = 1.0 / 64;
 /// Finds what is visible in one block after the other. Buffers are used again.
 class FineLines::BlockClipper {
   public:
-    BlockClipper(const ScreenSurfaces& screen, const EdgeLineFinder& finder, const TileKernels& kernels, const LineCriteria& criteria)
-        : screen_(screen), finder_(finder), kernels_(kernels), contacts_(screen), criteria_(criteria), cells_(screen, kernels) {}
+    BlockClipper(const ScreenSurfaces& screen, const EdgeLineFinder& finder, const TileKernels& kernels,
+                 const LineCriteria& criteria)
+        : screen_(screen),
+          finder_(finder),
+          kernels_(kernels),
+          contacts_(screen),
+          criteria_(criteria),
+          cells_(screen, kernels) {}
 
     /// `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
     void set_triangles(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count) {
@@ -52,7 +58,8 @@ class FineLines::BlockClipper {
     std::size_t triangles_per_cell() const { return cells_.triangles_per_cell(); }
 
     /// add_visible() of all, but for what is surely covered by strokes of others that are nearer: those first.
-    void add_not_covered(std::span<const FineCandidate> candidates, std::span<const std::uint32_t> numbers, std::vector<LineSegment>& segments) {
+    void add_not_covered(std::span<const FineCandidate> candidates, std::span<const std::uint32_t> numbers,
+                         std::vector<LineSegment>& segments) {
         order_.clear();
         for (const std::uint32_t i : numbers) {
             const FineCandidate& c = candidates[i];
@@ -69,8 +76,11 @@ class FineLines::BlockClipper {
     void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
         const WholeLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
-        const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)), by_snapping = snapping_slack(line);
-        const auto slack_of = [&](double level_px) { return level_slack(screen_.surfaces(), nearest, level_px) + by_snapping; };
+        const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)),
+                     by_snapping = snapping_slack(line);
+        const auto slack_of = [&](double level_px) {
+            return level_slack(screen_.surfaces(), nearest, level_px) + by_snapping;
+        };
         const double slack = slack_of(kLevelPx), coincident = slack_of(kCoincidentPx), certain = slack_of(kCertainPx);
         const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
         const bool is_border = line.owners[0] == line.owners[1], is_by_itself = line.is_by_itself();
@@ -85,39 +95,38 @@ class FineLines::BlockClipper {
                                 begin,
                                 end,
                                 slack};
-        for_triangles(line, a, b, part_or_line(line, a, b, line.lowest_in(begin, end) - slack),
-                      [&](const Occluder& t) {
-                          // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
-                          // apart.
-                          const bool is_own_mesh = t.instance == candidate.part.edge.instance;
-                          const double touching = slack + t.slack;
-                          const double level = !is_own_mesh || is_by_itself ? certain + t.slack
-                                               : is_border              ? rounding + t.slack
-                                                                        : rounding;
-                          // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
-                          // its edges, too, for its neighbour there may turn away.
-                          HiddenParts parts;
-                          kernels_.clip_twice(t, clipped, -coincident - t.slack, level, parts);
-                          // What is hidden already does not become more so.
-                          if (!parts.is_any_most || parts.most_end <= reached) return true;
-                          const double most_from = parts.most_begin, most_to = parts.most_end;
-                          double from = parts.begin, to = parts.end;
-                          const bool is_settled = parts.is_any && from == most_from && to == most_to;
-                          const auto is_none = [&] {
-                              return (!is_by_itself && contacts_.is_seen_instead(line, begin, end, t, touching)) ||
-                                     contacts_.is_flush(line, most_from, most_to, t, touching, criteria_, false);
-                          };
-                          if (!is_settled && is_none()) {
-                              from = most_from;
-                              to = most_to;
-                          } else if (!parts.is_any) {
-                              return true;
-                          }
-                          hidden_.push_back({from, to});
-                          reached = hidden_up_to(reached, shortest);
-                          is_hidden = end - reached <= shortest;
-                          return !is_hidden;
-                      });
+        for_triangles(line, a, b, part_or_line(line, a, b, line.lowest_in(begin, end) - slack), [&](const Occluder& t) {
+            // A mesh hides its own edges exactly; patches that are not stitched and other objects are snapped
+            // apart.
+            const bool is_own_mesh = t.instance == candidate.part.edge.instance;
+            const double touching = slack + t.slack;
+            const double level = !is_own_mesh || is_by_itself ? certain + t.slack
+                                 : is_border                  ? rounding + t.slack
+                                                              : rounding;
+            // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
+            // its edges, too, for its neighbour there may turn away.
+            HiddenParts parts;
+            kernels_.clip_twice(t, clipped, -coincident - t.slack, level, parts);
+            // What is hidden already does not become more so.
+            if (!parts.is_any_most || parts.most_end <= reached) return true;
+            const double most_from = parts.most_begin, most_to = parts.most_end;
+            double from = parts.begin, to = parts.end;
+            const bool is_settled = parts.is_any && from == most_from && to == most_to;
+            const auto is_none = [&] {
+                return (!is_by_itself && contacts_.is_seen_instead(line, begin, end, t, touching)) ||
+                       contacts_.is_flush(line, most_from, most_to, t, touching, criteria_, false);
+            };
+            if (!is_settled && is_none()) {
+                from = most_from;
+                to = most_to;
+            } else if (!parts.is_any) {
+                return true;
+            }
+            hidden_.push_back({from, to});
+            reached = hidden_up_to(reached, shortest);
+            is_hidden = end - reached <= shortest;
+            return !is_hidden;
+        });
         if (is_hidden) return;
         std::sort(hidden_.begin(), hidden_.end(),
                   [](const Interval& p, const Interval& q) { return p.begin < q.begin; });
@@ -142,7 +151,8 @@ class FineLines::BlockClipper {
     /// How far what is hidden goes on from a place, but for gaps too short to be drawn.
     double hidden_up_to(double reached, double shortest) const {
         const auto goes_on = [&](const Interval& h) { return h.begin - reached <= shortest && h.end > reached; };
-        for (auto next = hidden_.end(); (next = std::find_if(hidden_.begin(), hidden_.end(), goes_on)) != hidden_.end();) {
+        for (auto next = hidden_.end();
+             (next = std::find_if(hidden_.begin(), hidden_.end(), goes_on)) != hidden_.end();) {
             reached = next->end;
         }
         return reached;
@@ -156,8 +166,8 @@ class FineLines::BlockClipper {
         return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y),
                 static_cast<float>(std::max(least, -1e30))};
     }
-    /// A part of a line from a to b; or all of it, where that is short and its ends are whole numbers: what only touches it is
-    /// told exactly then.
+    /// A part of a line from a to b; or all of it, where that is short and its ends are whole numbers: what only
+    /// touches it is told exactly then.
     static ScreenLine part_or_line(const WholeLine& line, glm::dvec2 a, glm::dvec2 b, double least) {
         if (!line.is_exact()) return screen_line(a, b, least);
         ScreenLine whole = screen_line(line.from, line.to, least);
@@ -165,8 +175,8 @@ class FineLines::BlockClipper {
         return whole;
     }
 
-    /// Calls use(triangle) for those that may hide `part` of a line, from a to b, and that the line is no edge of, until it says
-    /// false.
+    /// Calls use(triangle) for those that may hide `part` of a line, from a to b, and that the line is no edge of,
+    /// until it says false.
     template <typename Use>
     void for_triangles(const WholeLine& line, glm::dvec2 a, glm::dvec2 b, const ScreenLine& part, const Use& use) {
         cells_.for_hiding(part, a, b, [&](std::uint32_t i) {
@@ -199,7 +209,8 @@ class FineLines::BlockClipper {
         const bool may_be_contact = line.classes.has(LineClass::border) && !line.is_wire;
         if (may_be_contact || line.opacity < 255 || line.classes.empty()) return false;
         const bool occludes = line.classes.has(LineClass::silhouette) || line.classes.has(LineClass::border);
-        return drawn_.cover(line, candidate.part.begin, candidate.part.end, {*line.classes.first(), occludes, is_front_on_left(candidate)},
+        return drawn_.cover(line, candidate.part.begin, candidate.part.end,
+                            {*line.classes.first(), occludes, is_front_on_left(candidate)},
                             level_slack(screen_.surfaces(), line.nearness_at(candidate.part.begin), kCertainPx));
     }
 
@@ -211,7 +222,9 @@ class FineLines::BlockClipper {
             // At a vertex rounding says which triangle one gets to.
             const double inset = std::min(0.5, 0.5 * step);
             OpenRange narrow;  // around the last place that was looked at
-            const auto is_wide_at = [&](double t) { return is_wide(candidate, std::clamp(t, inset, 1 - inset), narrow); };
+            const auto is_wide_at = [&](double t) {
+                return is_wide(candidate, std::clamp(t, inset, 1 - inset), narrow);
+            };
             // A fold that begins narrow is none before it is wide, unless it is a tip of something by itself.
             const auto is_wire_at = [&](double t) { return is_wire(candidate, std::clamp(t, inset, 1 - inset)); };
             if (!is_wide_at(begin) && !is_wire_at(begin)) {
@@ -233,7 +246,9 @@ class FineLines::BlockClipper {
         if (narrow.contains(place)) return false;
         const ScreenMesh& mesh = screen_.mesh(candidate.part.edge.instance);
         const double nearness = line.nearness_at(t);
-        if (is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness, 32 * level_slack(screen_.surfaces(), nearness))) return true;
+        if (is_fold_wide(mesh, candidate.part.edge.half_edge, at, nearness,
+                         32 * level_slack(screen_.surfaces(), nearness)))
+            return true;
         if (is_level || is_upright) narrow = narrow_range(mesh, candidate.part.edge.half_edge, at);
         return false;
     }
@@ -241,7 +256,8 @@ class FineLines::BlockClipper {
     /// Whether the surface closes around at a contour, as a wire's does.
     bool is_wire(const FineCandidate& candidate, double t) const {
         const WholeLine& line = candidate.line;
-        return ring_around(screen_.mesh(candidate.part.edge.instance), candidate.part.edge.half_edge, line.at(t), line.nearness_at(t), 0) != Ring::none;
+        return ring_around(screen_.mesh(candidate.part.edge.instance), candidate.part.edge.half_edge, line.at(t),
+                           line.nearness_at(t), 0) != Ring::none;
     }
 
     void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
@@ -269,7 +285,8 @@ class FineLines::BlockClipper {
         s.occludes = occludes;
         s.front_on_left = is_front_on_left(candidate);
         segments.push_back(s);
-        if (notes_drawn_ && line.opacity == 255) drawn_.add(line, begin, end, {s.drawn_as, s.occludes, s.front_on_left});
+        if (notes_drawn_ && line.opacity == 255)
+            drawn_.add(line, begin, end, {s.drawn_as, s.occludes, s.front_on_left});
     }
 
     /// A surface that ends in contact with another one has no border there, but the classes of a contact.
@@ -307,8 +324,7 @@ class FineLines::BlockClipper {
     /// Of the way from the line's beginning to its end.
     bool is_front_on_left(const FineCandidate& candidate) const {
         const WholeLine& line = candidate.line;
-        const int side =
-            line.front_side != 0 || line.is_loose() ? line.front_side : owner_side(candidate);
+        const int side = line.front_side != 0 || line.is_loose() ? line.front_side : owner_side(candidate);
         // Of a loose edge, or a surface that is seen edge-on, either side will do, but the same one
         // whichever way the line runs.
         if (side == 0) return line.from.x != line.to.x ? line.from.x < line.to.x : line.from.y < line.to.y;
@@ -370,14 +386,15 @@ void FineLines::find_in_block(std::size_t block, std::vector<LineSegment>& segme
         return count * per_cell <= (per_cell > kManyInCell ? kMostLooksInHeap : kMostLooks);
     };
     if (are_few(numbers.size())) {
-        if (numbers.size() > kFewCandidates && !draws_each_) return clipper_->add_not_covered(candidates_, numbers, segments);
+        if (numbers.size() > kFewCandidates && !draws_each_)
+            return clipper_->add_not_covered(candidates_, numbers, segments);
         for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], segments);
         return;
     }
     // Of loose edges samples tell nothing: where they alone are too many, all of them are drawn.
     const auto is_loose_one = [&](std::uint32_t i) { return candidates_[i].line.is_loose(); };
-    const bool are_few_loose = are_few(
-        static_cast<std::size_t>(std::count_if(numbers.begin(), numbers.end(), is_loose_one)));
+    const bool are_few_loose =
+        are_few(static_cast<std::size_t>(std::count_if(numbers.begin(), numbers.end(), is_loose_one)));
     for (const std::uint32_t i : numbers) {
         if (!is_loose_one(i)) continue;
         if (are_few_loose) {
@@ -399,8 +416,10 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
         if (!is_same) lines = lines_of(instance, h);
         before = &part;
         for (const WholeLine& line : lines) {
-            const double begin = (std::max(part.begin, line.edge_begin) - line.edge_begin) / (line.edge_end - line.edge_begin);
-            const double end = (std::min(part.end, line.edge_end) - line.edge_begin) / (line.edge_end - line.edge_begin);
+            const double begin =
+                (std::max(part.begin, line.edge_begin) - line.edge_begin) / (line.edge_end - line.edge_begin);
+            const double end =
+                (std::min(part.end, line.edge_end) - line.edge_begin) / (line.edge_end - line.edge_begin);
             if (begin >= end) continue;
             FineCandidate& candidate = candidates_.emplace_back(part, line);
             candidate.part.begin = begin;

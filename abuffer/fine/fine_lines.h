@@ -16,8 +16,8 @@ namespace burin {
 /// tile; buffers are used again.
 class FineLines {
   public:
-    /// `region`: of `bins`, which must have kept thin triangles. `draws_each`: also edges behind others on the same line of the
-    /// picture, which dashes and smooth contours need.
+    /// `region`: of `bins`, which must have kept thin triangles. `draws_each`: also edges behind others on the same
+    /// line of the picture, which dashes and smooth contours need.
     FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, const TileKernels& kernels,
               PixelRect region, bool draws_each);
     ~FineLines();

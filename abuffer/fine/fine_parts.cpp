@@ -38,35 +38,29 @@ bool runs_along(const EdgeOnScreen& edge, const LineSegment& piece) {
 /// From where to where an edge runs between two heights, and a bit more. 1/256 pixel.
 std::pair<int, int> columns_beside(const EdgeOnScreen& edge, double top, double bottom) {
     const glm::dvec2 way = edge.to - edge.from;
-    const auto x_at = [&](double y) {
-        return edge.from.x + way.x * std::clamp((y - edge.from.y) / way.y, 0.0, 1.0);
-    };
+    const auto x_at = [&](double y) { return edge.from.x + way.x * std::clamp((y - edge.from.y) / way.y, 0.0, 1.0); };
     const double a = way.y == 0 ? edge.from.x : x_at(top), b = way.y == 0 ? edge.to.x : x_at(bottom);
     return {floor_to_int(std::min(a, b)) - 1, floor_to_int(std::max(a, b)) + 2};
 }
 
 }  // namespace
 
-FineParts::BlockRange FineParts::blocks_around(const SampleTile& samples,
-                                               const EdgeOnScreen& edge) {
+FineParts::BlockRange FineParts::blocks_around(const SampleTile& samples, const EdgeOnScreen& edge) {
     const SampleBlocks blocks(samples.samples_per_pixel);
     const glm::dvec2 low = glm::min(edge.from, edge.to), high = glm::max(edge.from, edge.to);
-    return {blocks.at(floor_to_int(low.x)), blocks.at(floor_to_int(low.y)),
-            blocks.at(floor_to_int(high.x)), blocks.at(floor_to_int(high.y))};
+    return {blocks.at(floor_to_int(low.x)), blocks.at(floor_to_int(low.y)), blocks.at(floor_to_int(high.x)),
+            blocks.at(floor_to_int(high.y))};
 }
 
 /// Calls visit(x, y, begin, end) for the tile's blocks that an edge touches, but where it is far
 /// behind, and the part of it there.
 template <typename Visit>
-void FineParts::for_blocks(const SampleTile& samples, const EdgeOnScreen& edge,
-                           const BlockRange& range, const Visit& visit) const {
+void FineParts::for_blocks(const SampleTile& samples, const EdgeOnScreen& edge, const BlockRange& range,
+                           const Visit& visit) const {
     const SampleBlocks blocks(samples.samples_per_pixel);
-    const int shift =
-        std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
-    const int first_x = samples.first_column >> shift,
-              last_x = (samples.first_column + samples.columns - 2) >> shift;
-    const int first_y = samples.first_row >> shift,
-              last_y = (samples.first_row + samples.rows - 2) >> shift;
+    const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
+    const int first_x = samples.first_column >> shift, last_x = (samples.first_column + samples.columns - 2) >> shift;
+    const int first_y = samples.first_row >> shift, last_y = (samples.first_row + samples.rows - 2) >> shift;
     for (int y = std::max(range.y0, first_y); y <= std::min(range.y1, last_y); ++y) {
         int from = std::max(range.x0, first_x), to = std::min(range.x1, last_x);
         if (to - from > 2) {  // long edges touch few of the blocks in their boxes
@@ -77,8 +71,7 @@ void FineParts::for_blocks(const SampleTile& samples, const EdgeOnScreen& edge,
         for (int x = from; x <= to; ++x) {
             double begin = 0, end = 1;
             if (!range.is_one()) {
-                const glm::dvec2 low(blocks.begin(x), blocks.begin(y)),
-                    high(blocks.begin(x + 1), blocks.begin(y + 1));
+                const glm::dvec2 low(blocks.begin(x), blocks.begin(y)), high(blocks.begin(x + 1), blocks.begin(y + 1));
                 if (!clip_to_rect(edge.from, edge.to, low, high, begin, end)) continue;
                 if (is_behind(blocks_, samples, edge, begin, end)) continue;
             }
@@ -91,8 +84,7 @@ void FineParts::find_loose(const SampleTile& samples, std::span<const TileEdge> 
                            std::vector<FinePart>& parts) const {
     for (const TileEdge& e : loose) {
         if (is_surely_behind(e, samples)) continue;
-        const auto [one, two] =
-            screen_.surfaces().instances[e.edge.instance].mesh->loose_edge(e.edge.half_edge);
+        const auto [one, two] = screen_.surfaces().instances[e.edge.instance].mesh->loose_edge(e.edge.half_edge);
         const auto [first, second] = ends_in_order(screen_, e.edge.instance, one, two);
         const auto edge = edge_on_screen(screen_, e.edge.instance, first, second);
         if (!edge) continue;
@@ -104,16 +96,14 @@ void FineParts::find_loose(const SampleTile& samples, std::span<const TileEdge> 
     }
 }
 
-void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
-                     std::span<const TileEdge> loose, std::span<const LineSegment> drawn,
-                     std::vector<FinePart>& parts) {
+void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges, std::span<const TileEdge> loose,
+                     std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
     if (edges.empty() && loose.empty()) return;
     find_farthest(samples);
     find_loose(samples, loose, parts);
     if (edges.empty()) return;
     drawn_.set(drawn);
-    const int shift =
-        std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
+    const int shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples.samples_per_pixel));
     asked_.clear();
     for (const TileEdge& edge : edges) {
         if (is_surely_behind(edge, samples)) continue;
@@ -186,32 +176,41 @@ void FineParts::find_farthest(const SampleTile& samples) {
     blocks_.farthest.resize(BlockTable::kSize);
     kernels_.find_farthest(view, blocks_.farthest.data());
     areas_.farthest.assign(kAreaPitch * kAreaPitch, std::numeric_limits<float>::infinity());
-    const auto blocks_along = [](int count) { return static_cast<std::size_t>((count + kBlockSamples - 1) >> kBlockShift); };
+    const auto blocks_along = [](int count) {
+        return static_cast<std::size_t>((count + kBlockSamples - 1) >> kBlockShift);
+    };
     for (std::size_t y = 0; y < blocks_along(samples.rows); ++y) {
         for (std::size_t x = 0; x < blocks_along(samples.columns); ++x) {
-            float& farthest = areas_.farthest[(y >> (kAreaShift - kBlockShift)) * kAreaPitch + (x >> (kAreaShift - kBlockShift))];
+            float& farthest =
+                areas_.farthest[(y >> (kAreaShift - kBlockShift)) * kAreaPitch + (x >> (kAreaShift - kBlockShift))];
             farthest = std::min(farthest, blocks_.farthest[y * BlockTable::kPitch + x]);
         }
     }
 }
 
 FineParts::FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests)
-    : screen_(screen), kernels_(kernels), takes_rests_(takes_rests), level_part_(kClearlyInFrontPx / screen.surfaces().projection.focal_px) {}
+    : screen_(screen),
+      kernels_(kernels),
+      takes_rests_(takes_rests),
+      level_part_(kClearlyInFrontPx / screen.surfaces().projection.focal_px) {}
 
 double FineParts::level(double nearness) const {
-    return screen_.surfaces().projection.orthographic ? level_part_ : level_part_ * (nearness + screen_.surfaces().farthest_nearness);
+    return screen_.surfaces().projection.orthographic ? level_part_
+                                                      : level_part_ * (nearness + screen_.surfaces().farthest_nearness);
 }
 
 /// The triangles at an edge, and whether each of them shows where the edge is a line.
 FineParts::Owners FineParts::owners_of(FineEdge edge) const {
     const ScreenMesh& mesh = screen_.mesh(edge.instance);
     const HalfEdge h = edge.half_edge, partner = mesh.partners[h];
-    const Facing own = screen_.facing(mesh.first_number + h / 3), other = screen_.facing(mesh.first_number + partner / 3);
+    const Facing own = screen_.facing(mesh.first_number + h / 3),
+                 other = screen_.facing(mesh.first_number + partner / 3);
     Owners owners{edge, {mesh.first_number + h / 3, mesh.first_number + partner / 3}, false};
     const bool is_cut = own == off_screen || other == off_screen;  // and has no facing
     // Where both are wound alike, they run along the edge in opposite directions.
     const bool are_wound_alike = mesh.corners[h] != mesh.corners[partner];
-    if (h != partner) owners.needs_both = is_cut ? side_at(edge, h) * side_at(edge, partner) < 0 : (own == other) == are_wound_alike;
+    if (h != partner)
+        owners.needs_both = is_cut ? side_at(edge, h) * side_at(edge, partner) < 0 : (own == other) == are_wound_alike;
     return owners;
 }
 
@@ -219,7 +218,8 @@ FineParts::Owners FineParts::owners_of(FineEdge edge) const {
 int FineParts::side_at(FineEdge edge, HalfEdge h) const {
     const ScreenMesh& mesh = screen_.mesh(edge.instance);
     const auto corner = [&](HalfEdge g, std::uint32_t k) { return mesh.corners[g - g % 3 + (g + k) % 3]; };
-    const auto [first, second] = ends_in_order(screen_, edge.instance, corner(edge.half_edge, 0), corner(edge.half_edge, 1));
+    const auto [first, second] =
+        ends_in_order(screen_, edge.instance, corner(edge.half_edge, 0), corner(edge.half_edge, 1));
     return side_of_edge(screen_, edge.instance, first, second, corner(h, 2));
 }
 
@@ -233,8 +233,10 @@ int FineParts::inner_side(FineEdge edge) const {
 bool FineParts::is_surely_behind(const TileEdge& edge, const SampleTile& samples) const {
     const auto nearest = static_cast<double>(edge.nearest);
     const double limit = nearest + kFarInFront * level(nearest);
-    const int right = std::min(int{edge.right}, (samples.columns - 1) >> kAreaShift), left = std::min(int{edge.left}, right);
-    const int bottom = std::min(int{edge.bottom}, (samples.rows - 1) >> kAreaShift), top = std::min(int{edge.top}, bottom);
+    const int right = std::min(int{edge.right}, (samples.columns - 1) >> kAreaShift),
+              left = std::min(int{edge.left}, right);
+    const int bottom = std::min(int{edge.bottom}, (samples.rows - 1) >> kAreaShift),
+              top = std::min(int{edge.top}, bottom);
     for (int y = top; y <= bottom; ++y) {
         for (int x = left; x <= right; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * kAreaPitch + static_cast<std::size_t>(x);
@@ -253,7 +255,8 @@ bool FineParts::is_behind(const Squares& squares, const SampleTile& samples, con
     const auto square_at = [&](double sample, int more, int count) {
         return std::min(static_cast<int>(std::max(sample, 0.0)) + more, count - 1) >> squares.shift;
     };
-    const int x0 = square_at(std::min(a.x, b.x), 0, samples.columns), x1 = square_at(std::max(a.x, b.x), 1, samples.columns);
+    const int x0 = square_at(std::min(a.x, b.x), 0, samples.columns),
+              x1 = square_at(std::max(a.x, b.x), 1, samples.columns);
     const int y0 = square_at(std::min(a.y, b.y), 0, samples.rows), y1 = square_at(std::max(a.y, b.y), 1, samples.rows);
     const double nearest = std::max(edge.nearness_at(begin), edge.nearness_at(end));
     const double limit = nearest + kFarInFront * level(nearest);
@@ -268,8 +271,8 @@ bool FineParts::is_behind(const Squares& squares, const SampleTile& samples, con
 
 /// Goes along an edge from square to square of four samples, in a block whose upper left sample is given.
 /// All places are on the picture's grid of samples: equal in all tiles.
-void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
-                          glm::ivec2 block, Interval part) {
+void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, glm::ivec2 block,
+                          Interval part) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const int last = kMergeBlockPx * samples.samples_per_pixel - 1;
     const double per_sample = samples.samples_per_pixel / 256.0;
@@ -278,7 +281,9 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
     double next[2], step[2];
     for (int k = 0; k < 2; ++k) {
         const int floored = floor_to_int(start[k]);
-        const double border = along[k] > 0 ? floored + 1 : static_cast<double>(floored) == start[k] ? floored - 1 : floored;
+        const double border = along[k] > 0                               ? floored + 1
+                              : static_cast<double>(floored) == start[k] ? floored - 1
+                                                                         : floored;
         next[k] = along[k] == 0 ? kNever : (border - origin[k]) / along[k];
         step[k] = along[k] == 0 ? kNever : 1 / std::abs(along[k]);
     }
@@ -323,11 +328,13 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
     if (owners.needs_both ? sees(a) && sees(b) : sees(a) || sees(b)) {
         if (!takes_rests_) return false;
         // A line that ends in the square at another one, on the screen, may go on beside that.
-        if (owners.needs_both) return std::any_of(std::begin(numbers), std::end(numbers), [&](std::uint32_t n) { return n != a && n != b; });
+        if (owners.needs_both)
+            return std::any_of(std::begin(numbers), std::end(numbers),
+                               [&](std::uint32_t n) { return n != a && n != b; });
         const int inner = inner_side(owners.edge);
         if (inner == 0) return false;
-        // Of two lines with a narrow gap between them the samples tell of one only. Whether what they see beyond is in contact
-        // instead, its triangles tell.
+        // Of two lines with a narrow gap between them the samples tell of one only. Whether what they see beyond is in
+        // contact instead, its triangles tell.
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec2 corner(square.x + static_cast<int>(k % 2), square.y + static_cast<int>(k / 2));
             const glm::dvec2 at = (corner + 0.5) * (256.0 / samples.samples_per_pixel);
@@ -360,15 +367,13 @@ bool FineParts::is_drawn_by_another(const EdgeOnScreen& edge, std::uint32_t bloc
 }
 
 /// What is left of an edge where pieces of its line were found.
-void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
-                             std::span<const LineSegment> pieces) {
+void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces) {
     undrawn_.assign(1, {begin, end});
     if (pieces.empty()) return;
     if (!takes_rests_) return undrawn_.clear();
     const glm::dvec2 along = edge.to - edge.from;
     const double square = glm::dot(along, along);
-    const double slack = kSlackSubpixels / std::sqrt(square),
-                 shortest = kShortestRestSubpixels / std::sqrt(square);
+    const double slack = kSlackSubpixels / std::sqrt(square), shortest = kShortestRestSubpixels / std::sqrt(square);
     const double shortest_tip = kShortestTipSubpixels / std::sqrt(square);
     for (const LineSegment& s : pieces) {
         // A bridge to another line, which only begins at this one.

@@ -28,9 +28,8 @@ class FineParts {
 
     /// `drawn`: the lines found in the tile, as a SegmentMerger leaves them. Of loose edges, which
     /// samples never tell of, all that is not clearly behind.
-    void find(const SampleTile& samples, std::span<const TileEdge> edges,
-              std::span<const TileEdge> loose, std::span<const LineSegment> drawn,
-              std::vector<FinePart>& parts);
+    void find(const SampleTile& samples, std::span<const TileEdge> edges, std::span<const TileEdge> loose,
+              std::span<const LineSegment> drawn, std::vector<FinePart>& parts);
 
   private:
     struct Owners {
@@ -50,8 +49,7 @@ class FineParts {
     template <typename Visit>
     void for_blocks(const SampleTile& samples, const EdgeOnScreen& edge, const BlockRange& range,
                     const Visit& visit) const;
-    void find_loose(const SampleTile& samples, std::span<const TileEdge> loose,
-                    std::vector<FinePart>& parts) const;
+    void find_loose(const SampleTile& samples, std::span<const TileEdge> loose, std::vector<FinePart>& parts) const;
     void find_farthest(const SampleTile& samples);
     Owners owners_of(FineEdge edge) const;
     int side_at(FineEdge edge, HalfEdge h) const;
@@ -63,16 +61,16 @@ class FineParts {
         std::vector<float> farthest;
     };
     bool is_surely_behind(const TileEdge& edge, const SampleTile& samples) const;
-    bool is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin, double end) const;
-    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners,
-                   glm::ivec2 block, Interval part);
+    bool is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin,
+                   double end) const;
+    void find_open(const SampleTile& samples, const EdgeOnScreen& edge, const Owners& owners, glm::ivec2 block,
+                   Interval part);
     bool is_open(const SampleTile& samples, glm::ivec2 square, const EdgeOnScreen& edge, double t,
                  const Owners& owners) const;
     bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
     static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
     bool is_drawn_by_another(const EdgeOnScreen& edge, std::uint32_t block) const;
-    void find_undrawn(const EdgeOnScreen& edge, double begin, double end,
-                      std::span<const LineSegment> pieces);
+    void find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces);
     double level(double nearness) const;
 
     const ScreenSurfaces& screen_;

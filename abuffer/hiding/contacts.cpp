@@ -15,10 +15,13 @@ constexpr double kBesideSubpixels = 512;
 /// Doubled areas are off by less than this, (1/256 pixel)^2.
 constexpr double kAreaRounding = 1;
 
-double doubled_area(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+double doubled_area(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
 glm::dvec2 place_of(const ScreenVertex& v) { return {v.x, v.y}; }
 
-/// False for nearly all triangles that do not cover a place, which need not be set up. `turn`: 1 if the corners run clockwise, or -1.
+/// False for nearly all triangles that do not cover a place, which need not be set up. `turn`: 1 if the corners run
+/// clockwise, or -1.
 bool may_cover(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, double turn, glm::dvec2 place) {
     return turn * doubled_area(a, b, place) >= -kAreaRounding && turn * doubled_area(b, c, place) >= -kAreaRounding &&
            turn * doubled_area(c, a, place) >= -kAreaRounding;
@@ -63,9 +66,11 @@ bool Contacts::is_in_front(const WholeLine& line, double begin, double end, cons
         if (gap >= -level) {
             const SurfaceOrder order = screen_.surfaces().order(s, screen_.surface_of(cover->number));
             const bool is_coincident = order.are_coincident();
-            const bool is_seen = is_coincident ? owner < cover->number : order.is_in_front() || (gap > 0 && !order.is_behind());
+            const bool is_seen =
+                is_coincident ? owner < cover->number : order.is_in_front() || (gap > 0 && !order.is_behind());
             if (!order.have_common_place || is_seen) return false;
-            is_behind = !is_coincident || s.instance != t.instance;  // within a mesh, what lies flat on another part has no outline
+            is_behind = !is_coincident ||
+                        s.instance != t.instance;  // within a mesh, what lies flat on another part has no outline
         }
         is_any_behind = is_any_behind || is_behind;
     }
@@ -80,7 +85,8 @@ bool Contacts::is_flush(const WholeLine& line, double begin, double end, const O
     const glm::dvec2 middle = line.at(0.5 * (begin + end)), along = glm::normalize(line.to - line.from);
     const glm::dvec2 right = kToOneSideSubpixels * glm::dvec2(-along.y, along.x);
     const SurfaceSet& surfaces = screen_.surfaces();
-    // Mostly one side is not covered: the triangle itself tells which it may be, before those at the line are looked at.
+    // Mostly one side is not covered: the triangle itself tells which it may be, before those at the line are looked
+    // at.
     const glm::dvec2 places[2] = {middle - right, middle + right};
     const std::size_t first = t.covers(places[0]) ? 1 : 0;
     std::optional<Occluder> covers[2];
@@ -103,7 +109,9 @@ bool Contacts::is_flush(const WholeLine& line, double begin, double end, const O
         const Occluder& cover = *covers[side];
         const double gap = screen_.nearness_of(owner, *beside) - cover.nearness_at(*beside);
         if (gap > level) return false;
-        if (gap >= -level) levels[level_count++] = {s, screen_.surface_of(cover.number), *beside / double{kSubpixelsPerPixel}, places[side] / double{kSubpixelsPerPixel}};
+        if (gap >= -level)
+            levels[level_count++] = {s, screen_.surface_of(cover.number), *beside / double{kSubpixelsPerPixel},
+                                     places[side] / double{kSubpixelsPerPixel}};
     }
     if (level_count == 0) return false;
     bool is_any_flush = false;
@@ -128,8 +136,9 @@ bool Contacts::laps_narrowly(const WholeLine& line, SurfaceId own, const FacePla
     return burin::laps_narrowly(screen_.surfaces(), own, edge, other, middle / double{kSubpixelsPerPixel});
 }
 
-std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, const Occluder& t, const LineCriteria& criteria,
-                                                         double& begin, double& end) const {
+std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, const Occluder& t,
+                                                         const LineCriteria& criteria, double& begin,
+                                                         double& end) const {
     const std::uint32_t owner = line.owners[0];
     const SurfaceId own = screen_.surface_of(owner), other = screen_.surface_of(t.number);
     const auto centre = centre_of(own, owner);
@@ -142,12 +151,17 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, 
     constexpr double kAnyDepth = -1e300;
     if (!clip_where_hidden(beside, kAnyDepth, t, begin, end)) return std::nullopt;
     const SurfaceSet& surfaces = screen_.surfaces();
-    const auto distance = [&](double nearness) { return distance_of(surfaces.projection, surfaces.farthest_nearness + nearness); };
+    const auto distance = [&](double nearness) {
+        return distance_of(surfaces.projection, surfaces.farthest_nearness + nearness);
+    };
     const DepthPlane plane = surfaces.plane(other);
     // What is left of the tolerances, which hardly change, at either end of the line.
     const double here = distance(line.nearness_at(0.5 * (begin + end)));
-    const double behind = depth_tolerance(surfaces, here, plane, kContactPx), in_front = depth_tolerance(surfaces, here, plane, kLevelPx);
-    const auto farther_at = [&](double part) { return distance(t.nearness_at(line.at(part))) - distance(line.nearness_at(part)); };
+    const double behind = depth_tolerance(surfaces, here, plane, kContactPx),
+                 in_front = depth_tolerance(surfaces, here, plane, kLevelPx);
+    const auto farther_at = [&](double part) {
+        return distance(t.nearness_at(line.at(part))) - distance(line.nearness_at(part));
+    };
     const double from = begin, length = end - begin, at_begin = farther_at(begin), at_end = farther_at(end);
     double first = 0, last = 1;
     if (!clip_where_positive(behind - at_begin, behind - at_end, first, last) ||
@@ -160,8 +174,8 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, 
     return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
 }
 
-/// Whether the bodies of two faces are both towards the eye, both away from it, or both faces are sheets. Of faces near each other
-/// on one surface this is told without looking at their whole body.
+/// Whether the bodies of two faces are both towards the eye, both away from it, or both faces are sheets. Of faces near
+/// each other on one surface this is told without looking at their whole body.
 bool Contacts::have_bodies_on_one_side(SurfaceId a, SurfaceId b) const {
     const SurfaceSet& surfaces = screen_.surfaces();
     const auto faces_eye = [&](SurfaceId s) {
@@ -169,14 +183,16 @@ bool Contacts::have_bodies_on_one_side(SurfaceId a, SurfaceId b) const {
         return FacePlane(surfaces, s).is_counterclockwise != is_mirrored;
     };
     const bool faces_alike = faces_eye(a) == faces_eye(b);
-    if (faces_alike && a.instance == b.instance && surfaces.instance_of(a).body_sides->are_same(a.triangle, b.triangle)) return true;
+    if (faces_alike && a.instance == b.instance && surfaces.instance_of(a).body_sides->are_same(a.triangle, b.triangle))
+        return true;
     const auto side = [&](SurfaceId s) -> int { return surfaces.instance_of(s).body_sides->of(s.triangle); };
     return side(a) == (faces_alike ? side(b) : -side(b));
 }
 
-/// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place. Of what is cut,
-/// as a floor that reaches behind the eye, all parts.
-std::optional<Occluder> Contacts::what_covers(glm::dvec2 place, const Occluder& t, Over over, const LineCriteria* criteria) const {
+/// A triangle or one of its neighbours, over any edge or those that are no lines, whichever is at a place. Of what is
+/// cut, as a floor that reaches behind the eye, all parts.
+std::optional<Occluder> Contacts::what_covers(glm::dvec2 place, const Occluder& t, Over over,
+                                              const LineCriteria* criteria) const {
     if (t.covers(place)) return t;
     const ScreenMesh& mesh = screen_.mesh(t.instance);
     const SurfaceId own = screen_.surface_of(t.number);
@@ -205,9 +221,10 @@ std::optional<Occluder> Contacts::what_covers(glm::dvec2 place, const Occluder& 
     return std::nullopt;
 }
 
-/// What is at a place of the faces beyond an edge of more than two polygons that go on in the plane of one of them: bodies that
-/// stand flush and share corners have no line between them.
-std::optional<Occluder> Contacts::what_covers_in_plane(glm::dvec2 place, SurfaceId own, HalfEdge h, const LineCriteria& criteria) const {
+/// What is at a place of the faces beyond an edge of more than two polygons that go on in the plane of one of them:
+/// bodies that stand flush and share corners have no line between them.
+std::optional<Occluder> Contacts::what_covers_in_plane(glm::dvec2 place, SurfaceId own, HalfEdge h,
+                                                       const LineCriteria& criteria) const {
     const ScreenMesh& mesh = screen_.mesh(own.instance);
     if (mesh.partners[mesh.partners[h]] == h) return std::nullopt;
     const glm::dvec2 at = place / double{kSubpixelsPerPixel};
@@ -240,9 +257,7 @@ std::optional<Occluder> Contacts::part_at(glm::dvec2 place, SurfaceId s) const {
 /// Where a line comes nearest to the plane of `t`, if it is level with it there.
 std::optional<glm::dvec2> Contacts::touching_place(const WholeLine& line, double begin, double end, const Occluder& t,
                                                    double level) const {
-    const auto gap_at = [&](double part) {
-        return std::abs(t.nearness_at(line.at(part)) - line.nearness_at(part));
-    };
+    const auto gap_at = [&](double part) { return std::abs(t.nearness_at(line.at(part)) - line.nearness_at(part)); };
     const double at_begin = gap_at(begin), at_end = gap_at(end);
     if (std::min(at_begin, at_end) > level) return std::nullopt;
     return line.at(at_begin < at_end ? begin : end);
@@ -263,8 +278,8 @@ bool Contacts::have_vertex_in_common(SurfaceId s, const Occluder& t) const {
     return std::find_first_of(v.begin(), v.end(), t.vertices.begin(), t.vertices.end()) != v.end();
 }
 
-/// Whether `one` is seen where `other` lies at about its depth, nearer by `gap` than that. Of neighbours that have no more than
-/// slivers in common each is, whichever comes first.
+/// Whether `one` is seen where `other` lies at about its depth, nearer by `gap` than that. Of neighbours that have no
+/// more than slivers in common each is, whichever comes first.
 bool Contacts::is_seen_first(std::uint32_t one, std::uint32_t other, double gap) const {
     const SurfaceOrder order = screen_.surfaces().order(screen_.surface_of(one), screen_.surface_of(other));
     if (!order.have_common_place) return true;

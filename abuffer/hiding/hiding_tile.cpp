@@ -15,7 +15,7 @@ constexpr double kShortestRestPx = 1.0 / 32;
 }  // namespace
 
 HidingTile::HidingTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
-                     const OccluderBins& bins, const PixelTiles& grid, bool finds_pairs)
+                       const OccluderBins& bins, const PixelTiles& grid, bool finds_pairs)
     : frame_(frame),
       screen_(screen),
       contacts_(screen),
@@ -69,7 +69,8 @@ void HidingTile::add(std::uint32_t instance, std::span<const std::uint32_t> numb
     for (const std::uint32_t number : numbers) {
         const std::uint32_t* const v = mesh.corners + 3 * std::size_t{number - mesh.first_number};
         const auto nearness = [&](std::size_t k) { return mesh.vertices[v[k]].nearness; };
-        pairs_.add(std::min({nearness(0), nearness(1), nearness(2)}), {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]});
+        pairs_.add(std::min({nearness(0), nearness(1), nearness(2)}),
+                   {first_vertex + v[0], first_vertex + v[1], first_vertex + v[2]});
     }
 }
 
@@ -103,7 +104,8 @@ void HidingTile::set_up(std::uint32_t i) {
     const std::uint32_t number = cells_[i].number;
     const SurfaceId s = screen_.surface_of(number);
     set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
-    set_up_layer_triangle(screen_, s, number, triangles_.emplace_back());  // where it stays: copies would wait for its parts
+    set_up_layer_triangle(screen_, s, number,
+                          triangles_.emplace_back());  // where it stays: copies would wait for its parts
     triangles_.back().transmission = transmission_of(s);
 }
 
@@ -120,7 +122,8 @@ void HidingTile::hide(const WholeLine& line, std::span<const std::uint32_t> near
                                certain_slack_};
     parts_.resize(std::max(parts_.size(), near.size()));
     const std::size_t count = kernels_.clip_hidden(planes_.data(), near.size(), plane_line, parts_.data());
-    for (std::size_t k = 0; k < count; ++k) hide(line, near[parts_[k].triangle], static_cast<const Occluder&>(*planes_[parts_[k].triangle]), parts_[k]);
+    for (std::size_t k = 0; k < count; ++k)
+        hide(line, near[parts_[k].triangle], static_cast<const Occluder&>(*planes_[parts_[k].triangle]), parts_[k]);
 }
 
 /// Notes a part in which a triangle, entry `i`, is in front.
@@ -185,7 +188,8 @@ void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
         const glm::dvec2 at = line.at(middle);
         const double nearness = triangle(c.entry).nearness_at(at);
         return std::any_of(contacts_of_line_.begin(), contacts_of_line_.end(), [&](const Contact& other) {
-            return other.makes_line && other.begin < middle && middle < other.end && triangle(other.entry).nearness_at(at) > nearness;
+            return other.makes_line && other.begin < middle && middle < other.end &&
+                   triangle(other.entry).nearness_at(at) > nearness;
         });
     };
     for (Contact& c : contacts_of_line_) {
@@ -194,11 +198,13 @@ void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
     std::erase_if(contacts_of_line_, [](const Contact& c) { return c.makes_line || c.begin >= c.end; });
 }
 
-/// Cuts them out of the pieces of a line, from `first` on. What is left is no dot: contacts with neighbours meet but for rounding.
+/// Cuts them out of the pieces of a line, from `first` on. What is left is no dot: contacts with neighbours meet but
+/// for rounding.
 void HidingTile::drop_contacts(const WholeLine& line, std::size_t first, std::vector<LinePart>& pieces) {
     if (contacts_of_line_.empty()) return;
     const double shortest = kShortestRestPx / line.length_px();
-    std::sort(contacts_of_line_.begin(), contacts_of_line_.end(), [](const Contact& a, const Contact& b) { return a.begin < b.begin; });
+    std::sort(contacts_of_line_.begin(), contacts_of_line_.end(),
+              [](const Contact& a, const Contact& b) { return a.begin < b.begin; });
     const std::vector<LinePart> whole(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end());
     pieces.resize(first);
     for (LinePart piece : whole) {
@@ -217,7 +223,7 @@ void HidingTile::drop_contacts(const WholeLine& line, std::size_t first, std::ve
 }
 
 void HidingTile::find_intersections(const IntersectionTest& may_intersect, const IntersectionLines& intersections,
-                                   std::vector<WholeLine>& lines) {
+                                    std::vector<WholeLine>& lines) {
     const auto surface_of = [this](std::uint32_t i) { return screen_.surface_of(cells_[i].number); };
     for (const auto& [own, other] : pairs_.find(cells_, rect_)) {
         if (!may_intersect.may_intersect(surface_of(own), surface_of(other))) continue;

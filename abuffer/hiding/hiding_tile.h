@@ -22,7 +22,7 @@ class HidingTile {
   public:
     /// `finds_pairs`: find_intersections() is wanted, too.
     HidingTile(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const OccluderBins& bins,
-              const PixelTiles& grid, bool finds_pairs);
+               const PixelTiles& grid, bool finds_pairs);
 
     void fill(std::size_t tile);
 
@@ -76,10 +76,10 @@ class HidingTile {
     OccluderPairs pairs_;  // of the same entries, where pairs are wanted
     HidingSweep sweep_;
     // What it takes to clip with an entry is set up when first needed.
-    std::vector<std::uint32_t> set_up_;   // per entry: which of triangles_, or kNotSetUp
-    bool has_clipped_ = false;  // triangles in several parts
+    std::vector<std::uint32_t> set_up_;  // per entry: which of triangles_, or kNotSetUp
+    bool has_clipped_ = false;           // triangles in several parts
     std::vector<Occluder> triangles_;
-    std::vector<std::uint32_t> near_;          // entries that a line may cross
+    std::vector<std::uint32_t> near_;           // entries that a line may cross
     std::vector<const TrianglePlane*> planes_;  // theirs
     std::vector<HiddenPart> parts_;
     std::vector<Contact> contacts_of_line_;

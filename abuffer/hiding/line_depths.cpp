@@ -55,7 +55,8 @@ void LineDepths::add(const WholeLine& line, double slack) {
     const float least = std::nextafter(static_cast<float>(line.lowest_in(0, 1) - slack), -kNoLine);
     // Ends of lines that are cut lie about the guard band's border, as exactly as the line is long.
     const auto whole = [](glm::dvec2 p) { return glm::ivec2(glm::clamp(p, -kFarthest, kFarthest)); };
-    const Blocks b = blocks_of(whole(glm::floor(glm::min(line.from, line.to))), whole(glm::ceil(glm::max(line.from, line.to))));
+    const Blocks b =
+        blocks_of(whole(glm::floor(glm::min(line.from, line.to))), whole(glm::ceil(glm::max(line.from, line.to))));
     if (b.x1 - b.x0 <= 1 || b.y1 - b.y0 <= 1) return note(b, least);
     // Row by row, the part of the line in it, and a bit; what is beside the picture is in the row at its border.
     const glm::dvec2 along = line.to - line.from;
@@ -64,7 +65,8 @@ void LineDepths::add(const WholeLine& line, double slack) {
         const auto x_at = [&](double row) {
             return line.from.x + along.x * std::clamp((row - line.from.y) / along.y, 0.0, 1.0);
         };
-        const auto [left, right] = std::minmax({y == 0 ? x_at(-1e30) : x_at(top), y == rows_ - 1 ? x_at(1e30) : x_at(bottom)});
+        const auto [left, right] =
+            std::minmax({y == 0 ? x_at(-1e30) : x_at(top), y == rows_ - 1 ? x_at(1e30) : x_at(bottom)});
         note({column_at(whole({left - 1, 0}).x - 1), y, column_at(whole({right + 1, 0}).x + 1), y}, least);
     }
 }

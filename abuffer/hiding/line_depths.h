@@ -31,7 +31,8 @@ class LineDepths {
     }
     /// The same, but for tiles that a polygon within the box passes by, farther than a pixel. nullptr: none.
     template <typename Visit>
-    void for_tiles(glm::ivec2 low, glm::ivec2 high, float highest, const PolygonRows* polygon, const Visit& visit) const {
+    void for_tiles(glm::ivec2 low, glm::ivec2 high, float highest, const PolygonRows* polygon,
+                   const Visit& visit) const {
         const Blocks b = blocks_of(low, high);
         for (int y = b.y0; y <= b.y1; y = (y | kLast) + 1) {
             int first = b.x0, last = b.x1;
@@ -43,7 +44,8 @@ class LineDepths {
             }
             for (int x = first; x <= last; x = (x | kLast) + 1) {
                 const std::size_t tile = tile_at(x, y);
-                if (highest > of_tile_[tile] && is_nearer(tile, {x, y, std::min(b.x1, x | kLast), std::min(b.y1, y | kLast)}, highest)) {
+                if (highest > of_tile_[tile] &&
+                    is_nearer(tile, {x, y, std::min(b.x1, x | kLast), std::min(b.y1, y | kLast)}, highest)) {
                     visit(static_cast<std::uint32_t>(tile));
                 }
             }
@@ -52,7 +54,8 @@ class LineDepths {
 
     /// The same by pairs of blocks along both axes, so that few triangles need be asked for one by one.
     DepthGrid grid() const {
-        return {of_blocks_.data(), first_.x, first_.y, last_.x, last_.y, kBlockShift, columns_, begin_row_, end_row_ - begin_row_, kTileShift};
+        return {of_blocks_.data(),     first_.x,  first_.y, last_.x, last_.y, kBlockShift, columns_, begin_row_,
+                end_row_ - begin_row_, kTileShift};
     }
 
   private:
@@ -75,12 +78,14 @@ class LineDepths {
     PolygonRows::Range in_row_of_tiles(const PolygonRows& polygon, int y) const {
         constexpr double kFar = 1e9;
         const int begin = y & ~kLast, end = (y | kLast) + 1;
-        const double top = begin == 0 ? -kFar : first_.y + (begin << kBlockShift), bottom = end >= rows_ ? kFar : first_.y + (end << kBlockShift);
+        const double top = begin == 0 ? -kFar : first_.y + (begin << kBlockShift),
+                     bottom = end >= rows_ ? kFar : first_.y + (end << kBlockShift);
         return polygon.between(top - kBeside, bottom + kBeside);
     }
     int column_at(int x) const { return std::clamp((x - first_.x) >> kBlockShift, 0, columns_ - 1); }
     std::size_t tile_at(int x, int y) const {
-        return static_cast<std::size_t>((y - begin_row_) >> kTileShift) * static_cast<std::size_t>(columns_ >> kTileShift) +
+        return static_cast<std::size_t>((y - begin_row_) >> kTileShift) *
+                   static_cast<std::size_t>(columns_ >> kTileShift) +
                static_cast<std::size_t>(x >> kTileShift);
     }
     static std::size_t place(std::size_t tile, int x, int y) {
@@ -98,7 +103,7 @@ class LineDepths {
     void note(const Blocks& blocks, float nearness);
     void combine_blocks();
 
-    glm::ivec2 first_, last_;  // of the picture, in 1/256 pixel
+    glm::ivec2 first_, last_;                   // of the picture, in 1/256 pixel
     int columns_, rows_, begin_row_, end_row_;  // of blocks
     std::vector<float> of_tile_, of_block_;     // tile by tile
     std::vector<float> of_blocks_;              // DepthGrid::least

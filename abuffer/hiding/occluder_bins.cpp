@@ -15,8 +15,8 @@ constexpr float kNearerThanAll = 3e38f;
 using Record = TileLists<std::uint32_t>::Record;
 
 /// Lists a triangle in the tiles that it touches, and perhaps some that it passes within a pixel.
-void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const LineDepths* lines, std::uint32_t instance, std::uint32_t t,
-         std::vector<Record>& records) {
+void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const LineDepths* lines, std::uint32_t instance,
+         std::uint32_t t, std::vector<Record>& records) {
     const ScreenMesh& mesh = screen.mesh(instance);
     std::uint32_t value = mesh.first_number + t;
     ScreenPolygon polygon;
@@ -55,7 +55,8 @@ void bin(const ScreenSurfaces& screen, const PixelTiles& grid, const LineDepths*
     }
 }
 
-void bin_all(const ScreenSurfaces& screen, const PixelTiles& grid, const TriangleChunk& chunk, std::vector<Record>& records) {
+void bin_all(const ScreenSurfaces& screen, const PixelTiles& grid, const TriangleChunk& chunk,
+             std::vector<Record>& records) {
     const ScreenMesh& mesh = screen.mesh(chunk.instance);
     for (std::uint32_t t = chunk.begin; t < chunk.end; ++t) {
         if (mesh.facing[t] != edge_on) bin(screen, grid, nullptr, chunk.instance, t, records);
@@ -68,13 +69,14 @@ struct Scratch {
     std::vector<std::uint32_t> found, tiles;
 };
 
-void bin_in_front(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, const LineDepths& lines,
-                  const TriangleChunk& chunk, Scratch& scratch, std::vector<Record>& records) {
+void bin_in_front(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid,
+                  const LineDepths& lines, const TriangleChunk& chunk, Scratch& scratch, std::vector<Record>& records) {
     const ScreenMesh& mesh = screen.mesh(chunk.instance);
     auto& [found, tiles] = scratch;
     found.resize(Scratch::kRoom);
     tiles.resize(Scratch::kRoom);
-    const std::size_t count = kernels.find_in_front(mesh, chunk.begin, chunk.end, lines.grid(), found.data(), tiles.data());
+    const std::size_t count =
+        kernels.find_in_front(mesh, chunk.begin, chunk.end, lines.grid(), found.data(), tiles.data());
     records.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         if (mesh.facing[found[i]] == edge_on) continue;
@@ -88,14 +90,15 @@ void bin_in_front(const ScreenSurfaces& screen, const TileKernels& kernels, cons
 
 }  // namespace
 
-OccluderBins::OccluderBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
-                     const LineDepths* lines) {
+OccluderBins::OccluderBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid,
+                           int threads, const LineDepths* lines) {
     const std::vector<TriangleChunk> chunks = screen.chunks_of_triangles(kChunkTriangles);
     std::vector<std::vector<Record>> records(chunks.size());
     std::vector<Scratch> scratch(static_cast<std::size_t>(threads));
     parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int worker) {
         if (lines != nullptr) {
-            bin_in_front(screen, kernels, grid, *lines, chunks[c], scratch[static_cast<std::size_t>(worker)], records[c]);
+            bin_in_front(screen, kernels, grid, *lines, chunks[c], scratch[static_cast<std::size_t>(worker)],
+                         records[c]);
         } else {
             bin_all(screen, grid, chunks[c], records[c]);
         }

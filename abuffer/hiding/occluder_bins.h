@@ -6,10 +6,9 @@
 
 namespace burin {
 
-/// The numbers of all triangles that touch each tile, be they seen or not; of the instances that are shown, instance by instance,
-/// and in ascending order if no lines are given.
-/// Triangles that are seen exactly edge-on hide nothing and are left out, as are those in front of none of the lines,
-/// if these are given.
+/// The numbers of all triangles that touch each tile, be they seen or not; of the instances that are shown, instance by
+/// instance, and in ascending order if no lines are given. Triangles that are seen exactly edge-on hide nothing and are
+/// left out, as are those in front of none of the lines, if these are given.
 class OccluderBins {
   public:
     /// In front of the number of a triangle that is cut by the near plane or the guard band.
@@ -17,7 +16,7 @@ class OccluderBins {
 
     OccluderBins() = default;
     OccluderBins(const ScreenSurfaces& screen, const TileKernels& kernels, const PixelTiles& grid, int threads,
-              const LineDepths* lines = nullptr);
+                 const LineDepths* lines = nullptr);
     std::span<const std::uint32_t> triangles(std::size_t tile) const { return lists_.of(tile); }
 
   private:

@@ -22,8 +22,8 @@ void OccluderCells::clear(PixelRect rect) {
 }
 
 ScreenBox OccluderCells::box_of(const CrossedTriangle& t) {
-    const auto low = [](const float (&v)[3]) { return std::min(std::min(v[0], v[1]), v[2]); };
-    const auto high = [](const float (&v)[3]) { return std::max(std::max(v[0], v[1]), v[2]); };
+    const auto low = [](const float(&v)[3]) { return std::min(std::min(v[0], v[1]), v[2]); };
+    const auto high = [](const float(&v)[3]) { return std::max(std::max(v[0], v[1]), v[2]); };
     return {low(t.x), low(t.y), high(t.x), high(t.y), -kFar, t.highest};
 }
 
@@ -32,7 +32,8 @@ int OccluderCells::cell_along(float offset, int count) const {
 }
 
 OccluderCells::Range OccluderCells::range_of(glm::vec2 low, glm::vec2 high) const {
-    return {cell_along(low.x, columns_), cell_along(high.x, columns_), cell_along(low.y, rows_), cell_along(high.y, rows_)};
+    return {cell_along(low.x, columns_), cell_along(high.x, columns_), cell_along(low.y, rows_),
+            cell_along(high.y, rows_)};
 }
 
 void OccluderCells::sort(double per_cell) {
@@ -58,7 +59,8 @@ void OccluderCells::fill() {
         const ScreenBox box = box_of(t);
         const Range range = range_of({box.x0, box.y0}, {box.x1, box.y1});
         for (int row = range.first_row; row <= range.last_row; ++row) {
-            for (int column = range.first_column; column <= range.last_column; ++column) visit(static_cast<std::size_t>(row * columns_ + column));
+            for (int column = range.first_column; column <= range.last_column; ++column)
+                visit(static_cast<std::size_t>(row * columns_ + column));
         }
     };
     // Counts are kept one place further, so that filling moves each list's end to its place.
@@ -99,7 +101,8 @@ void OccluderCells::make_indices() {
 }
 
 /// Of a cell's triangles, those that may hide the part of a line in it. Returns their number in found_.
-std::size_t OccluderCells::find_crossed(std::size_t cell, const WholeLine& line, double from, double to, double slack, float reach) {
+std::size_t OccluderCells::find_crossed(std::size_t cell, const WholeLine& line, double from, double to, double slack,
+                                        float reach) {
     const glm::dvec2 corner(corner_), along = line.to - line.from;
     const auto low = static_cast<float>(line.lowest_in(from, to) - slack);
     const TriangleIndex& index = indices_[cell];
@@ -112,11 +115,14 @@ std::size_t OccluderCells::find_crossed(std::size_t cell, const WholeLine& line,
     const auto place = [&](int i) { return glm::vec2(line.from + along * (from + (to - from) * i / parts) - corner); };
     boxes_.clear();
     for (int i = 1; i <= parts; ++i) boxes_.push_back(index.in_steps(around(place(i - 1), place(i))));
-    const std::size_t count = index.find(boxes_.data(), boxes_.size(), places_.data() + cell_at(cell).begin, listed_.data());
+    const std::size_t count =
+        index.find(boxes_.data(), boxes_.size(), places_.data() + cell_at(cell).begin, listed_.data());
     // A short line is taken as a whole, since its ends are whole numbers.
     const bool is_exact = reach == 0 && line.is_exact();
-    const glm::vec2 p(line.from + along * (is_exact ? 0 : from) - corner), q(line.from + along * (is_exact ? 1 : to) - corner);
-    return kernels_.find_crossed(triangles_.data(), listed_.data(), count, {p.x, p.y, q.x, q.y, low, is_exact, reach}, found_.data());
+    const glm::vec2 p(line.from + along * (is_exact ? 0 : from) - corner),
+        q(line.from + along * (is_exact ? 1 : to) - corner);
+    return kernels_.find_crossed(triangles_.data(), listed_.data(), count, {p.x, p.y, q.x, q.y, low, is_exact, reach},
+                                 found_.data());
 }
 
 }  // namespace burin

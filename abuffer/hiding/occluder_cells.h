@@ -14,8 +14,8 @@
 
 namespace burin {
 
-/// The triangles of a square on the screen by place: where there are very many it is cut into square cells, and each has an
-/// index of the triangles that touch it. Buffers are used again.
+/// The triangles of a square on the screen by place: where there are very many it is cut into square cells, and each
+/// has an index of the triangles that touch it. Buffers are used again.
 class OccluderCells {
   public:
     /// A cell's list: [begin, end) of places().
@@ -48,8 +48,9 @@ class OccluderCells {
     /// Numbers of triangles, cell by cell.
     std::span<const std::uint32_t> places() const { return places_; }
 
-    /// Calls use(number) once for each triangle that is near the part [begin, end] of a line within the square, with a corner in front of it, or
-    /// behind it by no more than `slack`. `reach`: how far beside the line a triangle may lie. 1/256 pixel.
+    /// Calls use(number) once for each triangle that is near the part [begin, end] of a line within the square, with a
+    /// corner in front of it, or behind it by no more than `slack`. `reach`: how far beside the line a triangle may
+    /// lie. 1/256 pixel.
     template <typename Use>
     void for_crossed(const WholeLine& line, double begin, double end, double slack, float reach, const Use& use) {
         if (columns_ * rows_ == 1) {
@@ -66,7 +67,8 @@ class OccluderCells {
                 double from = begin, to = end;
                 const glm::dvec2 low = corner + glm::dvec2(column, row) * size;
                 if (!clip_to_rect(line, low - double{reach}, low + (size + double{reach}), from, to)) continue;
-                const std::size_t count = find_crossed(static_cast<std::size_t>(row * columns_ + column), line, from, to, slack, reach);
+                const std::size_t count =
+                    find_crossed(static_cast<std::size_t>(row * columns_ + column), line, from, to, slack, reach);
                 for (std::size_t i = 0; i < count; ++i) {
                     if (std::exchange(looked_at_by_[found_[i]], lines_looked_at_) != lines_looked_at_) use(found_[i]);
                 }
@@ -84,7 +86,8 @@ class OccluderCells {
     Range range_of(glm::vec2 low, glm::vec2 high) const;
     int cell_along(float offset, int count) const;
     void fill();
-    std::size_t find_crossed(std::size_t cell, const WholeLine& line, double from, double to, double slack, float reach);
+    std::size_t find_crossed(std::size_t cell, const WholeLine& line, double from, double to, double slack,
+                             float reach);
 
     const TileKernels& kernels_;
     PixelRect rect_;
@@ -94,10 +97,10 @@ class OccluderCells {
     std::size_t count_ = 0;
     std::vector<CrossedTriangle> triangles_;  // so many, and room for more
     std::vector<std::uint32_t> cell_end_, places_;
-    std::vector<TriangleIndex> indices_;        // per cell
-    std::vector<StepBox> boxes_;                // around parts of a line
+    std::vector<TriangleIndex> indices_;         // per cell
+    std::vector<StepBox> boxes_;                 // around parts of a line
     std::vector<std::uint32_t> listed_, found_;  // of these, and by a kernel
-    std::vector<std::uint32_t> looked_at_by_;   // the last line, so that none looks twice at what is in many cells
+    std::vector<std::uint32_t> looked_at_by_;    // the last line, so that none looks twice at what is in many cells
     std::uint32_t lines_looked_at_ = 0;
 };
 

@@ -16,10 +16,9 @@ constexpr float kFar = 1e30f;
 }  // namespace
 
 /// Places of those that touch a box.
-std::span<const std::uint32_t> OccluderPairs::touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
-                                                    float least_y0) {
-    return {found_.data(),
-            kernels_.find_touching(boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
+std::span<const std::uint32_t> OccluderPairs::touching(std::size_t begin, std::size_t end, const ScreenBox& box,
+                                                       float least_x0, float least_y0) {
+    return {found_.data(), kernels_.find_touching(boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
 }
 
 std::span<const OccluderPairs::Pair> OccluderPairs::find(const OccluderCells& triangles, PixelRect rect) {
@@ -74,7 +73,8 @@ OccluderPairs::SidePlane OccluderPairs::side_plane(const Corners& corners) const
     const ScreenVertex* const v = screen_.vertices(0);
     const ScreenVertex &a = v[corners[0]], &b = v[corners[1]], &c = v[corners[2]];
     SidePlane plane;
-    plane.is_on_screen = (a.x != ScreenVertex::kOffScreen) & (b.x != ScreenVertex::kOffScreen) & (c.x != ScreenVertex::kOffScreen);
+    plane.is_on_screen =
+        (a.x != ScreenVertex::kOffScreen) & (b.x != ScreenVertex::kOffScreen) & (c.x != ScreenVertex::kOffScreen);
     if (!plane.is_on_screen) return plane;
     const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
     const double qa = static_cast<double>(a.nearness), uq = static_cast<double>(b.nearness) - qa,

@@ -19,7 +19,8 @@ class OccluderPairs {
     /// Two entries of the tile's cells.
     using Pair = std::array<std::uint32_t, 2>;
 
-    OccluderPairs(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels), cells_(kernels) {}
+    OccluderPairs(const ScreenSurfaces& screen, const TileKernels& kernels)
+        : screen_(screen), kernels_(kernels), cells_(kernels) {}
 
     void clear() { entries_.clear(); }
     /// For each entry of the tile's cells. `lowest`: the nearness of its farthest corner.
@@ -37,17 +38,18 @@ class OccluderPairs {
         float lowest;
         Corners vertices;
     };
-    std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0, float least_y0);
+    std::span<const std::uint32_t> touching(std::size_t begin, std::size_t end, const ScreenBox& box, float least_x0,
+                                            float least_y0);
     void find_in_cell(int column, int row);
     SidePlane side_plane(const Corners& corners) const;
     bool is_on_one_side(const SidePlane& plane, const SidePlane& own, const Corners& corners) const;
 
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
-    OccluderCells cells_;            // of the same triangles, with fewer in each
+    OccluderCells cells_;  // of the same triangles, with fewer in each
     std::vector<Entry> entries_;
-    ScreenBoxes boxes_;               // of the cells' triangles
-    std::vector<Corners> vertices_;   // likewise
+    ScreenBoxes boxes_;                 // of the cells' triangles
+    std::vector<Corners> vertices_;     // likewise
     std::vector<std::uint32_t> found_;  // by a kernel
     std::vector<Pair> pairs_;
 };

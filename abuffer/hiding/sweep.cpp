@@ -73,7 +73,8 @@ void HidingSweep::find_events() {
         const bool is_begin = next_end == last_end || *next_begin <= *next_end;
         events_.push_back(is_begin ? Event{*next_begin++, 1} : Event{*next_end++, -1});
     }
-    if (has_others) std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
+    if (has_others)
+        std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
 }
 
 void HidingSweep::find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {

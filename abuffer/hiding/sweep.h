@@ -13,8 +13,8 @@ class HidingSweep {
   public:
     explicit HidingSweep(const TileKernels& kernels) : kernels_(kernels) {}
 
-    /// For the part [begin, end] of a line, with up to `most` triangles in front. `joins_parts`: triangles may be added in several
-    /// parts, which are one layer, or be transparent.
+    /// For the part [begin, end] of a line, with up to `most` triangles in front. `joins_parts`: triangles may be added
+    /// in several parts, which are one layer, or be transparent.
     void clear(double begin, double end, std::size_t most, bool joins_parts);
     bool is_empty() const { return count_ == 0; }
     /// A triangle, by its number, is in front of the line between two shares of it. `transmission`: 0 = opaque.

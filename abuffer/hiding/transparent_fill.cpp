@@ -59,8 +59,19 @@ class TransparentTile {
     SurfaceId surface(std::uint32_t value) const { return screen_.surface_of(value & ~OccluderBins::kClipped); }
     float opacity(std::uint32_t value) const { return frame_.material_of(surface(value)).opacity; }
     SampleView view() {
-        return {samples_.nearness.data(), samples_.ids.data(), samples_.first_column, samples_.first_row,
-                samples_.columns, samples_.rows, samples_.stride, samples_.samples_per_pixel, 0, 0, nullptr, nullptr, 0};
+        return {samples_.nearness.data(),
+                samples_.ids.data(),
+                samples_.first_column,
+                samples_.first_row,
+                samples_.columns,
+                samples_.rows,
+                samples_.stride,
+                samples_.samples_per_pixel,
+                0,
+                0,
+                nullptr,
+                nullptr,
+                0};
     }
 
     Layer layer(std::uint32_t value) const {
@@ -98,7 +109,8 @@ class TransparentTile {
 
     void draw_opaque(std::uint32_t value) {
         const Layer l = layer(value);
-        for_spans(l.polygon, [&](int row, int begin, int end) { kernels_.draw_span(view(), row, begin, end, l.plane); });
+        for_spans(l.polygon,
+                  [&](int row, int begin, int end) { kernels_.draw_span(view(), row, begin, end, l.plane); });
     }
 
     void draw_transparent(std::uint32_t value) {
@@ -108,8 +120,8 @@ class TransparentTile {
             const auto y = static_cast<float>((samples_.first_row + row) * pitch + pitch / 2 - l.plane.y);
             for (int column = begin; column < end; ++column) {
                 const auto x = static_cast<float>((samples_.first_column + column) * pitch + pitch / 2 - l.plane.x);
-                const float nearness = std::clamp(x * l.plane.per_x + l.plane.nearness + y * l.plane.per_y,
-                                                  l.plane.low, l.plane.high);
+                const float nearness =
+                    std::clamp(x * l.plane.per_x + l.plane.nearness + y * l.plane.per_y, l.plane.low, l.plane.high);
                 const auto i = static_cast<std::uint32_t>(row * samples_.stride + column);
                 const float gap = nearness - samples_.nearness[i];
                 const double level = level_slack(frame_.surfaces, static_cast<double>(nearness));
@@ -120,8 +132,8 @@ class TransparentTile {
         });
     }
 
-    /// Of two surfaces at about one depth, of which the first is nearer by `gap` at a sample. Asked of the same two for one
-    /// sample after the other.
+    /// Of two surfaces at about one depth, of which the first is nearer by `gap` at a sample. Asked of the same two for
+    /// one sample after the other.
     bool is_in_front(std::uint32_t number, std::uint32_t opaque, float gap) {
         if (compared_[0] != number || compared_[1] != opaque) {
             compared_[0] = number;

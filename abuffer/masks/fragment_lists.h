@@ -80,8 +80,7 @@ class FragmentLists {
         return a >= 0 ? a / positive_b : -((-a + positive_b - 1) / positive_b);
     }
     std::size_t pixel_index(int x, int y) const {
-        return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) +
-               static_cast<std::size_t>(x - x0_);
+        return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x - x0_);
     }
 
     void add_pixel(int x, int y, const SampleSpan (&spans)[kSide], std::uint32_t surface) {

@@ -18,9 +18,7 @@ struct MaskGrid<std::uint16_t> {
     static constexpr void set_row(std::uint16_t& mask, int row, unsigned bits) {
         mask = static_cast<std::uint16_t>(mask | bits << (4 * row));
     }
-    static constexpr bool get(std::uint16_t mask, int row, int column) {
-        return (mask >> (4 * row + column) & 1) != 0;
-    }
+    static constexpr bool get(std::uint16_t mask, int row, int column) { return (mask >> (4 * row + column) & 1) != 0; }
     static constexpr unsigned row(std::uint16_t mask, int row) {
         return static_cast<unsigned>(mask) >> (4 * row) & 0xFu;
     }
@@ -33,9 +31,7 @@ struct MaskGrid<std::uint64_t> {
     static constexpr void set_row(std::uint64_t& mask, int row, unsigned bits) {
         mask |= std::uint64_t{bits} << (8 * row);
     }
-    static constexpr bool get(std::uint64_t mask, int row, int column) {
-        return (mask >> (8 * row + column) & 1) != 0;
-    }
+    static constexpr bool get(std::uint64_t mask, int row, int column) { return (mask >> (8 * row + column) & 1) != 0; }
     static constexpr unsigned row(std::uint64_t mask, int row) {
         return static_cast<unsigned>(mask >> (8 * row) & 0xFFu);
     }

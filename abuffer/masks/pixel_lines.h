@@ -15,9 +15,9 @@ namespace burin {
 
 /// Two fragments of a pixel whose visible samples are neighbours, and whether that is a line.
 struct FragmentPair {
-    std::uint32_t first = 0;   ///< numbers in the pixel's list; the list's length is the background
+    std::uint32_t first = 0;  ///< numbers in the pixel's list; the list's length is the background
     std::uint32_t second = 0;
-    VisiblePoint points[2];    ///< two neighbouring samples, the ones closest to the pixel's centre
+    VisiblePoint points[2];  ///< two neighbouring samples, the ones closest to the pixel's centre
     LineDecision decision;
 };
 
@@ -46,13 +46,11 @@ class PixelLineFinder {
 
     /// `surface_of(fragment)` gives a fragment's SurfaceId.
     template <typename SurfaceOf>
-    void find(std::span<const Fragment<Mask>> fragments, const VisibleSamples<Mask>& visible, int x,
-              int y, const SurfaceOf& surface_of, PixelLines<Mask>& lines) {
+    void find(std::span<const Fragment<Mask>> fragments, const VisibleSamples<Mask>& visible, int x, int y,
+              const SurfaceOf& surface_of, PixelLines<Mask>& lines) {
         find_pairs(visible, x, y, lines);
         const auto background = static_cast<std::uint32_t>(fragments.size());
-        const auto surface = [&](std::uint32_t i) {
-            return i == background ? kBackground : surface_of(fragments[i]);
-        };
+        const auto surface = [&](std::uint32_t i) { return i == background ? kBackground : surface_of(fragments[i]); };
         for (FragmentPair& pair : lines.pairs) {
             pair.points[0].surface = surface(pair.first);
             pair.points[1].surface = surface(pair.second);
@@ -65,9 +63,7 @@ class PixelLineFinder {
   private:
     static constexpr int kSide = mask_side<Mask>;
 
-    bool is_drawn(const FragmentPair& pair) const {
-        return !(pair.decision.classes & criteria_.classes).empty();
-    }
+    bool is_drawn(const FragmentPair& pair) const { return !(pair.decision.classes & criteria_.classes).empty(); }
 
     /// All pairs of fragments with neighbouring samples, each with its most central contact.
     void find_pairs(const VisibleSamples<Mask>& visible, int x, int y, PixelLines<Mask>& lines) {
@@ -81,11 +77,10 @@ class PixelLineFinder {
         }
     }
 
-    void visit(const VisibleSamples<Mask>& visible, int x, int y, int row, int column, int down,
-               int right, PixelLines<Mask>& lines) {
+    void visit(const VisibleSamples<Mask>& visible, int x, int y, int row, int column, int down, int right,
+               PixelLines<Mask>& lines) {
         std::uint32_t a = visible.owner[static_cast<std::size_t>(kSide * row + column)];
-        std::uint32_t b =
-            visible.owner[static_cast<std::size_t>(kSide * (row + down) + column + right)];
+        std::uint32_t b = visible.owner[static_cast<std::size_t>(kSide * (row + down) + column + right)];
         if (a == b) return;
         glm::dvec2 place_a = grid_.position(x, y, row, column);
         glm::dvec2 place_b = grid_.position(x, y, row + down, column + right);

@@ -32,12 +32,12 @@ struct VisibleSamples {
 ///
 /// Rounding decides nothing: a surface in front wherever both are is so on the edge of one that ends at it, too, and of
 /// coincident surfaces the first one in the list wins. `plane_of(fragment)` gives a fragment's DepthPlane;
-/// `order_of(fragment, fragment)` their SurfaceOrder, which is asked for only where their planes are hardly apart: by what snapping
-/// does, or, with `projection`, by what may separate copies of one surface.
+/// `order_of(fragment, fragment)` their SurfaceOrder, which is asked for only where their planes are hardly apart: by
+/// what snapping does, or, with `projection`, by what may separate copies of one surface.
 template <typename Mask, typename PlaneOf, typename OrderOf>
-void resolve_visibility(std::span<const Fragment<Mask>> fragments, const ExtendedGrid& grid, int x,
-                        int y, const PlaneOf& plane_of, const OrderOf& order_of,
-                        VisibleSamples<Mask>& visible, const Projection* projection = nullptr) {
+void resolve_visibility(std::span<const Fragment<Mask>> fragments, const ExtendedGrid& grid, int x, int y,
+                        const PlaneOf& plane_of, const OrderOf& order_of, VisibleSamples<Mask>& visible,
+                        const Projection* projection = nullptr) {
     constexpr int kSide = mask_side<Mask>;
     const auto background = static_cast<std::uint32_t>(fragments.size());
     visible.owner.fill(background);
@@ -49,8 +49,7 @@ void resolve_visibility(std::span<const Fragment<Mask>> fragments, const Extende
         for (int row = 0; row < kSide; ++row) {
             for (unsigned bits = MaskGrid<Mask>::row(mask, row); bits != 0; bits &= bits - 1) {
                 const int column = std::countr_zero(bits);
-                action(static_cast<std::size_t>(kSide * row + column),
-                       grid.position(x, y, row, column));
+                action(static_cast<std::size_t>(kSide * row + column), grid.position(x, y, row, column));
             }
         }
     };
@@ -85,13 +84,18 @@ void resolve_visibility(std::span<const Fragment<Mask>> fragments, const Extende
                 if (owner == i) return;
                 const double nearness = plane.nearness(position);
                 const DepthPlane& other = plane_of(fragments[owner]);
-                if (are_close(nearest[sample] - nearness, plane, other, nearness) && takes_place(i, owner)) visible.owner[sample] = i;
+                if (are_close(nearest[sample] - nearness, plane, other, nearness) && takes_place(i, owner))
+                    visible.owner[sample] = i;
             });
         }
     };
     if (any_close) {
-        settle([&](std::uint32_t i, std::uint32_t owner) { return order_of(fragments[i], fragments[owner]).is_in_front(); });
-        settle([&](std::uint32_t i, std::uint32_t owner) { return i < owner && order_of(fragments[i], fragments[owner]).are_coincident(); });
+        settle([&](std::uint32_t i, std::uint32_t owner) {
+            return order_of(fragments[i], fragments[owner]).is_in_front();
+        });
+        settle([&](std::uint32_t i, std::uint32_t owner) {
+            return i < owner && order_of(fragments[i], fragments[owner]).are_coincident();
+        });
     }
     for (int row = 0; row < kSide; ++row) {
         for (int column = 0; column < kSide; ++column) {

@@ -83,8 +83,7 @@ void Contests::settle(SampleTile& samples) {
         while (end != end_of_open && end->sample == sample) ++end;
         const auto end_of_nearest = select_nearest(begin, end);
         if (end_of_nearest != end || is_selecting_)
-            std::sort(begin, end_of_nearest,
-                      [](const Contest& a, const Contest& b) { return a.loser < b.loser; });
+            std::sort(begin, end_of_nearest, [](const Contest& a, const Contest& b) { return a.loser < b.loser; });
         const auto for_losers = [&](const auto& wins) {  // in the order of their numbers
             for (auto contest = begin; contest != end_of_nearest; ++contest) {
                 const std::uint32_t loser = contest->loser >> 1;
@@ -93,7 +92,9 @@ void Contests::settle(SampleTile& samples) {
                 samples.ids[sample] = loser << 1;
             }
         };
-        const auto put_folds_in_front = [&] { for_losers([&](std::uint32_t loser) { return relation(loser, winner).folds_over; }); };
+        const auto put_folds_in_front = [&] {
+            for_losers([&](std::uint32_t loser) { return relation(loser, winner).folds_over; });
+        };
         for_losers([&](std::uint32_t loser) { return relation(loser, winner).is_in_front; });
         put_folds_in_front();
         bool settled = false;
@@ -110,7 +111,8 @@ void Contests::settle(SampleTile& samples) {
 /// Mostly asked of the same two for one sample after the other.
 const Contests::Relation& Contests::relation(std::uint32_t loser, std::uint32_t winner) {
     constexpr std::size_t kAtFirst = 512, kMost = std::size_t{1} << 16;
-    // In a heap of nearly equal surfaces each is asked about each, for every sample: room for all saves most of the time.
+    // In a heap of nearly equal surfaces each is asked about each, for every sample: room for all saves most of the
+    // time.
     if (relations_.empty() || (forgotten_ > relations_.size() && relations_.size() < kMost)) {
         relations_.assign(std::clamp(4 * relations_.size(), kAtFirst, kMost), {});
         forgotten_ = 0;
@@ -125,12 +127,13 @@ const Contests::Relation& Contests::relation(std::uint32_t loser, std::uint32_t 
     return r;
 }
 
-/// Whether a part of `back` is behind the plane of `front`: else the order of the two, which takes longer, need not be asked for.
-/// What is in front by less than snapping does may be so for certain.
+/// Whether a part of `back` is behind the plane of `front`: else the order of the two, which takes longer, need not be
+/// asked for. What is in front by less than snapping does may be so for certain.
 bool Contests::may_be_in_front(std::uint32_t front, std::uint32_t back) const {
     if (screen_.facing(front) == off_screen || screen_.facing(back) == off_screen) return true;
     if (screen_.facing(front) == edge_on) return false;
-    const ScreenTriangle plane = screen_.triangle(screen_.surface_of(front)), other = screen_.triangle(screen_.surface_of(back));
+    const ScreenTriangle plane = screen_.triangle(screen_.surface_of(front)),
+                         other = screen_.triangle(screen_.surface_of(back));
     return std::any_of(std::begin(other.corners), std::end(other.corners), [&](const ScreenVertex& corner) {
         return extended_nearness(plane, corner.x, corner.y) - static_cast<double>(corner.nearness) > 0;
     });
@@ -160,7 +163,8 @@ bool Contests::is_fold_over(std::uint32_t front, std::uint32_t back) const {
     }
     if (common != 2 || vertices[other_apex].x == ScreenVertex::kOffScreen) return false;
     const ScreenVertex& beyond = vertices[other_apex];
-    const std::int64_t side = doubled_area(edge[0], edge[1], vertices[apex]), other_side = doubled_area(edge[0], edge[1], beyond);
+    const std::int64_t side = doubled_area(edge[0], edge[1], vertices[apex]),
+                       other_side = doubled_area(edge[0], edge[1], beyond);
     if ((side < 0) != (other_side < 0) || side == 0 || other_side == 0) return false;
     return extended_nearness(own, beyond.x, beyond.y) > static_cast<double>(beyond.nearness);
 }

@@ -12,7 +12,8 @@
 
 namespace burin {
 
-/// Samples of a tile where surfaces are level, noted while they are drawn, and which of them is seen. Buffers are used again.
+/// Samples of a tile where surfaces are level, noted while they are drawn, and which of them is seen. Buffers are used
+/// again.
 class Contests {
   public:
     /// Where more are level with what is seen at a sample, the nearest of them take part, and of
@@ -22,7 +23,8 @@ class Contests {
     /// they are selected, 13 MB, and as much again to sort them.
     static constexpr std::size_t kMostNoted = std::size_t{1} << 18;
 
-    explicit Contests(const ScreenSurfaces& screen, std::size_t most = kMostNoted) : screen_(screen), most_(most), noted_(std::min(std::size_t{1} << 14, most)) {}
+    explicit Contests(const ScreenSurfaces& screen, std::size_t most = kMostNoted)
+        : screen_(screen), most_(most), noted_(std::min(std::size_t{1} << 14, most)) {}
 
     /// Before a tile is drawn. All that are level are noted.
     void clear() {
@@ -62,8 +64,9 @@ class Contests {
     /// And its id.
     const float* last_nearness() const { return last_nearness_.data(); }
     const std::uint32_t* last_ids() const { return last_ids_.data(); }
-    /// On the edge of a surface that ends at another one, and where two faces fold over, both are level, and rounding says which
-    /// is seen. Of those the one in front wins, and of coincident surfaces the first one, as in resolve_visibility().
+    /// On the edge of a surface that ends at another one, and where two faces fold over, both are level, and rounding
+    /// says which is seen. Of those the one in front wins, and of coincident surfaces the first one, as in
+    /// resolve_visibility().
     void settle(SampleTile& samples);
 
   private:

@@ -7,11 +7,13 @@ namespace burin {
 
 /// Whether snapping may decide which way a triangle faces that is as deep as what separates surfaces.
 inline bool FastDecision::may_be_wall(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const {
-    const float highest = std::max(std::max(a.nearness, b.nearness), c.nearness), lowest = std::min(std::min(a.nearness, b.nearness), c.nearness);
+    const float highest = std::max(std::max(a.nearness, b.nearness), c.nearness),
+                lowest = std::min(std::min(a.nearness, b.nearness), c.nearness);
     if (__builtin_expect(highest - lowest < lowest * level_per_nearness_ + level_, 1)) return false;
     constexpr double kSnappingSubpixels = kSnappingPx * kSubpixelsPerPixel;
     const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
-    return std::abs(ux * vy - uy * vx) <= kSnappingSubpixels * std::max({std::abs(ux), std::abs(uy), std::abs(vx), std::abs(vy)});
+    return std::abs(ux * vy - uy * vx) <=
+           kSnappingSubpixels * std::max({std::abs(ux), std::abs(uy), std::abs(vx), std::abs(vy)});
 }
 
 bool FastDecision::is_smooth(const NeighbourSamples& pair) const {
@@ -92,9 +94,10 @@ FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i)
     return end;
 }
 
-/// `touched`: what it is in contact with, else nullptr. `decision`: a new one, filled in where it is, for copying would wait for
-/// what was just stored.
-void FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched, LineDecision& decision) {
+/// `touched`: what it is in contact with, else nullptr. `decision`: a new one, filled in where it is, for copying would
+/// wait for what was just stored.
+void FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched,
+                                  LineDecision& decision) {
     const std::uint32_t instance = pair.surfaces[i].instance;
     const HalfEdge h = walk.half_edge;
     const SurfaceId own{instance, walk.triangle};
@@ -141,7 +144,9 @@ bool FastDecision::are_beside(SurfaceId a, SurfaceId b) const {
         const std::int64_t area = doubled_area(p, q, r);
         if (area == 0) continue;
         const auto is_beyond = [&](const ScreenVertex& from, const ScreenVertex& to) {
-            const auto side = [&](const ScreenVertex& v) { return area > 0 ? doubled_area(from, to, v) : -doubled_area(from, to, v); };
+            const auto side = [&](const ScreenVertex& v) {
+                return area > 0 ? doubled_area(from, to, v) : -doubled_area(from, to, v);
+            };
             const auto& [u, v, w] = triangles[1 - i].corners;
             return side(u) < 0 && side(v) < 0 && side(w) < 0;
         };
@@ -154,14 +159,17 @@ bool FastDecision::are_beside(SurfaceId a, SurfaceId b) const {
 bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
     const glm::dvec2 at = pair.place(0.5) / double{kSubpixelsPerPixel};
     const FastWalk& other = *walks_[1 - ends];
-    const auto are_flush = [&](SurfaceId a, SurfaceId b) { return !are_beside(a, b) && burin::are_flush(surfaces_, a, b, at, criteria_); };
+    const auto are_flush = [&](SurfaceId a, SurfaceId b) {
+        return !are_beside(a, b) && burin::are_flush(surfaces_, a, b, at, criteria_);
+    };
     const SurfaceId beneath{pair.surfaces[1 - ends].instance, other.triangle};
     if (other.end == FastWalk::arrived && are_flush(beneath, pair.surfaces[ends])) return true;
     return are_flush(pair.surfaces[0], pair.surfaces[1]);
 }
 
-/// Where the surface of the first sample ends exactly at the second one, which lies a trifle further and sees something else, as
-/// outlines do all along where a part is seen along an axis: its walk becomes one that ends at the edge itself.
+/// Where the surface of the first sample ends exactly at the second one, which lies a trifle further and sees something
+/// else, as outlines do all along where a part is seen along an axis: its walk becomes one that ends at the edge
+/// itself.
 void FastDecision::end_at_sample(const NeighbourSamples& pair) {
     constexpr bool kBackwards = false, kPassesGoal = true;
     FastWalk& beyond = made_beyond_;
@@ -172,7 +180,8 @@ void FastDecision::end_at_sample(const NeighbourSamples& pair) {
     walks_[0] = &beyond;
 }
 
-bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known) {
+bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness,
+                          const KnownWalks& known) {
     decision = LineDecision{};
     const auto nearness_of = [&](int i, const FastWalk& w) {
         return nearness_at({pair.surfaces[i].instance, w.triangle}, pair.place(decision.fraction));
@@ -187,7 +196,8 @@ bool FastDecision::decide(const NeighbourSamples& pair, LineDecision& decision, 
             walks_[i] = &made_[i];
         }
         if (walks_[i]->end == FastWalk::unsure) return false;
-        const bool is_through = walks_[i]->end == FastWalk::arrived && SurfaceId{pair.surfaces[i].instance, walks_[i]->triangle} == other;
+        const bool is_through =
+            walks_[i]->end == FastWalk::arrived && SurfaceId{pair.surfaces[i].instance, walks_[i]->triangle} == other;
         const bool may_end = i == 0 && walks_[0]->end == FastWalk::arrived && walks_[0]->fraction == 1 && !is_through;
         if (may_end) end_at_sample(pair);
         const FastWalk& w = *walks_[i];

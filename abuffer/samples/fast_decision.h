@@ -34,13 +34,14 @@ class FastDecision {
   private:
     /// How the surface that ends lies to the other one.
     struct End {
-        double gap;              // how much farther the other one is there
+        double gap;                         // how much farther the other one is there
         double tolerance, certainly_apart;  // depth_tolerance()
-        double nearness;         // of the surface that ends
-        SurfaceId behind;        // the other one's triangle
+        double nearness;                    // of the surface that ends
+        SurfaceId behind;                   // the other one's triangle
     };
     End look_behind(const NeighbourSamples& pair, int i) const;
-    void end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched, LineDecision& decision);
+    void end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched,
+                        LineDecision& decision);
     void end_at_sample(const NeighbourSamples& pair);
     double nearness_at(SurfaceId s, glm::dvec2 subpixel) const;
     bool may_be_wall(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) const;
@@ -52,7 +53,7 @@ class FastDecision {
     const LineCriteria& criteria_;
     FastWalker walker_;
     FastWalk made_[2], made_beyond_;
-    const FastWalk* walks_[2];  // from either sample
+    const FastWalk* walks_[2];          // from either sample
     float level_, level_per_nearness_;  // nearness changes by so much where distance does by two pixels' widths
 };
 

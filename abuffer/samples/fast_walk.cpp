@@ -8,7 +8,9 @@ namespace {
 
 constexpr double kWidestCrackPx = 1;
 
-bool is_sharp(const ScreenMesh& mesh, HalfEdge h) { return mesh.sharp == nullptr || (mesh.sharp[h / 3] >> h % 3 & 1) != 0; }
+bool is_sharp(const ScreenMesh& mesh, HalfEdge h) {
+    return mesh.sharp == nullptr || (mesh.sharp[h / 3] >> h % 3 & 1) != 0;
+}
 
 }  // namespace
 
@@ -121,7 +123,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     if (!way.look_at(start.triangle)) return;
     const FastWalk::Step* current = &(steps[0] = way.first_step(start.triangle));
     if (current->exit == kNoHalfEdge) return;
-    const FastWalk::Step* farthest = current;  // the walk may turn back by a trifle
+    const FastWalk::Step* farthest = current;     // the walk may turn back by a trifle
     const FastWalk::Step* before_wall = current;  // where it last got farther at all
     const FastWalk::Step* known_wall = nullptr;   // the last one whose place was asked for
     std::optional<double> wall_part;              // and that
@@ -139,7 +141,8 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         if (current->left > 1 || (current->left == 1 && !passes_goal)) {
             end_at(FastWalk::arrived, *current);
             // Elsewhere nobody asks for lines.
-            if (SurfaceId{instance, current->triangle} == pair.surfaces[backwards ? 0 : 1]) note_lines(pair, backwards, result);
+            if (SurfaceId{instance, current->triangle} == pair.surfaces[backwards ? 0 : 1])
+                note_lines(pair, backwards, result);
             return;
         }
         FastWalk::Step& next = steps[result.step_count];
@@ -156,7 +159,8 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
             way.look_at(next.triangle);
         } else {
             // An edge that is not sharp has one partner.
-            if ((is_sharp(mesh, current->exit) && mesh.partners[entry] != current->exit) || !way.look_at(entry / 3)) return;
+            if ((is_sharp(mesh, current->exit) && mesh.partners[entry] != current->exit) || !way.look_at(entry / 3))
+                return;
             next = way.step_from(entry, current->left);
         }
         const bool unfolds = current->left < farthest->left && next.left >= farthest->left;
@@ -170,7 +174,8 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         bool goes_on = next.left > before_wall->left + kNoAdvance, is_farthest = next.left >= farthest->left;
         if (std::abs(next.left - before_wall->left) < snapping) {
             if (are_apart(way.nearness_at(before_wall->exit), way.nearness_at(next.exit))) {
-                const glm::dvec2 from = way.at(0) / double{kSubpixelsPerPixel}, along = way.at(1) / double{kSubpixelsPerPixel} - from;
+                const glm::dvec2 from = way.at(0) / double{kSubpixelsPerPixel},
+                                 along = way.at(1) / double{kSubpixelsPerPixel} - from;
                 if (known_wall != before_wall) wall_part = unsnapped_part(instance, before_wall->exit, from, along);
                 known_wall = before_wall;
                 const auto part = unsnapped_part(instance, next.exit, from, along);
@@ -269,7 +274,8 @@ LineClassSet FastWalker::edge_classes(SurfaceEdge edge, double* crease_cosine) {
 }
 
 bool FastWalker::is_sliver_on_way(SurfaceId s, const Slivers& before) const {
-    return !is_surely_solid(screen_.mesh(s.instance), s.triangle) && before.count < kMostSlivers && is_sliver(surfaces_, s);
+    return !is_surely_solid(screen_.mesh(s.instance), s.triangle) && before.count < kMostSlivers &&
+           is_sliver(surfaces_, s);
 }
 
 void FastWalker::note_edge(std::uint32_t instance, const FastWalk::Step& left, FastWalk& result) {
@@ -313,13 +319,13 @@ DepthPlane FastWalker::plane(SurfaceId s) const {
     if (area == 0) return plane;
     plane.per_x = (qb * vy - qc * uy) / area * kSubpixelsPerPixel;
     plane.per_y = (qc * ux - qb * vx) / area * kSubpixelsPerPixel;
-    plane.at_origin = surfaces_.farthest_nearness + qa -
-                      (plane.per_x * a.x + plane.per_y * a.y) / kSubpixelsPerPixel;
+    plane.at_origin = surfaces_.farthest_nearness + qa - (plane.per_x * a.x + plane.per_y * a.y) / kSubpixelsPerPixel;
     return plane;
 }
 
 /// Where a walk crosses an edge, with its ends where they are, not snapped. Nothing if they are off the screen.
-std::optional<double> FastWalker::unsnapped_part(std::uint32_t instance, HalfEdge edge, glm::dvec2 from, glm::dvec2 along) {
+std::optional<double> FastWalker::unsnapped_part(std::uint32_t instance, HalfEdge edge, glm::dvec2 from,
+                                                 glm::dvec2 along) {
     const std::uint32_t* const corners = screen_.mesh(instance).corners;
     const UnsnappedPlaces::Place a = places_.of(surfaces_, instance, corners[edge]);
     const UnsnappedPlaces::Place& b = places_.of(surfaces_, instance, corners[edge % 3 == 2 ? edge - 2 : edge + 1]);

@@ -11,14 +11,15 @@
 
 namespace burin {
 
-/// A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken a trifle further there. Pixels.
+/// A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken a trifle further
+/// there. Pixels.
 constexpr double kSampleTrifleX = 0x1p-14, kSampleTrifleY = 0x1p-20;
 
 /// Two samples next to each other, in 1/256 pixel, and what is visible there.
 struct NeighbourSamples {
     std::int32_t x, y;  ///< the left or upper one
     std::int32_t pitch;
-    bool down;          ///< the second one lies below, else to the right
+    bool down;              ///< the second one lies below, else to the right
     SurfaceId surfaces[2];  ///< kBackground where nothing is
 
     /// Position between the two, in 1/256 pixel.
@@ -52,9 +53,9 @@ struct FastWalk {
     };
 
     End end;
-    std::uint32_t triangle;    ///< where it ended
-    HalfEdge half_edge;        ///< of the fold, border or crack
-    std::uint32_t beyond;      ///< crack: the triangle on its other side
+    std::uint32_t triangle;  ///< where it ended
+    HalfEdge half_edge;      ///< of the fold, border or crack
+    std::uint32_t beyond;    ///< crack: the triangle on its other side
     double fraction;
     LineClassSet crossed;      ///< of those asked for, where it gets to the other sample's triangle
     SurfaceEdge crossed_edge;  ///< the first one

@@ -22,7 +22,8 @@ bool FlushCover::is_covered(const NeighbourSamples& pair, glm::ivec2 block) {
     if (!are_flush(first, second, pair.place(0.5))) return false;
     const std::vector<Face>& faces = faces_from(block);
     covered_.clear();
-    const glm::ivec2 low(pair.x, pair.y), high = low + (pair.down ? glm::ivec2(0, pair.pitch) : glm::ivec2(pair.pitch, 0));
+    const glm::ivec2 low(pair.x, pair.y),
+        high = low + (pair.down ? glm::ivec2(0, pair.pitch) : glm::ivec2(pair.pitch, 0));
     for (const Face& face : faces) {
         if (glm::any(glm::greaterThan(face.low, high)) || glm::any(glm::lessThan(face.high, low))) continue;
         const Interval part = part_within(pair, face.surface);
@@ -51,7 +52,8 @@ bool FlushCover::may_be_level(const NeighbourSamples& pair, const float (&nearne
     const std::uint32_t* const corners = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
     const ScreenVertex &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]], &c = mesh.vertices[corners[2]];
     const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
-    const double rise_u = static_cast<double>(b.nearness - a.nearness), rise_v = static_cast<double>(c.nearness - a.nearness);
+    const double rise_u = static_cast<double>(b.nearness - a.nearness),
+                 rise_v = static_cast<double>(c.nearness - a.nearness);
     // Its plane's rise from one sample to the other.
     const double along = pair.down ? ux * rise_v - vx * rise_u : vy * rise_u - uy * rise_v, area = ux * vy - uy * vx;
     return std::abs(along * pair.pitch - rise * area) <= limit * std::abs(area);
@@ -61,12 +63,14 @@ bool FlushCover::stands_in_front(HalfEdge edge, SurfaceId face) const {
     if (edge == kNoHalfEdge) return false;
     const SurfaceSet& surfaces = screen_.surfaces();
     const FacePlane plane(surfaces, face);
-    const auto rises = [&](HalfEdge h) { return rises_in_front(surfaces, {face.instance, h / 3}, plane, kCoincidentPx); };
+    const auto rises = [&](HalfEdge h) {
+        return rises_in_front(surfaces, {face.instance, h / 3}, plane, kCoincidentPx);
+    };
     return rises(edge) || rises(screen_.mesh(face.instance).partners[edge]);
 }
 
-/// Whether one of the faces at a line laps over the other one by a narrow strip alone: that is a contact, unless a third face goes
-/// on under both.
+/// Whether one of the faces at a line laps over the other one by a narrow strip alone: that is a contact, unless a
+/// third face goes on under both.
 bool FlushCover::laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm::ivec2 block) {
     if (edge == kNoHalfEdge) return false;
     const SurfaceSet& surfaces = screen_.surfaces();
@@ -76,7 +80,8 @@ bool FlushCover::laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm:
     const auto laps_over = [&](const FacePlace& other) {
         for (const HalfEdge h : {edge, screen_.mesh(instance).partners[edge]}) {
             const SurfaceId own{instance, h / 3};
-            if (are_flush(own, other.surface, middle) && burin::laps_narrowly(surfaces, own, h, other, pixel_at(0.5))) return true;
+            if (are_flush(own, other.surface, middle) && burin::laps_narrowly(surfaces, own, h, other, pixel_at(0.5)))
+                return true;
         }
         return false;
     };
@@ -93,15 +98,16 @@ bool FlushCover::laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm:
     });
 }
 
-/// Whether two triangles lie in one plane without a line between them. Those that have nothing in common on the screen are
-/// compared at one place.
+/// Whether two triangles lie in one plane without a line between them. Those that have nothing in common on the screen
+/// are compared at one place.
 bool FlushCover::are_flush(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const {
     if (a.instance != b.instance) return false;
     if (a == b) return true;
     const SurfaceSet& surfaces = screen_.surfaces();
     const glm::dvec2 at = subpixel / double{kSubpixelsPerPixel};
     if (surfaces.order_at(a, b, at).is_apart) return false;  // most are, and this takes less time
-    return (contact_classes(surfaces, a, b, at, criteria_) & criteria_.classes).empty() && surfaces.order_near(a, b, at).are_coincident();
+    return (contact_classes(surfaces, a, b, at, criteria_) & criteria_.classes).empty() &&
+           surfaces.order_near(a, b, at).are_coincident();
 }
 
 /// Those that pairs may reach which begin in a block of samples: they end in it or in the next one.
@@ -116,7 +122,9 @@ const std::vector<FlushCover::Face>& FlushCover::faces_from(glm::ivec2 block) {
         for (const TriangleRun& run : runs) {
             for (std::uint32_t i = 0; i < run.count; ++i) {
                 const TileTriangle& t = run.triangles[i];
-                if (t.first_column() > block.x + 1 || t.last_column() < block.x || t.first_row() > block.y + 1 || t.last_row() < block.y) continue;
+                if (t.first_column() > block.x + 1 || t.last_column() < block.x || t.first_row() > block.y + 1 ||
+                    t.last_row() < block.y)
+                    continue;
                 add({run.instance, t.triangle}, faces);
             }
         }
@@ -164,7 +172,8 @@ FlushCover::Interval FlushCover::part_within(const NeighbourSamples& pair, Surfa
     for (int i = 0; i < polygon.count; ++i) {
         const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
         const SubpixelPoint q = polygon.corners[static_cast<std::size_t>(i + 1 == polygon.count ? 0 : i + 1)];
-        const std::int32_t u = pair.down ? p.y : p.x, v = pair.down ? p.x : p.y, next_u = pair.down ? q.y : q.x, next_v = pair.down ? q.x : q.y;
+        const std::int32_t u = pair.down ? p.y : p.x, v = pair.down ? p.x : p.y, next_u = pair.down ? q.y : q.x,
+                           next_v = pair.down ? q.x : q.y;
         if ((v > across) == (next_v > across)) continue;
         const double at = (u + static_cast<double>(across - v) * (next_u - u) / (next_v - v) - origin) / pair.pitch;
         part.begin = std::min(part.begin, at);

@@ -11,9 +11,9 @@
 namespace burin {
 
 /// Whether faces in one plane, without a line between them, cover the way between two neighbouring samples
-/// (docs/decisions/0013-flush-faces.md). Two samples on a letter may have its notch between them: the letter's surface ends
-/// on the way, but where it lies flush in a plate, the plate fills the notch. For one tile after the other; buffers are used
-/// again.
+/// (docs/decisions/0013-flush-faces.md). Two samples on a letter may have its notch between them: the letter's surface
+/// ends on the way, but where it lies flush in a plate, the plate fills the notch. For one tile after the other;
+/// buffers are used again.
 class FlushCover {
   public:
     FlushCover(const ScreenSurfaces& screen, const TriangleBins& bins, const LineCriteria& criteria)
@@ -24,13 +24,13 @@ class FlushCover {
         tile_ = tile;
         filled_.clear();
     }
-    /// Of a pair with a line between them, at an edge of their mesh (kNoHalfEdge: none). Few of them lie in one plane, and
-    /// only those take time. `sample`: the first one's column and row in the tile; `nearness`: at both.
+    /// Of a pair with a line between them, at an edge of their mesh (kNoHalfEdge: none). Few of them lie in one plane,
+    /// and only those take time. `sample`: the first one's column and row in the tile; `nearness`: at both.
     bool covers(const NeighbourSamples& pair, glm::ivec2 sample, const float (&nearness)[2], HalfEdge edge) {
         const SurfaceId first = pair.surfaces[0], second = pair.surfaces[1];
         if (first.instance != second.instance || first.is_background() || meet_at(first, second, edge)) return false;
-        return may_be_level(pair, nearness) && !stands_in_front(edge, first) && is_covered(pair, sample >> kBlockShift) &&
-               !laps_narrowly(edge, pair, sample >> kBlockShift);
+        return may_be_level(pair, nearness) && !stands_in_front(edge, first) &&
+               is_covered(pair, sample >> kBlockShift) && !laps_narrowly(edge, pair, sample >> kBlockShift);
     }
 
   private:
@@ -50,7 +50,8 @@ class FlushCover {
         const std::uint32_t one = edge / 3, other = screen_.mesh(a.instance).partners[edge] / 3;
         return (one == a.triangle && other == b.triangle) || (one == b.triangle && other == a.triangle);
     }
-    /// Whether a surface at the line rises in front of a face's plane, as a fin does that stands on it between the samples.
+    /// Whether a surface at the line rises in front of a face's plane, as a fin does that stands on it between the
+    /// samples.
     bool stands_in_front(HalfEdge edge, SurfaceId face) const;
     bool laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm::ivec2 block);
     /// False for nearly all pairs that are not of one plane.

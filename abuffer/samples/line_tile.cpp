@@ -38,11 +38,13 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       merger_(kernels) {}
 
 glm::dvec2 LineTile::position(int column, int row) const {
-    return {(samples_.first_column + column + 0.5) * pitch_px_ + kSampleTrifleX, (samples_.first_row + row + 0.5) * pitch_px_ + kSampleTrifleY};
+    return {(samples_.first_column + column + 0.5) * pitch_px_ + kSampleTrifleX,
+            (samples_.first_row + row + 0.5) * pitch_px_ + kSampleTrifleY};
 }
 
 /// Whether there is a line between two samples that are not known to lie on one smooth surface.
-bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing) {
+bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks,
+                      LineCrossing& crossing) {
     crossing = LineCrossing{};
     LineDecision decision;
     const glm::dvec2 a = position(pair.column(), pair.row());
@@ -98,7 +100,8 @@ void LineTile::set_edge(SurfaceEdge edge, LineCrossing& crossing) const {
 
 /// Finds the pairs between which a line may lie, and which of them are known to be of one smooth surface.
 void LineTile::find_pairs() {
-    pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows) + kRoomBehindPairs);
+    pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows) +
+                  kRoomBehindPairs);
     const SampleView tile = visible_.view();
     pair_count_ = kernels_.find_pairs(tile, pairs_.data());
     is_smooth_.assign(pair_count_, 0);
@@ -117,7 +120,8 @@ void LineTile::find_pairs() {
         std::size_t end = has_one_mesh ? pair_count_ : begin + 1;
         while (end < pair_count_ && !is_of_another(first_id(end))) ++end;
         if (mesh.sharp != nullptr && mesh.triangle_count <= kMostToWalk) {
-            kernels_.find_smooth(tile, mesh, fast_.smooth_limits(), pairs_.data() + begin, end - begin, is_smooth_.data() + begin);
+            kernels_.find_smooth(tile, mesh, fast_.smooth_limits(), pairs_.data() + begin, end - begin,
+                                 is_smooth_.data() + begin);
         }
         begin = end;
     }
@@ -152,15 +156,16 @@ void LineTile::find_crossings() {
     }
 }
 
-/// The crossings of outlines before the background, which most lines are: mesh by mesh. Returns how many of the pairs that are
-/// asked are left.
+/// The crossings of outlines before the background, which most lines are: mesh by mesh. Returns how many of the pairs
+/// that are asked are left.
 std::size_t LineTile::find_outlines(std::size_t asked) {
     if (outlines_.size() < asked) outlines_.resize(2 * asked);
     std::size_t count = 0, left = 0;
     for (std::size_t i = 0; i < asked; ++i) {  // without branches: which ones are is a guess
         const SamplePair pair = pairs_[i];
         const std::uint32_t first = samples_.ids[first_of(pair)], second = samples_.ids[second_of(pair)];
-        const bool has_first = first != SampleTile::kBackground, is_outline = has_first != (second != SampleTile::kBackground);
+        const bool has_first = first != SampleTile::kBackground,
+                   is_outline = has_first != (second != SampleTile::kBackground);
         outlines_[count] = {pair, has_first ? first : second, has_first ? 0u : 1u, 0};
         count += is_outline ? 1 : 0;
         pairs_[left] = pair;
@@ -174,16 +179,19 @@ std::size_t LineTile::find_outlines(std::size_t asked) {
     const std::span<OutlinePair> outlines(outlines_.data(), count);
     const auto is_of_other = [&](const OutlinePair& o) { return o.instance != outlines[0].instance; };
     if (std::any_of(outlines.begin(), outlines.end(), is_of_other)) {
-        std::stable_sort(outlines.begin(), outlines.end(), [](const OutlinePair& a, const OutlinePair& b) { return a.instance < b.instance; });
+        std::stable_sort(outlines.begin(), outlines.end(),
+                         [](const OutlinePair& a, const OutlinePair& b) { return a.instance < b.instance; });
     }
     for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
-        while (end < count && end - begin < MeshWalks::kMost && outlines[end].instance == outlines[begin].instance) ++end;
+        while (end < count && end - begin < MeshWalks::kMost && outlines[end].instance == outlines[begin].instance)
+            ++end;
         cross_outlines(outlines.subspan(begin, end - begin), left);
     }
     return left;
 }
 
-/// Those of one mesh, at most MeshWalks::kMost. Pairs where there is another line, or none, are added to those that are asked.
+/// Those of one mesh, at most MeshWalks::kMost. Pairs where there is another line, or none, are added to those that are
+/// asked.
 void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& asked) {
     const std::uint32_t instance = pairs[0].instance;
     const ScreenMesh& mesh = screen_.mesh(instance);
@@ -193,7 +201,8 @@ void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& a
         MeshWalks& walks = *mesh_walks_;
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             const SamplePair pair = pairs[i].pair;
-            const std::int32_t x = (samples_.first_column + pair.column()) * pitch + pitch / 2, y = (samples_.first_row + pair.row()) * pitch + pitch / 2;
+            const std::int32_t x = (samples_.first_column + pair.column()) * pitch + pitch / 2,
+                               y = (samples_.first_row + pair.row()) * pitch + pitch / 2;
             const bool down = pair.down();
             walks.triangle[i] = pairs[i].triangle;
             __builtin_prefetch(mesh.sharp + walks.triangle[i]);
@@ -276,7 +285,8 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
     // Each cell is traced when its first crossing is met, in the order upper, left, right, lower side.
     const auto trace = [&](int column, int row, std::uint32_t from) {
         if (column < 0 || row < 0 || column + 1 >= samples_.columns || row + 1 >= samples_.rows) return;
-        const std::uint32_t* const own = &between_[2 * (static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column))];
+        const std::uint32_t* const own =
+            &between_[2 * (static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column))];
         const std::uint32_t sides[4] = {own[0], own[1], own[3], own[2 * stride]};
         std::uint32_t numbers[5];  // without branches: which sides have any is a guess
         std::size_t count = 0;
@@ -287,7 +297,8 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         if (numbers[0] != from) return;  // another crossing traces this cell
         std::array<const LineCrossing*, 4> found;
         for (std::size_t k = 0; k < count; ++k) found[k] = &crossings_[numbers[k] - 1];
-        const glm::dvec2 low((samples_.first_column + column + 0.5) * pitch_px_, (samples_.first_row + row + 0.5) * pitch_px_);
+        const glm::dvec2 low((samples_.first_column + column + 0.5) * pitch_px_,
+                             (samples_.first_row + row + 0.5) * pitch_px_);
         std::size_t fresh = segments.size();
         trace_cell({found.data(), count}, low, low + pitch_px_, has_bridges, segments);
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);

@@ -29,12 +29,15 @@ class LineTile {
     glm::dvec2 position(int column, int row) const;
     // The samples of a pair, in the tile, and 1 + the number of the crossing between them; 0: none.
     std::size_t first_of(const SamplePair& pair) const {
-        return static_cast<std::size_t>(pair.row()) * static_cast<std::size_t>(samples_.stride) + static_cast<std::size_t>(pair.column());
+        return static_cast<std::size_t>(pair.row()) * static_cast<std::size_t>(samples_.stride) +
+               static_cast<std::size_t>(pair.column());
     }
     std::size_t second_of(const SamplePair& pair) const {
         return first_of(pair) + (pair.down() ? static_cast<std::size_t>(samples_.stride) : 1);
     }
-    std::uint32_t& crossing_between(const SamplePair& pair) { return between_[2 * first_of(pair) + (pair.down() ? 1 : 0)]; }
+    std::uint32_t& crossing_between(const SamplePair& pair) {
+        return between_[2 * first_of(pair) + (pair.down() ? 1 : 0)];
+    }
     /// One sample shows the background.
     struct OutlinePair {
         SamplePair pair;
@@ -44,7 +47,8 @@ class LineTile {
     void find_crossings();
     void find_pairs();
     void find_neighbours(std::span<const SamplePair> pairs);
-    bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks, LineCrossing& crossing);
+    bool decide(const SamplePair& pair, const NeighbourSamples& neighbours, const KnownWalks& walks,
+                LineCrossing& crossing);
     void set_edge(SurfaceEdge edge, LineCrossing& crossing) const;
     std::size_t find_outlines(std::size_t asked);
     void cross_outlines(std::span<const OutlinePair> pairs, std::size_t& asked);
@@ -60,7 +64,7 @@ class LineTile {
     double pitch_px_ = 1;  // from one sample to the next
     const TileKernels& kernels_;
     LineClassSet outline_classes_;  // of an outline that is nothing else
-    bool keeps_undrawn_;  // boundaries of surfaces that no class asked for: they hide strokes all the same
+    bool keeps_undrawn_;            // boundaries of surfaces that no class asked for: they hide strokes all the same
     FastDecision fast_;
     std::unique_ptr<MeshWalks> mesh_walks_;
     std::unique_ptr<WalkOutlines> found_outlines_;

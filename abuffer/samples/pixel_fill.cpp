@@ -65,7 +65,9 @@ void PixelFiller::find_looks(const SampleTile& samples, PixelRect rect) {
             const std::uint32_t id = *sample;
             const std::uint32_t is_surface = id != SampleTile::kBackground ? 1u : 0u, is_left = id == left.id ? 1u : 0u;
             const std::uint32_t is_new = is_surface & (is_left ^ 1u) & (id != above[x].id ? 1u : 0u);
-            const auto choose = [](std::uint32_t condition, std::uint32_t a, std::uint32_t b) { return b ^ ((a ^ b) & (0u - condition)); };
+            const auto choose = [](std::uint32_t condition, std::uint32_t a, std::uint32_t b) {
+                return b ^ ((a ^ b) & (0u - condition));
+            };
             const std::uint32_t known = choose(is_left, left.look, above[x].look) & (0u - is_surface);
             left = {id, static_cast<std::uint16_t>(choose(is_new, static_cast<std::uint32_t>(count), known))};
             above[x] = left;
@@ -145,10 +147,12 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
     const auto width = static_cast<std::size_t>(rect.width());
     const Projection& p = frame_.surfaces.projection;
     const glm::dvec2 first = glm::dvec2(rect.x0 + 0.5, y + 0.5) - p.center_px;
-    const GeometryRow own{row_.distance, {row_.normal[0], row_.normal[1], row_.normal[2]}, {row_.ids[0], row_.ids[1], row_.ids[2]}};
+    const GeometryRow own{
+        row_.distance, {row_.normal[0], row_.normal[1], row_.normal[2]}, {row_.ids[0], row_.ids[1], row_.ids[2]}};
     const bool is_made_in_place = !film.is_whole() && width % 4 == 0;  // see GeometryRow
-    kernels_.put_geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(), &look_at_[static_cast<std::size_t>(y - rect.y0) * width],
-                          width, is_made_in_place ? film.geometry_place(rect.x0, y, own) : own);
+    kernels_.put_geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(),
+                          &look_at_[static_cast<std::size_t>(y - rect.y0) * width], width,
+                          is_made_in_place ? film.geometry_place(rect.x0, y, own) : own);
     if (!is_made_in_place) film.put_geometry(rect.x0, rect.x1, y, own);
 }
 

@@ -40,9 +40,9 @@ class PixelFiller {
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
-    std::vector<std::uint32_t> numbers_;  // of triangles; the first one is none
-    std::vector<TriangleLook> looks_;     // of them
-    std::vector<std::uint16_t> look_at_;  // per pixel of the tile, which of them
+    std::vector<std::uint32_t> numbers_;         // of triangles; the first one is none
+    std::vector<TriangleLook> looks_;            // of them
+    std::vector<std::uint16_t> look_at_;         // per pixel of the tile, which of them
     std::vector<HalfColor> paper_;               // by the number of covered samples
     std::uint32_t shaded_number_ = 0xFFFFFFFFu;  // whose look is:
     TriangleLook shaded_look_{};

@@ -30,8 +30,8 @@ __attribute__((always_inline)) inline void prefetch(const ScreenMesh& mesh, std:
 
 }  // namespace
 
-SurfaceTile::SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, int samples_per_pixel,
-                         const TileKernels& kernels, std::size_t most_contests)
+SurfaceTile::SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
+                         int samples_per_pixel, const TileKernels& kernels, std::size_t most_contests)
     : screen_(screen), bins_(bins), kernels_(kernels), per_pixel_(samples_per_pixel), contests_(screen, most_contests) {
     // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
     const Projection& p = frame.surfaces.projection;
@@ -43,8 +43,19 @@ SurfaceTile::SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const
 }
 
 SampleView SurfaceTile::view() {
-    SampleView view{samples_.nearness.data(), samples_.ids.data(), samples_.first_column, samples_.first_row, samples_.columns,
-                    samples_.rows, samples_.stride, per_pixel_, level_, level_per_nearness_, nullptr, nullptr, 0};
+    SampleView view{samples_.nearness.data(),
+                    samples_.ids.data(),
+                    samples_.first_column,
+                    samples_.first_row,
+                    samples_.columns,
+                    samples_.rows,
+                    samples_.stride,
+                    per_pixel_,
+                    level_,
+                    level_per_nearness_,
+                    nullptr,
+                    nullptr,
+                    0};
     contests_.put_into(view);
     return view;
 }
@@ -79,9 +90,7 @@ void SurfaceTile::draw_all() {
     draw_runs(!large_.empty());
 }
 
-bool SurfaceTile::is_in_vain() const {
-    return contests_.are_too_many() && !contests_.has_room();
-}
+bool SurfaceTile::is_in_vain() const { return contests_.are_too_many() && !contests_.has_room(); }
 
 /// What cannot be seen, by what was drawn so far, and is not level with what is; where there is
 /// enough that is level, what is farther than all that.
@@ -95,8 +104,7 @@ void SurfaceTile::find_farthest() {
             if (!(last[i] > -std::numeric_limits<float>::infinity())) continue;
             // What is farther than the last one is less near than this, in either way that it is
             // asked.
-            const float level =
-                std::min(highest_level_with(last[i], samples), highest_level_with_hidden(last[i]));
+            const float level = std::min(highest_level_with(last[i], samples), highest_level_with_hidden(last[i]));
             left_out_[i] = std::max(left_out_[i], level);
         }
         samples.nearness = left_out_.data();
@@ -104,8 +112,8 @@ void SurfaceTile::find_farthest() {
     kernels_.find_farthest(samples, farthest_.data());
 }
 
-/// What is hidden by what was drawn so far need not be drawn. The picture does not depend on the order, only the time does.
-/// Runs are short, so those between two looks are drawn together: what comes next is on its way meanwhile.
+/// What is hidden by what was drawn so far need not be drawn. The picture does not depend on the order, only the time
+/// does. Runs are short, so those between two looks are drawn together: what comes next is on its way meanwhile.
 void SurfaceTile::draw_runs(bool is_worth_a_look) {
     constexpr std::size_t kWorthALook = 256;  // triangles
     std::size_t since_look = is_worth_a_look ? kWorthALook : 0;
@@ -119,7 +127,8 @@ void SurfaceTile::draw_runs(bool is_worth_a_look) {
         const TriangleRun& run = *runs_[i].run;
         if (since_look >= kWorthALook) {
             const ScreenMesh& mesh = screen_.mesh(run.instance);
-            for (std::size_t k = 0; k < run.count && k < kTrianglesAhead; ++k) prefetch(mesh, run.triangles[k].triangle);
+            for (std::size_t k = 0; k < run.count && k < kTrianglesAhead; ++k)
+                prefetch(mesh, run.triangles[k].triangle);
             draw_seen();
             find_farthest();
             since_look = 0;
@@ -140,12 +149,14 @@ void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
     std::uint32_t* const found = seen_.data() + seen_count_;
     std::size_t count = run.count;
     if (has_look) {
-        count = kernels_.find_nearer(farthest_.data(), hidden_level_, hidden_level_per_nearness_, run.triangles, run.count, found);
+        count = kernels_.find_nearer(farthest_.data(), hidden_level_, hidden_level_per_nearness_, run.triangles,
+                                     run.count, found);
     } else {
         for (std::size_t i = 0; i < count; ++i) found[i] = run.triangles[i].triangle;
     }
     // The rest draw_small() asks for itself.
-    for (std::size_t i = 0; seen_count_ + i < kTrianglesAhead && i < count; ++i) prefetch(screen_.mesh(run.instance), found[i]);
+    for (std::size_t i = 0; seen_count_ + i < kTrianglesAhead && i < count; ++i)
+        prefetch(screen_.mesh(run.instance), found[i]);
     seen_count_ += count;
 }
 
@@ -193,8 +204,8 @@ void SurfaceTile::order_large_ones(std::size_t tile) {
 }
 
 void SurfaceTile::draw_large_ones() {
-    const int worth_a_look = samples_.columns * samples_.rows / 2 *
-                             (contests_.is_selecting() ? 8 : 1);  // it takes longer then
+    const int worth_a_look =
+        samples_.columns * samples_.rows / 2 * (contests_.is_selecting() ? 8 : 1);  // it takes longer then
     int since_look = 0;
     bool has_look = false;
     const SampleView samples = view();
@@ -206,8 +217,7 @@ void SurfaceTile::draw_large_ones() {
             since_look = 0;
             has_look = true;
         }
-        if (is_in_vain() || highest_level_with(placed.highest, samples) < farthest)
-            break;  // and so are all that come
+        if (is_in_vain() || highest_level_with(placed.highest, samples) < farthest) break;  // and so are all that come
         const LargePolygon& large = bins_.large(placed.number);
         since_look += draw_large(large, screen_.is_plain(large.plane.id >> 1), has_look);
     }
@@ -246,7 +256,8 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
     const ScanConverter scan(large.polygon, per_pixel_);
     SpanPlane plane = large.plane;
     const SampleView tile = view();
-    const float pitch = static_cast<float>(kSubpixelsPerPixel / per_pixel_), level = plane.low * tile.level_per_nearness + tile.level;
+    const float pitch = static_cast<float>(kSubpixelsPerPixel / per_pixel_),
+                level = plane.low * tile.level_per_nearness + tile.level;
     const bool is_steep = !(std::max(std::abs(plane.per_x), std::abs(plane.per_y)) * pitch <= level);
     plane.id |= plain && !is_steep ? 1u : 0u;
     const int left = std::max(scan.first_column() - samples_.first_column, 0);
@@ -263,7 +274,8 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
         if (first_column >= end_column) continue;
         int begin = first_column >> kBlockShift, end = ((end_column - 1) >> kBlockShift) + 1;
         if (has_look) {
-            const float high = highest_level_with(highest_in(plane, first_column, end_column, first_row, end_row), tile);
+            const float high =
+                highest_level_with(highest_in(plane, first_column, end_column, first_row, end_row), tile);
             const float* const farthest = farthest_.data() + (strip >> kBlockShift) * BlockTable::kPitch;
             while (begin < end && high < farthest[begin]) ++begin;
             while (begin < end && high < farthest[end - 1]) --end;
@@ -273,7 +285,8 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
         if (contests_.is_selecting())
             contests_.make_room_for(static_cast<std::size_t>(kBlockSamples * samples_.stride));
         if (scan.fits_doubles()) {
-            drawn += kernels_.draw_polygon(tile, scan.edges().data(), scan.edges().size(), {least, first_row, most, end_row}, plane);
+            drawn += kernels_.draw_polygon(tile, scan.edges().data(), scan.edges().size(),
+                                           {least, first_row, most, end_row}, plane);
             continue;
         }
         for (int row = first_row; row < end_row; ++row) {

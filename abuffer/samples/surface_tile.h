@@ -57,7 +57,8 @@ class SurfaceTile {
     const TileKernels& kernels_;
     int per_pixel_;
     float level_, level_per_nearness_;  // see SampleView
-    float hidden_level_, hidden_level_per_nearness_;  // the same with level_reach(): what is farther behind is level with nothing
+    float hidden_level_,
+        hidden_level_per_nearness_;  // the same with level_reach(): what is farther behind is level with nothing
     PixelRect rect_;
     SampleTile samples_;
     Contests contests_;
@@ -75,10 +76,9 @@ class SurfaceTile {
         float highest;         // its plane, in the tile
     };
     std::vector<PlacedPolygon> large_;  // in the order of drawing
-    std::vector<float> farthest_;  // per block of samples: what is less near by more than what is
-                                   // level can be left out
-    std::vector<float, CacheLineAllocator<float>>
-        left_out_;  // the same per sample, where much is level
+    std::vector<float> farthest_;       // per block of samples: what is less near by more than what is
+                                        // level can be left out
+    std::vector<float, CacheLineAllocator<float>> left_out_;  // the same per sample, where much is level
     std::uint64_t drawn_ = 0;
 };
 

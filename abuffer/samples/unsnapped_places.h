@@ -10,8 +10,8 @@
 
 namespace burin {
 
-/// Where vertices are on the screen before they are snapped. Walks over a wall that is seen edge-on ask for the same few vertices over
-/// and over, so the last ones are remembered.
+/// Where vertices are on the screen before they are snapped. Walks over a wall that is seen edge-on ask for the same
+/// few vertices over and over, so the last ones are remembered.
 class UnsnappedPlaces {
   public:
     struct Place {
@@ -24,7 +24,9 @@ class UnsnappedPlaces {
         if (entry.vertex != vertex || entry.instance != instance) {
             const glm::dvec3 view = surfaces.view_position(instance, vertex);
             const bool needs_clipping = !needs_no_clipping(surfaces.projection, view);
-            entry = {instance, vertex, {needs_clipping, needs_clipping ? glm::dvec2(0.0) : surfaces.projection.to_pixel(view)}};
+            entry = {instance,
+                     vertex,
+                     {needs_clipping, needs_clipping ? glm::dvec2(0.0) : surfaces.projection.to_pixel(view)}};
         }
         return entry.place;
     }

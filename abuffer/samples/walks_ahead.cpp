@@ -4,7 +4,8 @@
 
 namespace burin {
 
-WalksAhead::WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels, FastWalker& walker, MeshWalks& mesh_walks)
+WalksAhead::WalksAhead(const ScreenSurfaces& screen, const TileKernels& kernels, FastWalker& walker,
+                       MeshWalks& mesh_walks)
     : screen_(screen),
       kernels_(kernels),
       walker_(walker),
@@ -28,7 +29,8 @@ void WalksAhead::walk(std::span<const NeighbourSamples> pairs) {
         const SurfaceId* const surfaces = pairs[i].surfaces;
         if (surfaces[0].is_background() || surfaces[1].is_background()) continue;
         const FastWalk* const first = known_[i][0];
-        const bool settles = first != nullptr && first->end == FastWalk::arrived && SurfaceId{surfaces[0].instance, first->triangle} == surfaces[1];
+        const bool settles = first != nullptr && first->end == FastWalk::arrived &&
+                             SurfaceId{surfaces[0].instance, first->triangle} == surfaces[1];
         if (!settles) ask(i, 1);
     }
     walk_asked();
@@ -45,7 +47,8 @@ void WalksAhead::ask(std::size_t pair, std::size_t from) {
 void WalksAhead::walk_asked() {
     const auto is_of_other = [this](const Asked& a) { return a.instance != asked_[0].instance; };
     if (std::any_of(asked_.begin(), asked_.end(), is_of_other)) {
-        std::stable_sort(asked_.begin(), asked_.end(), [](const Asked& a, const Asked& b) { return a.instance < b.instance; });
+        std::stable_sort(asked_.begin(), asked_.end(),
+                         [](const Asked& a, const Asked& b) { return a.instance < b.instance; });
     }
     MeshWalks& walks = mesh_walks_;
     for (std::size_t begin = 0, end = 0; begin < asked_.size(); begin = end) {
@@ -83,7 +86,8 @@ void WalksAhead::note_end(std::size_t ended, const Asked& asked) {
     // Nobody asks for other steps.
     if (other.is_background() || (is_through && (walks.how[ended] & MeshWalks::kMayCrossLines) == 0)) return;
     walk.step_count = 0;
-    for (std::uint32_t step = walks.last_step[ended]; step != MeshWalks::kNoStep; step = walks.previous[step]) ++walk.step_count;
+    for (std::uint32_t step = walks.last_step[ended]; step != MeshWalks::kNoStep; step = walks.previous[step])
+        ++walk.step_count;
     FastWalk::Step* const steps = &steps_[step_count_];
     step_count_ += static_cast<std::size_t>(walk.step_count);
     int at = walk.step_count;

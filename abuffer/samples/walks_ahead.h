@@ -7,8 +7,8 @@
 
 namespace burin {
 
-/// The walks that decisions between many pairs of samples take, made at once by TileKernels::walk_over_mesh(), where they are
-/// ordinary.
+/// The walks that decisions between many pairs of samples take, made at once by TileKernels::walk_over_mesh(), where
+/// they are ordinary.
 class WalksAhead {
   public:
     static constexpr std::size_t kMostPairs = MeshWalks::kMost;
@@ -19,8 +19,8 @@ class WalksAhead {
     /// Walks between pairs, at most kMostPairs, of which at least one sample shows a surface.
     void walk(std::span<const NeighbourSamples> pairs);
 
-    /// What FastWalker::walk() says about the walks of one of these pairs, from either sample. nullptr: not known, or without a
-    /// meaning.
+    /// What FastWalker::walk() says about the walks of one of these pairs, from either sample. nullptr: not known, or
+    /// without a meaning.
     const KnownWalks& known(std::size_t pair) const { return known_[pair]; }
 
   private:

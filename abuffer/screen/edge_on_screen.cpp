@@ -16,9 +16,12 @@ struct Part {
 Part part_on_screen(const Projection& projection, const glm::dvec3& p, const glm::dvec3& q) {
     Part part;
     const auto keep = [&](double at_p, double at_q) {  // where the affine function is positive
-        if (at_p < 0 && at_q < 0) part.t1 = -1;
-        else if (at_p < 0) part.t0 = std::max(part.t0, at_p / (at_p - at_q));
-        else if (at_q < 0) part.t1 = std::min(part.t1, at_p / (at_p - at_q));
+        if (at_p < 0 && at_q < 0)
+            part.t1 = -1;
+        else if (at_p < 0)
+            part.t0 = std::max(part.t0, at_p / (at_p - at_q));
+        else if (at_q < 0)
+            part.t1 = std::min(part.t1, at_p / (at_p - at_q));
     };
     keep(-p.z - projection.near_distance, -q.z - projection.near_distance);
     const auto depth = [&](const glm::dvec3& view) { return projection.orthographic ? 1.0 : -view.z; };
@@ -43,7 +46,8 @@ std::optional<EdgeOnScreen> clipped_edge(const ScreenSurfaces& screen, std::uint
         const ScreenVertex& v = screen.vertices(instance)[vertex];
         const glm::dvec3 cut = glm::mix(p, q, t);
         place = is_on_screen(v) ? glm::dvec2(v.x, v.y) : projection.to_pixel(cut) * double{kSubpixelsPerPixel};
-        nearness = is_on_screen(v) ? static_cast<double>(v.nearness) : projection.nearness(cut) - surfaces.farthest_nearness;
+        nearness =
+            is_on_screen(v) ? static_cast<double>(v.nearness) : projection.nearness(cut) - surfaces.farthest_nearness;
     };
     EdgeOnScreen edge;
     edge.begin = part.t0;
@@ -62,7 +66,8 @@ bool comes_first_in_space(const ScreenSurfaces& screen, std::uint32_t instance, 
 double share_in_space(const ScreenSurfaces& screen, const EdgeOnScreen& edge, double on_screen) {
     const SurfaceSet& surfaces = screen.surfaces();
     if (surfaces.projection.orthographic) return glm::mix(edge.begin, edge.end, on_screen);
-    const double from = surfaces.farthest_nearness + edge.nearness_from, to = surfaces.farthest_nearness + edge.nearness_to;
+    const double from = surfaces.farthest_nearness + edge.nearness_from,
+                 to = surfaces.farthest_nearness + edge.nearness_to;
     return glm::mix(edge.begin, edge.end, on_screen * to / glm::mix(from, to, on_screen));
 }
 
@@ -70,7 +75,8 @@ double share_on_screen(const ScreenSurfaces& screen, const EdgeOnScreen& edge, d
     const SurfaceSet& surfaces = screen.surfaces();
     const double part = (in_space - edge.begin) / (edge.end - edge.begin);
     if (surfaces.projection.orthographic) return part;
-    const double from = surfaces.farthest_nearness + edge.nearness_from, to = surfaces.farthest_nearness + edge.nearness_to;
+    const double from = surfaces.farthest_nearness + edge.nearness_from,
+                 to = surfaces.farthest_nearness + edge.nearness_to;
     return part * from / glm::mix(to, from, part);
 }
 

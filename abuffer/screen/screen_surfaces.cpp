@@ -15,9 +15,8 @@ constexpr std::size_t kChunk = 1 << 14;
 
 template <typename Work>
 void for_chunks(std::size_t count, int threads, const Work& work) {
-    parallel_for_parts((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        work(chunk * kChunk, std::min(count, (chunk + 1) * kChunk));
-    });
+    parallel_for_parts((count + kChunk - 1) / kChunk, threads,
+                       [&](std::size_t chunk, int) { work(chunk * kChunk, std::min(count, (chunk + 1) * kChunk)); });
 }
 
 ScreenTransform transform_of(const SurfaceSet& surfaces, const SurfaceInstance& instance) {
@@ -45,20 +44,22 @@ ScreenVertex projected(const SurfaceSet& surfaces, std::uint32_t instance, std::
     const glm::dvec3 view = surfaces.view_position(instance, vertex);
     if (!needs_no_clipping(p, view)) return {ScreenVertex::kOffScreen, 0, 0};
     const glm::dvec2 pixel = p.to_pixel(view);
-    return {static_cast<std::int32_t>(snap_to_subpixels(pixel.x)), static_cast<std::int32_t>(snap_to_subpixels(pixel.y)),
+    return {static_cast<std::int32_t>(snap_to_subpixels(pixel.x)),
+            static_cast<std::int32_t>(snap_to_subpixels(pixel.y)),
             static_cast<float>(p.nearness(view) - surfaces.farthest_nearness)};
 }
 
 /// The instance that has the triangle with a number of the frame.
 std::uint32_t instance_with(const std::vector<std::uint32_t>& first_triangle, std::uint64_t number) {
     return static_cast<std::uint32_t>(std::upper_bound(first_triangle.begin(), first_triangle.end(), number) -
-                                      first_triangle.begin()) - 1;
+                                      first_triangle.begin()) -
+           1;
 }
 
 }  // namespace
 
-ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria,
-                               const TileKernels& kernels, int threads, bool shows_all)
+ScreenSurfaces::ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria, const TileKernels& kernels,
+                               int threads, bool shows_all)
     : surfaces_(surfaces),
       criteria_(criteria),
       kernels_(kernels),
@@ -112,11 +113,11 @@ void ScreenSurfaces::show(std::span<const std::uint32_t> instances, int threads)
         for_chunks(positions.size(), threads, [&](std::size_t begin, std::size_t end) {
             ScreenVertex* const own = vertices_.get() + first_vertex_[i];
             if (mesh.has_residuals()) {
-                for (std::size_t v = begin; v < end; ++v) own[v] = projected(surfaces_, i, static_cast<std::uint32_t>(v));
+                for (std::size_t v = begin; v < end; ++v)
+                    own[v] = projected(surfaces_, i, static_cast<std::uint32_t>(v));
                 return;
             }
-            kernels_.project(transforms_[i], glm::value_ptr(positions[begin]), end - begin,
-own + begin);
+            kernels_.project(transforms_[i], glm::value_ptr(positions[begin]), end - begin, own + begin);
         });
     }
 }

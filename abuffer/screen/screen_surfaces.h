@@ -24,8 +24,8 @@ struct TriangleChunk {
 class ScreenSurfaces {
   public:
     /// Shows all instances, or none yet.
-    ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria, const TileKernels& kernels,
-                   int threads, bool shows_all = true);
+    ScreenSurfaces(const SurfaceSet& surfaces, const LineCriteria& criteria, const TileKernels& kernels, int threads,
+                   bool shows_all = true);
 
     /// Shows these instances, in ascending order, and no others.
     void show(std::span<const std::uint32_t> instances, int threads);
@@ -49,9 +49,7 @@ class ScreenSurfaces {
         return {instance, number - first_triangle_[instance]};
     }
 
-    const ScreenVertex* vertices(std::uint32_t instance) const {
-        return vertices_.get() + first_vertex_[instance];
-    }
+    const ScreenVertex* vertices(std::uint32_t instance) const { return vertices_.get() + first_vertex_[instance]; }
     ScreenTriangle triangle(SurfaceId s) const {
         const auto& t = surfaces_.mesh_of(s).triangles[s.triangle];
         const ScreenVertex* const v = vertices(s.instance);
@@ -91,11 +89,11 @@ class ScreenSurfaces {
     const TileKernels& kernels_;
     bool shows_all_;
     std::vector<std::uint8_t> is_shown_;
-    std::vector<std::size_t> first_vertex_;  // in vertices_, of instances that are shown
-    std::size_t room_ = 0;                   // in vertices_
+    std::vector<std::size_t> first_vertex_;      // in vertices_, of instances that are shown
+    std::size_t room_ = 0;                       // in vertices_
     std::vector<std::uint32_t> first_triangle_;  // one more than instances
     std::vector<std::uint32_t> instance_at_;     // of the first number of each block of numbers, and of the last one
-    std::vector<ScreenTransform> transforms_;  // per instance
+    std::vector<ScreenTransform> transforms_;    // per instance
     std::unique_ptr<ScreenVertex[]> vertices_;
     std::unique_ptr<std::uint8_t[]> facing_, line_edges_;
     std::vector<const std::uint8_t*> sharp_;  // per instance

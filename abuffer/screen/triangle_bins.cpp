@@ -48,8 +48,8 @@ void prefetch_to_write(const TileTriangle* first, std::size_t count) {
 
 /// One chunk's triangles with the tiles they touch.
 struct Records {
-    std::unique_ptr<TileTriangle[]> small;  // sorted by tile
-    std::vector<TileLists<TriangleRun>::Record> runs, thin_runs;  // of `small`
+    std::unique_ptr<TileTriangle[]> small;                            // sorted by tile
+    std::vector<TileLists<TriangleRun>::Record> runs, thin_runs;      // of `small`
     std::vector<TileLists<std::uint32_t>::Record> large, thin_large;  // numbers into polygons
     std::vector<LargePolygon> polygons;
 };
@@ -72,10 +72,12 @@ void sum_up(TriangleRun& run) {
     const auto add = [&](const TileTriangle* four) {
         Floats v[3];
         for (int k = 0; k < 3; ++k) {  // one by one: all at once would go through memory
-            std::memcpy(&v[k], reinterpret_cast<const char*>(four) + sizeof(Floats) * static_cast<std::size_t>(k), sizeof(Floats));
+            std::memcpy(&v[k], reinterpret_cast<const char*>(four) + sizeof(Floats) * static_cast<std::size_t>(k),
+                        sizeof(Floats));
             highest[k] = v[k] > highest[k] ? v[k] : highest[k];
         }
-        const Floats first = __builtin_shufflevector(v[0], v[1], 2, 2, 5, 5), second = __builtin_shufflevector(first, v[2], 0, 2, 4, 7);
+        const Floats first = __builtin_shufflevector(v[0], v[1], 2, 2, 5, 5),
+                     second = __builtin_shufflevector(first, v[2], 0, 2, 4, 7);
         const Words blocks = Words(second);
         const Halves c = Halves(blocks & kColumns), r = Halves(blocks & kRows);
         columns[0] = min(columns[0], c);
@@ -139,8 +141,10 @@ class Binner {
         scratch.more_triangles.clear();
         scratch.more_keys.clear();
         CulledTriangles found = scratch.found();
-        kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_, surfaces_.facings(chunk.instance), found);
-        for (std::size_t i = 0; i < found.other_count; ++i) add_other({chunk.instance, found.others[i]}, scratch, records);
+        kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_, surfaces_.facings(chunk.instance),
+                      found);
+        for (std::size_t i = 0; i < found.other_count; ++i)
+            add_other({chunk.instance, found.others[i]}, scratch, records);
         sort(chunk.instance, found, scratch, records);
     }
 
@@ -191,9 +195,8 @@ class Binner {
     void add_other(SurfaceId s, Scratch& scratch, Records& records) const {
         const std::uint32_t number = surfaces_.number_of(s);
         const ScreenTriangle t = surfaces_.triangle(s);
-        const bool is_off = std::any_of(std::begin(t.corners), std::end(t.corners), [](const ScreenVertex& v) {
-            return v.x == ScreenVertex::kOffScreen;
-        });
+        const bool is_off = std::any_of(std::begin(t.corners), std::end(t.corners),
+                                        [](const ScreenVertex& v) { return v.x == ScreenVertex::kOffScreen; });
         if (is_off) {
             surfaces_.set_facing(number, off_screen);
             return bin_clipped(s, number, records);
@@ -202,7 +205,8 @@ class Binner {
         surfaces_.set_facing(number, area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
         if (area == 0) return;
         const Box box = box_of(t.corners, 3);
-        if (box.x1 - box.x0 < kLargestSmallTriangle && box.y1 - box.y0 < kLargestSmallTriangle) return add_small(s, t, box, scratch);
+        if (box.x1 - box.x0 < kLargestSmallTriangle && box.y1 - box.y0 < kLargestSmallTriangle)
+            return add_small(s, t, box, scratch);
         LargePolygon large;
         large.surface = s;
         large.polygon.count = 3;
@@ -233,8 +237,7 @@ class Binner {
         const double zero = surfaces_.surfaces().farthest_nearness;
         large.plane.x = at.x;
         large.plane.y = at.y;
-        large.plane.nearness =
-            static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero);
+        large.plane.nearness = static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero);
         large.plane.per_x = static_cast<float>(plane.per_x / kSubpixelsPerPixel);
         large.plane.per_y = static_cast<float>(plane.per_y / kSubpixelsPerPixel);
         large.plane.low = static_cast<float>(plane.lowest - zero);
@@ -249,7 +252,8 @@ class Binner {
         std::array<PolygonRows::Corner, ScreenPolygon::kMaxCorners> corners;
         const auto count = static_cast<std::size_t>(large.polygon.count);
         for (std::size_t i = 0; i < count; ++i) {
-            corners[i] = {static_cast<double>(large.polygon.corners[i].x), static_cast<double>(large.polygon.corners[i].y)};
+            corners[i] = {static_cast<double>(large.polygon.corners[i].x),
+                          static_cast<double>(large.polygon.corners[i].y)};
         }
         const PolygonRows rows{std::span(corners).first(count)};
         bool touches = false;
@@ -285,8 +289,9 @@ class Binner {
         };
         const auto [column0, column1] = std::minmax(samples.column0, samples.column1);
         const auto [row0, row1] = std::minmax(samples.row0, samples.row1);
-        t.blocks = TileTriangle::pack(block(column0, first_column, grid_.width), block(column1, first_column, grid_.width),
-                                      block(row0, first_row, grid_.height), block(row1, first_row, grid_.height));
+        t.blocks =
+            TileTriangle::pack(block(column0, first_column, grid_.width), block(column1, first_column, grid_.width),
+                               block(row0, first_row, grid_.height), block(row1, first_row, grid_.height));
         return t;
     }
 
@@ -302,23 +307,30 @@ class Binner {
         const auto [column0, row0, column1, row1] = samples;
         if (column1 < 0 || row1 < 0 || column0 > grid_.width || row0 > grid_.height) return;
         if (samples.is_thin() && !grid_.keeps_thin) return;
-        const int first_column = std::max(column0 - 1, 0) >> grid_.tile_shift, last_column = std::min(column1, grid_.width - 1) >> grid_.tile_shift;
-        for (int row = std::max(row0 - 1, 0) >> grid_.tile_shift; row <= std::min(row1, grid_.height - 1) >> grid_.tile_shift; ++row) {
+        const int first_column = std::max(column0 - 1, 0) >> grid_.tile_shift,
+                  last_column = std::min(column1, grid_.width - 1) >> grid_.tile_shift;
+        for (int row = std::max(row0 - 1, 0) >> grid_.tile_shift;
+             row <= std::min(row1, grid_.height - 1) >> grid_.tile_shift; ++row) {
             int first = first_column, last = last_column;
             if (polygon != nullptr && first < last) {
                 const PolygonRows::Range range = in_row_of_tiles(*polygon, row);
                 if (range.is_empty()) continue;
-                const auto column_at = [&](double x) { return ((static_cast<std::int32_t>(std::floor(x)) >> grid_.pitch_shift) - grid_.first_column) >> grid_.tile_shift; };
+                const auto column_at = [&](double x) {
+                    return ((static_cast<std::int32_t>(std::floor(x)) >> grid_.pitch_shift) - grid_.first_column) >>
+                           grid_.tile_shift;
+                };
                 constexpr std::int32_t kOneMore = 1;  // the column of samples that a tile has in addition
                 first = std::max(first, column_at(range.low - kBeside - ((kOneMore + 1) << grid_.pitch_shift)));
                 last = std::min(last, column_at(range.high + kBeside));
             }
-            for (int column = first; column <= last; ++column) visit(static_cast<std::uint32_t>(row * grid_.columns + column), samples);
+            for (int column = first; column <= last; ++column)
+                visit(static_cast<std::uint32_t>(row * grid_.columns + column), samples);
         }
     }
 
     PolygonRows::Range in_row_of_tiles(const PolygonRows& polygon, int row) const {
-        const std::int64_t y = (std::int64_t{grid_.first_row} + (std::int64_t{row} << grid_.tile_shift)) << grid_.pitch_shift;
+        const std::int64_t y = (std::int64_t{grid_.first_row} + (std::int64_t{row} << grid_.tile_shift))
+                               << grid_.pitch_shift;
         const std::int64_t height = std::int64_t{(1 << grid_.tile_shift) + 1} << grid_.pitch_shift;
         return polygon.between(static_cast<double>(y - kBeside), static_cast<double>(y + height + kBeside));
     }

@@ -28,16 +28,16 @@ struct TriangleRun {
     float highest;         // of all of them
     std::uint32_t blocks;  // around them all, see TileTriangle
 
-    /// Whether all of them are less near, at most `high`, than the least numbers of all blocks that they may touch: those of
-    /// a BlockTable.
+    /// Whether all of them are less near, at most `high`, than the least numbers of all blocks that they may touch:
+    /// those of a BlockTable.
     bool is_behind(const float* least, float high) const;
 };
 
 /// What of the instances that are shown touches each tile of a picture.
 class TriangleBins {
   public:
-    /// Finds the facing of all triangles on the way, and which of their edges may be lines. Tiles cover `region`; a tile
-    /// also gets what lies on the samples next to its right and lower border. `tile_samples`: a tile's width, a
+    /// Finds the facing of all triangles on the way, and which of their edges may be lines. Tiles cover `region`; a
+    /// tile also gets what lies on the samples next to its right and lower border. `tile_samples`: a tile's width, a
     /// power of two. `keeps_thin`: triangles between samples are kept, too.
     TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel, const TileKernels& kernels,
                  int threads, int tile_samples = TileGrid::kTileSamples, bool keeps_thin = false);

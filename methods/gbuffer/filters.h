@@ -55,9 +55,7 @@ inline Raster<float> smooth_along_lines(const Raster<float>& image) {
         const double scale = 1 / (std::min(std::abs(along_x), std::abs(along_y)) + steady);
         along_x = std::clamp(along_x * scale, -kLongest, kLongest);
         along_y = std::clamp(along_y * scale, -kLongest, kLongest);
-        const auto value = [&](double t) {
-            return bilinear(image, x, y, along_x * t, along_y * t);
-        };
+        const auto value = [&](double t) { return bilinear(image, x, y, along_x * t, along_y * t); };
         const float two = 0.5f * (value(-1.0 / 6) + value(1.0 / 6));
         const float four = 0.5f * two + 0.25f * (value(-0.5) + value(0.5));
         const auto [low, high] = std::minmax({n.a, n.c, n.x, n.f, n.h});

@@ -25,16 +25,13 @@ struct TileTimes {
 /// One tile: draw the G-buffer, find lines, filter down to pixels.
 class GBufferTile {
   public:
-    GBufferTile(const DetectionContext& context, PixelRect pixels,
-                std::span<const SurfaceId> surfaces, TileTimes& times)
-        : context_(context),
-          scene_(*context.frame.scene),
-          settings_(scene_.gbuffer),
-          s_(context.samples_per_pixel) {
+    GBufferTile(const DetectionContext& context, PixelRect pixels, std::span<const SurfaceId> surfaces,
+                TileTimes& times)
+        : context_(context), scene_(*context.frame.scene), settings_(scene_.gbuffer), s_(context.samples_per_pixel) {
         const PixelRect samples{pixels.x0 * s_, pixels.y0 * s_, pixels.x1 * s_, pixels.y1 * s_};
         Stopwatch watch;
-        g_ = draw_gbuffer(context.frame, surfaces,
-                          grown(samples, detection_margin(context.frame, s_)), s_, context.scale);
+        g_ = draw_gbuffer(context.frame, surfaces, grown(samples, detection_margin(context.frame, s_)), s_,
+                          context.scale);
         times.raster += watch.lap();
         lines_ = detect_lines(g_, context, samples);
         contours_ = contour_field(settings_.contours, samples);
@@ -48,8 +45,7 @@ class GBufferTile {
   private:
     glm::dvec3 to_eye(int sample_x, int sample_y) const {
         glm::dvec3 origin, ray;
-        context_.frame.surfaces.projection.view_ray(sample_position(sample_x, sample_y, s_), origin,
-                                                    ray);
+        context_.frame.surfaces.projection.view_ray(sample_position(sample_x, sample_y, s_), origin, ray);
         return -glm::normalize(ray);
     }
     Raster<double> contour_field(ContourField field, PixelRect samples) const;
@@ -72,13 +68,11 @@ Raster<double> GBufferTile::contour_field(ContourField field, PixelRect samples)
     return raster_of(grown(samples, 1), [&](int x, int y) {
         if (g_.object.at(x, y) == 0) return 0.0;
         const glm::dvec2 position = sample_position(x, y, s_);
-        const double distance =
-            projection.distance(g_.surfaces[g_.surface.at(x, y)].plane.nearness(position));
+        const double distance = projection.distance(g_.surfaces[g_.surface.at(x, y)].plane.nearness(position));
         if (field == ContourField::distance) return distance;
         glm::dvec3 origin, ray;
         projection.view_ray(position, origin, ray);
-        const glm::dvec4 world =
-            context_.frame.camera.to_world * glm::dvec4(origin + distance * ray, 1.0);
+        const glm::dvec4 world = context_.frame.camera.to_world * glm::dvec4(origin + distance * ray, 1.0);
         return world[static_cast<int>(field) - static_cast<int>(ContourField::x)];
     });
 }
@@ -101,11 +95,9 @@ float GBufferTile::hatched(int x, int y) const {
         cross_width = 0;
     }
     double covered = 0;
-    if (!contours_.empty())
-        covered = contour_coverage(contours_, x, y, settings_.contour_step, width);
+    if (!contours_.empty()) covered = contour_coverage(contours_, x, y, settings_.contour_step, width);
     if (!cross_.empty()) {
-        covered =
-            std::max(covered, contour_coverage(cross_, x, y, settings_.contour_step, cross_width));
+        covered = std::max(covered, contour_coverage(cross_, x, y, settings_.contour_step, cross_width));
     }
     return static_cast<float>(covered);
 }
@@ -114,8 +106,7 @@ glm::vec4 GBufferTile::sample_color(int x, int y) const {
     const std::uint32_t surface = g_.surface.at(x, y);
     if (surface == GBuffer::kNoSurface) return glm::vec4(0.0f);
     const GBufferSurface& seen = g_.surfaces[surface];
-    glm::vec4 color = surface_color(scene_.surfaces, context_.frame.material_of(seen.id),
-                                    seen.normal, to_eye(x, y));
+    glm::vec4 color = surface_color(scene_.surfaces, context_.frame.material_of(seen.id), seen.normal, to_eye(x, y));
     if (contours_.empty() && cross_.empty()) return color;
     const float ink = hatched(x, y);
     return color * (1 - ink) + glm::vec4(0, 0, 0, 1) * ink;
@@ -150,8 +141,7 @@ PixelResult GBufferTile::pixel(int x, int y) const {
     if (central == GBuffer::kNoSurface) return result;
     const GBufferSurface& seen = g_.surfaces[central];
     const SurfaceSet& surfaces = context_.frame.surfaces;
-    result.distance =
-        static_cast<float>(surfaces.projection.distance(seen.plane.nearness({x + 0.5, y + 0.5})));
+    result.distance = static_cast<float>(surfaces.projection.distance(seen.plane.nearness({x + 0.5, y + 0.5})));
     result.normal = glm::vec3(surfaces.view_to_world * seen.normal);
     result.object_id = g_.object.at(cx, cy);
     result.material_id = g_.material.at(cx, cy);
@@ -187,8 +177,7 @@ RenderStats render_gbuffer(const Frame& frame, const RunOptions& options, Film& 
         if (!bins.surfaces(index).empty()) tile.emplace(context, rect, bins.surfaces(index), t);
         Stopwatch shading;
         for (int y = rect.y0; y < rect.y1; ++y) {
-            for (int x = rect.x0; x < rect.x1; ++x)
-                film.put(x, y, tile ? tile->pixel(x, y) : background_pixel());
+            for (int x = rect.x0; x < rect.x1; ++x) film.put(x, y, tile ? tile->pixel(x, y) : background_pixel());
         }
         t.shade += shading.lap();
         if (options.progress != nullptr) options.progress->advance();
@@ -213,8 +202,7 @@ RenderStats render_gbuffer(const Frame& frame, const RunOptions& options, Film& 
 LineClassSet gbuffer_also_finds(LineClassSet asked) {
     LineClassSet found;
     if (asked.has(LineClass::silhouette)) found |= LineClass::border;
-    if (asked.has(LineClass::crease) || asked.has(LineClass::object) ||
-        asked.has(LineClass::polygon)) {
+    if (asked.has(LineClass::crease) || asked.has(LineClass::object) || asked.has(LineClass::polygon)) {
         found |= LineClass::intersection;
     }
     return found;

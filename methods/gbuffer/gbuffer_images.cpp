@@ -20,8 +20,8 @@ struct DistanceRange {
 
 DistanceRange distance_range(const SurfaceSet& surfaces) {
     DistanceRange range;
-    const double limit = surfaces.projection.orthographic ? -std::numeric_limits<double>::infinity()
-                                                          : surfaces.projection.near_distance;
+    const double limit =
+        surfaces.projection.orthographic ? -std::numeric_limits<double>::infinity() : surfaces.projection.near_distance;
     for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
         const auto count = static_cast<std::uint32_t>(surfaces.instances[i].mesh->positions.size());
         for (std::uint32_t v = 0; v < count; ++v) {
@@ -50,19 +50,17 @@ DepthScale depth_scale(const Frame& frame, int samples_per_pixel) {
     scale.per_nearness = settings.depth_scale * samples_per_pixel * projection.focal_px;
     if (!(range.nearest <= range.farthest)) return scale;  // nothing there
     if (projection.orthographic) {
-        scale.background =
-            scale.per_nearness * range.farthest + kBackgroundGapPx * samples_per_pixel;
+        scale.background = scale.per_nearness * range.farthest + kBackgroundGapPx * samples_per_pixel;
     } else {
-        scale.per_nearness *= settings.reference_distance > 0
-                                  ? settings.reference_distance
-                                  : 0.5 * (range.nearest + range.farthest);
+        scale.per_nearness *=
+            settings.reference_distance > 0 ? settings.reference_distance : 0.5 * (range.nearest + range.farthest);
     }
     scale.lowest = -scale.per_nearness * projection.nearness({0, 0, -range.nearest});
     return scale;
 }
 
-GBuffer draw_gbuffer(const Frame& frame, std::span<const SurfaceId> surfaces, PixelRect samples,
-                     int samples_per_pixel, const DepthScale& scale) {
+GBuffer draw_gbuffer(const Frame& frame, std::span<const SurfaceId> surfaces, PixelRect samples, int samples_per_pixel,
+                     const DepthScale& scale) {
     const Projection& projection = frame.surfaces.projection;
     GBuffer g;
     g.surface = Raster<std::uint32_t>(samples, GBuffer::kNoSurface);
@@ -95,20 +93,14 @@ GBuffer draw_gbuffer(const Frame& frame, std::span<const SurfaceId> surfaces, Pi
     }
 
     const auto has = [&](int x, int y) { return g.surface.at(x, y) != GBuffer::kNoSurface; };
-    const auto at = [&](int x, int y) -> const GBufferSurface& {
-        return g.surfaces[g.surface.at(x, y)];
-    };
+    const auto at = [&](int x, int y) -> const GBufferSurface& { return g.surfaces[g.surface.at(x, y)]; };
     const int bits = frame.scene->gbuffer.depth_bits;
     g.depth = raster_of(samples, [&](int x, int y) {
-        return has(x, y) ? quantized(-scale.per_nearness * nearness.at(x, y), scale, bits)
-                         : scale.background;
+        return has(x, y) ? quantized(-scale.per_nearness * nearness.at(x, y), scale, bits) : scale.background;
     });
-    g.normal = raster_of(
-        samples, [&](int x, int y) { return has(x, y) ? at(x, y).normal : glm::dvec3(0.0); });
+    g.normal = raster_of(samples, [&](int x, int y) { return has(x, y) ? at(x, y).normal : glm::dvec3(0.0); });
     const auto ids = [&](const auto& id_of) {
-        return raster_of(samples, [&](int x, int y) -> std::uint32_t {
-            return has(x, y) ? id_of(at(x, y).id) : 0;
-        });
+        return raster_of(samples, [&](int x, int y) -> std::uint32_t { return has(x, y) ? id_of(at(x, y).id) : 0; });
     };
     g.object = ids([&](SurfaceId s) { return frame.surfaces.object_id(s); });
     g.material = ids([&](SurfaceId s) { return frame.surfaces.material_id(s); });

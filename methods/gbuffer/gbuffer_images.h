@@ -16,8 +16,8 @@ namespace burin {
 /// a plane, and a face turned by an angle has the slope tan(angle) per sample (at Zref).
 struct DepthScale {
     double per_nearness = 1;  ///< K: D = -K * nearness
-    double background = 0;  ///< D where nothing is: 0 in perspective (Z infinite), else behind all
-    double lowest = 0;      ///< range of D over the scene, background included
+    double background = 0;    ///< D where nothing is: 0 in perspective (Z infinite), else behind all
+    double lowest = 0;        ///< range of D over the scene, background included
 };
 
 /// `samples_per_pixel` along each axis; settings of the scene's [gbuffer].
@@ -48,7 +48,7 @@ inline glm::dvec2 sample_position(int x, int y, int samples_per_pixel) {
 
 /// Draws surfaces into the images with a z-buffer: one sample per cell, the nearest plane wins, of
 /// equal ones the first. `samples` is in units of samples.
-GBuffer draw_gbuffer(const Frame& frame, std::span<const SurfaceId> surfaces, PixelRect samples,
-                     int samples_per_pixel, const DepthScale& scale);
+GBuffer draw_gbuffer(const Frame& frame, std::span<const SurfaceId> surfaces, PixelRect samples, int samples_per_pixel,
+                     const DepthScale& scale);
 
 }  // namespace burin

@@ -40,8 +40,8 @@ inline Raster<double> normal_difference(const Raster<glm::dvec3>& normals) {
     return raster_of(grown(normals.rect(), -1), [&](int x, int y) {
         const glm::dvec3 center = normals.at(x, y);
         double sum = 0;
-        for (const glm::dvec3& n : {normals.at(x, y - 1), normals.at(x, y + 1),
-                                    normals.at(x + 1, y), normals.at(x - 1, y)}) {
+        for (const glm::dvec3& n :
+             {normals.at(x, y - 1), normals.at(x, y + 1), normals.at(x + 1, y), normals.at(x - 1, y)}) {
             sum += glm::dot(center - n, center - n);
         }
         return sum;
@@ -50,15 +50,13 @@ inline Raster<double> normal_difference(const Raster<glm::dvec3>& normals) {
 
 /// Creases of Philippe Decaudin, "Cartoon-Looking Rendering of 3D-Scenes", INRIA report 2919, 1996:
 /// the profile image of each component of the normal, the strongest one counts.
-inline Raster<float> normal_profile_image(const Raster<glm::dvec3>& normals,
-                                          const ProfileParameters& parameters) {
+inline Raster<float> normal_profile_image(const Raster<glm::dvec3>& normals, const ProfileParameters& parameters) {
     Raster<float> strongest(grown(normals.rect(), -2));
     for (int k = 0; k < 3; ++k) {
-        const auto component = raster_of(
-            normals.rect(), [&](int x, int y) { return static_cast<double>(normals.at(x, y)[k]); });
+        const auto component =
+            raster_of(normals.rect(), [&](int x, int y) { return static_cast<double>(normals.at(x, y)[k]); });
         const Raster<float> p = profile_image(first_order(component), parameters);
-        strongest = raster_of(
-            p.rect(), [&](int x, int y) { return std::max(strongest.at(x, y), p.at(x, y)); });
+        strongest = raster_of(p.rect(), [&](int x, int y) { return std::max(strongest.at(x, y), p.at(x, y)); });
     }
     return strongest;
 }

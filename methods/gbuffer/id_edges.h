@@ -10,8 +10,7 @@ namespace burin {
 /// Borders in an image of numbers: 1 where a sample's number differs from (or is less or greater
 /// than) that of one of its 4 or 8 neighbours. `differs` answers on both sides of a border: two
 /// samples wide. `less` and `greater` answer on one side, of whichever object has that number.
-inline Raster<float> id_edges(const Raster<std::uint32_t>& ids, IdComparison comparison,
-                              int neighbours) {
+inline Raster<float> id_edges(const Raster<std::uint32_t>& ids, IdComparison comparison, int neighbours) {
     const auto answers = [comparison](std::uint32_t a, std::uint32_t b) {
         switch (comparison) {
             case IdComparison::less:

@@ -23,14 +23,12 @@ double dilation_radius(const Frame& frame, int samples_per_pixel, int width) {
 }
 
 Raster<float> above(const Raster<double>& image, double limit) {
-    return raster_of(image.rect(),
-                     [&](int x, int y) { return image.at(x, y) > limit ? 1.0f : 0.0f; });
+    return raster_of(image.rect(), [&](int x, int y) { return image.at(x, y) > limit ? 1.0f : 0.0f; });
 }
 
 Raster<float> relative_to(const Raster<double>& image, double limit) {
-    return raster_of(image.rect(), [&](int x, int y) {
-        return static_cast<float>(std::min(std::abs(image.at(x, y)) / limit, 1.0));
-    });
+    return raster_of(image.rect(),
+                     [&](int x, int y) { return static_cast<float>(std::min(std::abs(image.at(x, y)) / limit, 1.0)); });
 }
 
 class LineDetector {
@@ -44,15 +42,14 @@ class LineDetector {
           samples_(settings_.smooth ? grown(samples, kSmoothReach) : samples) {
         near_background_ = raster_of(grown(g.object.rect(), -1), [&](int x, int y) -> char {
             const Block<std::uint32_t> n = block_at(g.object, x, y);
-            return n.a == 0 || n.b == 0 || n.c == 0 || n.d == 0 || n.x == 0 || n.e == 0 ||
-                   n.f == 0 || n.g == 0 || n.h == 0;
+            return n.a == 0 || n.b == 0 || n.c == 0 || n.d == 0 || n.x == 0 || n.e == 0 || n.f == 0 || n.g == 0 ||
+                   n.h == 0;
         });
     }
 
     LineImages detect() {
         const Raster<double> g = first_order(g_.depth), l = second_order(g_.depth);
-        const ProfileParameters profile{settings_.profile_limit, settings_.profile_power,
-                                        settings_.gate};
+        const ProfileParameters profile{settings_.profile_limit, settings_.profile_power, settings_.gate};
         const int profile_width = settings_.gate ? 2 : 4;
         // Half the length of the difference between two unit normals.
         const double normal_limit = std::sqrt(0.5 * (1 - cos_crease_));
@@ -72,11 +69,8 @@ class LineDetector {
         if (has(GBufferOperator::roberts)) add_roberts();
         if (has(GBufferOperator::id)) {
             const int width = settings_.id_comparison == IdComparison::differs ? 2 : 1;
-            add_ids(
-                [&](const auto& ids) {
-                    return id_edges(ids, settings_.id_comparison, settings_.id_neighbours);
-                },
-                width);
+            add_ids([&](const auto& ids) { return id_edges(ids, settings_.id_comparison, settings_.id_neighbours); },
+                    width);
         }
         if (has(GBufferOperator::normal)) {
             add_bends(above(normal_difference(g_.normal), 2 - 2 * cos_crease_), 2);
@@ -109,14 +103,12 @@ class LineDetector {
         const int s = context_.samples_per_pixel;
         const auto distance = raster_of(g_.depth.rect(), [&](int x, int y) {
             if (g_.object.at(x, y) == 0) return kFarAway;
-            return context_.frame.surfaces.projection.distance(-g_.depth.at(x, y) /
-                                                               context_.scale.per_nearness);
+            return context_.frame.surfaces.projection.distance(-g_.depth.at(x, y) / context_.scale.per_nearness);
         });
         const auto facing = raster_of(g_.normal.rect(), [&](int x, int y) {
             glm::dvec3 origin, ray;
             context_.frame.surfaces.projection.view_ray(sample_position(x, y, s), origin, ray);
-            return g_.object.at(x, y) == 0 ? 1.0
-                                           : -glm::dot(g_.normal.at(x, y), glm::normalize(ray));
+            return g_.object.at(x, y) == 0 ? 1.0 : -glm::dot(g_.normal.at(x, y), glm::normalize(ray));
         });
         RobertsDepth parameters{settings_.relative_jump, settings_.relative_jump_slope, 0};
         if (orthographic) parameters.fixed_distance = context_.frame.camera.height;
@@ -125,9 +117,7 @@ class LineDetector {
         add_ids([](const auto& ids) { return roberts_id(ids); }, 1);
     }
 
-    void add_jumps(const Raster<float>& strength, int width) {
-        add(LineClass::silhouette, strength, width);
-    }
+    void add_jumps(const Raster<float>& strength, int width) { add(LineClass::silhouette, strength, width); }
 
     /// Creases, but beside the background silhouettes.
     void add_bends(const Raster<float>& strength, int width) {
@@ -143,8 +133,7 @@ class LineDetector {
         if (classes_.has(LineClass::polygon)) add(LineClass::polygon, edges(g_.polygon), width);
     }
 
-    void add_split(const Raster<float>& strength, LineClass at_background, LineClass elsewhere,
-                   int width) {
+    void add_split(const Raster<float>& strength, LineClass at_background, LineClass elsewhere, int width) {
         const auto part = [&](bool background) {
             return raster_of(common(strength.rect(), near_background_.rect()), [&](int x, int y) {
                 return (near_background_.at(x, y) != 0) == background ? strength.at(x, y) : 0.0f;
@@ -157,8 +146,7 @@ class LineDetector {
     /// `width` is how many samples wide the operator's lines are.
     void add(LineClass c, const Raster<float>& strength, int width) {
         if (!classes_.has(c)) return;
-        const Raster<float> wide =
-            dilate(strength, dilation_radius(context_.frame, context_.samples_per_pixel, width));
+        const Raster<float> wide = dilate(strength, dilation_radius(context_.frame, context_.samples_per_pixel, width));
         Raster<float>& image = images_[static_cast<std::size_t>(c)];
         if (image.empty()) image = Raster<float>(samples_);
         for (int y = samples_.y0; y < samples_.y1; ++y) {

@@ -41,8 +41,7 @@ inline Raster<double> jump_beyond_slopes(const Raster<double>& depth) {
     return raster_of(grown(depth.rect(), -2), [&](int x, int y) {
         const auto row = [&](int i) { return depth.at(x + i, y); };
         const auto column = [&](int i) { return depth.at(x, y + i); };
-        return std::max({beyond(row(-2), row(-1), row(0), row(1)),
-                         beyond(row(-1), row(0), row(1), row(2)),
+        return std::max({beyond(row(-2), row(-1), row(0), row(1)), beyond(row(-1), row(0), row(1), row(2)),
                          beyond(column(-2), column(-1), column(0), column(1)),
                          beyond(column(-1), column(0), column(1), column(2))});
     });
@@ -61,8 +60,8 @@ inline Raster<float> without_creases(const Raster<float>& profile, const Raster<
 
 /// Internal edge image (creases) of Saito & Takahashi 1990, from both differentials: 0 where
 /// g > jump_limit (k_g), which belongs to the profile, else min(|l| / crease_limit, 1).
-inline Raster<float> internal_edge_image(const Raster<double>& g, const Raster<double>& l,
-                                         double jump_limit, double crease_limit) {
+inline Raster<float> internal_edge_image(const Raster<double>& g, const Raster<double>& l, double jump_limit,
+                                         double crease_limit) {
     return raster_of(l.rect(), [&](int x, int y) {
         if (g.at(x, y) > jump_limit) return 0.0f;
         return static_cast<float>(std::min(std::abs(l.at(x, y)) / crease_limit, 1.0));

@@ -16,8 +16,7 @@ class Raster {
     Raster() = default;
     explicit Raster(PixelRect rect, const T& value = T{})
         : rect_(rect),
-          values_(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()),
-                  value) {}
+          values_(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), value) {}
 
     const PixelRect& rect() const { return rect_; }
     bool empty() const { return values_.empty(); }
@@ -33,9 +32,7 @@ class Raster {
     std::vector<T> values_;
 };
 
-constexpr PixelRect grown(PixelRect r, int by) {
-    return {r.x0 - by, r.y0 - by, r.x1 + by, r.y1 + by};
-}
+constexpr PixelRect grown(PixelRect r, int by) { return {r.x0 - by, r.y0 - by, r.x1 + by, r.y1 + by}; }
 
 constexpr PixelRect common(PixelRect a, PixelRect b) {
     return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
@@ -63,9 +60,8 @@ struct Block {
 
 template <typename T>
 Block<T> block_at(const Raster<T>& r, int x, int y) {
-    return {r.at(x - 1, y - 1), r.at(x, y - 1), r.at(x + 1, y - 1),
-            r.at(x - 1, y),     r.at(x, y),     r.at(x + 1, y),
-            r.at(x - 1, y + 1), r.at(x, y + 1), r.at(x + 1, y + 1)};
+    return {r.at(x - 1, y - 1), r.at(x, y - 1),     r.at(x + 1, y - 1), r.at(x - 1, y),    r.at(x, y),
+            r.at(x + 1, y),     r.at(x - 1, y + 1), r.at(x, y + 1),     r.at(x + 1, y + 1)};
 }
 
 }  // namespace burin

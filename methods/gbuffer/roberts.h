@@ -13,15 +13,12 @@ namespace burin {
 /// along both diagonals. Lines are one sample wide and lie half a sample to the right and below.
 /// Results lack the last column and row.
 
-constexpr PixelRect without_last(PixelRect r) {
-    return {r.x0, r.y0, r.x1 - 1, r.y1 - 1};
-}
+constexpr PixelRect without_last(PixelRect r) { return {r.x0, r.y0, r.x1 - 1, r.y1 - 1}; }
 
 struct RobertsDepth {
     double relative_jump = 0.02;  ///< tau_d
     double slope = 1;             ///< k: faces seen at a grazing angle may jump more
-    double fixed_distance =
-        0;  ///< instead of the distance, where that means nothing (orthographic)
+    double fixed_distance = 0;    ///< instead of the distance, where that means nothing (orthographic)
 };
 
 /// 1 where sqrt((d00 - d11)^2 + (d10 - d01)^2) > tau_d min(d) (1 + k / (n.v)). `distance` is along
@@ -34,9 +31,8 @@ inline Raster<float> roberts_depth(const Raster<double>& distance, const Raster<
         const double d01 = distance.at(x, y + 1), d11 = distance.at(x + 1, y + 1);
         const double nearest = std::min({d00, d10, d01, d11});
         const double scale = parameters.fixed_distance > 0 ? parameters.fixed_distance : nearest;
-        const double grazing = std::max(std::min({facing.at(x, y), facing.at(x + 1, y),
-                                                  facing.at(x, y + 1), facing.at(x + 1, y + 1)}),
-                                        1e-3);
+        const double grazing = std::max(
+            std::min({facing.at(x, y), facing.at(x + 1, y), facing.at(x, y + 1), facing.at(x + 1, y + 1)}), 1e-3);
         const double limit = parameters.relative_jump * scale * (1 + parameters.slope / grazing);
         return std::hypot(d00 - d11, d10 - d01) > limit ? 1.0f : 0.0f;
     });
@@ -49,8 +45,7 @@ inline Raster<float> roberts_normal(const Raster<glm::dvec3>& normals, double li
     return raster_of(without_last(normals.rect()), [&](int x, int y) {
         const glm::dvec3 falling = normals.at(x, y) - normals.at(x + 1, y + 1);
         const glm::dvec3 rising = normals.at(x + 1, y) - normals.at(x, y + 1);
-        return 0.5 * std::max(glm::dot(falling, falling), glm::dot(rising, rising)) > limit ? 1.0f
-                                                                                            : 0.0f;
+        return 0.5 * std::max(glm::dot(falling, falling), glm::dot(rising, rising)) > limit ? 1.0f : 0.0f;
     });
 }
 
@@ -58,9 +53,7 @@ inline Raster<float> roberts_normal(const Raster<glm::dvec3>& normals, double li
 inline Raster<float> roberts_id(const Raster<std::uint32_t>& ids) {
     return raster_of(without_last(ids.rect()), [&](int x, int y) {
         const std::uint32_t id = ids.at(x, y);
-        return id != ids.at(x + 1, y) || id != ids.at(x, y + 1) || id != ids.at(x + 1, y + 1)
-                   ? 1.0f
-                   : 0.0f;
+        return id != ids.at(x + 1, y) || id != ids.at(x, y + 1) || id != ids.at(x + 1, y + 1) ? 1.0f : 0.0f;
     });
 }
 

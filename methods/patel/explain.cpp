@@ -89,10 +89,9 @@ class Explainer {
     }
 
     std::string header() const {
-        return format("pixel %d,%d of %dx%d: %zu fragment%s, masks %dx%d (own samples %dx%d, apron %d)\n",
-                      x_, y_, frame_.width, frame_.height, fragments().size(),
-                      fragments().size() == 1 ? "" : "s", grid_.side, grid_.side,
-                      grid_.samples_per_pixel(), grid_.samples_per_pixel(), grid_.apron);
+        return format("pixel %d,%d of %dx%d: %zu fragment%s, masks %dx%d (own samples %dx%d, apron %d)\n", x_, y_,
+                      frame_.width, frame_.height, fragments().size(), fragments().size() == 1 ? "" : "s", grid_.side,
+                      grid_.side, grid_.samples_per_pixel(), grid_.samples_per_pixel(), grid_.apron);
     }
 
     std::string fragment_texts() const {
@@ -105,13 +104,12 @@ class Explainer {
             const SurfaceId id = tile_.surface_of(f);
             const DepthPlane& plane = tile_.plane_of(f);
             const double distance = surfaces.projection.distance(plane.nearness(center));
-            const double per_nearness =
-                surfaces.projection.orthographic ? -1.0 : -distance * distance;
+            const double per_nearness = surfaces.projection.orthographic ? -1.0 : -distance * distance;
             const glm::dvec3 normal = surfaces.view_to_world * surfaces.view_normal(id);
-            text += format("\nfragment %zu: object %u \"%s\", material %u \"%s\", polygon %u, triangle %u\n",
-                           i + 1, surfaces.object_id(id),
-                           frame_.scene->objects[id.instance].name.c_str(), surfaces.material_id(id),
-                           frame_.material_of(id).name.c_str(), surfaces.polygon_id(id), triangle_in_input(surfaces.mesh_of(id), id.triangle));
+            text += format("\nfragment %zu: object %u \"%s\", material %u \"%s\", polygon %u, triangle %u\n", i + 1,
+                           surfaces.object_id(id), frame_.scene->objects[id.instance].name.c_str(),
+                           surfaces.material_id(id), frame_.material_of(id).name.c_str(), surfaces.polygon_id(id),
+                           triangle_in_input(surfaces.mesh_of(id), id.triangle));
             text += format("    distance %.9g at the pixel's centre, %+.4g per pixel right, %+.4g per pixel down\n",
                            distance, plane.per_x * per_nearness, plane.per_y * per_nearness);
             text += format("    normal %.4f %.4f %.4f\n", normal.x, normal.y, normal.z);
@@ -125,16 +123,17 @@ class Explainer {
         for (const FragmentPair& pair : lines_->pairs) {
             const LineDecision& d = pair.decision;
             const LineClassSet drawn = d.classes & frame_.criteria.classes;
-            text += "\n" + label_[pair.first] + " and " + label_[pair.second] + ": " +
-                    std::string(describe(d.reason)) + "\n";
+            text += "\n" + label_[pair.first] + " and " + label_[pair.second] + ": " + std::string(describe(d.reason)) +
+                    "\n";
             if (!d.classes.empty()) {
                 text += "    classes: " + to_string(d.classes) +
                         (drawn.empty() ? ", none of them asked for\n"
                                        : "; drawn as " + std::string(name_of(*drawn.first())) + "\n");
             }
             if (d.gap_px != 0) {
-                text += std::isinf(d.gap_px) ? "    nothing behind it\n"
-                                             : format("    the other surface is %.3g pixel widths farther there\n", d.gap_px);
+                text += std::isinf(d.gap_px)
+                            ? "    nothing behind it\n"
+                            : format("    the other surface is %.3g pixel widths farther there\n", d.gap_px);
             }
             text += edge_text(d.edge);
             text += format("    between the samples at %.4f,%.4f and %.4f,%.4f\n", pair.points[0].pixel.x,
@@ -191,9 +190,11 @@ std::string drawn_by_abuffer(const Frame& given, int x, int y) {
     for (std::size_t c = 0; c < kLineClassCount; ++c) {
         const Channel* const channel = film.image().find("coverage." + std::string(kLineClassNames[c]));
         const double coverage = channel == nullptr ? 0 : film.image().value(*channel, 0, 0);
-        if (coverage > 0) classes += (classes.empty() ? "" : ", ") + std::string(kLineClassNames[c]) + format(" %.4f", coverage);
+        if (coverage > 0)
+            classes += (classes.empty() ? "" : ", ") + std::string(kLineClassNames[c]) + format(" %.4f", coverage);
     }
-    return "method abuffer, with lines that these samples miss, covers of the pixel: " + (classes.empty() ? "nothing" : classes) + "\n";
+    return "method abuffer, with lines that these samples miss, covers of the pixel: " +
+           (classes.empty() ? "nothing" : classes) + "\n";
 }
 
 std::string explain_pixel(const Frame& frame, int x, int y) {

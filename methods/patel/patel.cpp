@@ -28,8 +28,8 @@ PixelResult background_pixel() {
 }
 
 template <typename Mask>
-void render_tile(PatelTile<Mask>& tile, PixelRect rect, std::span<const SurfaceId> surfaces,
-                 Film& film, WorkerTimes& times) {
+void render_tile(PatelTile<Mask>& tile, PixelRect rect, std::span<const SurfaceId> surfaces, Film& film,
+                 WorkerTimes& times) {
     Stopwatch watch;
     tile.load(rect, surfaces);
     times.raster += watch.lap();
@@ -52,8 +52,7 @@ void render_tile(PatelTile<Mask>& tile, PixelRect rect, std::span<const SurfaceI
 }
 
 template <typename Mask>
-RenderStats render_with(const Frame& frame, const ExtendedGrid& grid, const RunOptions& options,
-                        Film& film) {
+RenderStats render_with(const Frame& frame, const ExtendedGrid& grid, const RunOptions& options, Film& film) {
     RenderStats stats;
     stats.threads = resolve_thread_count(options.threads);
     Stopwatch watch;
@@ -67,8 +66,7 @@ RenderStats render_with(const Frame& frame, const ExtendedGrid& grid, const RunO
     parallel_for(bins.tile_count(), stats.threads, [&](std::size_t index, int worker) {
         auto& tile = tiles[static_cast<std::size_t>(worker)];
         if (!tile) tile = std::make_unique<PatelTile<Mask>>(frame, grid);
-        render_tile(*tile, bins.tile(index), bins.surfaces(index), film,
-                    times[static_cast<std::size_t>(worker)]);
+        render_tile(*tile, bins.tile(index), bins.surfaces(index), film, times[static_cast<std::size_t>(worker)]);
         if (options.progress != nullptr) options.progress->advance();
     });
 

@@ -18,9 +18,12 @@ template <typename Function>
 auto with_patel_grid(const Scene& scene, const Function& function) {
     const double width = scene.lines.style.width_px;
     switch (scene.patel.mask_bits) {
-        case 16: return function(std::uint16_t{}, grid_for_width(4, width));
-        case 256: return function(Mask256{}, grid_for_width(16, width));
-        default: return function(std::uint64_t{}, grid_for_width(8, width));
+        case 16:
+            return function(std::uint16_t{}, grid_for_width(4, width));
+        case 256:
+            return function(Mask256{}, grid_for_width(16, width));
+        default:
+            return function(std::uint64_t{}, grid_for_width(8, width));
     }
 }
 

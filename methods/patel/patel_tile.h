@@ -31,8 +31,7 @@ class PatelTile {
     PatelTile(const Frame& frame, const ExtendedGrid& grid)
         : frame_(frame),
           grid_(grid),
-          finder_(frame.surfaces, frame.criteria, grid,
-                  {frame.scene->patel.halo, frame.scene->lines.style.side}) {}
+          finder_(frame.surfaces, frame.criteria, grid, {frame.scene->patel.halo, frame.scene->lines.style.side}) {}
 
     /// Step 1, for the pixels of `rect` and the surfaces that may touch them.
     void load(PixelRect rect, std::span<const SurfaceId> surfaces) {
@@ -44,8 +43,7 @@ class PatelTile {
             const Projection& projection = frame_.surfaces.projection;
             const ScreenPolygon polygon = project_triangle(projection, corners);
             const DepthPlane plane = snapped_depth_plane(projection, corners);
-            lists_.add(ScanConverter(polygon, grid_.samples_per_pixel()),
-                       static_cast<std::uint32_t>(surfaces_.size()));
+            lists_.add(ScanConverter(polygon, grid_.samples_per_pixel()), static_cast<std::uint32_t>(surfaces_.size()));
             surfaces_.push_back({id, plane});
         }
         lists_.finish();
@@ -58,19 +56,19 @@ class PatelTile {
 
     /// Step 2.
     const VisibleSamples<Mask>& resolve(int x, int y) {
-        resolve_visibility(fragments(x, y), grid_, x, y,
-                           [this](const Fragment<Mask>& f) -> const DepthPlane& { return plane_of(f); },
-                           [this](const Fragment<Mask>& a, const Fragment<Mask>& b) -> const SurfaceOrder& {
-                               return order(surface_of(a), surface_of(b));
-                           },
-                           visible_, &frame_.surfaces.projection);
+        resolve_visibility(
+            fragments(x, y), grid_, x, y, [this](const Fragment<Mask>& f) -> const DepthPlane& { return plane_of(f); },
+            [this](const Fragment<Mask>& a, const Fragment<Mask>& b) -> const SurfaceOrder& {
+                return order(surface_of(a), surface_of(b));
+            },
+            visible_, &frame_.surfaces.projection);
         return visible_;
     }
 
     /// Step 3, after resolve() for the same pixel.
     const PixelLines<Mask>& find_lines(int x, int y) {
-        finder_.find(fragments(x, y), visible_, x, y,
-                     [this](const Fragment<Mask>& f) { return surface_of(f); }, lines_);
+        finder_.find(
+            fragments(x, y), visible_, x, y, [this](const Fragment<Mask>& f) { return surface_of(f); }, lines_);
         return lines_;
     }
 
@@ -91,7 +89,8 @@ class PatelTile {
     const SurfaceOrder& order(SurfaceId a, SurfaceId b) {
         constexpr std::size_t kMost = 1024;
         if (known_orders_.empty()) known_orders_.resize(kMost);
-        const std::size_t mixed = (std::size_t{a.triangle} * 31 + b.triangle) * 31 + std::size_t{a.instance} * 7 + b.instance;
+        const std::size_t mixed =
+            (std::size_t{a.triangle} * 31 + b.triangle) * 31 + std::size_t{a.instance} * 7 + b.instance;
         KnownOrder& known = known_orders_[mixed % kMost];
         if (known.first != a || known.second != b) known = {a, b, frame_.surfaces.order(a, b)};
         return known.order;
@@ -142,8 +141,7 @@ PixelResult PatelTile<Mask>::shade(int x, int y) const {
         if (covered == 0 && i != central) continue;
         const SurfaceId id = surface_of(list[i]);
         const glm::dvec3 normal = surfaces.view_normal(id);
-        const glm::vec4 color =
-            surface_color(frame_.scene->surfaces, frame_.material_of(id), normal, to_eye);
+        const glm::vec4 color = surface_color(frame_.scene->surfaces, frame_.material_of(id), normal, to_eye);
         result.surface += color * covered;
         result.beauty += color * fraction_of(static_cast<Mask>(visible & ~drawn));
         if (i != central) continue;

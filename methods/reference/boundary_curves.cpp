@@ -74,8 +74,7 @@ void BoundaryCurves::add_tee(const std::array<Node, 3>& nodes, glm::dvec2 middle
     for (std::size_t k = 0; k < 3; ++k) {
         const Node stem = nodes[k], left = nodes[(k + 1) % 3], right = nodes[(k + 2) % 3];
         const SideCrossing s = nodes_[stem].crossing, l = nodes_[left].crossing, r = nodes_[right].crossing;
-        const bool bar = l.occludes && r.occludes && same_depth(l.depth_px, r.depth_px) &&
-                         l.line_class == r.line_class;
+        const bool bar = l.occludes && r.occludes && same_depth(l.depth_px, r.depth_px) && l.line_class == r.line_class;
         if (!bar || same_depth(s.depth_px, l.depth_px) || s.depth_px < l.depth_px) continue;
         add_edge(left, right, left);
         add_edge(stem, add_junction(closest_on(s.at, l.at, r.at), s.depth_px), stem);
@@ -96,13 +95,19 @@ void BoundaryCurves::add_cell(const std::array<Node, 4>& sides, glm::dvec2 middl
         sum += nodes_[n].crossing.at;
     }
     switch (count) {
-        case 0: return;
+        case 0:
+            return;
         case 1:  // a line ends, somewhere here
             add_edge(found[0], add_junction(middle, nodes_[found[0]].crossing.depth_px), found[0]);
             return;
-        case 2: connect(found[0], found[1]); return;
-        case 3: add_tee({found[0], found[1], found[2]}, sum / 3.0); return;
-        default: break;
+        case 2:
+            connect(found[0], found[1]);
+            return;
+        case 3:
+            add_tee({found[0], found[1], found[2]}, sum / 3.0);
+            return;
+        default:
+            break;
     }
     const auto& [top, right, bottom, left] = sides;
     if (falling_joined != rising_joined) {
@@ -204,8 +209,8 @@ std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px, doubl
         chain.clear();
         const std::uint8_t line_class = edges_[edge].line_class;
         Node node = start;
-        front_side = static_cast<std::int8_t>(edges_[edge].from == start ? edges_[edge].front_side
-                                                                        : -edges_[edge].front_side);
+        front_side =
+            static_cast<std::int8_t>(edges_[edge].from == start ? edges_[edge].front_side : -edges_[edge].front_side);
         while (true) {
             const Edge& e = edges_[edge];
             const bool forward = e.from == node;

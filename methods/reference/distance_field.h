@@ -91,7 +91,8 @@ class SegmentGrid {
         for (std::uint32_t s = 0; s < segments_.size(); ++s) {
             const BoundarySegment& segment = segments_[s];
             const glm::dvec2 d = segment.b - segment.a;
-            const glm::ivec2 from = clamped(glm::min(segment.a, segment.b)), to = clamped(glm::max(segment.a, segment.b));
+            const glm::ivec2 from = clamped(glm::min(segment.a, segment.b)),
+                             to = clamped(glm::max(segment.a, segment.b));
             for (int y = from.y; y <= to.y; ++y) {
                 for (int x = from.x; x <= to.x; ++x) {
                     // Skip bins of a long diagonal's box that it does not touch.

@@ -23,8 +23,8 @@ struct EmbreeScene::Handles {
             throw InputError("Embree cannot start on this machine");
         }
         scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                           RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+        rtcSetSceneFlags(scene,
+                         static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     }
     ~Handles() {
         rtcReleaseScene(scene);
@@ -49,13 +49,12 @@ double unit_scale(const RayGeometry& geometry) {
     return reach > 0 ? std::exp2(-std::ceil(std::log2(reach))) : 1;
 }
 
-void attach_object(RTCDevice device, RTCScene scene, const RayGeometry& geometry, double scale,
-                   std::uint32_t object) {
+void attach_object(RTCDevice device, RTCScene scene, const RayGeometry& geometry, double scale, std::uint32_t object) {
     const Mesh& mesh = geometry.mesh(object);
     const RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* const positions = static_cast<float*>(
-        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                std::max<std::size_t>(mesh.positions.size(), 1)));
+    auto* const positions =
+        static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                    std::max<std::size_t>(mesh.positions.size(), 1)));
     auto* const corners = static_cast<std::uint32_t*>(
         rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
                                 std::max<std::size_t>(mesh.triangles.size(), 1)));

@@ -46,8 +46,7 @@ class RayGeometry {
     /// A distance counted in pixel widths: two of them differ by how many pixel widths (there) the places
     /// are apart.
     double depth_px(double distance) const {
-        return projection_.orthographic ? distance * projection_.focal_px
-                                        : std::log(distance) * projection_.focal_px;
+        return projection_.orthographic ? distance * projection_.focal_px : std::log(distance) * projection_.focal_px;
     }
     /// How fast the plane's distance changes, in world units per pixel.
     double slope_per_px(Facet f, glm::dvec2 pixel) const;
@@ -60,8 +59,7 @@ class RayGeometry {
     bool is_sliver(Facet f) const;
 
     bool same_polygon(Facet a, Facet b) const {
-        return a.object == b.object &&
-               mesh(a.object).polygon_of(a.triangle) == mesh(b.object).polygon_of(b.triangle);
+        return a.object == b.object && mesh(a.object).polygon_of(a.triangle) == mesh(b.object).polygon_of(b.triangle);
     }
     std::uint32_t object_id(Facet f) const { return f.object + 1; }
     std::uint32_t polygon_id(Facet f) const {

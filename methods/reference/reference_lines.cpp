@@ -8,9 +8,9 @@ namespace burin {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFarApartPx = 2;             // conventions: a farther surface
+constexpr double kFarApartPx = 2;  // conventions: a farther surface
 constexpr double kWidestCrackPx = 1;
-constexpr int kMaxRays = 96;   // between two samples
+constexpr int kMaxRays = 96;    // between two samples
 constexpr int kMaxFacets = 48;  // on the way over a surface
 
 /// A position on the screen, times the distance in perspective: negative behind the eye.
@@ -244,7 +244,9 @@ SeenCrossing ReferenceLines::decide(const Way& way, const Transition& t) const {
             break;
         case Follow::End::goes_on:
         case Follow::End::reaches:
-        case Follow::End::lost: crossing.classes = LineClass::silhouette; break;
+        case Follow::End::lost:
+            crossing.classes = LineClass::silhouette;
+            break;
     }
     return crossing;
 }
@@ -298,8 +300,9 @@ SeenCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
     return crossing;
 }
 
-/// Whether two surfaces that pass through each other at a place stay within kCopiesApartPx of each other around it, as far as both
-/// go on: then they are copies of one surface, rounded in different ways (docs/decisions/0017-rounded-copies.md).
+/// Whether two surfaces that pass through each other at a place stay within kCopiesApartPx of each other around it, as
+/// far as both go on: then they are copies of one surface, rounded in different ways
+/// (docs/decisions/0017-rounded-copies.md).
 bool ReferenceLines::run_along(Facet a, Facet b, glm::dvec2 at) const {
     constexpr double kAtEdges = 2;  // there one copy has gone on to the next facet
     constexpr double kFarthestPx = 64;
@@ -307,11 +310,13 @@ bool ReferenceLines::run_along(Facet a, Facet b, glm::dvec2 at) const {
         glm::dvec3 origin, ray;
         geometry_.projection().view_ray(place, origin, ray);
         const double first = geometry_.distance(one, place), second = geometry_.distance(other, place);
-        const double slant = 1 / std::abs(glm::dot(geometry_.polygon_normal(one), ray)) + 1 / std::abs(glm::dot(geometry_.polygon_normal(other), ray));
+        const double slant = 1 / std::abs(glm::dot(geometry_.polygon_normal(one), ray)) +
+                             1 / std::abs(glm::dot(geometry_.polygon_normal(other), ray));
         return std::abs(first - second) / (0.5 * slant * geometry_.projection().pixel_size(std::min(first, second)));
     };
     if (!(gap_px(a, b, at) <= kAtEdges * kCopiesApartPx)) return false;
-    for (const glm::dvec2 direction : {glm::dvec2(1, 0), {0.7, 0.7}, {0, 1}, {-0.7, 0.7}, {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}}) {
+    for (const glm::dvec2 direction :
+         {glm::dvec2(1, 0), {0.7, 0.7}, {0, 1}, {-0.7, 0.7}, {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}}) {
         for (double far_px = 1; far_px <= kFarthestPx; far_px *= 2) {
             const Way way(at, at + far_px * direction);
             const Follow one = follow(way, a, 0, {}, way.length), other = follow(way, b, 0, {}, way.length);
@@ -326,7 +331,8 @@ ReferenceLines::Follow ReferenceLines::follow(const Way& way, Facet start, doubl
     return follow(way, start, from, goal, 6 * resolution_px_);
 }
 
-ReferenceLines::Follow ReferenceLines::follow(const Way& way, Facet start, double from, Facet goal, double reach_px) const {
+ReferenceLines::Follow ReferenceLines::follow(const Way& way, Facet start, double from, Facet goal,
+                                              double reach_px) const {
     Follow result;
     result.facet = start;
     const Mesh& mesh = geometry_.mesh(start.object);
@@ -371,7 +377,9 @@ ReferenceLines::Follow ReferenceLines::follow(const Way& way, Facet start, doubl
             const bool forward = other_t > t;
             const double middle = 0.5 * (t + std::clamp(other_t, t - 1, t + 1));
             const double distance = geometry_.distance(neighbour, way.at(middle));
-            if (entry != kNoHalfEdge && (forward < best_forward || (forward == best_forward && distance >= best_distance))) continue;
+            if (entry != kNoHalfEdge &&
+                (forward < best_forward || (forward == best_forward && distance >= best_distance)))
+                continue;
             next = neighbour;
             next_slice = candidate;
             entry = g;
@@ -405,11 +413,12 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const std::uint32_t v = t[border % 3], w = t[(border + 1) % 3];
     const Projection& p = geometry_.projection();
     // Away from the edge's ends, where the next edge of the same border is as near as the other patch.
-    const double length_px = glm::distance(p.to_pixel(geometry_.position(f.object, v)), p.to_pixel(geometry_.position(f.object, w)));
+    const double length_px =
+        glm::distance(p.to_pixel(geometry_.position(f.object, v)), p.to_pixel(geometry_.position(f.object, w)));
     const double margin = std::min(0.5, 0.5 * kWidestCrackPx / length_px);
     along_edge = std::clamp(along_edge, margin, 1 - margin);
-    const auto seam = mesh.borders.seam_partner(
-        border, glm::mix(mesh.local_position(v), mesh.local_position(w), along_edge));
+    const auto seam =
+        mesh.borders.seam_partner(border, glm::mix(mesh.local_position(v), mesh.local_position(w), along_edge));
     if (!seam) return false;
     const glm::dvec3 place = glm::mix(geometry_.position(f.object, v), geometry_.position(f.object, w), along_edge);
     const auto& u = mesh.triangles[*seam / 3];
@@ -502,7 +511,8 @@ LineClassSet ReferenceLines::contact_classes(Facet a, Facet b, glm::dvec2 at) co
     if (geometry_.same_polygon(solid_a, solid_b)) return classes;
     classes = LineClass::polygon;
     if (geometry_.material(solid_a) != geometry_.material(solid_b)) classes |= LineClass::material;
-    const double cosine = glm::dot(geometry_.normal_towards_eye(solid_a, at), geometry_.normal_towards_eye(solid_b, at));
+    const double cosine =
+        glm::dot(geometry_.normal_towards_eye(solid_a, at), geometry_.normal_towards_eye(solid_b, at));
     if (cosine < cos_crease_angle_) classes |= LineClass::crease;
     return classes;
 }

@@ -18,13 +18,13 @@ struct SeenPoint {
 
 /// Where, on the way from one seen point to another, a line is crossed.
 struct SeenCrossing {
-    double fraction = 0;    ///< of the way, 0..1
-    LineClassSet classes;   ///< all that apply
+    double fraction = 0;   ///< of the way, 0..1
+    LineClassSet classes;  ///< all that apply
     /// Whether a surface ends here in front of a farther one, and which: 0 the first point's, 1 the
     /// second's. Lines on a surface, or between surfaces in contact, do not occlude.
     bool occludes = false;
     int front = 0;
-    double depth_px = 0;    ///< of the line, see RayGeometry::depth_px
+    double depth_px = 0;  ///< of the line, see RayGeometry::depth_px
 };
 
 /// Decides by rays which lines lie between two seen points: the boundary between their facets is
@@ -32,8 +32,8 @@ struct SeenCrossing {
 /// defines them. Independent of lines/line_decision.
 class ReferenceLines {
   public:
-    ReferenceLines(const RayGeometry& geometry, const EmbreeScene& rays, LineClassSet wanted,
-                   double cos_crease_angle, double largest_side_px);
+    ReferenceLines(const RayGeometry& geometry, const EmbreeScene& rays, LineClassSet wanted, double cos_crease_angle,
+                   double largest_side_px);
 
     /// The most important line between two neighbouring samples: the first in priority among the wanted
     /// classes, else one that occludes. The fraction is exact to 1/4096 pixel.

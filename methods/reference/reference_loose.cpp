@@ -37,7 +37,8 @@ ReferenceLooseEdges::ReferenceLooseEdges(const RayGeometry& geometry, const Embr
             keep(-p.z - projection.near_distance, -q.z - projection.near_distance, begin, end);
             if (!(begin < end)) continue;
             const glm::dvec3 from = glm::mix(p, q, begin), to = glm::mix(p, q, end);
-            lines_.push_back({projection.to_pixel(from), projection.to_pixel(to), projection.nearness(from), projection.nearness(to)});
+            lines_.push_back({projection.to_pixel(from), projection.to_pixel(to), projection.nearness(from),
+                              projection.nearness(to)});
         }
     }
 }
@@ -55,7 +56,8 @@ bool ReferenceLooseEdges::is_visible(const Line& line, double share) const {
     return geometry_.distance(facet, pixel) >= own - level;
 }
 
-void ReferenceLooseEdges::add_visible(glm::dvec2 low, glm::dvec2 high, double step_px, std::vector<BoundarySegment>& segments) const {
+void ReferenceLooseEdges::add_visible(glm::dvec2 low, glm::dvec2 high, double step_px,
+                                      std::vector<BoundarySegment>& segments) const {
     for (const Line& line : lines_) {
         double begin = 0, end = 1;
         for (int axis = 0; axis < 2; ++axis) {

@@ -15,8 +15,8 @@ class ReferenceLooseEdges {
     /// `wanted`: the classes asked for.
     ReferenceLooseEdges(const RayGeometry& geometry, const EmbreeScene& rays, LineClassSet wanted);
 
-    /// Adds the visible parts within a rectangle of pixels. A ray is cast every `step_px`; where what it sees changes, the
-    /// place is narrowed down to 1/4096 pixel.
+    /// Adds the visible parts within a rectangle of pixels. A ray is cast every `step_px`; where what it sees changes,
+    /// the place is narrowed down to 1/4096 pixel.
     void add_visible(glm::dvec2 low, glm::dvec2 high, double step_px, std::vector<BoundarySegment>& segments) const;
 
   private:

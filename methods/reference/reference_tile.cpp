@@ -78,7 +78,8 @@ void ReferenceTile::find_curves() {
     BoundaryCurves curves;
     const auto n = static_cast<std::size_t>(columns_);
     // Crossings to the right of the samples of a row and of the one above, and between the two rows.
-    std::vector<Node> across_above(n, BoundaryCurves::kNone), across(n, BoundaryCurves::kNone), down(n, BoundaryCurves::kNone);
+    std::vector<Node> across_above(n, BoundaryCurves::kNone), across(n, BoundaryCurves::kNone),
+        down(n, BoundaryCurves::kNone);
     for (int row = 0; row < rows_; ++row) {
         std::swap(across_above, across);
         for (int column = 0; column < columns_; ++column) {
@@ -90,18 +91,22 @@ void ReferenceTile::find_curves() {
         for (int column = 0; column + 1 < columns_; ++column) {
             const auto c = static_cast<std::size_t>(column);
             const std::array<Node, 4> sides{across_above[c], down[c + 1], across[c], down[c]};
-            if (sides == std::array<Node, 4>{BoundaryCurves::kNone, BoundaryCurves::kNone, BoundaryCurves::kNone, BoundaryCurves::kNone}) continue;
+            if (sides == std::array<Node, 4>{BoundaryCurves::kNone, BoundaryCurves::kNone, BoundaryCurves::kNone,
+                                             BoundaryCurves::kNone})
+                continue;
             const glm::dvec2 middle = 0.5 * (sample_position(row - 1, column) + sample_position(row, column + 1));
             curves.add_cell(sides, middle, sample(row - 1, column) == sample(row, column + 1),
                             sample(row - 1, column + 1) == sample(row, column));
         }
     }
     segments_ = curves.segments(kStraightPx, 1.0 / per_pixel_);
-    loose_.add_visible({rect_.x0 - margin_, rect_.y0 - margin_}, {rect_.x1 + margin_, rect_.y1 + margin_}, 1.0 / per_pixel_, segments_);
+    loose_.add_visible({rect_.x0 - margin_, rect_.y0 - margin_}, {rect_.x1 + margin_, rect_.y1 + margin_},
+                       1.0 / per_pixel_, segments_);
 }
 
 void ReferenceTile::shade(Film& film) {
-    const SegmentGrid grid({rect_.x0 - margin_, rect_.y0 - margin_}, {rect_.x1 + margin_, rect_.y1 + margin_}, segments_);
+    const SegmentGrid grid({rect_.x0 - margin_, rect_.y0 - margin_}, {rect_.x1 + margin_, rect_.y1 + margin_},
+                           segments_);
     const PixelRect& crop = frame_.crop;
     for (int y = std::max(rect_.y0, crop.y0); y < std::min(rect_.y1, crop.y1); ++y) {
         for (int x = std::max(rect_.x0, crop.x0); x < std::min(rect_.x1, crop.x1); ++x) {
@@ -134,7 +139,8 @@ PixelResult ReferenceTile::shade_pixel(const SegmentGrid& grid, int x, int y) {
             if (facet.is_background()) continue;
             if (facet != last) color = glm::dvec4(color_of(facet, center));
             last = facet;
-            const int cell_row = row * cells_per_pixel_ / per_pixel_, cell_column = column * cells_per_pixel_ / per_pixel_;
+            const int cell_row = row * cells_per_pixel_ / per_pixel_,
+                      cell_column = column * cells_per_pixel_ / per_pixel_;
             surface += color;
             seen += color * (1 - cell_total_[static_cast<std::size_t>(cell_row * cells_per_pixel_ + cell_column)]);
         }
@@ -189,14 +195,14 @@ void ReferenceTile::draw_strokes(const SegmentGrid& grid, glm::ivec2 pixel) {
     }
 }
 
-void ReferenceTile::draw_class(std::span<const Stroke> strokes, std::uint8_t line_class,
-                               double nearest_to_center, bool may_be_hidden, glm::ivec2 pixel) {
+void ReferenceTile::draw_class(std::span<const Stroke> strokes, std::uint8_t line_class, double nearest_to_center,
+                               bool may_be_hidden, glm::ivec2 pixel) {
     const LineStyle& style = frame_.scene->lines.style;
     const double size = 1.0 / cells_per_pixel_;
     const double half = 0.5 * width_px_;
     // No cell's nearest segment is farther from the centre than this.
-    const double farthest = may_be_hidden ? std::numeric_limits<double>::infinity()
-                                          : nearest_to_center + 2 * kHalfDiagonal;
+    const double farthest =
+        may_be_hidden ? std::numeric_limits<double>::infinity() : nearest_to_center + 2 * kHalfDiagonal;
     for (int row = 0; row < cells_per_pixel_; ++row) {
         for (int column = 0; column < cells_per_pixel_; ++column) {
             double& total = cell_total_[static_cast<std::size_t>(row * cells_per_pixel_ + column)];

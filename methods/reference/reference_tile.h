@@ -16,8 +16,8 @@ namespace burin {
 /// Method `reference` for a rectangle of pixels.
 class ReferenceTile {
   public:
-    ReferenceTile(const Frame& frame, const RayGeometry& geometry, const EmbreeScene& rays,
-                  const ReferenceLines& lines, const ReferenceLooseEdges& loose);
+    ReferenceTile(const Frame& frame, const RayGeometry& geometry, const EmbreeScene& rays, const ReferenceLines& lines,
+                  const ReferenceLooseEdges& loose);
 
     /// Pixels around a tile whose lines can reach into it.
     static int margin_px(const Frame& frame);
@@ -38,7 +38,8 @@ class ReferenceTile {
     };
 
     Facet sample(int row, int column) const {
-        return samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)];
+        return samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                        static_cast<std::size_t>(column)];
     }
     glm::dvec2 sample_position(int row, int column) const;
     BoundaryCurves::Node crossing(BoundaryCurves& curves, int row_a, int column_a, int row_b, int column_b) const;

@@ -13,9 +13,7 @@ namespace burin {
 /// and a screen position in homogeneous coordinates is (x w, y w, w). Edge k is opposite of corner
 /// k.
 
-inline double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
+inline double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 constexpr double kNoEdge = std::numeric_limits<double>::infinity();
 
@@ -27,13 +25,9 @@ inline glm::dvec3 line_through(const glm::dvec3& a, const glm::dvec3& b) {
     return length > 0 ? line / length : glm::dvec3(0.0);
 }
 
-inline bool is_line(const glm::dvec3& line) {
-    return line.x != 0 || line.y != 0;
-}
+inline bool is_line(const glm::dvec3& line) { return line.x != 0 || line.y != 0; }
 
-inline double signed_distance(const glm::dvec3& line, glm::dvec2 at) {
-    return line.x * at.x + line.y * at.y + line.z;
-}
+inline double signed_distance(const glm::dvec3& line, glm::dvec2 at) { return line.x * at.x + line.y * at.y + line.z; }
 
 /// Where on a segment a position is: the distance from it, with round ends, and the foot's way
 /// along the segment from its start, kept within it.
@@ -53,15 +47,13 @@ inline SegmentDistance segment_distance(glm::dvec2 p0, glm::dvec2 p1, glm::dvec2
 /// Parts (lambda) of the corners of a triangle that add up to a position, on the screen.
 inline glm::dvec3 barycentric(const glm::dvec2 (&p)[3], glm::dvec2 at) {
     const double area = cross(p[1] - p[0], p[2] - p[0]);
-    return {cross(p[1] - at, p[2] - at) / area, cross(p[2] - at, p[0] - at) / area,
-            cross(p[0] - at, p[1] - at) / area};
+    return {cross(p[1] - at, p[2] - at) / area, cross(p[2] - at, p[0] - at) / area, cross(p[0] - at, p[1] - at) / area};
 }
 
 /// The heights of a triangle: the distance of corner k from edge k. Baerentzen et al. 2006.
 inline glm::dvec3 altitudes(const glm::dvec2 (&p)[3]) {
     const double area = std::abs(cross(p[1] - p[0], p[2] - p[0]));
-    return {area / glm::distance(p[1], p[2]), area / glm::distance(p[2], p[0]),
-            area / glm::distance(p[0], p[1])};
+    return {area / glm::distance(p[1], p[2]), area / glm::distance(p[2], p[0]), area / glm::distance(p[0], p[1])};
 }
 
 /// What the corners of a triangle say about one edge: a distance at each, to be interpolated.
@@ -74,8 +66,7 @@ inline double linear_distance(const EdgeChannel& channel, const glm::dvec3& lamb
 
 /// The same through an interpolator that is correct in perspective: each distance multiplied by its
 /// corner's w beforehand, and the result by the 1/w that is linear on the screen.
-inline double premultiplied_distance(const EdgeChannel& channel, const glm::dvec3& w,
-                                     const glm::dvec3& lambda) {
+inline double premultiplied_distance(const EdgeChannel& channel, const glm::dvec3& w, const glm::dvec3& lambda) {
     const glm::dvec3 weight = lambda / w;
     const double one_over_w = weight.x + weight.y + weight.z;
     const double interpolated = glm::dot(weight, channel * w) / one_over_w;
@@ -110,15 +101,12 @@ constexpr std::array<SolidWireframeCase, 7> kSolidWireframeCases = {{
 }};
 
 /// The edge between two corners.
-constexpr int edge_between_corners(int a, int b) {
-    return 3 - a - b;
-}
+constexpr int edge_between_corners(int a, int b) { return 3 - a - b; }
 
 /// Distances to edges 0, 1, 2 by that table; kNoEdge where it has none. Corners behind the eye are
 /// mirrored points, but these lie on the edges' lines too. Case 0 uses heights, case 7 is
 /// invisible.
-inline glm::dvec3 solid_wireframe_distances(const glm::dvec2 (&p)[3], const bool (&behind)[3],
-                                            glm::dvec2 at) {
+inline glm::dvec3 solid_wireframe_distances(const glm::dvec2 (&p)[3], const bool (&behind)[3], glm::dvec2 at) {
     glm::dvec3 result(kNoEdge);
     const int number = 4 * behind[0] + 2 * behind[1] + behind[2];
     if (number == 7) return result;

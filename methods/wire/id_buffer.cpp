@@ -16,18 +16,12 @@ constexpr std::uint64_t kIdCount = std::uint64_t{1} << 24;
 
 class IdBufferTile {
   public:
-    IdBufferTile(const Frame& frame, const FeatureEdges& features, const WireStroke& stroke,
-                 const DepthRange& depth)
-        : frame_(frame),
-          settings_(frame.scene->wire),
-          features_(features),
-          stroke_(stroke),
-          depth_(depth) {}
+    IdBufferTile(const Frame& frame, const FeatureEdges& features, const WireStroke& stroke, const DepthRange& depth)
+        : frame_(frame), settings_(frame.scene->wire), features_(features), stroke_(stroke), depth_(depth) {}
 
     void render(PixelRect rect, std::span<const SurfaceId> surfaces, Film& film) {
         rect_ = rect;
-        pixels_.assign(
-            static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), {});
+        pixels_.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), {});
         planes_.clear();
         for (const SurfaceId s : surfaces) fill(s);
         for (const SurfaceId s : surfaces) draw_edges(s);
@@ -69,8 +63,7 @@ class IdBufferTile {
         for (HalfEdge k = 0; k < 3; ++k) {
             const auto line_class = features_.drawn(s, k);
             if (!line_class) continue;
-            const auto edge =
-                wire_edge(frame_.surfaces, s.instance, 3 * s.triangle + k, *line_class);
+            const auto edge = wire_edge(frame_.surfaces, s.instance, 3 * s.triangle + k, *line_class);
             if (edge) draw_stroke(*edge, frame_.surfaces.polygon_id(s));
         }
     }
@@ -78,9 +71,8 @@ class IdBufferTile {
     /// A rectangle around the segment that reaches as far as the profile on all sides.
     void draw_stroke(const WireEdge& edge, std::uint32_t polygon) {
         const double reach = stroke_.reach_px();
-        const auto rows =
-            centers_within(std::min(edge.from.y, edge.to.y) - reach,
-                           std::max(edge.from.y, edge.to.y) + reach, rect_.y0, rect_.y1);
+        const auto rows = centers_within(std::min(edge.from.y, edge.to.y) - reach,
+                                         std::max(edge.from.y, edge.to.y) + reach, rect_.y0, rect_.y1);
         for (int y = rows.begin; y < rows.end; ++y) {
             const SampleSpan columns = columns_near(edge, y + 0.5, reach);
             for (int x = columns.begin; x < columns.end; ++x) draw_pixel(edge, polygon, x, y);
@@ -97,8 +89,7 @@ class IdBufferTile {
 
     /// The pixels of a row that may be within reach of the segment.
     SampleSpan columns_near(const WireEdge& edge, double y, double reach) const {
-        double low = std::min(edge.from.x, edge.to.x) - reach,
-               high = std::max(edge.from.x, edge.to.x) + reach;
+        double low = std::min(edge.from.x, edge.to.x) - reach, high = std::max(edge.from.x, edge.to.x) + reach;
         if (std::abs(edge.line.x) > 1e-6) {  // between the two parallels of the line
             const double middle = -(edge.line.y * y + edge.line.z) / edge.line.x;
             const double half = (reach + kSnapPx) / std::abs(edge.line.x);
@@ -113,15 +104,12 @@ class IdBufferTile {
         WirePixel& pixel = pixel_at(x, y);
         const SegmentDistance segment = segment_distance(edge.from, edge.to, at);
         const double nearness = edge.nearness(segment.along);
-        const bool owns =
-            !pixel.surface.is_background() && frame_.surfaces.polygon_id(pixel.surface) == polygon;
+        const bool owns = !pixel.surface.is_background() && frame_.surfaces.polygon_id(pixel.surface) == polygon;
         if (!owns && !(nearness + slope_of(pixel) > pixel.nearness)) return;
         const double distance = frame_.surfaces.projection.distance(nearness);
-        const double fade =
-            settings_.fade_distance > 0 ? std::min(settings_.fade_distance / distance, 1.0) : 1.0;
-        pixel.draw(
-            fade * stroke_.intensity(edge, segment.distance, segment.along, depth_.z(distance)),
-            edge.line_class);
+        const double fade = settings_.fade_distance > 0 ? std::min(settings_.fade_distance / distance, 1.0) : 1.0;
+        pixel.draw(fade * stroke_.intensity(edge, segment.distance, segment.along, depth_.z(distance)),
+                   edge.line_class);
     }
 
     /// What the variant +slope allows: the change of depth of the pixel's surface from its centre
@@ -146,8 +134,8 @@ void check_ids(const Frame& frame) {
     std::uint64_t polygons = 0;
     for (const SurfaceInstance& i : frame.surfaces.instances) polygons += i.mesh->polygon_count;
     if (polygons >= kIdCount) {
-        throw InputError("method id-buffer tells apart 16777215 polygons, the scene has " +
-                         std::to_string(polygons) + "; split it, or use another method");
+        throw InputError("method id-buffer tells apart 16777215 polygons, the scene has " + std::to_string(polygons) +
+                         "; split it, or use another method");
     }
 }
 
@@ -156,8 +144,7 @@ void check_ids(const Frame& frame) {
 RenderStats render_id_buffer(const Frame& frame, const RunOptions& options, Film& film) {
     check_ids(frame);
     const WireSettings& s = frame.scene->wire;
-    const WireStroke stroke(s, frame.scene->lines.style.width_px, WireProfileKind::gauss, 0,
-                            s.transition_px);
+    const WireStroke stroke(s, frame.scene->lines.style.width_px, WireProfileKind::gauss, 0, s.transition_px);
     const int margin_px = static_cast<int>(std::ceil(stroke.reach_px())) + 1;
     return render_wire_tiles(frame, options, film, margin_px, [&](const FeatureEdges& features) {
         return IdBufferTile(frame, features, stroke, DepthRange::fitted(frame));

@@ -12,8 +12,8 @@ namespace {
 /// Fills tiles, one after the other.
 class FillTile {
   public:
-    FillTile(const Frame& frame, const FeatureEdges& features, const EdgeRules& rules,
-             const WireStroke& stroke, const DepthRange& depth)
+    FillTile(const Frame& frame, const FeatureEdges& features, const EdgeRules& rules, const WireStroke& stroke,
+             const DepthRange& depth)
         : frame_(frame),
           settings_(frame.scene->wire),
           features_(features),
@@ -23,8 +23,7 @@ class FillTile {
 
     void render(PixelRect rect, std::span<const SurfaceId> surfaces, Film& film) {
         rect_ = rect;
-        pixels_.assign(
-            static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), {});
+        pixels_.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), {});
         planes_.clear();
         WireTriangle triangle(frame_, features_, rules_);
         for (const SurfaceId surface : surfaces) {
@@ -34,8 +33,7 @@ class FillTile {
         for (int y = rect.y0; y < rect.y1; ++y) {
             for (int x = rect.x0; x < rect.x1; ++x) {
                 const WirePixel& pixel = pixel_at(x, y);
-                const DepthPlane plane =
-                    pixel.surface.is_background() ? DepthPlane{} : planes_[pixel.slot];
+                const DepthPlane plane = pixel.surface.is_background() ? DepthPlane{} : planes_[pixel.slot];
                 film.put(x, y, finish_pixel(frame_, pixel, plane, x, y, settings_.alpha_test > 0));
             }
         }
@@ -66,8 +64,7 @@ class FillTile {
     void draw_line(const WireTriangle& triangle, glm::dvec2 at, WirePixel& pixel) const {
         const double distance = frame_.surfaces.projection.distance(pixel.nearness);
         const double z = depth_.z(distance);
-        const double fade =
-            settings_.fade_distance > 0 ? std::min(settings_.fade_distance / distance, 1.0) : 1.0;
+        const double fade = settings_.fade_distance > 0 ? std::min(settings_.fade_distance / distance, 1.0) : 1.0;
         const double reach = stroke_.reach_px();
         double nearest = kNoEdge, nearest_diagonal = kNoEdge, diagonal = 0;
         triangle.for_each_distance(at, [&](const WireTriangle::Channel& c, double d) {
@@ -99,8 +96,8 @@ class FillTile {
     std::vector<DepthPlane> planes_;
 };
 
-RenderStats render_filled(const Frame& frame, const RunOptions& options, Film& film,
-                          const EdgeRules& rules, const WireStroke& stroke) {
+RenderStats render_filled(const Frame& frame, const RunOptions& options, Film& film, const EdgeRules& rules,
+                          const WireStroke& stroke) {
     return render_wire_tiles(frame, options, film, 0, [&](const FeatureEdges& features) {
         return FillTile(frame, features, rules, stroke, DepthRange::fitted(frame));
     });
@@ -110,8 +107,7 @@ RenderStats render_filled(const Frame& frame, const RunOptions& options, Film& f
 
 RenderStats render_single_pass(const Frame& frame, const RunOptions& options, Film& film) {
     const WireSettings& s = frame.scene->wire;
-    const EdgeRules rules{s.path.value_or(WirePath::linear),
-                          s.exclude.value_or(WireExclude::polygon), s.q_px, false};
+    const EdgeRules rules{s.path.value_or(WirePath::linear), s.exclude.value_or(WireExclude::polygon), s.q_px, false};
     const WireStroke stroke(s, frame.scene->lines.style.width_px, WireProfileKind::gauss, 0);
     return render_filled(frame, options, film, rules, stroke);
 }
@@ -119,8 +115,7 @@ RenderStats render_single_pass(const Frame& frame, const RunOptions& options, Fi
 RenderStats render_solid_wireframe(const Frame& frame, const RunOptions& options, Film& film) {
     const WireSettings& s = frame.scene->wire;
     const bool dotted = s.dotted_diagonals && frame.scene->lines.classes.has(LineClass::polygon);
-    const EdgeRules rules{s.path.value_or(WirePath::cases), s.exclude.value_or(WireExclude::flags),
-                          s.q_px, dotted};
+    const EdgeRules rules{s.path.value_or(WirePath::cases), s.exclude.value_or(WireExclude::flags), s.q_px, dotted};
     const WireStroke stroke(s, frame.scene->lines.style.width_px, WireProfileKind::nv, 1.5);
     return render_filled(frame, options, film, rules, stroke);
 }

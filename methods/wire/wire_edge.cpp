@@ -18,8 +18,8 @@ glm::dvec3 homogeneous_position(const Projection& p, const glm::dvec3& view) {
     return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
 }
 
-std::optional<WireEdge> wire_edge(const SurfaceSet& surfaces, std::uint32_t instance,
-                                  HalfEdge half_edge, LineClass line_class) {
+std::optional<WireEdge> wire_edge(const SurfaceSet& surfaces, std::uint32_t instance, HalfEdge half_edge,
+                                  LineClass line_class) {
     const Projection& projection = surfaces.projection;
     const auto& corners = surfaces.instances[instance].mesh->triangles[half_edge / 3];
     std::uint32_t a = corners[half_edge % 3], b = corners[(half_edge % 3 + 1) % 3];
@@ -31,8 +31,7 @@ std::optional<WireEdge> wire_edge(const SurfaceSet& surfaces, std::uint32_t inst
 
     WireEdge edge;
     edge.line_class = line_class;
-    edge.line =
-        line_through(homogeneous_position(projection, from), homogeneous_position(projection, to));
+    edge.line = line_through(homogeneous_position(projection, from), homogeneous_position(projection, to));
     if (from_is_behind || to_is_behind) {
         const double part = (-near_distance - from.z) / (to.z - from.z);
         glm::dvec3 cut = from + (to - from) * part;
@@ -40,8 +39,7 @@ std::optional<WireEdge> wire_edge(const SurfaceSet& surfaces, std::uint32_t inst
         (from_is_behind ? from : to) = cut;
         (from_is_behind ? edge.from_part : edge.to_part) = part;
     }
-    const glm::dvec3 h0 = homogeneous_position(projection, from),
-                     h1 = homogeneous_position(projection, to);
+    const glm::dvec3 h0 = homogeneous_position(projection, from), h1 = homogeneous_position(projection, to);
     edge.from = glm::dvec2(h0) / h0.z;
     edge.to = glm::dvec2(h1) / h1.z;
     edge.from_nearness = projection.nearness(from);

@@ -17,7 +17,7 @@ struct WireEdge {
     glm::dvec2 from{0.0}, to{0.0};
     double from_nearness = 0, to_nearness = 0;  ///< see Projection
     double from_part = 0, to_part = 1;          ///< where on the whole edge the ends lie, in space
-    glm::dvec3 line{0.0};  ///< see line_through(); zero for an edge that is seen as a point
+    glm::dvec3 line{0.0};                       ///< see line_through(); zero for an edge that is seen as a point
     LineClass line_class = LineClass::polygon;
 
     double length_px() const { return glm::distance(from, to); }
@@ -33,7 +33,7 @@ struct WireEdge {
 glm::dvec3 homogeneous_position(const Projection& projection, const glm::dvec3& view);
 
 /// Nothing if the edge lies wholly behind the near plane.
-std::optional<WireEdge> wire_edge(const SurfaceSet& surfaces, std::uint32_t instance,
-                                  HalfEdge half_edge, LineClass line_class);
+std::optional<WireEdge> wire_edge(const SurfaceSet& surfaces, std::uint32_t instance, HalfEdge half_edge,
+                                  LineClass line_class);
 
 }  // namespace burin

@@ -2,8 +2,8 @@
 
 namespace burin {
 
-PixelResult finish_pixel(const Frame& frame, const WirePixel& pixel, const DepthPlane& plane, int x,
-                         int y, bool is_open) {
+PixelResult finish_pixel(const Frame& frame, const WirePixel& pixel, const DepthPlane& plane, int x, int y,
+                         bool is_open) {
     const SurfaceSet& surfaces = frame.surfaces;
     PixelResult result;
     result.distance = std::numeric_limits<float>::infinity();
@@ -17,8 +17,7 @@ PixelResult finish_pixel(const Frame& frame, const WirePixel& pixel, const Depth
         surfaces.projection.view_ray(center, origin, ray);
         const glm::dvec3 to_eye = -glm::normalize(ray), normal = surfaces.view_normal(id);
         if (!is_open) {
-            result.surface =
-                surface_color(frame.scene->surfaces, frame.material_of(id), normal, to_eye);
+            result.surface = surface_color(frame.scene->surfaces, frame.material_of(id), normal, to_eye);
         }
         result.distance = static_cast<float>(surfaces.projection.distance(plane.nearness(center)));
         const glm::dvec3 facing = glm::dot(normal, to_eye) < 0 ? -normal : normal;

@@ -25,7 +25,7 @@ struct WirePixel {
 };
 
 /// `plane` is the depth plane of pixel.surface. If `is_open`, the surface itself is not filled.
-PixelResult finish_pixel(const Frame& frame, const WirePixel& pixel, const DepthPlane& plane, int x,
-                         int y, bool is_open = false);
+PixelResult finish_pixel(const Frame& frame, const WirePixel& pixel, const DepthPlane& plane, int x, int y,
+                         bool is_open = false);
 
 }  // namespace burin

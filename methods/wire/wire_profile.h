@@ -25,8 +25,7 @@ inline double pixel_area_below(double offset, glm::dvec2 normal) {
     if (b < 1e-6) return std::clamp(offset / a + 0.5, 0.0, 1.0);
     const auto ramp = [](double x) { return x > 0 ? x * x : 0.0; };
     const double far = 0.5 * (a + b), near = 0.5 * (a - b);
-    const double area =
-        ramp(offset + far) - ramp(offset + near) - ramp(offset - near) + ramp(offset - far);
+    const double area = ramp(offset + far) - ramp(offset + near) - ramp(offset - near) + ramp(offset - far);
     return std::clamp(area / (2 * a * b), 0.0, 1.0);
 }
 
@@ -70,8 +69,7 @@ struct WireProfile {
                 return 1 - v * v * (3 - 2 * v);
             }
             case WireProfileKind::box:
-                return pixel_area_below(d + core_px / 2, normal) -
-                       pixel_area_below(d - core_px / 2, normal);
+                return pixel_area_below(d + core_px / 2, normal) - pixel_area_below(d - core_px / 2, normal);
         }
         return 0;
     }
@@ -102,8 +100,7 @@ struct WireProfile {
                 return 2 * gain * (t + scale * gauss_area(cut));
             case WireProfileKind::nv: {
                 const double begin = 1 - t / 2;  // u at the middle of the line
-                return begin <= 0 ? 2 * (gauss_area(2) - begin)
-                                  : 2 * std::max(gauss_area(2) - gauss_area(begin), 0.0);
+                return begin <= 0 ? 2 * (gauss_area(2) - begin) : 2 * std::max(gauss_area(2) - gauss_area(begin), 0.0);
             }
             case WireProfileKind::step:
                 return 2 * t;
@@ -111,8 +108,7 @@ struct WireProfile {
                 return t >= 0.5 ? 2 * t : std::pow(std::max(t + 0.5, 0.0), 2);
             case WireProfileKind::smooth: {
                 if (t >= 0.5) return 2 * t;
-                const double a =
-                    std::min(0.5 - t, 1.0);  // position on the ramp at the line's middle
+                const double a = std::min(0.5 - t, 1.0);  // position on the ramp at the line's middle
                 return 2 * (0.5 - (a - a * a * a + 0.5 * a * a * a * a));
             }
             case WireProfileKind::box:
@@ -127,8 +123,7 @@ struct WireProfile {
 /// A Gaussian flank has 1.505 px of its own. For lines from 1 to 1.505 px it is made narrower: at
 /// 1 px it has the variance of a 1 px stroke seen through a pixel, 1/6 px^2. Still thinner lines
 /// keep that shape and get lighter, as strokes thinner than a pixel do.
-inline WireProfile matched_profile(WireProfileKind kind, double width_px,
-                                   double cut = WireProfile::kNoCut) {
+inline WireProfile matched_profile(WireProfileKind kind, double width_px, double cut = WireProfile::kNoCut) {
     WireProfile profile{kind, 0, 1, 1, cut};
     switch (kind) {
         case WireProfileKind::gauss: {

@@ -12,8 +12,8 @@ class WireStroke {
   public:
     /// `width_px` is the full width asked for. `profile` and `core_px` are the method's own, for
     /// settings that name none; `cut` see WireProfile.
-    WireStroke(const WireSettings& settings, double width_px, WireProfileKind profile,
-               double core_px, double cut = WireProfile::kNoCut);
+    WireStroke(const WireSettings& settings, double width_px, WireProfileKind profile, double core_px,
+               double cut = WireProfile::kNoCut);
 
     /// Beyond this distance from an edge nothing is drawn. Pixels.
     double reach_px() const { return reach_px_; }

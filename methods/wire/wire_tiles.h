@@ -28,8 +28,8 @@ void for_each_pixel(const ScreenPolygon& polygon, PixelRect rect, const Visit& v
 /// Renders a frame tile by tile. `margin_px` is how far surfaces reach beyond their pixels;
 /// make_tile(features) makes a renderer with render(rect, surfaces, film), one per thread.
 template <typename MakeTile>
-RenderStats render_wire_tiles(const Frame& frame, const RunOptions& options, Film& film,
-                              int margin_px, const MakeTile& make_tile) {
+RenderStats render_wire_tiles(const Frame& frame, const RunOptions& options, Film& film, int margin_px,
+                              const MakeTile& make_tile) {
     constexpr int kTilePx = 32;
     RenderStats stats;
     stats.threads = resolve_thread_count(options.threads);

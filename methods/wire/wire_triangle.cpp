@@ -4,9 +4,7 @@ namespace burin {
 namespace {
 
 /// Edge k of edge_distance.h is half-edge (k + 1) % 3 of its triangle.
-constexpr HalfEdge half_edge_opposite(int corner) {
-    return static_cast<HalfEdge>((corner + 1) % 3);
-}
+constexpr HalfEdge half_edge_opposite(int corner) { return static_cast<HalfEdge>((corner + 1) % 3); }
 
 /// Whether the line comes within `reach` of the rectangle, as far as its corners can tell.
 bool comes_near(const glm::dvec3& line, PixelRect r, double reach) {
@@ -64,13 +62,11 @@ void WireTriangle::load_own_edges() {
     for (int k = 0; k < 3; ++k) {
         const HalfEdge j = half_edge_opposite(k), h = 3 * surface_.triangle + j;
         const auto line_class = features_.drawn(surface_, j);
-        const bool is_dotted = !line_class && rules_.dotted_diagonals &&
-                               PolygonOutlines::across_diagonal(mesh, h) != kNoHalfEdge;
-        const bool is_moved_away =
-            !line_class && !is_dotted && rules_.exclude == WireExclude::q && is_whole();
+        const bool is_dotted =
+            !line_class && rules_.dotted_diagonals && PolygonOutlines::across_diagonal(mesh, h) != kNoHalfEdge;
+        const bool is_moved_away = !line_class && !is_dotted && rules_.exclude == WireExclude::q && is_whole();
         if (!line_class && !is_dotted && !is_moved_away) continue;
-        const auto edge =
-            wire_edge(frame_.surfaces, surface_.instance, h, line_class.value_or(stray_class()));
+        const auto edge = wire_edge(frame_.surfaces, surface_.instance, h, line_class.value_or(stray_class()));
         if (!edge || !is_line(edge->line)) continue;
         add(*edge, k, is_dotted);
         if (is_moved_away) {
@@ -91,8 +87,7 @@ void WireTriangle::load_polygon_edges(PixelRect rect, double reach_px) {
             const auto line_class = features_.drawn({polygon.instance, h / 3}, h % 3);
             if (!line_class) continue;
             const auto edge = wire_edge(surfaces, polygon.instance, h, *line_class);
-            if (edge && is_line(edge->line) && comes_near(edge->line, rect, reach_px))
-                polygon_edges_.push_back(*edge);
+            if (edge && is_line(edge->line) && comes_near(edge->line, rect, reach_px)) polygon_edges_.push_back(*edge);
         }
     }
     for (const WireEdge& edge : polygon_edges_) add(edge, -1, false);

@@ -74,8 +74,7 @@ void WireTriangle::for_each_distance(glm::dvec2 at, const Visit& visit) const {
     const bool by_lines = rules_.path == WirePath::homogeneous || !is_whole();
     const bool by_cases = rules_.path == WirePath::cases && !is_whole();
     const glm::dvec3 lambda = by_lines ? glm::dvec3(0.0) : barycentric(p_, at);
-    const glm::dvec3 by_case =
-        by_cases ? solid_wireframe_distances(p_, behind_, at) : glm::dvec3(0.0);
+    const glm::dvec3 by_case = by_cases ? solid_wireframe_distances(p_, behind_, at) : glm::dvec3(0.0);
     for (const Channel& c : channels_) {
         double distance;
         if (by_cases && c.own_edge >= 0) {

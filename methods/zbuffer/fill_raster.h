@@ -49,9 +49,7 @@ void for_each_fragment(const ProjectedTriangle& triangle, PixelRect rect, const 
     struct Edge {
         glm::dvec2 upper, lower;
         int first_row, end_row;
-        double x_at(double y) const {
-            return upper.x + (y - upper.y) * ((lower.x - upper.x) / (lower.y - upper.y));
-        }
+        double x_at(double y) const { return upper.x + (y - upper.y) * ((lower.x - upper.x) / (lower.y - upper.y)); }
     };
     Edge edges[3];
     int first_row = rect.y1, end_row = rect.y0;

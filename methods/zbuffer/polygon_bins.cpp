@@ -16,8 +16,7 @@ struct Chunk {
 };
 
 /// Tiles that a polygon may touch, as columns and rows; empty if none.
-PixelRect touched_tiles(const ProjectedPolygon& polygon, PixelRect region, int tile_px,
-                        double reach_px) {
+PixelRect touched_tiles(const ProjectedPolygon& polygon, PixelRect region, int tile_px, double reach_px) {
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
     for (const ProjectedTriangle& triangle : polygon.triangles) {
         for (const ProjectedCorner& corner : triangle.corners) {
@@ -27,13 +26,11 @@ PixelRect touched_tiles(const ProjectedPolygon& polygon, PixelRect region, int t
     }
     low -= reach_px;
     high += reach_px;
-    const bool misses =
-        !(low.x < region.x1 && low.y < region.y1 && high.x >= region.x0 && high.y >= region.y0);
+    const bool misses = !(low.x < region.x1 && low.y < region.y1 && high.x >= region.x0 && high.y >= region.y0);
     if (misses) return {};
     const auto tile_of = [&](double position, int start, int end) {
         const double last = end - 1;
-        return static_cast<int>(std::clamp(std::floor(position), double(start), last) - start) /
-               tile_px;
+        return static_cast<int>(std::clamp(std::floor(position), double(start), last) - start) / tile_px;
     };
     return {tile_of(low.x, region.x0, region.x1), tile_of(low.y, region.y0, region.y1),
             tile_of(high.x, region.x0, region.x1) + 1, tile_of(high.y, region.y0, region.y1) + 1};
@@ -41,8 +38,8 @@ PixelRect touched_tiles(const ProjectedPolygon& polygon, PixelRect region, int t
 
 }  // namespace
 
-PolygonBins::PolygonBins(const Frame& frame, const FeatureEdges& features, const DepthRange& depth,
-                         int tile_px, double reach_px, int threads)
+PolygonBins::PolygonBins(const Frame& frame, const FeatureEdges& features, const DepthRange& depth, int tile_px,
+                         double reach_px, int threads)
     : region_(frame.crop),
       tile_px_(tile_px),
       columns_((frame.crop.width() + tile_px - 1) / tile_px),
@@ -50,8 +47,7 @@ PolygonBins::PolygonBins(const Frame& frame, const FeatureEdges& features, const
     std::vector<Chunk> chunks;
     for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
         const std::uint32_t count = frame.surfaces.instances[i].mesh->polygon_count;
-        for (std::uint32_t first = 0; first < count;
-             first += std::min(kChunkPolygons, count - first)) {
+        for (std::uint32_t first = 0; first < count; first += std::min(kChunkPolygons, count - first)) {
             chunks.push_back({i, first, first + std::min(kChunkPolygons, count - first)});
         }
     }
@@ -67,8 +63,8 @@ PolygonBins::PolygonBins(const Frame& frame, const FeatureEdges& features, const
             const PixelRect tiles = touched_tiles(polygon, region_, tile_px_, reach_px);
             for (int row = tiles.y0; row < tiles.y1; ++row) {
                 for (int column = tiles.x0; column < tiles.x1; ++column) {
-                    records[c].push_back({static_cast<std::uint32_t>(row * columns_ + column),
-                                          {chunks[c].instance, p}});
+                    records[c].push_back(
+                        {static_cast<std::uint32_t>(row * columns_ + column), {chunks[c].instance, p}});
                 }
             }
         }

@@ -19,8 +19,8 @@ struct PolygonRef {
 class PolygonBins {
   public:
     /// `reach_px`: how far lines reach beyond the polygons.
-    PolygonBins(const Frame& frame, const FeatureEdges& features, const DepthRange& depth,
-                int tile_px, double reach_px, int threads);
+    PolygonBins(const Frame& frame, const FeatureEdges& features, const DepthRange& depth, int tile_px, double reach_px,
+                int threads);
 
     std::size_t tile_count() const { return offsets_.size() - 1; }
     PixelRect tile(std::size_t index) const;

@@ -20,8 +20,7 @@ class CentreSurfaces {
   public:
     void clear(PixelRect rect) {
         rect_ = rect;
-        const auto count =
-            static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+        const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
         nearest_.assign(count, {});
     }
     void add(const ProjectedPolygon& polygon) {
@@ -59,8 +58,8 @@ struct Worker {
 
 class Renderer {
   public:
-    Renderer(const Frame& frame, const ZBufferMethod& method, const FeatureEdges& features,
-             const DepthRange& depth, Film& film)
+    Renderer(const Frame& frame, const ZBufferMethod& method, const FeatureEdges& features, const DepthRange& depth,
+             Film& film)
         : frame_(frame), method_(method), features_(features), depth_(depth), film_(film) {}
 
     void render_tile(Worker& worker, PixelRect rect, std::span<const PolygonRef> polygons) const {
@@ -68,13 +67,11 @@ class Renderer {
         const ZBufferSettings& settings = frame_.scene->zbuffer;
         worker.zbuffer.clear(rect, method_.initial_bit);
         for (const ZBufferMethod::Step& sweep : method_.sweeps) {
-            for_each(worker, polygons,
-                     [&](const auto& polygon) { sweep(worker.zbuffer, polygon); });
+            for_each(worker, polygons, [&](const auto& polygon) { sweep(worker.zbuffer, polygon); });
         }
         if (!settings.highlight_classes.empty() || !settings.highlight_objects.empty()) {
-            for_each(worker, polygons, [&](const auto& polygon) {
-                worker.zbuffer.highlight(polygon, method_.edge_offset);
-            });
+            for_each(worker, polygons,
+                     [&](const auto& polygon) { worker.zbuffer.highlight(polygon, method_.edge_offset); });
         }
         worker.raster_s += watch.lap();
 
@@ -82,8 +79,7 @@ class Renderer {
         for_each(worker, polygons, [&](const auto& polygon) { worker.surfaces.add(polygon); });
         for (int y = rect.y0; y < rect.y1; ++y) {
             for (int x = rect.x0; x < rect.x1; ++x) {
-                film_.put(x, y,
-                          finished(worker.zbuffer.frame(x, y), worker.surfaces.at(x, y), x, y));
+                film_.put(x, y, finished(worker.zbuffer.frame(x, y), worker.surfaces.at(x, y), x, y));
             }
         }
         worker.shade_s += watch.lap();
@@ -98,23 +94,21 @@ class Renderer {
         }
     }
 
-    PixelResult finished(const FramePixel& pixel, const CentreSurfaces::Nearest& nearest, int x,
-                         int y) const {
+    PixelResult finished(const FramePixel& pixel, const CentreSurfaces::Nearest& nearest, int x, int y) const {
         const SurfaceSet& surfaces = frame_.surfaces;
         glm::dvec3 origin, ray;
         surfaces.projection.view_ray({x + 0.5, y + 0.5}, origin, ray);
         const glm::dvec3 to_eye = -glm::normalize(ray);
         const auto color_of = [&](SurfaceId id) {
             if (id.is_background()) return glm::vec4(0.0f);
-            return surface_color(frame_.scene->surfaces, frame_.material_of(id),
-                                 surfaces.view_normal(id), to_eye);
+            return surface_color(frame_.scene->surfaces, frame_.material_of(id), surfaces.view_normal(id), to_eye);
         };
 
         PixelResult result;
         if (pixel.line != 0) {
             const auto drawn = static_cast<LineClass>(pixel.line - 1);
-            const glm::vec3 color = pixel.highlighted ? frame_.scene->zbuffer.highlight_color
-                                                      : frame_.scene->lines.style.color_of(drawn);
+            const glm::vec3 color =
+                pixel.highlighted ? frame_.scene->zbuffer.highlight_color : frame_.scene->lines.style.color_of(drawn);
             result.lines = glm::vec4(color, 1.0f);
             result.beauty = result.lines;
             result.coverage[static_cast<std::size_t>(drawn)] = 1;
@@ -126,8 +120,7 @@ class Renderer {
         result.surface = color_of(nearest.surface);
         result.distance = static_cast<float>(depth_.distance(nearest.z));
         const glm::dvec3 normal = surfaces.view_normal(nearest.surface);
-        result.normal =
-            glm::vec3(surfaces.view_to_world * (glm::dot(normal, to_eye) < 0 ? -normal : normal));
+        result.normal = glm::vec3(surfaces.view_to_world * (glm::dot(normal, to_eye) < 0 ? -normal : normal));
         result.object_id = surfaces.object_id(nearest.surface);
         result.material_id = surfaces.material_id(nearest.surface);
         result.polygon_id = surfaces.polygon_id(nearest.surface);
@@ -143,15 +136,14 @@ class Renderer {
 
 }  // namespace
 
-RenderStats render_zbuffer(const Frame& frame, const RunOptions& options, Film& film,
-                           const ZBufferMethod& method) {
+RenderStats render_zbuffer(const Frame& frame, const RunOptions& options, Film& film, const ZBufferMethod& method) {
     RenderStats stats;
     stats.threads = resolve_thread_count(options.threads);
     Stopwatch watch;
     const auto& range = frame.scene->zbuffer.depth_range;
-    const DepthRange depth = range ? DepthRange::between((*range)[0], (*range)[1],
-                                                         frame.surfaces.projection.orthographic)
-                                   : DepthRange::fitted(frame);
+    const DepthRange depth = range
+                                 ? DepthRange::between((*range)[0], (*range)[1], frame.surfaces.projection.orthographic)
+                                 : DepthRange::fitted(frame);
     const FeatureEdges features(frame, stats.threads);
     const double reach_px = 1 + aliased_width_px(frame.scene->lines.style.width_px);
     const PolygonBins bins(frame, features, depth, kTilePx, reach_px, stats.threads);

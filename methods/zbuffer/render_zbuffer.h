@@ -21,7 +21,6 @@ struct ZBufferMethod {
 
 /// Draws the frame. What the film tells about surfaces (distance, normals, numbers, colours without
 /// lines) comes from an ordinary z-buffer in double precision beside the method's own.
-RenderStats render_zbuffer(const Frame& frame, const RunOptions& options, Film& film,
-                           const ZBufferMethod& method);
+RenderStats render_zbuffer(const Frame& frame, const RunOptions& options, Film& film, const ZBufferMethod& method);
 
 }  // namespace burin

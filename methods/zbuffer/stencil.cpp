@@ -9,10 +9,8 @@ namespace {
 // glDepthFunc, glDepthMask, glColorMask; glStencilFunc(func, ref, 1); glStencilOp(fail, zfail,
 // pass)
 constexpr Pass kFill{.depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace};
-constexpr Pass kEdgesBeside{
-    .depth_test = DepthTest::less_equal, .bit_test = BitTest::not_equal, .reference = true};
-constexpr Pass kEdgesOnFill{
-    .depth_test = DepthTest::always, .bit_test = BitTest::equal, .reference = true};
+constexpr Pass kEdgesBeside{.depth_test = DepthTest::less_equal, .bit_test = BitTest::not_equal, .reference = true};
+constexpr Pass kEdgesOnFill{.depth_test = DepthTest::always, .bit_test = BitTest::equal, .reference = true};
 constexpr Pass kClear{.depth_test = DepthTest::never,
                       .writes_depth = false,
                       .writes_frame = false,

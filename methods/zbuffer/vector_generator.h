@@ -24,8 +24,8 @@ inline int aliased_width_px(double width_px) {
 /// drawn towards larger major coordinates, and the one before when drawn back: ties depend on the
 /// direction.
 template <typename Visit>
-void for_each_vector_pixel(const ProjectedCorner& from, const ProjectedCorner& to, int width_px,
-                           PixelRect rect, const Visit& visit) {
+void for_each_vector_pixel(const ProjectedCorner& from, const ProjectedCorner& to, int width_px, PixelRect rect,
+                           const Visit& visit) {
     const glm::dvec2 d = to.pixel - from.pixel;
     const bool along_x = std::abs(d.x) >= std::abs(d.y);
     const int major = along_x ? 0 : 1, minor = 1 - major;
@@ -39,10 +39,8 @@ void for_each_vector_pixel(const ProjectedCorner& from, const ProjectedCorner& t
     const auto first_after = [&](double position) {  // the first centre strictly behind
         return static_cast<int>(std::clamp(std::floor(position + 0.5), double(low), double(high)));
     };
-    int begin =
-        forwards ? first_centre_from(from.pixel[major], low, high) : first_after(to.pixel[major]);
-    int end =
-        forwards ? first_centre_from(to.pixel[major], low, high) : first_after(from.pixel[major]);
+    int begin = forwards ? first_centre_from(from.pixel[major], low, high) : first_after(to.pixel[major]);
+    int end = forwards ? first_centre_from(to.pixel[major], low, high) : first_after(from.pixel[major]);
 
     // Only where the line is within the rectangle; a margin for rounding and for its width.
     const double slope = d[minor] / length;

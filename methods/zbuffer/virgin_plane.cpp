@@ -11,14 +11,10 @@
 namespace burin {
 namespace {
 
-constexpr Pass kFill{.depth_test = DepthTest::less,
-                     .reference = true,
-                     .on_pass = BitOp::replace,
-                     .bit_passes_depth = true};
-constexpr Pass kEdges{.depth_test = DepthTest::less_equal,
-                      .reference = false,
-                      .on_pass = BitOp::replace,
-                      .bit_passes_depth = true};
+constexpr Pass kFill{
+    .depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace, .bit_passes_depth = true};
+constexpr Pass kEdges{
+    .depth_test = DepthTest::less_equal, .reference = false, .on_pass = BitOp::replace, .bit_passes_depth = true};
 constexpr Pass kGiveBack{.depth_test = DepthTest::always,
                          .writes_depth = false,
                          .writes_frame = false,

@@ -36,13 +36,13 @@ ZBuffer::ZBuffer(const Frame& frame)
       width_px_(aliased_width_px(frame.scene->lines.style.width_px)),
       steps_(settings_.depth_bits <= 24 ? std::exp2(settings_.depth_bits) - 1 : 0) {
     const ObjectNames highlighted(settings_.highlight_objects);
-    for (const SceneObject& object : frame.scene->objects) highlighted_instances_.push_back(highlighted.mean(object.name));
+    for (const SceneObject& object : frame.scene->objects)
+        highlighted_instances_.push_back(highlighted.mean(object.name));
 }
 
 void ZBuffer::clear(PixelRect rect, bool bit) {
     rect_ = rect;
-    const auto count =
-        static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+    const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
     depth_.assign(count, stored(1));
     bits_.assign(count, bit ? 1 : 0);
     frame_.assign(count, FramePixel{});
@@ -94,8 +94,7 @@ void ZBuffer::fill(const ProjectedPolygon& polygon, const Pass& pass, const Dept
         const double added = offset_of(triangle, offset);
         for_each_fragment(triangle, rect_, [&](int x, int y, double z) {
             const std::size_t i = index(x, y);
-            if (draw(i, z + added, pass) && pass.writes_frame)
-                frame_[i] = {triangle.surface, 0, false};
+            if (draw(i, z + added, pass) && pass.writes_frame) frame_[i] = {triangle.surface, 0, false};
         });
     }
 }
@@ -109,23 +108,22 @@ void ZBuffer::highlight(const ProjectedPolygon& polygon, const DepthOffset& offs
     draw_edges(polygon, pass, offset, true);
 }
 
-void ZBuffer::draw_edges(const ProjectedPolygon& polygon, const Pass& pass,
-                         const DepthOffset& offset, bool highlighted) {
+void ZBuffer::draw_edges(const ProjectedPolygon& polygon, const Pass& pass, const DepthOffset& offset,
+                         bool highlighted) {
     for (const ProjectedEdge& edge : polygon.edges) {
         if (edge.classes.empty()) continue;
         const LineClass drawn = *edge.classes.first();
-        if (highlighted && !settings_.highlight_classes.has(drawn) &&
-            !highlighted_instances_[polygon.instance]) {
+        if (highlighted && !settings_.highlight_classes.has(drawn) && !highlighted_instances_[polygon.instance]) {
             continue;
         }
-        const auto beside = std::find_if(
-            polygon.triangles.begin(), polygon.triangles.end(),
-            [&](const ProjectedTriangle& t) { return t.surface.triangle == edge.half_edge / 3; });
+        const auto beside =
+            std::find_if(polygon.triangles.begin(), polygon.triangles.end(),
+                         [&](const ProjectedTriangle& t) { return t.surface.triangle == edge.half_edge / 3; });
         const double added = beside == polygon.triangles.end() ? 0 : offset_of(*beside, offset);
         const bool turned = !settings_.canonical_edges && !edge.runs_with_outline;
         const auto line = static_cast<std::uint8_t>(1 + static_cast<int>(drawn));
-        for_each_vector_pixel(turned ? edge.to : edge.from, turned ? edge.from : edge.to, width_px_,
-                              rect_, [&](int x, int y, double z) {
+        for_each_vector_pixel(turned ? edge.to : edge.from, turned ? edge.from : edge.to, width_px_, rect_,
+                              [&](int x, int y, double z) {
                                   const std::size_t i = index(x, y);
                                   if (!draw(i, z + added, pass) || !pass.writes_frame) return;
                                   frame_[i].line = line;

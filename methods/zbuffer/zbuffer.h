@@ -53,8 +53,7 @@ class ZBuffer {
     double offset_of(const ProjectedTriangle& triangle, const DepthOffset& offset) const;
     /// Tests and writes one pixel. True if it passed.
     bool draw(std::size_t i, double z, const Pass& pass);
-    void draw_edges(const ProjectedPolygon& polygon, const Pass& pass, const DepthOffset& offset,
-                    bool highlighted);
+    void draw_edges(const ProjectedPolygon& polygon, const Pass& pass, const DepthOffset& offset, bool highlighted);
 
     const Frame& frame_of_scene_;
     const ZBufferSettings& settings_;

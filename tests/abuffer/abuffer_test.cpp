@@ -33,7 +33,8 @@ Scene heap(std::uint64_t seed, bool in_reverse = false) {
         objects[0].add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2});
     }
     objects.push_back(make_torus(0.7, 0.25, 48, 24));
-    objects.push_back(transformed(make_box({0.8, 0.5, 1.1}), [](glm::dvec3 p) { return p + glm::dvec3(0.2, 0.3, -0.1); }));
+    objects.push_back(
+        transformed(make_box({0.8, 0.5, 1.1}), [](glm::dvec3 p) { return p + glm::dvec3(0.2, 0.3, -0.1); }));
     Scene scene = scene_of(std::move(objects));
     scene.lines.classes = LineClassSet::all();
     return scene;
@@ -45,7 +46,8 @@ constexpr int kWidth = 150, kHeight = 110;
 Image draw(const Scene& scene, PixelRect crop = {0, 0, kWidth, kHeight}, int threads = 1) {
     const Camera camera = perspective_camera(kEye, {0, 0, 0});
     const Frame frame = make_frame(scene, camera, kWidth, kHeight, crop);
-    Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true}, frame.criteria.classes);
+    Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true},
+              frame.criteria.classes);
     RunOptions options;
     options.threads = threads;
     render_abuffer(frame, options, film);
@@ -99,7 +101,8 @@ TEST(Abuffer, ACropOfAVeryWideViewFromWithinIsThatPartOfTheWhole) {
         const Camera camera = perspective_camera(random.in_box(0.05), random.in_box(1), 178);
         const auto draw = [&](PixelRect crop) {
             const Frame frame = make_frame(scene, camera, kWidth, kHeight, crop);
-            Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true, true}, frame.criteria.classes);
+            Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true, true},
+                      frame.criteria.classes);
             render_abuffer(frame, RunOptions{}, film);
             return film.image();
         };
@@ -160,8 +163,8 @@ Comparison compare_decisions(const Scene& scene, int samples) {
         const std::size_t a = s.index(column, row), b = s.index(column + (down ? 0 : 1), row + (down ? 1 : 0));
         if (s.ids[a] >> 1 == s.ids[b] >> 1) return;
         ++result.asked;
-        const NeighbourSamples pair{column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down,
-                                    {tile.surface_at(a), tile.surface_at(b)}};
+        const NeighbourSamples pair{
+            column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down, {tile.surface_at(a), tile.surface_at(b)}};
         LineDecision decision;
         double nearness = 0;
         if (!fast.is_smooth(pair) && !fast.decide(pair, decision, nearness)) return;
@@ -215,7 +218,8 @@ Scene drum(int wall_steps, int end_steps) {
         for (int i = 0; i < end_steps; ++i) soup.positions.push_back(on_circle(i, end_steps, z));
         for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(end_steps); ++i) {
             const std::uint32_t a = middle + 1 + i, b = middle + 1 + (i + 1) % static_cast<std::uint32_t>(end_steps);
-            soup.add_polygon(z < 0 ? std::vector<std::uint32_t>{middle, b, a} : std::vector<std::uint32_t>{middle, a, b});
+            soup.add_polygon(z < 0 ? std::vector<std::uint32_t>{middle, b, a}
+                                   : std::vector<std::uint32_t>{middle, a, b});
         }
     }
     std::vector<PolygonSoup> objects;
@@ -235,7 +239,8 @@ TEST(Abuffer, FastDecisionsFollowSeams) {
 
 TEST(Abuffer, SliversAreKnownToBeThin) {
     const Scene scene = drum(50, 20000);
-    const Frame frame = make_frame(scene, perspective_camera(kEye, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+    const Frame frame =
+        make_frame(scene, perspective_camera(kEye, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
     const Mesh& mesh = scene.meshes.at(0);
     const std::vector<std::uint8_t> table = find_sharp_edges(mesh, frame.criteria);
     EXPECT_EQ(find_sharp_edges(mesh, frame.criteria, 3), table);
@@ -263,7 +268,8 @@ TEST(Abuffer, FastDecisionsAreThoseOfTheSlowWay) {
 /// A floor that goes on behind the eye ends where its borders are, not where samples are.
 TEST(Abuffer, BordersThatPassTheEyeAreWhereTheyAre) {
     constexpr int kColumns = 240, kRows = 180;
-    const Scene scene = scene_of({soup_of({{-250, 0, -250}, {250, 0, -250}, {250, 0, 250}, {-250, 0, 250}}, {{0, 1, 2, 3}})});
+    const Scene scene =
+        scene_of({soup_of({{-250, 0, -250}, {250, 0, -250}, {250, 0, 250}, {-250, 0, 250}}, {{0, 1, 2, 3}})});
     const Camera camera = perspective_camera({0, 1, 2}, {0, 1, -10}, 90);
     const Drawing d(scene, camera, kColumns, kRows, {0, 0, kColumns, kRows}, 1, render_abuffer);
     EXPECT_EQ(d.sum(LineClass::silhouette), 0) << "it is open";
@@ -304,7 +310,8 @@ TEST(Abuffer, SheetsThatMeetInAValleyHaveTheirLine) {
                 for (int u = 0; u < pieces; ++u) {
                     for (int v = 0; v < pieces; ++v) {
                         const auto first = static_cast<std::uint32_t>(soup.positions.size());
-                        for (const glm::dvec3 p : {place(u, v), place(u + 1, v), place(u + 1, v + 1), place(u, v + 1)}) soup.positions.push_back(p);
+                        for (const glm::dvec3 p : {place(u, v), place(u + 1, v), place(u + 1, v + 1), place(u, v + 1)})
+                            soup.positions.push_back(p);
                         soup.add_polygon(std::vector{first, first + 1, first + 2, first + 3});
                     }
                 }
@@ -331,14 +338,15 @@ TEST(Abuffer, AFlatFanHasNoContours) {
             const double angle = 2 * std::numbers::pi * i / spokes;
             const glm::dvec3 out(std::cos(angle), 0, std::sin(angle));
             soup.positions.insert(soup.positions.end(), {inner * out, 0.65 * out});
-            const auto near = static_cast<std::uint32_t>(2 * i), next = static_cast<std::uint32_t>(2 * ((i + 1) % spokes));
+            const auto near = static_cast<std::uint32_t>(2 * i),
+                       next = static_cast<std::uint32_t>(2 * ((i + 1) % spokes));
             soup.corners.insert(soup.corners.end(), {near, near + 1, next + 1, next});
             soup.polygon_ends.push_back(static_cast<std::uint32_t>(soup.corners.size()));
         }
         soup.object_names = {"fan"};
         const glm::dvec3 eye = 3.0 * random.direction();
-        const Drawing d(scene_of({soup}), perspective_camera({eye.x, 0.5 + std::abs(eye.y), eye.z}, {0, 0, 0}), 180, 160,
-                        {0, 0, 180, 160}, 1, render_abuffer);
+        const Drawing d(scene_of({soup}), perspective_camera({eye.x, 0.5 + std::abs(eye.y), eye.z}, {0, 0, 0}), 180,
+                        160, {0, 0, 180, 160}, 1, render_abuffer);
         EXPECT_LT(d.sum(LineClass::silhouette), 0.05) << "seed " << seed;  // a trace of a dot in the middle
         EXPECT_GT(d.sum(LineClass::border), 100) << "seed " << seed;
     }
@@ -360,8 +368,8 @@ PolygonSoup drawn_out(const std::vector<glm::dvec2>& profile, double half_length
     return soup;
 }
 
-/// A rounding narrower than a sample has no crease, though its strips are so low that each alone says nothing, and it is
-/// no contour where both sides are seen.
+/// A rounding narrower than a sample has no crease, though its strips are so low that each alone says nothing, and it
+/// is no contour where both sides are seen.
 TEST(Abuffer, FinelyRoundedEdgesHaveNoLine) {
     constexpr double kPixel = 3.0 / 120;
     for (const int strips : {60, 100, 150}) {
@@ -375,10 +383,12 @@ TEST(Abuffer, FinelyRoundedEdgesHaveNoLine) {
                 }
                 profile.emplace_back(-1, 0);
                 const double e = glm::radians(elevation);
-                const glm::dvec3 target(0, -0.2, -0.3), eye = target + 10.0 * glm::dvec3(0.3 * std::cos(e), std::sin(e), std::cos(e));
-                const Drawing d(scene_of({drawn_out(profile, 1.5, 1)}), perspective_camera(eye, target, 17), 160, 120, {0, 0, 160, 120},
-                                1, render_abuffer);
-                EXPECT_LT(d.sum("lines.A") - d.sum(LineClass::border), 0.5) << strips << " " << radius_px << " " << elevation;
+                const glm::dvec3 target(0, -0.2, -0.3),
+                    eye = target + 10.0 * glm::dvec3(0.3 * std::cos(e), std::sin(e), std::cos(e));
+                const Drawing d(scene_of({drawn_out(profile, 1.5, 1)}), perspective_camera(eye, target, 17), 160, 120,
+                                {0, 0, 160, 120}, 1, render_abuffer);
+                EXPECT_LT(d.sum("lines.A") - d.sum(LineClass::border), 0.5)
+                    << strips << " " << radius_px << " " << elevation;
                 EXPECT_GT(d.sum(LineClass::border), 100);
             }
         }
@@ -410,7 +420,8 @@ TEST(Abuffer, ALongStepIsDrawnLikeOneInPieces) {
         for (const double eye_x : {0.0, 150.0, -150.0}) {
             const auto draw_in = [&](std::uint32_t pieces) {
                 const Camera camera = perspective_camera({eye_x, 0.8, -3}, {eye_x + x, 0, 0}, 60);
-                return Drawing(scene_of({drawn_out(step, kLength, pieces)}), camera, 160, 120, {0, 0, 160, 120}, 1, render_abuffer);
+                return Drawing(scene_of({drawn_out(step, kLength, pieces)}), camera, 160, 120, {0, 0, 160, 120}, 1,
+                               render_abuffer);
             };
             const Drawing one = draw_in(1), many = draw_in(20);
             double missed = 0;

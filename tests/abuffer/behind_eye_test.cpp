@@ -34,7 +34,8 @@ struct Beam {
         };
         std::vector<glm::dvec3> positions;
         for (const double ahead : {begin, kFar}) {
-            for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) positions.push_back(at(ahead, x, is_flat ? -1 : y));
+            for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+                positions.push_back(at(ahead, x, is_flat ? -1 : y));
         }
         if (is_flat) return soup_of(positions, {{0, 1, 5, 4}});
         return soup_of(positions, {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {3, 2, 1, 0}, {4, 5, 6, 7}});
@@ -55,20 +56,23 @@ Beam random_beam(Random& random) {
 
 Scene scene_with(const Beam& beam, bool passes_eye) {
     // Near enough for no beam to pass through it.
-    const PolygonSoup panel = soup_of({{-0.1, -0.08, -0.3}, {0.1, -0.08, -0.3}, {0.1, 0.08, -0.3}, {-0.1, 0.08, -0.3}}, {{0, 1, 2, 3}});
+    const PolygonSoup panel =
+        soup_of({{-0.1, -0.08, -0.3}, {0.1, -0.08, -0.3}, {0.1, 0.08, -0.3}, {-0.1, 0.08, -0.3}}, {{0, 1, 2, 3}});
     Scene scene = scene_of({beam.soup(passes_eye), panel});
     scene.lines.style.hidden.style = HiddenStyle::solid;
     return scene;
 }
 
 Drawing draw(const Scene& scene, RenderFunction render) {
-    return Drawing(scene, perspective_camera({0, 0, 0}, {0, 0, -1}, 60), kColumns, kRows, {0, 0, kColumns, kRows}, 1, render);
+    return Drawing(scene, perspective_camera({0, 0, 0}, {0, 0, -1}, 60), kColumns, kRows, {0, 0, kColumns, kRows}, 1,
+                   render);
 }
 
 double largest_difference(const Drawing& a, const Drawing& b, const std::string& channel) {
     double largest = 0;
     for (int y = 0; y < kRows; ++y) {
-        for (int x = 0; x < kColumns; ++x) largest = std::max(largest, std::abs(a.at(channel, x, y) - b.at(channel, x, y)));
+        for (int x = 0; x < kColumns; ++x)
+            largest = std::max(largest, std::abs(a.at(channel, x, y) - b.at(channel, x, y)));
     }
     return largest;
 }
@@ -105,7 +109,9 @@ TEST(BehindTheEye, MarkingsOfARoad) {
     };
     const Camera camera = perspective_camera({0.3, 0.05, 0}, {0, 0, -8}, 35);
     for (const RenderFunction render : {render_abuffer, render_reference}) {
-        const auto drawn = [&](double begin) { return Drawing(road(begin), camera, 160, 120, {0, 0, 160, 120}, 1, render); };
+        const auto drawn = [&](double begin) {
+            return Drawing(road(begin), camera, 160, 120, {0, 0, 160, 120}, 1, render);
+        };
         const Drawing passing = drawn(10), ending = drawn(-0.03);
         EXPECT_NEAR(passing.sum(LineClass::border), ending.sum(LineClass::border), 2);
         EXPECT_GT(ending.sum(LineClass::border), 700);
@@ -119,7 +125,8 @@ TEST(BehindTheEye, SeamsOfAFloorAreNoBorders) {
         for (int i = 0; i < pieces; ++i) {
             const double begin = 10 - 30.0 * i / pieces, end = 10 - 30.0 * (i + 1) / pieces;
             const auto first = static_cast<std::uint32_t>(soup.positions.size());
-            for (const auto& [x, z] : {std::pair(0.0, begin), {20.0, begin}, {20.0, end}, {0.0, end}}) soup.positions.emplace_back(x, 0, z);
+            for (const auto& [x, z] : {std::pair(0.0, begin), {20.0, begin}, {20.0, end}, {0.0, end}})
+                soup.positions.emplace_back(x, 0, z);
             soup.add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
         }
         Scene scene = scene_of({soup});
@@ -152,7 +159,8 @@ TEST(BehindTheEye, GroundsInOnePlaneAreOneUpToTheHorizon) {
     }
 }
 
-/// Near the eye, coordinates far away are not exact in pixels: where two walls pass through each other is a line all the same.
+/// Near the eye, coordinates far away are not exact in pixels: where two walls pass through each other is a line all
+/// the same.
 TEST(BehindTheEye, WallsPassThroughEachOtherNearTheEye) {
     for (const RenderFunction render : {render_abuffer, render_reference}) {
         const auto wall = [](glm::dvec3 a, glm::dvec3 b) {
@@ -160,7 +168,8 @@ TEST(BehindTheEye, WallsPassThroughEachOtherNearTheEye) {
             return soup_of({a - up, b - up, b + up, a + up}, {{0, 1, 2, 3}});
         };
         // They meet at x = 0.013, 0.13 ahead.
-        const Scene scene = scene_of({wall({-50, 0, -0.143}, {50, 0, -0.117}), wall({-49.987, 0, -25.13}, {50.013, 0, 24.87})});
+        const Scene scene =
+            scene_of({wall({-50, 0, -0.143}, {50, 0, -0.117}), wall({-49.987, 0, -25.13}, {50.013, 0, 24.87})});
         const Drawing d = draw(scene, render);
         const double x = kColumns / 2 + 0.5 * kRows / std::tan(glm::radians(30.0)) * 0.013 / 0.13;
         EXPECT_NEAR(d.sum(LineClass::intersection), kRows, 1);

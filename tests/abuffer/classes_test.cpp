@@ -30,7 +30,8 @@ TEST(Cube, ShowsExactlyNineEdges) {
     const PolygonSoup box = make_box({1, 1, 1});
     for (const glm::dvec3 eye : {glm::dvec3(2, 1.5, 3), glm::dvec3(-3, 2, 1.2), glm::dvec3(1.4, -2.2, -3)}) {
         const Camera camera = perspective_camera(eye, {0, 0, 0});
-        for (const LineClassSet classes : {kDefaultLineClasses, LineClassSet(LineClass::polygon), LineClassSet(LineClass::crease)}) {
+        for (const LineClassSet classes :
+             {kDefaultLineClasses, LineClassSet(LineClass::polygon), LineClassSet(LineClass::crease)}) {
             Scene scene = scene_of({box});
             scene.lines.classes = classes;
             const Drawing drawing(scene, camera, kSize, kSize);
@@ -39,7 +40,8 @@ TEST(Cube, ShowsExactlyNineEdges) {
                 for (const int bit : {1, 2, 4}) {
                     if ((i & bit) != 0) continue;
                     const glm::dvec2 a = pixel_of(camera, kSize, kSize, box.positions[static_cast<std::size_t>(i)]);
-                    const glm::dvec2 b = pixel_of(camera, kSize, kSize, box.positions[static_cast<std::size_t>(i | bit)]);
+                    const glm::dvec2 b =
+                        pixel_of(camera, kSize, kSize, box.positions[static_cast<std::size_t>(i | bit)]);
                     const double share = drawing.drawn_share(a, b, 6);
                     shown += share > 0.99;
                     hidden += share < 0.15;  // other edges may cross it in the picture
@@ -79,7 +81,8 @@ TEST(OpenSheet, EndsInABorder) {
 TEST(CrossingQuads, GiveOneIntersectionOfTheAnalyticLength) {
     // Two rectangles turned by +-45 degrees about the vertical axis x = 50; they cross along it.
     const auto turned = [](double sign) {
-        return soup_of({{20, 20, sign * -30}, {80, 20, sign * 30}, {80, 75, sign * 30}, {20, 75, sign * -30}}, {{0, 1, 2, 3}});
+        return soup_of({{20, 20, sign * -30}, {80, 20, sign * 30}, {80, 75, sign * 30}, {20, 75, sign * -30}},
+                       {{0, 1, 2, 3}});
     };
     for (const bool one_object : {false, true}) {
         PolygonSoup a = turned(1), b = turned(-1);
@@ -101,8 +104,9 @@ TEST(Crease, DependsOnTheAngleAlone) {
     // Two rectangles that meet at x = 50 at a dihedral angle; seen from the front.
     for (const double angle_deg : {10.0, 39.0, 41.0, 80.0}) {
         const double rise = 30 * std::tan(glm::radians(angle_deg / 2));
-        const PolygonSoup roof = soup_of({{20, 20, -rise}, {50, 20, 0}, {80, 20, -rise}, {80, 80, -rise}, {50, 80, 0}, {20, 80, -rise}},
-                                         {{0, 1, 4, 5}, {1, 2, 3, 4}});
+        const PolygonSoup roof =
+            soup_of({{20, 20, -rise}, {50, 20, 0}, {80, 20, -rise}, {80, 80, -rise}, {50, 80, 0}, {20, 80, -rise}},
+                    {{0, 1, 4, 5}, {1, 2, 3, 4}});
         const Drawing d(scene_of({roof}), pixel_camera(100, 100), 100, 100);
         EXPECT_NEAR(d.sum(LineClass::crease), angle_deg > 40 ? 59 : 0, 2) << angle_deg;
         // Winding means nothing: turn one of the two around.
@@ -115,8 +119,15 @@ TEST(Crease, DependsOnTheAngleAlone) {
 
 TEST(Seam, BetweenUnstitchedPatchesIsNoBorder) {
     // A plane in two patches with different points along the common boundary x = 50.
-    const PolygonSoup patches = soup_of({{20, 20, 0}, {50, 20, 0}, {50, 50, 0}, {50, 80, 0}, {20, 80, 0},
-                                         {50, 35, 0}, {50, 65, 0}, {80, 20, 0}, {80, 80, 0}},
+    const PolygonSoup patches = soup_of({{20, 20, 0},
+                                         {50, 20, 0},
+                                         {50, 50, 0},
+                                         {50, 80, 0},
+                                         {20, 80, 0},
+                                         {50, 35, 0},
+                                         {50, 65, 0},
+                                         {80, 20, 0},
+                                         {80, 80, 0}},
                                         {{0, 1, 2, 3, 4}, {1, 7, 8, 3, 6, 5}});
     const Drawing d(scene_of({patches}), pixel_camera(100, 100), 100, 100);
     EXPECT_EQ(d.drawn_share({50, 23}, {50, 77}), 0);
@@ -125,8 +136,14 @@ TEST(Seam, BetweenUnstitchedPatchesIsNoBorder) {
 
 TEST(Seam, StaysInvisibleWhenItGapes) {
     for (const double gap : {0.001, 0.02, 0.1, 0.4}) {
-        const PolygonSoup patches = soup_of({{20, 20, 0}, {50, 20, 0}, {50, 80, 0}, {20, 80, 0},
-                                             {50 + gap, 20, 0}, {80, 20, 0}, {80, 80, 0}, {50 + gap, 80, 0}},
+        const PolygonSoup patches = soup_of({{20, 20, 0},
+                                             {50, 20, 0},
+                                             {50, 80, 0},
+                                             {20, 80, 0},
+                                             {50 + gap, 20, 0},
+                                             {80, 20, 0},
+                                             {80, 80, 0},
+                                             {50 + gap, 80, 0}},
                                             {{0, 1, 2, 3}, {4, 5, 6, 7}});
         for (double shift = 0; shift < 1; shift += 0.0625) {
             const PolygonSoup moved = transformed(patches, [&](glm::dvec3 p) { return p + glm::dvec3(shift, 0.3, 0); });
@@ -138,8 +155,9 @@ TEST(Seam, StaysInvisibleWhenItGapes) {
 
 TEST(Seam, WhereTheSurfaceTurnsAwayIsASilhouette) {
     // A sheet, and a second one from its right border back below it, that has a vertex more there.
-    const PolygonSoup soup = soup_of({{10, 10, 0}, {50, 10, 0}, {50, 50, 0}, {10, 50, 0}, {50, 30, 0}, {30, 10, -40}, {30, 30, -40}, {30, 50, -40}},
-                                     {{0, 1, 2, 3}, {1, 5, 6, 4}, {4, 6, 7, 2}});
+    const PolygonSoup soup = soup_of(
+        {{10, 10, 0}, {50, 10, 0}, {50, 50, 0}, {10, 50, 0}, {50, 30, 0}, {30, 10, -40}, {30, 30, -40}, {30, 50, -40}},
+        {{0, 1, 2, 3}, {1, 5, 6, 4}, {4, 6, 7, 2}});
     for (const RenderFunction method : {render_patel, render_abuffer}) {
         const Drawing d(scene_of({soup}), pixel_camera(60, 60), 60, 60, {0, 0, 60, 60}, 1, method);
         for (int y = 14; y < 46; ++y) {
@@ -156,8 +174,14 @@ TEST(Seam, WhereTheSurfaceTurnsAwayIsASilhouette) {
 }
 
 TEST(Seam, WithAnAngleIsACrease) {
-    const PolygonSoup patches = soup_of({{20, 20, -30}, {50, 20, 0}, {50, 80, 0}, {20, 80, -30},
-                                         {50, 19.9, 0}, {80, 19.9, -30}, {80, 80, -30}, {50, 80.1, 0}},
+    const PolygonSoup patches = soup_of({{20, 20, -30},
+                                         {50, 20, 0},
+                                         {50, 80, 0},
+                                         {20, 80, -30},
+                                         {50, 19.9, 0},
+                                         {80, 19.9, -30},
+                                         {80, 80, -30},
+                                         {50, 80.1, 0}},
                                         {{0, 1, 2, 3}, {4, 5, 6, 7}});
     const Drawing d(scene_of({patches}), pixel_camera(100, 100), 100, 100);
     EXPECT_GT(d.drawn_share({50.01, 22}, {50.01, 78}), 0.999);
@@ -167,7 +191,14 @@ TEST(Seam, WithAnAngleIsACrease) {
 TEST(TJunction, InAFlatSurfaceShowsNothing) {
     // The edge of the left rectangle has a vertex of the right ones in its middle, slightly off.
     for (const double off : {0.0, 0.003, -0.003, 0.05, -0.05}) {
-        const PolygonSoup patches = soup_of({{20, 20, 0}, {50, 20, 0}, {50, 80, 0}, {20, 80, 0}, {80, 20, 0}, {80, 51, 0}, {50 + off, 51, 0}, {80, 80, 0}},
+        const PolygonSoup patches = soup_of({{20, 20, 0},
+                                             {50, 20, 0},
+                                             {50, 80, 0},
+                                             {20, 80, 0},
+                                             {80, 20, 0},
+                                             {80, 51, 0},
+                                             {50 + off, 51, 0},
+                                             {80, 80, 0}},
                                             {{0, 1, 2, 3}, {1, 4, 5, 6}, {6, 5, 7, 2}});
         const Drawing d(scene_of({patches}), pixel_camera(100, 100), 100, 100);
         EXPECT_EQ(d.drawn_share({50.01, 24}, {50.01, 76}), 0) << off;
@@ -191,23 +222,27 @@ TEST(Slivers, InAFlatSurfaceShowNothing) {
 
 TEST(NonManifoldEdge, LetsTheVisibleSurfaceGoOn) {
     // A flat sheet with a fin behind it, on the same edge.
-    const PolygonSoup sheet = soup_of({{20, 20, 0}, {50, 20, 0}, {50, 80, 0}, {20, 80, 0}, {80, 20, 0}, {80, 80, 0}, {55, 20, -40}, {55, 80, -40}},
-                                      {{0, 1, 2, 3}, {1, 4, 5, 2}, {1, 6, 7, 2}});
+    const PolygonSoup sheet = soup_of(
+        {{20, 20, 0}, {50, 20, 0}, {50, 80, 0}, {20, 80, 0}, {80, 20, 0}, {80, 80, 0}, {55, 20, -40}, {55, 80, -40}},
+        {{0, 1, 2, 3}, {1, 4, 5, 2}, {1, 6, 7, 2}});
     const Drawing d(scene_of({sheet}), pixel_camera(100, 100), 100, 100);
     EXPECT_EQ(d.drawn_share({50, 24}, {50, 76}), 0);
     EXPECT_NEAR(d.sum(LineClass::border), 240, 4);
 }
 
 TEST(ObjectLine, SeparatesObjectsInContact) {
-    const Drawing d(scene_of({rectangle(20.2, 20.2, 50.2, 80.2, 0), rectangle(50.2, 20.2, 80.2, 80.2, 0)}), pixel_camera(100, 100), 100, 100);
+    const Drawing d(scene_of({rectangle(20.2, 20.2, 50.2, 80.2, 0), rectangle(50.2, 20.2, 80.2, 80.2, 0)}),
+                    pixel_camera(100, 100), 100, 100);
     EXPECT_NEAR(d.sum(LineClass::object), 59, 2);
     // And a small one lying on a large one.
-    const Drawing e(scene_of({rectangle(10.2, 10.2, 90.2, 90.2, 0), rectangle(30.2, 30.2, 70.2, 70.2, 0.01)}), pixel_camera(100, 100), 100, 100);
+    const Drawing e(scene_of({rectangle(10.2, 10.2, 90.2, 90.2, 0), rectangle(30.2, 30.2, 70.2, 70.2, 0.01)}),
+                    pixel_camera(100, 100), 100, 100);
     EXPECT_NEAR(e.sum(LineClass::object), 160, 3);
 }
 
 TEST(MaterialLine, SeparatesMaterialsOfOneObject) {
-    PolygonSoup sheet = soup_of({{20, 20, 0}, {50, 20, 0}, {50, 80, 0}, {20, 80, 0}, {80, 20, 0}, {80, 80, 0}}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
+    PolygonSoup sheet = soup_of({{20, 20, 0}, {50, 20, 0}, {50, 80, 0}, {20, 80, 0}, {80, 20, 0}, {80, 80, 0}},
+                                {{0, 1, 2, 3}, {1, 4, 5, 2}});
     sheet.materials = {Material{.name = "a"}, Material{.name = "b"}};
     sheet.polygon_material = {0, 1};
     Scene scene = scene_of({sheet});
@@ -232,7 +267,8 @@ TEST(PolygonLine, IsNeverATriangulationDiagonal) {
 }
 
 TEST(ConcavePolygon, IsOneSurface) {
-    const PolygonSoup l_shape = soup_of({{20, 20, 0}, {80, 20, 0}, {80, 45, 0}, {45, 45, 0}, {45, 80, 0}, {20, 80, 0}}, {{0, 1, 2, 3, 4, 5}});
+    const PolygonSoup l_shape =
+        soup_of({{20, 20, 0}, {80, 20, 0}, {80, 45, 0}, {45, 45, 0}, {45, 80, 0}, {20, 80, 0}}, {{0, 1, 2, 3, 4, 5}});
     Scene scene = scene_of({l_shape});
     scene.lines.classes = LineClassSet::all();
     const Drawing d(scene, pixel_camera(100, 100), 100, 100);
@@ -244,7 +280,8 @@ TEST(ConcavePolygon, IsOneSurface) {
 }
 
 TEST(Marks, AreDrawnWhereTheFileSaysSo) {
-    PolygonSoup sheet = soup_of({{20, 20, 0}, {50, 20, 0}, {50, 80, 0}, {20, 80, 0}, {80, 20, 0}, {80, 80, 0}}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
+    PolygonSoup sheet = soup_of({{20, 20, 0}, {50, 20, 0}, {50, 80, 0}, {20, 80, 0}, {80, 20, 0}, {80, 80, 0}},
+                                {{0, 1, 2, 3}, {1, 4, 5, 2}});
     sheet.marked_edges = {{2, 1}};
     Scene scene = scene_of({sheet});
     scene.lines.classes = LineClass::mark;
@@ -254,7 +291,8 @@ TEST(Marks, AreDrawnWhereTheFileSaysSo) {
 
 TEST(HiddenSurfaces, ShowNoLines) {
     // Three sheets behind each other: only the front one and what stands out are drawn.
-    const Drawing d(scene_of({rectangle(10.2, 10.2, 60.2, 60.2, 30), rectangle(20.2, 20.2, 50.2, 50.2, 20), rectangle(30.2, 30.2, 90.2, 90.2, 10)}),
+    const Drawing d(scene_of({rectangle(10.2, 10.2, 60.2, 60.2, 30), rectangle(20.2, 20.2, 50.2, 50.2, 20),
+                              rectangle(30.2, 30.2, 90.2, 90.2, 10)}),
                     pixel_camera(100, 100), 100, 100);
     EXPECT_EQ(d.drawn_share({20.2, 79.8}, {50.2, 79.8}), 0) << "the middle one is hidden";
     EXPECT_EQ(d.drawn_share({30.2, 69.8}, {58, 69.8}), 0) << "hidden part of the rear one";
@@ -265,7 +303,8 @@ TEST(HiddenSurfaces, ShowNoLines) {
 TEST(FlatStep, IsDrawnByItsOwnersHoweverSmall) {
     // Parallel faces with the same normal and nearly the same depth: what depth maps miss.
     for (const double step : {1e-3, 0.1, 1.0, 50.0}) {
-        const Drawing d(scene_of({rectangle(10.2, 10.2, 90.2, 90.2, 0), rectangle(30.2, 30.2, 70.2, 70.2, step)}), pixel_camera(100, 100), 100, 100);
+        const Drawing d(scene_of({rectangle(10.2, 10.2, 90.2, 90.2, 0), rectangle(30.2, 30.2, 70.2, 70.2, step)}),
+                        pixel_camera(100, 100), 100, 100);
         EXPECT_GT(d.drawn_share({30.2, 69.8}, {70.2, 69.8}), 0.99) << step;
     }
 }
@@ -274,7 +313,8 @@ TEST(FlatStep, IsDrawnByItsOwnersHoweverSmall) {
 TEST(FlatStep, HidesWhatLiesBehind) {
     for (const double step : {1e-3, 0.01, 0.1, 1.0}) {
         for (const bool is_front_first : {false, true}) {
-            std::vector<PolygonSoup> sheets{rectangle(10.2, 10.2, 60.2, 60.2, 0), rectangle(30.2, 30.2, 90.2, 90.2, step)};
+            std::vector<PolygonSoup> sheets{rectangle(10.2, 10.2, 60.2, 60.2, 0),
+                                            rectangle(30.2, 30.2, 90.2, 90.2, step)};
             if (is_front_first) std::swap(sheets[0], sheets[1]);
             for (const RenderFunction render : {render_patel, render_abuffer}) {
                 const Drawing d(scene_of(sheets), pixel_camera(100, 100), 100, 100, {0, 0, 100, 100}, 1, render);
@@ -287,13 +327,15 @@ TEST(FlatStep, HidesWhatLiesBehind) {
     }
 }
 
-// Two plates with a wall between them, seen from above. The wall may be undercut; if it leans towards the eye it is a surface.
+// Two plates with a wall between them, seen from above. The wall may be undercut; if it leans towards the eye it is a
+// surface.
 TEST(Wall, SeenEdgeOnIsAnOutline) {
     const glm::dvec2 a(40.3, 10.1), b(60.7, 90.1), out = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
     const auto step = [&](double lean) {
         const glm::dvec2 a0 = a + lean * out, b0 = b + lean * out;
-        return soup_of({{10, 10.1, 30}, {a, 30}, {b, 30}, {10, 90.1, 30}, {a0, 0}, {b0, 0}, {95, 10.1, 0}, {95, 90.1, 0}},
-                       {{0, 1, 2, 3}, {1, 4, 5, 2}, {4, 6, 7, 5}});
+        return soup_of(
+            {{10, 10.1, 30}, {a, 30}, {b, 30}, {10, 90.1, 30}, {a0, 0}, {b0, 0}, {95, 10.1, 0}, {95, 90.1, 0}},
+            {{0, 1, 2, 3}, {1, 4, 5, 2}, {4, 6, 7, 5}});
     };
     const auto drawn_share = [&](double lean, RenderFunction render) {
         Scene scene = scene_of({step(lean)});
@@ -303,16 +345,19 @@ TEST(Wall, SeenEdgeOnIsAnOutline) {
         return d.drawn_share({a.x, 100 - a.y}, {b.x, 100 - b.y});
     };
     for (const RenderFunction render : {render_patel, render_abuffer}) {
-        for (const double lean : {-2.0, -0.1, -0.01, -1e-6, 0.0, 1e-6}) EXPECT_GT(drawn_share(lean, render), 0.99) << lean;
+        for (const double lean : {-2.0, -0.1, -0.01, -1e-6, 0.0, 1e-6})
+            EXPECT_GT(drawn_share(lean, render), 0.99) << lean;
         for (const double lean : {0.1, 2.0}) EXPECT_EQ(drawn_share(lean, render), 0) << lean;
     }
 }
 
-// The view moves, and a wall turns by far less than corners are snapped by: its outline goes once and does not come back.
+// The view moves, and a wall turns by far less than corners are snapped by: its outline goes once and does not come
+// back.
 TEST(Wall, PassesTheEdgeOnPositionOnce) {
     constexpr int kFrames = 40;
     for (const double angle_deg : {-22.0, 8.0, 72.0}) {
-        const glm::dvec2 along(std::cos(glm::radians(angle_deg)), std::sin(glm::radians(angle_deg))), out(along.y, -along.x);
+        const glm::dvec2 along(std::cos(glm::radians(angle_deg)), std::sin(glm::radians(angle_deg))),
+            out(along.y, -along.x);
         const glm::dvec2 a(40.3, 50.1), b = a + 40.0 * along;
         for (const int samples : {0, 2}) {
             int changes = 0;
@@ -321,9 +366,10 @@ TEST(Wall, PassesTheEdgeOnPositionOnce) {
                 const glm::dvec2 moved(frame / 32.0, frame / 45.0), lean = (frame - 0.6 * kFrames) / (32.0 * 256) * out;
                 const auto at = [&](glm::dvec2 p, double z) { return glm::dvec3(p + moved, z); };
                 // A triangle between what lies above its longest side, and a valley that begins at its foot.
-                Scene scene = scene_of({soup_of({at(a, 30), at(b, 30), at(a - 30.0 * out, 30), at(b - 30.0 * out, 30), at(glm::mix(a, b, 0.37) + lean, 0),
-                                                 at(a + 30.0 * out, 30), at(b + 30.0 * out, 30)},
-                                                {{2, 0, 1, 3}, {0, 4, 1}, {0, 5, 4}, {4, 5, 6}, {4, 6, 1}})});
+                Scene scene = scene_of(
+                    {soup_of({at(a, 30), at(b, 30), at(a - 30.0 * out, 30), at(b - 30.0 * out, 30),
+                              at(glm::mix(a, b, 0.37) + lean, 0), at(a + 30.0 * out, 30), at(b + 30.0 * out, 30)},
+                             {{2, 0, 1, 3}, {0, 4, 1}, {0, 5, 4}, {4, 5, 6}, {4, 6, 1}})});
                 scene.lines.classes = LineClass::silhouette;
                 scene.lines.crease_angle_deg = 150;  // no edge is sharp
                 if (samples != 0) scene.abuffer.samples = samples;
@@ -343,7 +389,8 @@ TEST(Wall, OfASmoothBossIsAnOutline) {
     constexpr int kSides = 48;
     std::vector<glm::dvec3> positions;
     std::vector<std::vector<std::uint32_t>> polygons;
-    const std::pair<double, double> rings[] = {{10, 30}, {24, 29}, {28, 27}, {30, 24}, {30.0, 15}, {30, 6}, {32, 3}, {36, 1}, {45, 0}};  // radius, z
+    const std::pair<double, double> rings[] = {{10, 30}, {24, 29}, {28, 27}, {30, 24}, {30.0, 15},
+                                               {30, 6},  {32, 3},  {36, 1},  {45, 0}};  // radius, z
     for (const auto& [radius, z] : rings) {
         for (int i = 0; i < kSides; ++i) {
             const double angle = 2 * M_PI * (i + 0.3) / kSides;
@@ -361,7 +408,8 @@ TEST(Wall, OfASmoothBossIsAnOutline) {
     for (const RenderFunction render : {render_patel, render_abuffer}) {
         const Drawing d(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100}, 1, render);
         for (int i = 0; i < kSides; ++i) {
-            const glm::dvec3 &p = positions[static_cast<std::size_t>(3 * kSides + i)], &q = positions[static_cast<std::size_t>(3 * kSides + (i + 1) % kSides)];
+            const glm::dvec3 &p = positions[static_cast<std::size_t>(3 * kSides + i)],
+                             &q = positions[static_cast<std::size_t>(3 * kSides + (i + 1) % kSides)];
             EXPECT_GT(d.drawn_share({p.x, 100 - p.y}, {q.x, 100 - q.y}, 0), 0.99) << i;
         }
         EXPECT_EQ(d.drawn_share({50, 20}, {50, 45}, 3), 0) << "nothing on the fillet or the plate";
@@ -408,7 +456,8 @@ TEST(GrazingFloor, HasNoFalseLines) {
 TEST(CoincidentFaces, DoNotFight) {
     // The same rectangle twice in different objects, in the same place, tessellated differently.
     PolygonSoup one = rectangle(20.2, 20.2, 80.2, 80.2, 0);
-    PolygonSoup other = soup_of({{20.2, 20.2, 0}, {80.2, 20.2, 0}, {80.2, 80.2, 0}, {20.2, 80.2, 0}, {47, 53, 0}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+    PolygonSoup other = soup_of({{20.2, 20.2, 0}, {80.2, 20.2, 0}, {80.2, 80.2, 0}, {20.2, 80.2, 0}, {47, 53, 0}},
+                                {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
     const auto tilt = [](glm::dvec3 p) { return glm::dvec3(p.x, p.y, 0.7 * p.x - 0.4 * p.y); };
     Scene scene = scene_of({transformed(one, tilt), transformed(other, tilt)});
     const Drawing d(scene, pixel_camera(100, 100), 100, 100);
@@ -420,8 +469,8 @@ TEST(CoincidentFaces, DoNotFight) {
     }
 }
 
-/// A flat label on a turned box, as files have them: their planes differ by what coordinates were rounded. It is seen as a
-/// whole, or not at all.
+/// A flat label on a turned box, as files have them: their planes differ by what coordinates were rounded. It is seen
+/// as a whole, or not at all.
 TEST(CoincidentFaces, DoNotFightWhenRounded) {
     int hidden = 0;
     for (std::uint64_t seed = 1; seed <= 24; ++seed) {
@@ -430,7 +479,9 @@ TEST(CoincidentFaces, DoNotFightWhenRounded) {
         const double unit = seed % 2 == 0 ? 1e-5 : 1e-4;
         const auto rounded = [&](glm::dvec3 p) { return glm::round(turned * p / unit) * unit; };
         PolygonSoup box = transformed(make_box({1, 1, 1}), rounded);
-        const PolygonSoup label = transformed(soup_of({{0.5, -0.3, -0.2}, {0.5, 0.4, -0.1}, {0.5, 0.35, 0.3}, {0.5, -0.3, 0.25}}, {{0, 1, 2, 3}}), rounded);
+        const PolygonSoup label = transformed(
+            soup_of({{0.5, -0.3, -0.2}, {0.5, 0.4, -0.1}, {0.5, 0.35, 0.3}, {0.5, -0.3, 0.25}}, {{0, 1, 2, 3}}),
+            rounded);
         const Camera camera = perspective_camera(turned * glm::dvec3(3, 0.6, 0.8), {0, 0, 0});
         for (const int samples : {0, 4}) {
             const auto draw = [&](std::vector<PolygonSoup> objects) {
@@ -440,7 +491,8 @@ TEST(CoincidentFaces, DoNotFightWhenRounded) {
             };
             const Drawing d = draw({box, label});
             EXPECT_EQ(d.sum(LineClass::intersection), 0) << "seed " << seed << ", samples " << samples;
-            const double outline = draw({label}).sum(LineClass::border), drawn = d.sum(LineClass::object) + d.sum(LineClass::border);
+            const double outline = draw({label}).sum(LineClass::border),
+                         drawn = d.sum(LineClass::object) + d.sum(LineClass::border);
             EXPECT_NEAR(drawn, drawn > 0 ? outline : 0, 0.02 * outline) << "seed " << seed << ", samples " << samples;
             hidden += drawn > 0 ? 0 : 1;
         }

@@ -23,7 +23,8 @@ struct Square {
     int side;
     std::vector<bool> set;
     bool at(int row, int column) const {
-        return row >= 0 && column >= 0 && row < side && column < side && set[static_cast<std::size_t>(row * side + column)];
+        return row >= 0 && column >= 0 && row < side && column < side &&
+               set[static_cast<std::size_t>(row * side + column)];
     }
 };
 
@@ -92,10 +93,12 @@ TYPED_TEST(MaskOfAnySize, HaloAndEdgeFollowTheirDefinitionForAllSteps) {
         const auto front = random_mask<TypeParam>(random), back = random_mask<TypeParam>(random);
         for (int steps = 1; steps <= mask_side<TypeParam> / 2; ++steps) {
             ASSERT_EQ(square_of(halo(front, steps)).set, halo_by_definition(square_of(front), steps).set)
-                << "trial " << trial << ", steps " << steps << "\n" << mask_picture(front);
+                << "trial " << trial << ", steps " << steps << "\n"
+                << mask_picture(front);
             ASSERT_EQ(square_of(edge_between(front, back, steps)).set,
                       edge_by_definition(square_of(front), square_of(back), steps).set)
-                << "trial " << trial << ", steps " << steps << "\n" << mask_picture(front) << mask_picture(back);
+                << "trial " << trial << ", steps " << steps << "\n"
+                << mask_picture(front) << mask_picture(back);
         }
     }
 }
@@ -219,10 +222,9 @@ void check_seams(int apron) {
         const Mask inner = inner_samples<Mask>(apron);
         for (int y = 0; y + own <= kSize; y += own) {
             for (int x = 0; x + own <= kSize; x += own) {
-                const Mask e = edge_between(window(front, y - apron, x - apron),
-                                            window(back, y - apron, x - apron), apron);
-                ASSERT_EQ(static_cast<Mask>(e & inner),
-                          static_cast<Mask>(window(edge, y - apron, x - apron) & inner))
+                const Mask e =
+                    edge_between(window(front, y - apron, x - apron), window(back, y - apron, x - apron), apron);
+                ASSERT_EQ(static_cast<Mask>(e & inner), static_cast<Mask>(window(edge, y - apron, x - apron) & inner))
                     << "apron " << apron << ", trial " << trial << ", pixel " << x / own << "," << y / own;
             }
         }
@@ -252,8 +254,8 @@ TEST(Mask16, StrokeWidthFollowsTheLargerDirectionCosine) {
         for (int y = 100; y < 300; ++y) {
             for (int x = 100; x < 300; ++x) {
                 const bool here = inside(x, y);
-                drawn += here != inside(x + 1, y) || here != inside(x - 1, y) ||
-                         here != inside(x, y + 1) || here != inside(x, y - 1);
+                drawn += here != inside(x + 1, y) || here != inside(x - 1, y) || here != inside(x, y + 1) ||
+                         here != inside(x, y - 1);
             }
         }
         // Length of the border inside of the 200 x 200 square around the centre.
@@ -261,7 +263,8 @@ TEST(Mask16, StrokeWidthFollowsTheLargerDirectionCosine) {
         ++lines;
         return drawn / length;
     };
-    const std::pair<double, double> known[] = {{0, 2.0}, {10, 1.970}, {22.5, 1.848}, {30, 1.732}, {45, 1.410}, {60, 1.732}};
+    const std::pair<double, double> known[] = {{0, 2.0},    {10, 1.970}, {22.5, 1.848},
+                                               {30, 1.732}, {45, 1.410}, {60, 1.732}};
     for (const auto& [angle, width] : known) EXPECT_NEAR(width_at(angle), width, 0.02) << angle;
 }
 

@@ -40,7 +40,8 @@ PolygonSoup shaken(const PolygonSoup& soup, double by, std::uint64_t seed) {
 double near(const Drawing& d, int x, int y, int reach) {
     double most = 0;
     for (int v = std::max(y - reach, 0); v <= std::min(y + reach, d.height() - 1); ++v) {
-        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, d.width() - 1); ++u) most = std::max(most, d.line(u, v));
+        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, d.width() - 1); ++u)
+            most = std::max(most, d.line(u, v));
     }
     return most;
 }
@@ -57,7 +58,9 @@ struct Shape {
 };
 
 std::vector<Shape> shapes() {
-    const auto hills = [](glm::dvec3 p) { return glm::dvec3(p.x, 0.25 * std::sin(3 * p.x) * std::cos(2.5 * p.z), p.z); };
+    const auto hills = [](glm::dvec3 p) {
+        return glm::dvec3(p.x, 0.25 * std::sin(3 * p.x) * std::cos(2.5 * p.z), p.z);
+    };
     return {{"torus", make_torus(1, 0.4, 48, 24)},
             {"sphere", make_sphere(1.2, 40, 20)},
             {"hills", transformed(make_plane(2.4, 2.4, 16, 16), hills)},
@@ -71,7 +74,9 @@ TEST(Cracks, HaveNoLines) {
         for (std::uint64_t seed = 0; seed < 3; ++seed) {
             Random random(seed);
             const double distance = random.real(4, 5);
-            const Camera camera = perspective_camera(distance * glm::normalize(glm::dvec3(random.real(-1, 1), random.real(0.2, 1), random.real(0.5, 1))), {0, 0, 0});
+            const Camera camera = perspective_camera(
+                distance * glm::normalize(glm::dvec3(random.real(-1, 1), random.real(0.2, 1), random.real(0.5, 1))),
+                {0, 0, 0});
             const double pixel = 2 * distance * std::tan(glm::radians(35.0) / 2) / kSize;
             for (RenderFunction render : {RenderFunction{render_abuffer}, RenderFunction{render_patel}}) {
                 const Drawing whole = draw(scene_of({shape.soup}), camera, render);
@@ -84,7 +89,8 @@ TEST(Cracks, HaveNoLines) {
                             if (whole.line(x, y) > 0.5 && near(drawn, x, y, 1) < 0.1) ++count_missed;
                         }
                     }
-                    const std::string what = std::string(shape.name) + ", seed " + std::to_string(seed) + ", " + std::to_string(by_px);
+                    const std::string what =
+                        std::string(shape.name) + ", seed " + std::to_string(seed) + ", " + std::to_string(by_px);
                     EXPECT_LE(count_false, 0.0003 * kSize * kSize) << what;
                     EXPECT_EQ(count_missed, 0) << what;
                 }
@@ -94,8 +100,9 @@ TEST(Cracks, HaveNoLines) {
 }
 
 TEST(Cracks, WiderThanAPixelHaveTheirBorders) {
-    const PolygonSoup halves = soup_of({{-1, -1, 0}, {-0.01, -1, 0}, {-0.01, 1, 0}, {-1, 1, 0}, {0.01, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.01, 1, 0}},
-                                       {{0, 1, 2, 3}, {4, 5, 6, 7}});
+    const PolygonSoup halves = soup_of(
+        {{-1, -1, 0}, {-0.01, -1, 0}, {-0.01, 1, 0}, {-1, 1, 0}, {0.01, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.01, 1, 0}},
+        {{0, 1, 2, 3}, {4, 5, 6, 7}});
     const auto ink_in_the_middle = [&](double distance) {
         const Drawing drawn = draw(scene_of({halves}), perspective_camera({0, 0, distance}, {0, 0, 0}), render_abuffer);
         double sum = 0;
@@ -109,8 +116,9 @@ TEST(Cracks, WiderThanAPixelHaveTheirBorders) {
 
 // One mesh, which one object shows from near by and another one from afar.
 TEST(Cracks, AreWiderThanAPixelIfTheyAreInOneObject) {
-    const PolygonSoup halves = soup_of({{-1, -1, 0}, {-0.01, -1, 0}, {-0.01, 1, 0}, {-1, 1, 0}, {0.01, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.01, 1, 0}},
-                                       {{0, 1, 2, 3}, {4, 5, 6, 7}});
+    const PolygonSoup halves = soup_of(
+        {{-1, -1, 0}, {-0.01, -1, 0}, {-0.01, 1, 0}, {-1, 1, 0}, {0.01, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.01, 1, 0}},
+        {{0, 1, 2, 3}, {4, 5, 6, 7}});
     const auto borders = [&](double scale, double depth, bool along_view = false) {
         Scene scene = scene_of({halves});
         scene.objects.push_back(scene.objects.front());
@@ -125,7 +133,7 @@ TEST(Cracks, AreWiderThanAPixelIfTheyAreInOneObject) {
     EXPECT_EQ(borders(1, 4), 8u);
     EXPECT_EQ(borders(1, -20), 6u);
     EXPECT_EQ(borders(1, 6, true), 8u);  // it passes the eye
-    EXPECT_EQ(borders(1, 20), 6u);  // it is behind the eye, and not seen
+    EXPECT_EQ(borders(1, 20), 6u);       // it is behind the eye, and not seen
 }
 
 /// What is behind the eye is not seen, and says nothing about the others.

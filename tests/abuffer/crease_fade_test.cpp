@@ -40,7 +40,7 @@ Ink ink_of(double angle_deg, bool is_stitched, std::array<double, 2> interval_de
     scene.lines.crease_fade_deg = interval_deg[1] - interval_deg[0];
     scene.lines.style.width_px = 2;
     scene.abuffer.samples = 4;  // where surfaces touch, ends are as exact as samples
-    if (from_behind) {  // a wall between the hinge and the eye
+    if (from_behind) {          // a wall between the hinge and the eye
         PolygonSoup wall = soup_of({{-2, -2, 1}, {2, -2, 1}, {2, 2, 1}, {-2, 2, 1}}, {{0, 1, 2, 3}});
         Scene walled = scene_of({hinge(angle_deg, is_stitched), wall});
         walled.lines = scene.lines;
@@ -61,7 +61,8 @@ void expect_linear(bool is_stitched, bool from_behind) {
     };
     const double full = measure(46);
     EXPECT_GT(full, 60);
-    const double limit = from_behind ? ink_of(46, is_stitched, {40, 40}, true).hidden : ink_of(46, is_stitched, {40, 40}).crease;
+    const double limit =
+        from_behind ? ink_of(46, is_stitched, {40, 40}, true).hidden : ink_of(46, is_stitched, {40, 40}).crease;
     EXPECT_EQ(full, limit) << "a full stroke is a plain one";
     double last = 0;
     for (double angle_deg = 34; angle_deg < 46.5; angle_deg += 0.25) {

@@ -20,8 +20,7 @@ constexpr int kSize = 200;
 constexpr glm::dvec3 kFar(500000.25, 12.5, 4600000.75);
 
 PolygonSoup at(PolygonSoup soup, const glm::dvec3& place) {
-    return transformed(std::move(soup),
-                       [&](glm::dvec3 p) { return glm::round(p * 1024.0) / 1024.0 + place; });
+    return transformed(std::move(soup), [&](glm::dvec3 p) { return glm::round(p * 1024.0) / 1024.0 + place; });
 }
 
 /// Several soups as one object.
@@ -56,8 +55,7 @@ std::vector<PolygonSoup> parts_at(const glm::dvec3& place) {
 }
 
 Camera camera_at(const glm::dvec3& place) {
-    return perspective_camera(place + glm::dvec3(1.5, 1.25, 2.0),
-                              place + glm::dvec3(0.125, 0.0625, 0), 28);
+    return perspective_camera(place + glm::dvec3(1.5, 1.25, 2.0), place + glm::dvec3(0.125, 0.0625, 0), 28);
 }
 
 Drawing drawing_of(Scene scene, const Camera& camera, HiddenStyle hidden = HiddenStyle::solid) {
@@ -89,8 +87,7 @@ void expect_alike(
 }
 
 Drawing parts_alone() {
-    return drawing_of(scene_of({side_by_side(parts_at(glm::dvec3(0.0)))}),
-                      camera_at(glm::dvec3(0.0)));
+    return drawing_of(scene_of({side_by_side(parts_at(glm::dvec3(0.0)))}), camera_at(glm::dvec3(0.0)));
 }
 
 TEST(FarModels, AreWhatTheyAreBesideAMarkerAtTheOrigin) {
@@ -99,16 +96,14 @@ TEST(FarModels, AreWhatTheyAreBesideAMarkerAtTheOrigin) {
     for (const PolygonSoup& marker : {make_box({1, 1, 1}), make_sphere(0.5, 64, 32)}) {
         std::vector<PolygonSoup> all = parts;
         all.insert(all.begin(), marker);
-        expect_alike(expected, drawing_of(scene_of({side_by_side(all)}), camera_at(kFar)),
-                     "in one file");
+        expect_alike(expected, drawing_of(scene_of({side_by_side(all)}), camera_at(kFar)), "in one file");
         all.assign({marker, side_by_side(parts)});
         expect_alike(expected, drawing_of(scene_of(all), camera_at(kFar)), "in two files");
     }
 }
 
 TEST(FarModels, AreWhatTheyAreInOneObjectWithOthersFarAway) {
-    const Drawing expected =
-        drawing_of(scene_of({together(parts_at(glm::dvec3(0.0)))}), camera_at(glm::dvec3(0.0)));
+    const Drawing expected = drawing_of(scene_of({together(parts_at(glm::dvec3(0.0)))}), camera_at(glm::dvec3(0.0)));
     std::vector<PolygonSoup> both = parts_at(kFar);
     for (const PolygonSoup& part : parts_at(-kFar)) both.push_back(part);
     const Scene scene = scene_of({together(both)});
@@ -117,8 +112,7 @@ TEST(FarModels, AreWhatTheyAreInOneObjectWithOthersFarAway) {
     // Whichever has more corners.
     std::vector<PolygonSoup> all = parts_at(kFar);
     all.push_back(make_sphere(0.5, 64, 32));
-    expect_alike(expected, drawing_of(scene_of({together(all)}), camera_at(kFar)),
-                 "beside a marker");
+    expect_alike(expected, drawing_of(scene_of({together(all)}), camera_at(kFar)), "beside a marker");
 }
 
 TEST(FarModels, OfAMeshAreWhereTheirTransformsPutThem) {
@@ -139,9 +133,8 @@ TEST(FarModels, OfAMeshAreWhereTheirTransformsPutThem) {
 
 /// The ground as a scene has it: a plane of this size, at `height`, not centred.
 PolygonSoup ground(double size, double height) {
-    return transformed(make_plane(size, size, 1, 1), [&](glm::dvec3 p) {
-        return p + glm::dvec3(0.1 * size, height, 0.05 * size);
-    });
+    return transformed(make_plane(size, size, 1, 1),
+                       [&](glm::dvec3 p) { return p + glm::dvec3(0.1 * size, height, 0.05 * size); });
 }
 
 TEST(FarModels, StandOnAGroundOfAnySize) {
@@ -150,50 +143,42 @@ TEST(FarModels, StandOnAGroundOfAnySize) {
         std::vector<PolygonSoup> all = parts_at(glm::dvec3(0.0));
         all.push_back(ground(size, foot));
         if (is_one_object) return drawing_of(scene_of({together(all)}), camera_at(glm::dvec3(0.0)));
-        return drawing_of(scene_of(is_one_file ? std::vector{side_by_side(all)} : all),
-                          camera_at(glm::dvec3(0.0)));
+        return drawing_of(scene_of(is_one_file ? std::vector{side_by_side(all)} : all), camera_at(glm::dvec3(0.0)));
     };
     for (const bool is_one_object : {false, true}) {
         const Drawing expected = draw(64, true, is_one_object);
         const auto below_horizon = [](int, int y) { return y > 30; };
         for (const double size : {1e4, 1e6, 1e7}) {
-            expect_alike(expected, draw(size, true, is_one_object),
-                         "ground of " + std::to_string(size), below_horizon);
+            expect_alike(expected, draw(size, true, is_one_object), "ground of " + std::to_string(size), below_horizon);
             if (!is_one_object)
                 expect_alike(expected, draw(size, false, false),
-                             "in a file of its own, ground of " + std::to_string(size),
-                             below_horizon);
+                             "in a file of its own, ground of " + std::to_string(size), below_horizon);
         }
     }
 }
 
 TEST(FarModels, StandOnAGroundThatIsTilted) {
-    const glm::dmat3 turn{glm::dvec3(0.6, 0.64, -0.48), glm::dvec3(-0.8, 0.48, -0.36),
-                          glm::dvec3(0, 0.6, 0.8)};
+    const glm::dmat3 turn{glm::dvec3(0.6, 0.64, -0.48), glm::dvec3(-0.8, 0.48, -0.36), glm::dvec3(0, 0.6, 0.8)};
     const double foot = -0.205078125;
     const auto scene = [&](double size, bool is_turned) {
         std::vector<PolygonSoup> all = parts_at(glm::dvec3(0.0));
         all.push_back(ground(size, foot));
         PolygonSoup soup = side_by_side(all);
-        return scene_of(
-            {is_turned ? transformed(soup, [&](glm::dvec3 p) { return turn * p; }) : soup});
+        return scene_of({is_turned ? transformed(soup, [&](glm::dvec3 p) { return turn * p; }) : soup});
     };
     Camera camera = camera_at(glm::dvec3(0.0));
     const Drawing expected = drawing_of(scene(64, false), camera);
     camera.to_world = glm::dmat4(turn) * camera.to_world;
-    expect_alike(expected, drawing_of(scene(1e7, true), camera), "turned",
-                 [](int, int y) { return y > 30; });
+    expect_alike(expected, drawing_of(scene(1e7, true), camera), "turned", [](int, int y) { return y > 30; });
 }
 
 TEST(FarModels, InOrthographicViewsDoNotFlattenWhatIsInFrontOfThem) {
     Camera camera = camera_at(glm::dvec3(0.0));
     camera.orthographic = true;
     camera.height = 1.5;
-    const Drawing expected =
-        drawing_of(scene_of({side_by_side(parts_at(glm::dvec3(0.0)))}), camera);
+    const Drawing expected = drawing_of(scene_of({side_by_side(parts_at(glm::dvec3(0.0)))}), camera);
     // Farther behind, beside the picture.
-    const glm::dvec3 behind =
-        -4e6 * glm::dvec3(camera.to_world[2]) + 3e5 * glm::dvec3(camera.to_world[0]);
+    const glm::dvec3 behind = -4e6 * glm::dvec3(camera.to_world[2]) + 3e5 * glm::dvec3(camera.to_world[0]);
     std::vector<PolygonSoup> all = parts_at(glm::dvec3(0.0));
     all.push_back(at(make_box({1, 1, 1}), behind));
     expect_alike(expected, drawing_of(scene_of({side_by_side(all)}), camera), "orthographic");
@@ -206,8 +191,7 @@ TEST(FarModels, TheEyeMayBeCloseToAHugeSurface) {
     const Drawing drawing = drawing_of(scene, camera);
     for (int x = 0; x < kSize; ++x) {
         EXPECT_EQ(drawing.at("id.object", x, kSize - 1), 1);
-        EXPECT_NEAR(drawing.at("Z", x, kSize - 1), 0.001 / (0.1 + std::tan(20 * 3.14159 / 180)),
-                    0.0003);
+        EXPECT_NEAR(drawing.at("Z", x, kSize - 1), 0.001 / (0.1 + std::tan(20 * 3.14159 / 180)), 0.0003);
     }
 }
 

@@ -93,7 +93,8 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
                 const glm::dvec2 corner(grid.begin(c.part.block_x), grid.begin(c.part.block_y));
                 const double size = 256.0 * kMergeBlockPx;
                 c.line.from = corner + (size - 1) * glm::dvec2(random.real(0, 1), random.real(0, 1));
-                c.line.to = glm::clamp(c.line.from + 300.0 * glm::dvec2(random.real(-1, 1), random.real(-1, 1)), corner, corner + size - 1.0);  // blocks are half open
+                c.line.to = glm::clamp(c.line.from + 300.0 * glm::dvec2(random.real(-1, 1), random.real(-1, 1)), corner,
+                                       corner + size - 1.0);  // blocks are half open
                 c.line.nearness_from = random.real(-0.1, 0.3);
                 c.line.nearness_to = c.line.nearness_from + random.real(-0.01, 0.01);
                 c.part.begin = 0;
@@ -112,14 +113,18 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
                     Box box;
                     box.reach(line.from);
                     box.reach(line.to);
-                    if (!box.touches(cover.box) || !touches(cover.polygon, box.low, box.high) || cover.nearest <= std::min(line.nearness_from, line.nearness_to)) continue;
+                    if (!box.touches(cover.box) || !touches(cover.polygon, box.low, box.high) ||
+                        cover.nearest <= std::min(line.nearness_from, line.nearness_to))
+                        continue;
                     ASSERT_LT(block_of[i], blocks.count());
                     const std::vector<CrossedTriangle>& listed = blocks.triangles(block_of[i]);
-                    const auto count = std::count_if(listed.begin(), listed.end(), [n](const CrossedTriangle& t) { return t.number == n; });
+                    const auto count = std::count_if(listed.begin(), listed.end(),
+                                                     [n](const CrossedTriangle& t) { return t.number == n; });
                     ASSERT_EQ(count, 1) << "seed " << seed << " tile " << tile << " triangle " << n;
                     ++hiding;
                     const double pitch = 256.0 / per_pixel;
-                    const glm::dvec2 low = glm::ceil(cover.box.low / pitch - 0.5), high = glm::floor(cover.box.high / pitch - 0.5);
+                    const glm::dvec2 low = glm::ceil(cover.box.low / pitch - 0.5),
+                                     high = glm::floor(cover.box.high / pitch - 0.5);
                     thin_ones += low.x > high.x || low.y > high.y ? 1 : 0;
                 }
             }

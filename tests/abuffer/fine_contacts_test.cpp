@@ -12,9 +12,9 @@ using namespace test;
 TEST(FineContacts, BothSidesOfANarrowGapAreDrawn) {
     for (const double angle : kAngles_deg) {
         const auto half = [&](double side) {
-            return placed(transformed(make_box({28, 12, 5}),
-                                      [=](glm::dvec3 p) { return p + glm::dvec3(0, side * 6.075, 0); }),
-                          angle);
+            return placed(
+                transformed(make_box({28, 12, 5}), [=](glm::dvec3 p) { return p + glm::dvec3(0, side * 6.075, 0); }),
+                angle);
         };
         const Scene scene = scene_of({half(1), half(-1), wall()});
         const Camera camera = pixel_camera(kSize, kSize);
@@ -34,8 +34,9 @@ TEST(FineContacts, BothSidesOfNarrowGapsBetweenPlanksAreDrawn) {
         while (y < 12) {
             const double height = seed % 4 == 0 ? random.integer(1, 4) : random.real(1, 6);
             const auto rise = [=](glm::dvec3 p) { return p + glm::dvec3(0, y + 0.5 * height, 0); };
-            const PolygonSoup sheet = soup_of({{-11, -0.5 * height, 0}, {11, -0.5 * height, 0}, {11, 0.5 * height, 0}, {-11, 0.5 * height, 0}},
-                                              {{0, 1, 2, 3}});
+            const PolygonSoup sheet = soup_of(
+                {{-11, -0.5 * height, 0}, {11, -0.5 * height, 0}, {11, 0.5 * height, 0}, {-11, 0.5 * height, 0}},
+                {{0, 1, 2, 3}});
             planks.push_back(placed(transformed(is_solid ? make_box({22, height, 4}) : sheet, rise), angle));
             y += height + (seed % 4 == 0 ? 0.125 * random.integer(1, 3) : random.real(0.05, 0.45));
         }
@@ -54,7 +55,9 @@ TEST(FineContacts, ABorderThatIsASeamInPartIsNoneThere) {
         for (int i = 0; i < kPatches; ++i) {
             const double from = -5 + 10 * share * i / kPatches, to = -5 + 10 * share * (i + 1) / kPatches;
             const auto first = static_cast<std::uint32_t>(floor.positions.size());
-            for (const auto& [x, z] : {std::pair(from, -3 + 0.2 * (i % 2)), {to, -3 + 0.2 * (i % 2)}, {to, 0.0}, {from, 0.0}}) floor.positions.emplace_back(x, 0, z);
+            for (const auto& [x, z] :
+                 {std::pair(from, -3 + 0.2 * (i % 2)), {to, -3 + 0.2 * (i % 2)}, {to, 0.0}, {from, 0.0}})
+                floor.positions.emplace_back(x, 0, z);
             floor.add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
         }
         for (const double height : {4.0, 10.0}) {
@@ -72,7 +75,14 @@ TEST(FineContacts, ACrackBesideAPartOfABorderIsNoLine) {
         for (const double share : {0.3, 0.45, 0.7}) {
             for (const double y : {0.0, 0.13, 0.25}) {
                 const double end = -12 + 24 * share;
-                const PolygonSoup patches = soup_of({{-12, y, 0}, {12, y, 0}, {12, 9, 0}, {-12, 9, 0}, {-12, -9, 0}, {end, -9, 0}, {end, y - crack, 0}, {-12, y - crack, 0}},
+                const PolygonSoup patches = soup_of({{-12, y, 0},
+                                                     {12, y, 0},
+                                                     {12, 9, 0},
+                                                     {-12, 9, 0},
+                                                     {-12, -9, 0},
+                                                     {end, -9, 0},
+                                                     {end, y - crack, 0},
+                                                     {-12, y - crack, 0}},
                                                     {{0, 1, 2, 3}, {4, 5, 6, 7}});
                 const Scene scene = scene_of({placed(patches, 0), wall()});
                 const Camera camera = pixel_camera(kSize, kSize);
@@ -91,14 +101,16 @@ TEST(FineContacts, PlatesInContactHaveNoBorders) {
             for (const bool is_level : {false, true}) {
                 const auto plate = [&](double from, double to) {
                     PolygonSoup soup = soup_of({{from, 5, 0}, {to, 5, 0}, {to, 91, 0}, {from, 91, 0}}, {{0, 1, 2, 3}});
-                    return is_level ? transformed(soup, [](glm::dvec3 p) { return glm::dvec3(p.y, kWide - p.x, p.z); }) : soup;
+                    return is_level ? transformed(soup, [](glm::dvec3 p) { return glm::dvec3(p.y, kWide - p.x, p.z); })
+                                    : soup;
                 };
                 Scene scene = scene_of({plate(5.3, end - gap), plate(end, 90.3)});
                 scene.lines.classes = LineClass::border;
                 const Drawing drawn = draw(scene, pixel_camera(kWide, kWide), kWide);
                 double ink = 0;
                 for (int along = 8; along < 88; ++along) {
-                    for (int across = 8; across < 88; ++across) ink += is_level ? drawn.line(along, across) : drawn.line(across, along);
+                    for (int across = 8; across < 88; ++across)
+                        ink += is_level ? drawn.line(along, across) : drawn.line(across, along);
                 }
                 EXPECT_EQ(ink, 0) << end << ", gap " << gap << (is_level ? ", level" : "");
             }
@@ -106,7 +118,8 @@ TEST(FineContacts, PlatesInContactHaveNoBorders) {
     }
 }
 
-/// Bars between two rows of samples, one after the other, whose ends are in contact: wherever tiles end, as they do elsewhere in a crop.
+/// Bars between two rows of samples, one after the other, whose ends are in contact: wherever tiles end, as they do
+/// elsewhere in a crop.
 TEST(FineContacts, ContactsDoNotHangOnTiles) {
     constexpr int kWide = 96;
     const PixelRect crop{40, 0, 80, kWide};
@@ -116,10 +129,12 @@ TEST(FineContacts, ContactsDoNotHangOnTiles) {
             for (int before = 1; before < 3; ++before) {
                 for (PolygonSoup& soup : bars) {
                     const bool is_left = &soup == bars;
-                    const double edge = end + (is_left ? -before : gap - before) / 256.0, other = edge + (is_left ? -3 : 3);
+                    const double edge = end + (is_left ? -before : gap - before) / 256.0,
+                                 other = edge + (is_left ? -3 : 3);
                     const double y = 3 * before + std::floor(end / 2) + 0.3;
                     const auto first = static_cast<std::uint32_t>(soup.positions.size());
-                    for (const auto& [px, py] : {std::pair(edge, y), {other, y}, {other, y + 0.4}, {edge, y + 0.4}}) soup.positions.emplace_back(px, py, 0);
+                    for (const auto& [px, py] : {std::pair(edge, y), {other, y}, {other, y + 0.4}, {edge, y + 0.4}})
+                        soup.positions.emplace_back(px, py, 0);
                     soup.add_polygon(std::vector<std::uint32_t>{first, first + 1, first + 2, first + 3});
                 }
             }
@@ -131,7 +146,8 @@ TEST(FineContacts, ContactsDoNotHangOnTiles) {
         const Camera camera = pixel_camera(kWide, kWide);
         const Drawing whole = draw(scene, camera, kWide), part(scene, camera, kWide, kWide, crop, 2, render_abuffer);
         for (int y = crop.y0; y < crop.y1; ++y) {
-            for (int x = crop.x0; x < crop.x1; ++x) ASSERT_EQ(part.line(x - crop.x0, y - crop.y0), whole.line(x, y)) << x << ", " << y << ", gap " << gap;
+            for (int x = crop.x0; x < crop.x1; ++x)
+                ASSERT_EQ(part.line(x - crop.x0, y - crop.y0), whole.line(x, y)) << x << ", " << y << ", gap " << gap;
         }
     }
 }

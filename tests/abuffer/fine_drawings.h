@@ -28,8 +28,7 @@ inline Drawing truth(Scene scene, const Camera& camera, int size, int samples = 
 inline double largest_error(const Drawing& a, const Drawing& b) {
     double largest = 0;
     for (int y = 0; y < a.height(); ++y) {
-        for (int x = 0; x < a.width(); ++x)
-            largest = std::max(largest, std::abs(a.line(x, y) - b.line(x, y)));
+        for (int x = 0; x < a.width(); ++x) largest = std::max(largest, std::abs(a.line(x, y) - b.line(x, y)));
     }
     return largest;
 }
@@ -56,14 +55,12 @@ inline constexpr int kSize = 44;
 inline PolygonSoup placed(PolygonSoup soup, double angle_deg, double depth = 0) {
     const double a = glm::radians(angle_deg);
     return transformed(std::move(soup), [=](glm::dvec3 p) {
-        return glm::dvec3(22.13 + std::cos(a) * p.x - std::sin(a) * p.y,
-                          21.86 + std::sin(a) * p.x + std::cos(a) * p.y, p.z + depth);
+        return glm::dvec3(22.13 + std::cos(a) * p.x - std::sin(a) * p.y, 21.86 + std::sin(a) * p.x + std::cos(a) * p.y,
+                          p.z + depth);
     });
 }
 
-inline PolygonSoup wall() {
-    return placed(make_box({100, 100, 1}), 0, -30);
-}
+inline PolygonSoup wall() { return placed(make_box({100, 100, 1}), 0, -30); }
 
 /// A prism along x whose cross section is a closed polygon (y, z), counterclockwise from +x.
 inline PolygonSoup prism(const std::vector<glm::dvec2>& section, double half_length) {

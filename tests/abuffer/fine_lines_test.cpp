@@ -15,8 +15,7 @@ TEST(FineLines, ARodThinnerThanASampleHasNoDropouts) {
             const Scene scene = scene_of({placed(make_box({30, width, width}), angle), wall()});
             const Camera camera = pixel_camera(kSize, kSize);
             const Drawing drawn = draw(scene, camera, kSize);
-            EXPECT_LT(largest_error(drawn, truth(scene, camera, kSize)), 0.15)
-                << angle << " deg, " << width << " px";
+            EXPECT_LT(largest_error(drawn, truth(scene, camera, kSize)), 0.15) << angle << " deg, " << width << " px";
             const double a = glm::radians(angle);
             const glm::dvec2 middle(22.13, kSize - 21.86), along(std::cos(a), -std::sin(a));
             EXPECT_EQ(drawn.drawn_share(middle - 14.0 * along, middle + 14.0 * along, 0), 1.0) << angle;
@@ -47,8 +46,8 @@ TEST(FineLines, ARoundWireThinnerThanASampleHasNoDropouts) {
 TEST(FineLines, BothEdgesOfANarrowChamferAreDrawn) {
     for (const double angle : kAngles_deg) {
         const double c = 0.1;
-        const Scene scene = scene_of(
-            {placed(prism({{-10, -6}, {10, -6}, {10, -5.5}, {0, 5}, {-c, 5}, {-c - 10, -5.5}}, 14), angle)});
+        const Scene scene =
+            scene_of({placed(prism({{-10, -6}, {10, -6}, {10, -5.5}, {0, 5}, {-c, 5}, {-c - 10, -5.5}}, 14), angle)});
         const Camera camera = pixel_camera(kSize, kSize);
         const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize);
         EXPECT_LT(largest_error(drawn, expected), 0.15) << angle;
@@ -62,14 +61,16 @@ TEST(FineLines, BothEdgesOfANarrowRimAreDrawn) {
         for (const double angle : {11.0, 40.0, 75.0}) {
             const double tilt = std::asin(rim_px / 3);
             const PolygonSoup box = transformed(make_box({26, 24, 3}), [=](glm::dvec3 p) {
-                return glm::dvec3(std::cos(tilt) * p.x + std::sin(tilt) * p.z, p.y, std::cos(tilt) * p.z - std::sin(tilt) * p.x);
+                return glm::dvec3(std::cos(tilt) * p.x + std::sin(tilt) * p.z, p.y,
+                                  std::cos(tilt) * p.z - std::sin(tilt) * p.x);
             });
             Scene scene = scene_of({placed(box, angle)});
             scene.lines.style.width_px = 0.3;
             const Camera camera = pixel_camera(kSize, kSize);
             const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize, 32);
             EXPECT_LT(largest_error(drawn, expected), 0.1) << rim_px << " px, " << angle << " deg";
-            EXPECT_NEAR(drawn.sum("lines.A") / expected.sum("lines.A"), 1, 0.01) << rim_px << " px, " << angle << " deg";
+            EXPECT_NEAR(drawn.sum("lines.A") / expected.sum("lines.A"), 1, 0.01)
+                << rim_px << " px, " << angle << " deg";
         }
     }
 }
@@ -77,13 +78,21 @@ TEST(FineLines, BothEdgesOfANarrowRimAreDrawn) {
 // Surfaces have two sides: it does not matter which way the faces beside an edge are wound.
 TEST(FineLines, BothEdgesOfANarrowChamferAreDrawnHoweverItIsWound) {
     const auto chamfer = [](bool is_turned) {
-        const std::vector<std::uint32_t> wide = is_turned ? std::vector<std::uint32_t>{2, 1, 0} : std::vector<std::uint32_t>{0, 1, 2};
-        return soup_of({{-0.1016, -1.2852, -0.3555}, {0.6328, -1.2852, 1.2695}, {-0.1016, -1.2852, 1.2695}, {-0.1172, -1.2695, -0.3555}}, {wide, {3, 0, 2}});
+        const std::vector<std::uint32_t> wide =
+            is_turned ? std::vector<std::uint32_t>{2, 1, 0} : std::vector<std::uint32_t>{0, 1, 2};
+        return soup_of({{-0.1016, -1.2852, -0.3555},
+                        {0.6328, -1.2852, 1.2695},
+                        {-0.1016, -1.2852, 1.2695},
+                        {-0.1172, -1.2695, -0.3555}},
+                       {wide, {3, 0, 2}});
     };
     for (int k = 0; k < 8; ++k) {
         // Seen nearly from beside: the chamfer is half a pixel high.
-        const Camera camera = perspective_camera({-3.5156, -1.3125 - 0.004 * k, -6.2969}, {0.2344, -0.3594, 0.3281}, 22.1875);
-        const auto drawn = [&](bool is_turned) { return Drawing(scene_of({chamfer(is_turned)}), camera, 320, 240, {0, 0, 320, 240}, 2, render_abuffer); };
+        const Camera camera =
+            perspective_camera({-3.5156, -1.3125 - 0.004 * k, -6.2969}, {0.2344, -0.3594, 0.3281}, 22.1875);
+        const auto drawn = [&](bool is_turned) {
+            return Drawing(scene_of({chamfer(is_turned)}), camera, 320, 240, {0, 0, 320, 240}, 2, render_abuffer);
+        };
         EXPECT_LT(largest_error(drawn(false), drawn(true)), 0.01) << k;
     }
 }
@@ -94,8 +103,8 @@ TEST(FineLines, AStepLowerThanASampleIsDrawn) {
         const auto moved = [](glm::dvec3 size, glm::dvec3 by) {
             return transformed(make_box(size), [=](glm::dvec3 p) { return p + by; });
         };
-        const Scene scene = scene_of(
-            {placed(make_box({28, 16, 5}), angle), placed(moved({14, 16, 5}, {0, 0.15, -5}), angle), wall()});
+        const Scene scene =
+            scene_of({placed(make_box({28, 16, 5}), angle), placed(moved({14, 16, 5}, {0, 0.15, -5}), angle), wall()});
         const Camera camera = pixel_camera(kSize, kSize);
         EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.15) << angle;
     }
@@ -129,8 +138,9 @@ TEST(FineLines, BothLinesOfASlenderCornerAreDrawn) {
 TEST(FineLines, SheetsThatPassThroughEachOtherEndWhereTheyMeet) {
     for (int i = 0; i < 12; ++i) {
         const auto sheet = [&](double turn_deg, double tilt) {
-            return placed(transformed(make_plane(26, 26, 1, 1), [=](glm::dvec3 p) { return glm::dvec3(p.x, p.z, tilt * p.x); }),
-                          turn_deg + 29.3 * i);
+            return placed(
+                transformed(make_plane(26, 26, 1, 1), [=](glm::dvec3 p) { return glm::dvec3(p.x, p.z, tilt * p.x); }),
+                turn_deg + 29.3 * i);
         };
         const Scene scene = scene_of({sheet(0, 0.7), sheet(74, 0.9)});
         const Camera camera = pixel_camera(kSize, kSize);
@@ -155,9 +165,8 @@ Scene rough_scene(std::uint64_t seed, int segments) {
     for (int i = 0; i < 6; ++i) {
         const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), random.real(0, 3), random.direction());
         const glm::dvec3 at = random.in_box(0.8);
-        objects.push_back(transformed(make_box({1.4, 0.008, 0.008}), [=](glm::dvec3 p) {
-            return glm::dvec3(turn * glm::dvec4(p, 1.0)) + at;
-        }));
+        objects.push_back(transformed(make_box({1.4, 0.008, 0.008}),
+                                      [=](glm::dvec3 p) { return glm::dvec3(turn * glm::dvec4(p, 1.0)) + at; }));
     }
     return scene_of(std::move(objects));
 }
@@ -203,7 +212,8 @@ TEST(FineLines, OfFlushFacesTheFirstIsSeen) {
     }
     // At exactly one depth all over.
     const auto in_the_middle = [](glm::dvec3 size) {
-        return transformed(make_box(size), [](glm::dvec3 p) { return p + glm::dvec3(kSize / 2.0 + 0.13, kSize / 2.0 + 0.27, 30); });
+        return transformed(make_box(size),
+                           [](glm::dvec3 p) { return p + glm::dvec3(kSize / 2.0 + 0.13, kSize / 2.0 + 0.27, 30); });
     };
     const Scene scene = scene_of({in_the_middle({40, 40, 20}), in_the_middle({17, 11, 20})});
     const Drawing drawn = draw(scene, pixel_camera(kSize, kSize), kSize);
@@ -216,7 +226,8 @@ TEST(FineLines, OfFlushFacesTheFirstIsSeen) {
 TEST(FineLines, AFinThatTouchesFromBehindIsNotSeen) {
     const Camera camera = perspective_camera({1.5, 0.9, 3}, {0.5, 0, 0});
     const auto sheet_with_fin_at = [](double z) {
-        return soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.1}, {1, -1, -0.1}, {0, 0, z}, {0.5, 0.3, -1}}, {{0, 1, 3}, {1, 0, 4}, {5, 1, 6}});
+        return soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.1}, {1, -1, -0.1}, {0, 0, z}, {0.5, 0.3, -1}},
+                       {{0, 1, 3}, {1, 0, 4}, {5, 1, 6}});
     };
     const Drawing welded = draw(scene_of({sheet_with_fin_at(0)}), camera, 160);
     for (const double z : {-1e-6, -1e-5, -1e-4, -1e-3, -3e-3}) {
@@ -227,12 +238,15 @@ TEST(FineLines, AFinThatTouchesFromBehindIsNotSeen) {
 TEST(FineLines, WhatLiesInAFoldedPolygonHasNoOutline) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         Random random(seed);
-        const std::vector<glm::dvec3> corners{{0.8, 0.3, 0.02}, {0, 0, 0}, {-0.05, -0.12, 0.001 * random.real(-1, 1)}, {0.75, 0.1, 0}};
+        const std::vector<glm::dvec3> corners{
+            {0.8, 0.3, 0.02}, {0, 0, 0}, {-0.05, -0.12, 0.001 * random.real(-1, 1)}, {0.75, 0.1, 0}};
         const PolygonSoup quad = soup_of(corners, {{3, 2, 1, 0}});
         std::vector<PolygonSoup> objects{quad};
         const Mesh mesh = build_meshes(quad, {}).front();
         for (const auto& t : mesh.triangles) {
-            objects.push_back(soup_of({glm::dvec3(mesh.positions[t[0]]), glm::dvec3(mesh.positions[t[1]]), glm::dvec3(mesh.positions[t[2]])}, {{0, 1, 2}}));
+            objects.push_back(soup_of(
+                {glm::dvec3(mesh.positions[t[0]]), glm::dvec3(mesh.positions[t[1]]), glm::dvec3(mesh.positions[t[2]])},
+                {{0, 1, 2}}));
         }
         const glm::dvec3 middle(0.38, 0.08, 0);
         const Camera camera = perspective_camera(middle + 1.6 * random.direction(), middle);
@@ -298,8 +312,7 @@ TEST(FineLines, ThreadsTilesAndCropsChangeNothing) {
     EXPECT_TRUE(same_bits(whole, render(all, 3, 128)));
     EXPECT_TRUE(same_bits(whole, render(all, 2, 32)));
     EXPECT_TRUE(same_bits(whole, render(all, 2, 32, 24 << 20)));
-    for (const PixelRect crop :
-         {PixelRect{37, 21, 84, 80}, PixelRect{51, 50, 52, 51}, PixelRect{0, 63, 110, 71}}) {
+    for (const PixelRect crop : {PixelRect{37, 21, 84, 80}, PixelRect{51, 50, 52, 51}, PixelRect{0, 63, 110, 71}}) {
         const Image part = render(crop, 2, 64);
         for (const Channel& channel : part.channels()) {
             const Channel& full = *whole.find(channel.name);

@@ -20,7 +20,8 @@ TEST(FineSlivers, AContourEndsWhereItsFoldDoes) {
                                      {0.8017578125, 0.7469482421875, 1.919189453125}},
                                     {{5, 6, 2}, {5, 1, 0}, {3, 4, 5}, {3, 5, 0}})});
     scene.lines.classes = LineClass::silhouette;
-    const Camera camera = perspective_camera({-0.71484375, 2.74609375, 4.2578125}, {1.29296875, 0.73828125, 2.25}, 22.125);
+    const Camera camera =
+        perspective_camera({-0.71484375, 2.74609375, 4.2578125}, {1.29296875, 0.73828125, 2.25}, 22.125);
     const auto ink_beyond = [&](RenderFunction render) {
         const Drawing drawn(scene, camera, 320, 240, {0, 0, 320, 240}, 2, render);
         double ink = 0;
@@ -87,7 +88,8 @@ TEST(FineSlivers, NeedlesOnAnEdgeMakeNoLines) {
         for (std::uint64_t seed = 0; seed < 40; ++seed) {
             Random random(seed);
             // Two halves of a square that are level, and needles on the edge between them.
-            PolygonSoup square = soup_of({{-12, -12, 0}, {12, -12, 0}, {12, 12, 0}, {-12, 12, 0}}, {{0, 1, 2}, {0, 2, 3}});
+            PolygonSoup square =
+                soup_of({{-12, -12, 0}, {12, -12, 0}, {12, 12, 0}, {-12, 12, 0}}, {{0, 1, 2}, {0, 2, 3}});
             for (int i = 0; i < needles; ++i) {
                 const double along = random.real(-8, 8);
                 const auto middle = static_cast<std::uint32_t>(square.positions.size());
@@ -122,7 +124,15 @@ TEST(FineSlivers, ACreaseBetweenPatchesGoesOnBesideANeedle) {
         const double along = random.real(-8, 8);
         const glm::dvec3 beside = glm::dvec3(along, 0, 0) + 1e-5 * random.direction();
         // A floor with a needle at its border, and a wall that is not stitched to it.
-        const PolygonSoup corner = soup_of({{-12, 0, 0}, {12, 0, 0}, {12, 12, 0}, {-12, 12, 0}, beside, {-12.5, 0, 0}, {12.5, 0, 0}, {12.5, 0, 12}, {-12.5, 0, 12}},
+        const PolygonSoup corner = soup_of({{-12, 0, 0},
+                                            {12, 0, 0},
+                                            {12, 12, 0},
+                                            {-12, 12, 0},
+                                            beside,
+                                            {-12.5, 0, 0},
+                                            {12.5, 0, 0},
+                                            {12.5, 0, 12},
+                                            {-12.5, 0, 12}},
                                            {{0, 1, 2, 3}, {0, 4, 1}, {5, 6, 7, 8}});
         const PolygonSoup turned = transformed(corner, [&](glm::dvec3 p) {
             return glm::dvec3(glm::rotate(glm::dmat4(1.0), -0.8, glm::dvec3(1, 0, 0)) * glm::dvec4(p, 1));
@@ -139,11 +149,19 @@ TEST(FineSlivers, ANarrowStripKeepsItsBorderBesideANeedle) {
     for (const double distance : {2.0, 3.0, 6.0, 12.0}) {
         const auto ink = [&](bool has_needle) {
             const double third = 1.0 / 3, low = 0.05, high = 0.0532;
-            PolygonSoup strip = soup_of({{-1, -low, 0}, {-1, -0.0468, 1e-4}, {-third, -third * low, 0}, {-third, 0.0032 - third * low, 1e-4},
-                                         {third, third * low, 0}, {third, 0.0032 + third * low, 1e-4}, {1, low, 0}, {1, high, 1e-4}, {0.05, 0.0025, 2e-7}},
+            PolygonSoup strip = soup_of({{-1, -low, 0},
+                                         {-1, -0.0468, 1e-4},
+                                         {-third, -third * low, 0},
+                                         {-third, 0.0032 - third * low, 1e-4},
+                                         {third, third * low, 0},
+                                         {third, 0.0032 + third * low, 1e-4},
+                                         {1, low, 0},
+                                         {1, high, 1e-4},
+                                         {0.05, 0.0025, 2e-7}},
                                         {{0, 2, 3}, {0, 3, 1}, {2, 8, 3}, {8, 4, 5}, {8, 5, 3}, {4, 6, 7}, {4, 7, 5}});
             if (has_needle) strip.add_polygon(std::vector<std::uint32_t>{2, 4, 8});
-            const Drawing drawn(scene_of({strip}), perspective_camera({0.3, 0.2, distance}, {0, 0, 0}), 160, 120, {0, 0, 160, 120}, 2, render_abuffer);
+            const Drawing drawn(scene_of({strip}), perspective_camera({0.3, 0.2, distance}, {0, 0, 0}), 160, 120,
+                                {0, 0, 160, 120}, 2, render_abuffer);
             double sum = 0;
             for (int y = 0; y < 120; ++y) {
                 for (int x = 0; x < 160; ++x) sum += drawn.line(x, y);

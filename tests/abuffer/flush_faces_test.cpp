@@ -50,7 +50,8 @@ std::vector<Block> random_blocks(Random& random) {
             block.low[k] = random.integer(0, kGrid - 1);
             block.high[k] = random.integer(block.low[k] + 1, kGrid);
         }
-        if (std::all_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.goes_with(block); })) blocks.push_back(block);
+        if (std::all_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.goes_with(block); }))
+            blocks.push_back(block);
     }
     return blocks;
 }
@@ -58,7 +59,9 @@ std::vector<Block> random_blocks(Random& random) {
 /// The surface of all together, of unit squares.
 PolygonSoup union_of(const std::vector<Block>& blocks) {
     PolygonSoup soup;
-    const auto is_in_any = [&](glm::ivec3 p) { return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.has(p.x, p.y, p.z); }); };
+    const auto is_in_any = [&](glm::ivec3 p) {
+        return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.has(p.x, p.y, p.z); });
+    };
     for (int i = 0; i < kGrid * kGrid * kGrid; ++i) {
         const glm::ivec3 cell(i % kGrid, i / kGrid % kGrid, i / kGrid / kGrid);
         if (!is_in_any(cell)) continue;
@@ -68,8 +71,10 @@ PolygonSoup union_of(const std::vector<Block>& blocks) {
             for (const int side : {0, 1}) {
                 if (is_in_any(cell + (side == 0 ? -n : n))) continue;
                 const auto first = static_cast<std::uint32_t>(soup.positions.size());
-                for (const glm::ivec3 p : {glm::ivec3(0), u, u + v, v}) soup.positions.emplace_back(cell + side * n + p);
-                soup.add_polygon(side == 1 ? std::vector{first, first + 1, first + 2, first + 3} : std::vector{first + 3, first + 2, first + 1, first});
+                for (const glm::ivec3 p : {glm::ivec3(0), u, u + v, v})
+                    soup.positions.emplace_back(cell + side * n + p);
+                soup.add_polygon(side == 1 ? std::vector{first, first + 1, first + 2, first + 3}
+                                           : std::vector{first + 3, first + 2, first + 1, first});
             }
         }
     }
@@ -78,7 +83,8 @@ PolygonSoup union_of(const std::vector<Block>& blocks) {
 
 Camera camera_around(Random& random, double fov_deg) {
     const glm::dvec3 middle(0.5 * kGrid);
-    return perspective_camera(middle + random.direction() * (1.3 * kGrid / std::tan(glm::radians(0.5 * fov_deg))), middle, fov_deg);
+    return perspective_camera(middle + random.direction() * (1.3 * kGrid / std::tan(glm::radians(0.5 * fov_deg))),
+                              middle, fov_deg);
 }
 
 constexpr int kPx = 160;
@@ -101,7 +107,8 @@ PolygonSoup cut(const PolygonSoup& sides, int parts) {
         for (int u = 0; u < parts; ++u) {
             for (int v = 0; v < parts; ++v) {
                 const auto first = static_cast<std::uint32_t>(soup.positions.size());
-                for (const glm::dvec3 p : {at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)}) soup.positions.push_back(p);
+                for (const glm::dvec3 p : {at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)})
+                    soup.positions.push_back(p);
                 soup.add_polygon(std::vector{first, first + 1, first + 2, first + 3});
             }
         }
@@ -117,7 +124,8 @@ PolygonSoup joined(const std::vector<Block>& blocks, bool backwards, int parts) 
     return test::joined(soups);
 }
 
-void expect_union(const std::vector<Block>& blocks, const Camera& camera, RenderFunction render, int samples, const std::string& what) {
+void expect_union(const std::vector<Block>& blocks, const Camera& camera, RenderFunction render, int samples,
+                  const std::string& what) {
     const Drawing expected = drawn(union_of(blocks), camera, render, samples);
     for (const int parts : {1, 3}) {
         for (const bool backwards : {false, true}) {
@@ -142,8 +150,10 @@ TEST(FlushFaces, SolidsInOneAnotherLookLikeTheirUnion) {
         RenderFunction render;
         int samples, trials;
     };
-    for (const Way& way : {Way{"abuffer", render_abuffer, 0, 40}, {"abuffer, 2 samples", render_abuffer, 2, 40},
-                           {"abuffer, 4 samples", render_abuffer, 4, 10}, {"patel", render_patel, 0, 10}}) {
+    for (const Way& way : {Way{"abuffer", render_abuffer, 0, 40},
+                           {"abuffer, 2 samples", render_abuffer, 2, 40},
+                           {"abuffer, 4 samples", render_abuffer, 4, 10},
+                           {"patel", render_patel, 0, 10}}) {
         for (int seed = 0; seed < way.trials; ++seed) {
             Random random(static_cast<std::uint64_t>(seed));
             const std::vector<Block> blocks = random_blocks(random);
@@ -166,7 +176,8 @@ TEST(FlushFaces, InViewsAlongAxes) {
             camera.height = 1.6 * kGrid;
         }
         for (const RenderFunction render : {render_abuffer, render_patel}) {
-            expect_union(blocks, camera, render, 0, (render == render_patel ? "patel, seed " : "abuffer, seed ") + std::to_string(seed));
+            expect_union(blocks, camera, render, 0,
+                         (render == render_patel ? "patel, seed " : "abuffer, seed ") + std::to_string(seed));
         }
     }
 }
@@ -190,14 +201,18 @@ TEST(FlushFaces, MayBeWoundEitherWay) {
         Random random(static_cast<std::uint64_t>(seed));
         const std::vector<Block> blocks = random_blocks(random);
         const Camera camera = camera_around(random, seed % 3 == 0 ? 5 : 40);
-        const glm::dvec3 middle(0.5 * kGrid), x = random.direction(), z = glm::normalize(glm::cross(x, random.direction()));
+        const glm::dvec3 middle(0.5 * kGrid), x = random.direction(),
+                                              z = glm::normalize(glm::cross(x, random.direction()));
         const glm::dmat3 rotation(x, glm::cross(z, x), z);
         std::vector<PolygonSoup> alike, either_way;
         for (const Block& block : blocks) {
-            alike.push_back(transformed(block.soup(), [&](glm::dvec3 p) { return glm::round(1e4 * (middle + rotation * (p - middle))) / 1e4; }));
+            alike.push_back(transformed(block.soup(), [&](glm::dvec3 p) {
+                return glm::round(1e4 * (middle + rotation * (p - middle))) / 1e4;
+            }));
             either_way.push_back(random.integer(0, 1) == 0 ? alike.back() : turned(alike.back()));
         }
-        const Drawing expected = drawn(test::joined(alike), camera, render_abuffer), d = drawn(test::joined(either_way), camera, render_abuffer);
+        const Drawing expected = drawn(test::joined(alike), camera, render_abuffer),
+                      d = drawn(test::joined(either_way), camera, render_abuffer);
         EXPECT_LE(ink_apart(d, expected), 0.2) << seed;
         EXPECT_LE(ink_apart(expected, d), 0.2) << seed;
     }
@@ -206,7 +221,8 @@ TEST(FlushFaces, MayBeWoundEitherWay) {
 // Where a ray passes a wall's edge within its rounding, it may see the wall; a whole seam has 60 pixels and more.
 TEST(FlushFaces, InTheReference) {
     const Camera camera = perspective_camera({11, 13, 17}, {3, 3, 3}, 30);
-    const std::vector<Block> bar{{{0, 0, 0}, {4, 3, 3}}, {{2, 0, 0}, {6, 3, 3}}}, cross{{{0, 0, 2}, {6, 2, 4}}, {{2, 0, 0}, {4, 2, 6}}};
+    const std::vector<Block> bar{{{0, 0, 0}, {4, 3, 3}}, {{2, 0, 0}, {6, 3, 3}}},
+        cross{{{0, 0, 2}, {6, 2, 4}}, {{2, 0, 0}, {4, 2, 6}}};
     for (const auto& blocks : {bar, cross}) {
         const Drawing expected = drawn(union_of(blocks), camera, render_reference);
         for (const bool backwards : {false, true}) {
@@ -220,11 +236,13 @@ TEST(FlushFaces, InTheReference) {
 // Faces so narrow on the screen, or walls so low, that all beside a line is nearly level with it.
 TEST(FlushFaces, OfSlenderSidesAndOfThinPlates) {
     const auto lid = [](double radius, double low, double high, int sides) {
-        return transformed(make_cylinder(radius, radius, 1, sides), [=](glm::dvec3 p) { return glm::dvec3(p.x, p.y > 0 ? high : low, p.z); });
+        return transformed(make_cylinder(radius, radius, 1, sides),
+                           [=](glm::dvec3 p) { return glm::dvec3(p.x, p.y > 0 ? high : low, p.z); });
     };
     const auto box = [](glm::dvec3 low, glm::dvec3 high) { return moved(make_box(high - low), 0.5 * (low + high)); };
     for (int k = 0; k < 12; ++k) {
-        const Camera camera = perspective_camera({6.6 * std::cos(0.5 * k), 1.6 + 0.3 * k, 6.6 * std::sin(0.5 * k)}, {0, 1.5, 0}, 40);
+        const Camera camera =
+            perspective_camera({6.6 * std::cos(0.5 * k), 1.6 + 0.3 * k, 6.6 * std::sin(0.5 * k)}, {0, 1.5, 0}, 40);
         const auto compare = [&](PolygonSoup one, PolygonSoup other, const PolygonSoup& both, const char* what) {
             const Drawing expected = drawn(both, camera, render_abuffer);
             for (const bool backwards : {false, true}) {
@@ -236,7 +254,8 @@ TEST(FlushFaces, OfSlenderSidesAndOfThinPlates) {
         };
         compare(lid(1, 0, 2, 96), lid(1, 1.3, 3, 96), lid(1, 0, 3, 96), "coaxial cylinders");
         const PolygonSoup base = box({-2, 0, -2}, {2, 1, 2});
-        for (const double thickness : {0.002, 0.05}) compare(box({-0.7, 1 - thickness, -1.1}, {1.3, 1, 0.4}), base, base, "a plate");
+        for (const double thickness : {0.002, 0.05})
+            compare(box({-0.7, 1 - thickness, -1.1}, {1.3, 1, 0.4}), base, base, "a plate");
     }
 }
 
@@ -260,7 +279,8 @@ TEST(FlushFaces, AmongHiddenLines) {
                 const double length = (piece.end - piece.begin) * line.length_px();
                 const int steps = 1 + static_cast<int>(2 * length);
                 for (int k = 0; k < steps; ++k) {
-                    const glm::dvec2 at = glm::mix(line.from, line.to, glm::mix(piece.begin, piece.end, (k + 0.5) / steps)) / 256.0;
+                    const glm::dvec2 at =
+                        glm::mix(line.from, line.to, glm::mix(piece.begin, piece.end, (k + 0.5) / steps)) / 256.0;
                     double ink = 0;
                     for (int y = static_cast<int>(at.y) - 1; y <= static_cast<int>(at.y) + 1; ++y) {
                         for (int x = static_cast<int>(at.x) - 1; x <= static_cast<int>(at.x) + 1; ++x) {
@@ -287,7 +307,8 @@ TEST(FlushFaces, AmongHiddenLines) {
 TEST(FlushFaces, ALegUnderABoardHasItsOutline) {
     const Camera camera = perspective_camera({9, 15, 13}, {3, 3, 3}, 30);
     const auto hidden_px = [&](double gap) {
-        const PolygonSoup board = Block{{0, 4, 0}, {6, 5, 6}}.soup(), leg = moved(Block{{2, 0, 2}, {4, 4, 4}}.soup(), {0, -gap, 0});
+        const PolygonSoup board = Block{{0, 4, 0}, {6, 5, 6}}.soup(),
+                          leg = moved(Block{{2, 0, 2}, {4, 4, 4}}.soup(), {0, -gap, 0});
         Scene scene = scene_of({test::joined({board, leg})});
         scene.lines.classes = LineClass::crease;
         scene.lines.style.hidden.style = HiddenStyle::solid;
@@ -303,7 +324,9 @@ TEST(FlushFaces, AWallWithItsFootInAFloor) {
     for (const double height : {0.02, 0.05, 1.0}) {  // 0.02 are a third of a pixel
         // The foot is nearer to the eye than the wall, or behind it: then its crease is hidden.
         for (const double foot : {1.0, -1.0}) {
-            const PolygonSoup bracket = soup_of({{1, 0, 3 + foot}, {5, 0, 3 + foot}, {5, 0, 3}, {1, 0, 3}, {5, height, 3}, {1, height, 3}}, {{0, 1, 2, 3}, {3, 2, 4, 5}});
+            const PolygonSoup bracket =
+                soup_of({{1, 0, 3 + foot}, {5, 0, 3 + foot}, {5, 0, 3}, {1, 0, 3}, {5, height, 3}, {1, height, 3}},
+                        {{0, 1, 2, 3}, {3, 2, 4, 5}});
             // The same wall on its own.
             const PolygonSoup wall = soup_of({{1, 0, 3}, {5, 0, 3}, {5, height, 3}, {1, height, 3}}, {{0, 1, 2, 3}});
             const auto hidden_px = [&](const PolygonSoup& standing) {
@@ -314,12 +337,15 @@ TEST(FlushFaces, AWallWithItsFootInAFloor) {
             EXPECT_NEAR(hidden_px(bracket), hidden_px(wall), 2) << height << ", " << foot;
             for (const int samples : {0, 2}) {
                 const Drawing expected = drawn(test::joined({floor, wall}), camera, render_abuffer, samples);
-                for (const std::vector<PolygonSoup>& parts : {std::vector{floor, bracket}, std::vector{bracket, floor}}) {
+                for (const std::vector<PolygonSoup>& parts :
+                     {std::vector{floor, bracket}, std::vector{bracket, floor}}) {
                     const Drawing d = drawn(test::joined(parts), camera, render_abuffer, samples);
                     EXPECT_LE(ink_apart(expected, d), 1.5) << height << ", " << foot << ", " << samples;
                     EXPECT_LE(ink_apart(d, expected), 1.5) << height << ", " << foot << ", " << samples;
-                    if (samples != 0 && height < 0.05) continue;  // a preview has a line or two where the wall is lower than a sample
-                    EXPECT_NEAR(d.sum("lines.A"), expected.sum("lines.A"), 0.03 * expected.sum("lines.A")) << height << ", " << foot << ", " << samples;
+                    if (samples != 0 && height < 0.05)
+                        continue;  // a preview has a line or two where the wall is lower than a sample
+                    EXPECT_NEAR(d.sum("lines.A"), expected.sum("lines.A"), 0.03 * expected.sum("lines.A"))
+                        << height << ", " << foot << ", " << samples;
                 }
             }
         }
@@ -333,13 +359,14 @@ TEST(FlushFaces, AnInlayHasOneClassPerEdge) {
         const double a = 0.2 + 0.1 * k;
         const Camera camera = perspective_camera({6 * std::cos(a), 4.5, 6 * std::sin(a)}, {0, 0, 0}, 30);
         const auto inlay = [&](double thickness) {
-            return Drawing(scene_of({box({-0.7, -thickness, -0.8}, {0.6, 0, 0.9}), box({-2, -1, -2}, {2, 0, 2})}), camera, kPx, kPx,
-                           {0, 0, kPx, kPx}, 2, render_abuffer);
+            return Drawing(scene_of({box({-0.7, -thickness, -0.8}, {0.6, 0, 0.9}), box({-2, -1, -2}, {2, 0, 2})}),
+                           camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_abuffer);
         };
         const Drawing thick = inlay(0.5);
         const double object_px = thick.sum(LineClass::object);
         EXPECT_GT(object_px, 60) << k;
-        for (const double thickness : {0.004, 0.02, 0.05, 0.1}) EXPECT_NEAR(inlay(thickness).sum(LineClass::object), object_px, 3) << thickness << ' ' << k;
+        for (const double thickness : {0.004, 0.02, 0.05, 0.1})
+            EXPECT_NEAR(inlay(thickness).sum(LineClass::object), object_px, 3) << thickness << ' ' << k;
     }
 }
 
@@ -365,7 +392,8 @@ TEST(FlushFaces, MarksStay) {
     for (const double end : {2.0, 4.0}) {  // of the one within the other
         PolygonSoup soup = joined(bars, end == 2, 1);
         const auto vertex_at = [&](glm::dvec3 p) {
-            return static_cast<std::uint32_t>(std::find(soup.positions.begin(), soup.positions.end(), p) - soup.positions.begin());
+            return static_cast<std::uint32_t>(std::find(soup.positions.begin(), soup.positions.end(), p) -
+                                              soup.positions.begin());
         };
         soup.marked_edges.push_back({vertex_at({end, 3, 0}), vertex_at({end, 3, 3})});
         Scene scene = scene_of({soup}), hidden = scene_of({soup, curtain(camera)});

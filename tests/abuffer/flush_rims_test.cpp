@@ -20,7 +20,9 @@ using namespace test;
 constexpr int kPx = 300;
 constexpr double kRadius = 0.8, kHeight = 0.4;
 
-glm::dvec3 on_circle(double turns, double y) { return {kRadius * std::cos(6.283185307179586 * turns), y, kRadius * std::sin(6.283185307179586 * turns)}; }
+glm::dvec3 on_circle(double turns, double y) {
+    return {kRadius * std::cos(6.283185307179586 * turns), y, kRadius * std::sin(6.283185307179586 * turns)};
+}
 
 /// With a hole of so many sides.
 PolygonSoup plate(int sides) {
@@ -35,7 +37,9 @@ PolygonSoup plate(int sides) {
     }
     const auto corner = [sides](int i, unsigned k) { return static_cast<std::uint32_t>(i % sides) * 4 + k; };
     for (int i = 0; i < sides; ++i) {
-        const auto add = [&](unsigned k, unsigned m) { soup.add_polygon(std::vector{corner(i, k), corner(i + 1, k), corner(i + 1, m), corner(i, m)}); };
+        const auto add = [&](unsigned k, unsigned m) {
+            soup.add_polygon(std::vector{corner(i, k), corner(i + 1, k), corner(i + 1, m), corner(i, m)});
+        };
         add(0, 1);  // top
         add(1, 3);  // outside
         add(3, 2);  // bottom
@@ -73,8 +77,8 @@ Drawing drawn(const PolygonSoup& one, const PolygonSoup& other, const Camera& ca
     return Drawing(scene_of({test::joined({one, other})}), camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_abuffer);
 }
 
-// Where the pin's polygon reaches over the hole's, there is a line, as where it stays within and leaves a gap: a whole circle, that
-// of the first one, as if that were a little higher.
+// Where the pin's polygon reaches over the hole's, there is a line, as where it stays within and leaves a gap: a whole
+// circle, that of the first one, as if that were a little higher.
 TEST(FlushRims, OfPinsAreWholeCircles) {
     for (const int sides : {16, 24, 32, 64}) {
         for (const double turn : {0.5, 0.2}) {
@@ -83,11 +87,13 @@ TEST(FlushRims, OfPinsAreWholeCircles) {
                     if (tilt > 0 && turn != 0.5) continue;  // bits near the corners are missing there
                     const Camera camera = from_above(height, tilt);
                     for (const bool is_pin_first : {false, true}) {
-                        const PolygonSoup flush = pin(sides, turn, kHeight), base = plate(sides), off = pin(sides, turn, kHeight + (is_pin_first ? 1 : -1) * 1e-4);
+                        const PolygonSoup flush = pin(sides, turn, kHeight), base = plate(sides),
+                                          off = pin(sides, turn, kHeight + (is_pin_first ? 1 : -1) * 1e-4);
                         const Drawing d = is_pin_first ? drawn(flush, base, camera) : drawn(base, flush, camera);
                         const Drawing expected = is_pin_first ? drawn(off, base, camera) : drawn(base, off, camera);
-                        const std::string what = std::to_string(sides) + " sides, turned by " + std::to_string(turn) + ", " + std::to_string(height) + ", " +
-                                                 std::to_string(tilt) + (is_pin_first ? ", pin first" : ", plate first");
+                        const std::string what = std::to_string(sides) + " sides, turned by " + std::to_string(turn) +
+                                                 ", " + std::to_string(height) + ", " + std::to_string(tilt) +
+                                                 (is_pin_first ? ", pin first" : ", plate first");
                         const double all = expected.sum("lines.A");  // up to half of it was missing
                         EXPECT_LE(ink_apart(expected, d), 0.02 * all) << what << ": missing lines";
                         EXPECT_LE(ink_apart(d, expected), 0.02 * all) << what << ": false lines";
@@ -107,18 +113,22 @@ TEST(FlushRims, ABodyThatEndsInTwoHasNoLine) {
         Random random(static_cast<std::uint64_t>(seed));
         // Also where it reaches beyond the joint of the two, or up to it.
         const double end = random.integer(0, 2) == 0 ? 4 : random.real(3.3, 4.7), high = random.real(1, 2.5);
-        std::vector<PolygonSoup> apart = {box({3, 0, 4}, {4, 3, 5}), box({3, 0, 3}, {4, 3, 4}), box({1, 0, 3}, {4, high, end})};
+        std::vector<PolygonSoup> apart = {box({3, 0, 4}, {4, 3, 5}), box({3, 0, 3}, {4, 3, 4}),
+                                          box({1, 0, 3}, {4, high, end})};
         std::vector<PolygonSoup> whole = {box({3, 0, 3}, {4, 3, 5}), apart[2]};
         std::rotate(apart.begin(), apart.begin() + seed % 3, apart.end());
         if (seed % 2 == 1) std::swap(apart[0], apart[1]);
         const glm::dvec3 x = random.direction(), z = glm::normalize(glm::cross(x, random.direction()));
         const glm::dmat3 rotation = seed % 4 == 0 ? glm::dmat3(1.0) : glm::dmat3(x, glm::cross(z, x), z);
         const auto placed = [&](const PolygonSoup& soup) {
-            return transformed(soup, [&](glm::dvec3 p) { return glm::round(1e5 * (rotation * (p - glm::dvec3(3, 1.5, 4)))) / 1e5; });
+            return transformed(
+                soup, [&](glm::dvec3 p) { return glm::round(1e5 * (rotation * (p - glm::dvec3(3, 1.5, 4)))) / 1e5; });
         };
-        const Camera camera = perspective_camera(rotation * glm::dvec3(random.real(4, 9), random.real(-2, 5), random.real(-5, 5)), glm::dvec3(0.0), 45);
+        const Camera camera = perspective_camera(
+            rotation * glm::dvec3(random.real(4, 9), random.real(-2, 5), random.real(-5, 5)), glm::dvec3(0.0), 45);
         const auto draw = [&](const std::vector<PolygonSoup>& bodies) {
-            return Drawing(scene_of({placed(test::joined(bodies))}), camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_abuffer);
+            return Drawing(scene_of({placed(test::joined(bodies))}), camera, kPx, kPx, {0, 0, kPx, kPx}, 2,
+                           render_abuffer);
         };
         const Drawing d = draw(apart), expected = draw(whole);
         EXPECT_LE(ink_apart(d, expected), 1) << seed << ": false lines";

@@ -15,17 +15,20 @@ using namespace test;
 
 constexpr int kSize = 200;
 
-/// A plate in front, walls of many triangles along two of its sides that lead away from the eye, with flanges at their back rims or without.
-/// `lean`: how far walls lean over their depth.
+/// A plate in front, walls of many triangles along two of its sides that lead away from the eye, with flanges at their
+/// back rims or without. `lean`: how far walls lean over their depth.
 PolygonSoup plate_with_walls(Random& random, double lean) {
     PolygonSoup soup;
-    const int columns = random.integer(1, 12), rows = random.integer(0, 1) == 0 ? random.integer(1, 6) : random.integer(60, 90);
+    const int columns = random.integer(1, 12),
+              rows = random.integer(0, 1) == 0 ? random.integer(1, 6) : random.integer(60, 90);
     const bool has_flange = random.integer(0, 1) == 0;  // else the walls end
     const auto add = [&](const glm::dvec3& p) {
         soup.positions.push_back(p);
         return static_cast<std::uint32_t>(soup.positions.size() - 1);
     };
-    const auto polygon = [&](std::initializer_list<std::uint32_t> corners) { soup.add_polygon(std::vector<std::uint32_t>(corners)); };
+    const auto polygon = [&](std::initializer_list<std::uint32_t> corners) {
+        soup.add_polygon(std::vector<std::uint32_t>(corners));
+    };
     for (const bool is_upright : {true, false}) {
         const double side = random.real(0.2, 0.6), flange = random.integer(0, 1) == 0 ? 0.3 : -0.3;
         const auto place = [&](double along, double depth, double out) {
@@ -37,7 +40,8 @@ PolygonSoup plate_with_walls(Random& random, double lean) {
             for (int c = 0; c <= columns; ++c) {
                 const bool is_inner = r > 0 && r < rows && c > 0 && c < columns;
                 const double along = -0.7 + 1.4 * (c + (is_inner ? random.real(-0.3, 0.3) : 0)) / columns;
-                grid[static_cast<std::size_t>(r)].push_back(add(place(along, 0.5 * (r + (is_inner ? random.real(-0.3, 0.3) : 0)) / rows, 0)));
+                grid[static_cast<std::size_t>(r)].push_back(
+                    add(place(along, 0.5 * (r + (is_inner ? random.real(-0.3, 0.3) : 0)) / rows, 0)));
             }
         }
         for (std::size_t r = 0; r + 1 < grid.size(); ++r) {
@@ -46,11 +50,13 @@ PolygonSoup plate_with_walls(Random& random, double lean) {
                 polygon({grid[r][c], grid[r + 1][c + 1], grid[r + 1][c]});
             }
         }
-        for (const std::size_t r : {std::size_t{0}, grid.size() - 1}) {  // a strip along the front rim, and perhaps one along the back rim
+        for (const std::size_t r :
+             {std::size_t{0}, grid.size() - 1}) {  // a strip along the front rim, and perhaps one along the back rim
             if (r > 0 && !has_flange) continue;
             for (std::size_t c = 0; c + 1 < grid[r].size(); ++c) {
                 const double depth = r == 0 ? 0 : 0.5, out = r == 0 ? -0.1 : flange;
-                const double from = -0.7 + 1.4 * static_cast<double>(c) / columns, to = -0.7 + 1.4 * static_cast<double>(c + 1) / columns;
+                const double from = -0.7 + 1.4 * static_cast<double>(c) / columns,
+                             to = -0.7 + 1.4 * static_cast<double>(c + 1) / columns;
                 polygon({grid[r][c], grid[r][c + 1], add(place(to, depth, out)), add(place(from, depth, out))});
             }
         }
@@ -71,7 +77,8 @@ TEST(FoldRange, NothingInItIsWide) {
         const TriangleBins bins(screen, frame.crop, 2, best_kernels(), 1);  // finds out which way triangles face
         const ScreenMesh& mesh = screen.mesh(0);
         for (HalfEdge h = 0; h < 3 * mesh.triangle_count; ++h) {
-            const ScreenVertex &a = mesh.vertices[mesh.corners[h]], &b = mesh.vertices[mesh.corners[h - h % 3 + (h + 1) % 3]];
+            const ScreenVertex &a = mesh.vertices[mesh.corners[h]],
+                               &b = mesh.vertices[mesh.corners[h - h % 3 + (h + 1) % 3]];
             const glm::dvec2 from(a.x, a.y), to(b.x, b.y);
             if (from == to) continue;
             const auto is_wide_at = [&](double t) {

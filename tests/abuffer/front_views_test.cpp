@@ -22,8 +22,8 @@ using namespace test;
 constexpr int kSize = 64, kSamples = 2;
 constexpr double kPxPerUnit = kSize / 2.0;
 
-/// A box without a back, with walls of `rows` rows of triangles, perhaps before a plate. Where `is_on_samples`, two of its walls lie
-/// exactly at samples.
+/// A box without a back, with walls of `rows` rows of triangles, perhaps before a plate. Where `is_on_samples`, two of
+/// its walls lie exactly at samples.
 PolygonSoup deep_box(Random& random, int rows, int columns, bool is_on_samples, bool has_plate) {
     PolygonSoup soup;
     const auto add = [&](const glm::dvec3& p) {
@@ -31,7 +31,8 @@ PolygonSoup deep_box(Random& random, int rows, int columns, bool is_on_samples, 
         return static_cast<std::uint32_t>(soup.positions.size() - 1);
     };
     const double off = is_on_samples ? 0.25 / kPxPerUnit : random.real(-0.01, 0.01), half = 0.5;
-    const glm::dvec2 corners[4] = {{-half + off, -half + off}, {half + off, -half + off}, {half + off, half + off}, {-half + off, half + off}};
+    const glm::dvec2 corners[4] = {
+        {-half + off, -half + off}, {half + off, -half + off}, {half + off, half + off}, {-half + off, half + off}};
     std::vector<std::uint32_t> face;
     for (int side = 0; side < 4; ++side) {
         const glm::dvec2 from = corners[side], to = corners[(side + 1) % 4];
@@ -54,7 +55,9 @@ PolygonSoup deep_box(Random& random, int rows, int columns, bool is_on_samples, 
         }
     }
     soup.add_polygon(face);
-    if (has_plate) soup.add_polygon(std::vector{add({-0.8, -0.8, -2}), add({0.8, -0.8, -2}), add({0.8, 0.8, -2}), add({-0.8, 0.8, -2})});
+    if (has_plate)
+        soup.add_polygon(
+            std::vector{add({-0.8, -0.8, -2}), add({0.8, -0.8, -2}), add({0.8, 0.8, -2}), add({-0.8, 0.8, -2})});
     return soup;
 }
 
@@ -73,7 +76,8 @@ Counts compare(const Scene& scene, const Camera& camera) {
     const auto ask = [&](const SampleTile& s, int column, int row, bool down) {
         const std::size_t a = s.index(column, row), b = down ? s.index(column, row + 1) : s.index(column + 1, row);
         if (s.ids[a] >> 1 == s.ids[b] >> 1) return;
-        const NeighbourSamples pair{column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down, {tile.surface_at(a), tile.surface_at(b)}};
+        const NeighbourSamples pair{
+            column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down, {tile.surface_at(a), tile.surface_at(b)}};
         ++counts.asked;
         LineDecision decision;
         double nearness = 0;
@@ -82,10 +86,12 @@ Counts compare(const Scene& scene, const Camera& camera) {
             return;
         }
         const glm::dvec2 trifle(kSampleTrifleX, kSampleTrifleY);
-        const VisiblePoint points[2] = {{pair.place(0) / 256.0 + trifle, pair.surfaces[0]}, {pair.place(1) / 256.0 + trifle, pair.surfaces[1]}};
+        const VisiblePoint points[2] = {{pair.place(0) / 256.0 + trifle, pair.surfaces[0]},
+                                        {pair.place(1) / 256.0 + trifle, pair.surfaces[1]}};
         const LineDecision exact = decide_line(frame.surfaces, points[0], points[1], frame.criteria);
         const LineClassSet wanted = frame.criteria.classes;
-        ASSERT_EQ((decision.classes & wanted).bits, (exact.classes & wanted).bits) << column << ", " << row << (down ? " down" : "");
+        ASSERT_EQ((decision.classes & wanted).bits, (exact.classes & wanted).bits)
+            << column << ", " << row << (down ? " down" : "");
         if ((exact.classes & wanted).empty()) return;
         ++counts.lines;
         EXPECT_EQ(decision.reason, exact.reason);
@@ -106,15 +112,16 @@ Counts compare(const Scene& scene, const Camera& camera) {
     return counts;
 }
 
-/// Walls of a hundred rows and more are walked over on snapped vertices, and outlines exactly at samples found there: nothing is left to
-/// decide_line() but at corners, and what is decided is the same.
+/// Walls of a hundred rows and more are walked over on snapped vertices, and outlines exactly at samples found there:
+/// nothing is left to decide_line() but at corners, and what is decided is the same.
 TEST(FrontViews, NothingIsLeftToSlowDecisions) {
     Counts sum;
     for (std::uint64_t seed = 0; seed < 16; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const bool is_on_samples = seed % 2 == 0, has_plate = seed % 4 < 2;
-        const int rows = seed % 3 == 0 ? random.integer(100, 160) : random.integer(1, 40), columns = random.integer(1, 5);
+        const int rows = seed % 3 == 0 ? random.integer(100, 160) : random.integer(1, 40),
+                  columns = random.integer(1, 5);
         Scene scene = scene_of({deep_box(random, rows, columns, is_on_samples, has_plate)});
         Camera camera = perspective_camera({0, 0, 4}, {0, 0, 0});
         camera.orthographic = true;
@@ -143,7 +150,8 @@ std::size_t segment_count(const Scene& scene, const Camera& camera) {
     return count;
 }
 
-/// All edges of a wall are on one line of the picture: one of them is drawn there, however many rows it has. Dashes need each.
+/// All edges of a wall are on one line of the picture: one of them is drawn there, however many rows it has. Dashes
+/// need each.
 TEST(FrontViews, EdgesOfAWallAreOneLine) {
     Camera camera = perspective_camera({0, 0, 4}, {0, 0, 0});
     camera.orthographic = true;
@@ -151,7 +159,8 @@ TEST(FrontViews, EdgesOfAWallAreOneLine) {
     const auto count_of = [&](int rows, bool has_dashes) {
         Random random(3);
         Scene scene = scene_of({deep_box(random, rows, 2, false, false)});
-        scene.lines.classes = LineClass::silhouette | LineClassSet(LineClass::border) | LineClassSet(LineClass::polygon);
+        scene.lines.classes =
+            LineClass::silhouette | LineClassSet(LineClass::border) | LineClassSet(LineClass::polygon);
         if (has_dashes) scene.lines.style.dash_px = std::array{5.0, 3.0};
         return segment_count(scene, camera);
     };
@@ -190,7 +199,8 @@ TEST(DrawnParts, CoverOnlyWhatLiesBehindThemEverywhere) {
         std::vector<Given> given;
         const auto make = [&] {
             const double p = random.real(0, 1), q = random.real(0, 1);
-            const auto kind = DrawnParts::Kind{random.integer(0, 3) == 0 ? LineClass::border : LineClass::silhouette, true, random.integer(0, 3) == 0};
+            const auto kind = DrawnParts::Kind{random.integer(0, 3) == 0 ? LineClass::border : LineClass::silhouette,
+                                               true, random.integer(0, 3) == 0};
             const bool is_whole = random.integer(0, 2) > 0;
             return Given{random_line(random), is_whole ? 0 : std::min(p, q), is_whole ? 1 : std::max(p, q), kind};
         };
@@ -208,9 +218,11 @@ TEST(DrawnParts, CoverOnlyWhatLiesBehindThemEverywhere) {
                 const bool is_behind_any = std::any_of(given.begin(), given.end(), [&](const Given& g) {
                     const glm::dvec2 along = g.line.to - g.line.from, v = at - g.line.from;
                     const double share = glm::dot(v, along) / glm::dot(along, along);
-                    const bool is_there = std::abs(along.x * v.y - along.y * v.x) < 1e-9 && share >= g.begin - 1e-9 && share <= g.end + 1e-9;
+                    const bool is_there = std::abs(along.x * v.y - along.y * v.x) < 1e-9 && share >= g.begin - 1e-9 &&
+                                          share <= g.end + 1e-9;
                     const bool runs_alike = glm::dot(along, asked.line.to - asked.line.from) > 0;
-                    const bool is_alike = g.kind.drawn_as == asked.kind.drawn_as && (g.kind.front_on_left == asked.kind.front_on_left) == runs_alike;
+                    const bool is_alike = g.kind.drawn_as == asked.kind.drawn_as &&
+                                          (g.kind.front_on_left == asked.kind.front_on_left) == runs_alike;
                     return is_there && is_alike && g.line.nearness_at(share) >= asked.line.nearness_at(t) - 1e-6;
                 });
                 is_open = is_open || !is_behind_any;

@@ -19,7 +19,8 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
             Random random(trial);
             glm::dvec3 direction = glm::abs(random.direction()) + 0.15;
             direction = glm::normalize(direction) * (random.bits() % 2 ? 1.0 : -1.0);
-            const Camera camera = orthographic ? ortho_camera(6.0 * direction, 2.5) : perspective_camera(6.0 * direction, {0, 0, 0}, 25);
+            const Camera camera =
+                orthographic ? ortho_camera(6.0 * direction, 2.5) : perspective_camera(6.0 * direction, {0, 0, 0}, 25);
             const Scene scene = scene_of({make_box({1, 1, 1})});
             const Layers layers(scene, camera);
             ASSERT_EQ(layers.pass.lines().size(), 12u);
@@ -29,7 +30,8 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
             for (int axis = 0; axis < 3; ++axis) {
                 glm::dvec3 other = corner;
                 other[axis] = -other[axis];
-                expected += glm::distance(pixel_of(layers.frame, camera, corner), pixel_of(layers.frame, camera, other));
+                expected +=
+                    glm::distance(pixel_of(layers.frame, camera, corner), pixel_of(layers.frame, camera, other));
             }
             EXPECT_NEAR(layers.hidden_px(1), expected, 0.75) << trial;
             EXPECT_NEAR(layers.all_hidden_px(), layers.hidden_px(1), 1e-9) << trial;
@@ -40,8 +42,8 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
     }
 }
 
-// Seen along its diagonal, as in an isometric view, hidden edges lie behind the edges and diagonals of what hides them: each
-// triangle there hides half of such a line's width, and together they hide it.
+// Seen along its diagonal, as in an isometric view, hidden edges lie behind the edges and diagonals of what hides them:
+// each triangle there hides half of such a line's width, and together they hide it.
 TEST(HiddenLines, OfACubeSeenAlongItsDiagonal) {
     const PolygonSoup plain = make_box({1, 1, 1});
     for (const glm::dvec3 direction : {glm::dvec3(1, 1, 1), {-1, 1, 1}, {1, -0.8, 1}, {1, 0.998, 1}, {1, 1, -1.02}}) {
@@ -54,7 +56,8 @@ TEST(HiddenLines, OfACubeSeenAlongItsDiagonal) {
                 if (first >= 4) std::reverse(corners.begin(), corners.end());
                 box.add_polygon(corners);
             }
-            for (const Camera& camera : {ortho_camera(6.0 * direction, 2.5), perspective_camera(6.0 * direction, {0, 0, 0}, 20)}) {
+            for (const Camera& camera :
+                 {ortho_camera(6.0 * direction, 2.5), perspective_camera(6.0 * direction, {0, 0, 0}, 20)}) {
                 const Layers layers(scene_of({box}), camera);
                 double expected = 0;
                 for (int axis = 0; axis < 3; ++axis) {
@@ -63,7 +66,8 @@ TEST(HiddenLines, OfACubeSeenAlongItsDiagonal) {
                     corner[axis] = -corner[axis];
                     expected += glm::distance(from, pixel_of(layers.frame, camera, corner));
                 }
-                EXPECT_NEAR(layers.hidden_px(1), expected, 0.75) << direction.x << ' ' << direction.y << ' ' << direction.z << ' ' << first;
+                EXPECT_NEAR(layers.hidden_px(1), expected, 0.75)
+                    << direction.x << ' ' << direction.y << ' ' << direction.z << ' ' << first;
             }
         }
     }
@@ -71,7 +75,8 @@ TEST(HiddenLines, OfACubeSeenAlongItsDiagonal) {
 
 /// Triangles of which nothing else asked before, all in one tile.
 TEST(HiddenLines, TwoTrianglesPassThroughEachOtherBehindAThird) {
-    const glm::dvec3 eye(0, 0, 60), a[3] = {{-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}}, b[3] = {{0, -0.7, -1}, {0.1, -0.7, 1}, {0, 0.6, 0.2}};
+    const glm::dvec3 eye(0, 0, 60), a[3] = {{-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}},
+                                    b[3] = {{0, -0.7, -1}, {0.1, -0.7, 1}, {0, 0.6, 0.2}};
     Scene scene = scene_of({soup_of({a[0], a[1], a[2], b[0], b[1], b[2], {-3, -3, 1.5}, {3, -3, 1.5}, {0, 4, 1.5}},
                                     {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}})});
     scene.lines.classes = LineClass::intersection;
@@ -91,7 +96,8 @@ TEST(HiddenLines, TwoTrianglesPassThroughEachOtherBehindAThird) {
     const WholeLine& line = layers.pass.lines()[0];
     const glm::dvec2 from = line.from / 256.0, to = line.to / 256.0;
     EXPECT_LT(std::min(glm::distance(from, ends[0]) + glm::distance(to, ends[1]),
-                       glm::distance(from, ends[1]) + glm::distance(to, ends[0])), 0.1);
+                       glm::distance(from, ends[1]) + glm::distance(to, ends[0])),
+              0.1);
     EXPECT_NEAR(layers.hidden_px(1), glm::distance(ends[0], ends[1]), 0.1);
 }
 
@@ -100,7 +106,8 @@ TEST(HiddenLines, AreOneStrokeBehindHoweverManyLayers) {
     const auto plate = [](double x0, double x1, double y, double z) {
         return soup_of({{x0, -y, z}, {x1, -y, z}, {x1, y, z}, {x0, y, z}}, {{0, 1, 2, 3}});
     };
-    Scene scene = scene_of({plate(-1.7, 1.7, 0.3, 0), plate(-1.5, 0.2, 0.5, 0.5), plate(-0.3, 0.6, 0.7, 1), plate(0.9, 1.3, 0.5, 0.5), plate(1.1, 1.5, 0.7, 1)});
+    Scene scene = scene_of({plate(-1.7, 1.7, 0.3, 0), plate(-1.5, 0.2, 0.5, 0.5), plate(-0.3, 0.6, 0.7, 1),
+                            plate(0.9, 1.3, 0.5, 0.5), plate(1.1, 1.5, 0.7, 1)});
     scene.lines.style.hidden.style = HiddenStyle::solid;
     const Layers layers(scene, ortho_camera({0, 0, 10}, 4), 1);
     const double length = layers.all_hidden_px();
@@ -158,7 +165,8 @@ TEST(HiddenLines, ACubeInACube) {
                 EXPECT_NEAR(total, 1, 0.01);
                 continue;
             }
-            const auto most = std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+            const auto most = std::max_element(shares.begin(), shares.end(),
+                                               [](const auto& a, const auto& b) { return a.second < b.second; });
             EXPECT_NEAR(most->second, 1, 0.01);
             once += most->first == 1;
             twice += most->first == 2;
@@ -190,7 +198,9 @@ class RayCounter {
         frame_.surfaces.projection.view_ray(pixel, origin, ray);
         int found = 0;
         for (const Triangle& t : triangles_) {
-            const auto has = [&](std::uint32_t v) { return t.corners[0] == v || t.corners[1] == v || t.corners[2] == v; };
+            const auto has = [&](std::uint32_t v) {
+                return t.corners[0] == v || t.corners[1] == v || t.corners[2] == v;
+            };
             if (t.instance == instance && has(a) && has(b)) continue;
             const glm::dvec3 e1 = t.b - t.a, e2 = t.c - t.a, n = glm::cross(ray, e2);
             const double det = glm::dot(e1, n);
@@ -222,15 +232,23 @@ Scene random_scene(Random& random) {
     for (int i = 0; i < count; ++i) {
         PolygonSoup soup;
         switch (random.integer(0, 3)) {
-            case 0: soup = make_box({random.real(0.3, 1.2), random.real(0.3, 1.2), random.real(0.3, 1.2)}); break;
-            case 1: soup = make_sphere(random.real(0.2, 0.7), 12, 7); break;
-            case 2: soup = make_torus(0.5, 0.2, 14, 9); break;
-            default: soup = make_plane(1.5, 1.2, 3, 2);
+            case 0:
+                soup = make_box({random.real(0.3, 1.2), random.real(0.3, 1.2), random.real(0.3, 1.2)});
+                break;
+            case 1:
+                soup = make_sphere(random.real(0.2, 0.7), 12, 7);
+                break;
+            case 2:
+                soup = make_torus(0.5, 0.2, 14, 9);
+                break;
+            default:
+                soup = make_plane(1.5, 1.2, 3, 2);
         }
         const glm::dvec3 axis = random.direction(), by = random.in_box(0.8);
         const double angle = random.real(0, 6);
         objects.push_back(transformed(std::move(soup), [&](glm::dvec3 p) {
-            return by + p * std::cos(angle) + glm::cross(axis, p) * std::sin(angle) + axis * (glm::dot(axis, p) * (1 - std::cos(angle)));
+            return by + p * std::cos(angle) + glm::cross(axis, p) * std::sin(angle) +
+                   axis * (glm::dot(axis, p) * (1 - std::cos(angle)));
         }));
     }
     return scene_of(std::move(objects));
@@ -251,7 +269,8 @@ TEST(HiddenLines, InvisibilityIsWhatRaysCount) {
         const SurfaceSet& surfaces = layers.frame.surfaces;
         for (std::uint32_t l = 0; l < layers.pass.lines().size(); ++l) {
             const WholeLine& line = layers.pass.lines()[l];
-            if (line.nodes[0] == WholeLine::kNoNode || line.nodes[1] == WholeLine::kNoNode || line.nodes[0] >> 63) continue;
+            if (line.nodes[0] == WholeLine::kNoNode || line.nodes[1] == WholeLine::kNoNode || line.nodes[0] >> 63)
+                continue;
             const auto instance = static_cast<std::uint32_t>(line.nodes[0] >> 32);
             const auto a = static_cast<std::uint32_t>(line.nodes[0]), b = static_cast<std::uint32_t>(line.nodes[1]);
             const glm::dvec3 p = surfaces.view_position(instance, a), q = surfaces.view_position(instance, b);
@@ -310,7 +329,8 @@ TEST(HiddenLines, SheetsThatCrossBehindAWall) {
     EXPECT_NEAR(layers.hidden_px(1, LineClass::border), (160 + 100 + 100) + (60 + 80) + (40 + 60), 0.5);
 }
 
-/// Length of all lines in which surfaces pass through each other, seen or not; found tile by tile and for the whole scene.
+/// Length of all lines in which surfaces pass through each other, seen or not; found tile by tile and for the whole
+/// scene.
 double intersections_px(Scene scene, const Camera& camera) {
     const auto length = [&] {
         const Layers layers(scene, camera);
@@ -338,9 +358,11 @@ TEST(HiddenLines, SurfacesThatPassThroughEachOtherAlongEdges) {
                 const PolygonSoup raised = moved(body, {0, height, 0});
                 for (const bool is_one_object : {false, true}) {
                     for (const bool is_first : {false, true}) {
-                        std::vector<PolygonSoup> soups = is_first ? std::vector{raised, sheet} : std::vector{sheet, raised};
+                        std::vector<PolygonSoup> soups =
+                            is_first ? std::vector{raised, sheet} : std::vector{sheet, raised};
                         if (is_one_object) soups = {joined(soups)};
-                        EXPECT_NEAR(intersections_px(scene_of(soups), camera), expected, 0.04 * expected) << height << is_one_object << is_first;
+                        EXPECT_NEAR(intersections_px(scene_of(soups), camera), expected, 0.04 * expected)
+                            << height << is_one_object << is_first;
                     }
                 }
             }
@@ -350,27 +372,30 @@ TEST(HiddenLines, SurfacesThatPassThroughEachOtherAlongEdges) {
 
 TEST(HiddenLines, WhatOnlyTouchesDoesNotPassThrough) {
     const Camera camera = perspective_camera({3, 3, 4}, {0, 0, 0}, 30);
-    const PolygonSoup lying = transformed(make_cylinder(0.5, 0.5, 2, 12), [](glm::dvec3 p) { return glm::dvec3(p.y, p.x + 0.5, p.z); });
+    const PolygonSoup lying =
+        transformed(make_cylinder(0.5, 0.5, 2, 12), [](glm::dvec3 p) { return glm::dvec3(p.y, p.x + 0.5, p.z); });
     for (const PolygonSoup& sheet : {make_plane(3, 3, 1, 1), make_plane(3, 3, 6, 6)}) {
-        for (const PolygonSoup& body : {lying, moved(make_box({1, 1, 1}), {0, 0.5, 0}), moved(make_box({1, 1, 1}), {0.1, -0.5, 0.1})}) {
+        for (const PolygonSoup& body :
+             {lying, moved(make_box({1, 1, 1}), {0, 0.5, 0}), moved(make_box({1, 1, 1}), {0.1, -0.5, 0.1})}) {
             EXPECT_EQ(intersections_px(scene_of({sheet, body}), camera), 0);
             EXPECT_EQ(intersections_px(scene_of({joined({sheet, body})}), camera), 0);
         }
     }
 }
 
-
 // Two plates with a wall between them that is seen edge-on, behind a sheet: the wall's upper edge is an outline, once.
-// At an outline triangles are seen edge-on, and which of them lies outermost by less than vertices are snapped is chance:
-// none of them hides the outline.
+// At an outline triangles are seen edge-on, and which of them lies outermost by less than vertices are snapped is
+// chance: none of them hides the outline.
 TEST(HiddenLines, AnOutlineIsNotHiddenByItsOwnRim) {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         Random random(seed);
         const PolygonSoup body = make_torus(1, 0.45, 90, 44);
         const glm::dvec3 eye = 8.0 * random.direction();
         PolygonSoup sheet;
-        const glm::dvec3 right = glm::normalize(glm::cross(eye, glm::dvec3(0.1, 1, 0.2))), up = glm::normalize(glm::cross(right, eye));
-        for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) sheet.positions.push_back(0.5 * eye + 5.0 * (corner.x * right + corner.y * up));
+        const glm::dvec3 right = glm::normalize(glm::cross(eye, glm::dvec3(0.1, 1, 0.2))),
+                         up = glm::normalize(glm::cross(right, eye));
+        for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+            sheet.positions.push_back(0.5 * eye + 5.0 * (corner.x * right + corner.y * up));
         sheet.add_polygon(std::vector<std::uint32_t>{0, 1, 2, 3});
         const Camera camera = perspective_camera(eye, {0, 0, 0});
         const double seen_px = sum(draw(scene_of({body}), camera), "lines.A");
@@ -381,9 +406,17 @@ TEST(HiddenLines, AnOutlineIsNotHiddenByItsOwnRim) {
 }
 
 TEST(HiddenLines, OutlineOverAWallThatIsSeenEdgeOn) {
-    const PolygonSoup step = soup_of({{20, 20, 30}, {90.3, 20, 30}, {110.7, 200, 30}, {20, 200, 30}, {90.3, 20, 0}, {110.7, 200, 0}, {200, 20, 0}, {200, 200, 0}},
+    const PolygonSoup step = soup_of({{20, 20, 30},
+                                      {90.3, 20, 30},
+                                      {110.7, 200, 30},
+                                      {20, 200, 30},
+                                      {90.3, 20, 0},
+                                      {110.7, 200, 0},
+                                      {200, 20, 0},
+                                      {200, 200, 0}},
                                      {{0, 1, 2, 3}, {1, 4, 5, 2}, {4, 6, 7, 5}});
-    Scene scene = scene_of({step, soup_of({{10, 10, 100}, {230, 10, 100}, {230, 230, 100}, {10, 230, 100}}, {{0, 1, 2, 3}})});
+    Scene scene =
+        scene_of({step, soup_of({{10, 10, 100}, {230, 10, 100}, {230, 230, 100}, {10, 230, 100}}, {{0, 1, 2, 3}})});
     scene.lines.classes = LineClass::silhouette;
     const Layers layers(scene, pixel_camera(kSize, kSize));
     EXPECT_NEAR(layers.all_hidden_px(), glm::distance(glm::dvec2(90.3, 20), glm::dvec2(110.7, 200)), 0.1);
@@ -395,24 +428,31 @@ TEST(HiddenLines, OutlineOfABodySeenAlongItsWalls) {
     for (const int rows : {1, 3, 20, 60, 600}) {
         for (const bool turns_back : {false, true}) {
             PolygonSoup body;
-            const auto corner = [](std::size_t k) { return glm::dvec2(k == 0 || k == 3 ? 60.3 : 180.6, k < 2 ? 60.2 : 170.7); };
+            const auto corner = [](std::size_t k) {
+                return glm::dvec2(k == 0 || k == 3 ? 60.3 : 180.6, k < 2 ? 60.2 : 170.7);
+            };
             for (int row = 0; row <= rows; ++row) {
-                for (std::size_t k = 0; k < 4; ++k) body.positions.emplace_back(corner(k).x, corner(k).y, 30 - 30.0 * row / rows);
+                for (std::size_t k = 0; k < 4; ++k)
+                    body.positions.emplace_back(corner(k).x, corner(k).y, 30 - 30.0 * row / rows);
             }
             body.add_polygon(std::vector<std::uint32_t>{0, 1, 2, 3});
             for (std::uint32_t first = 0; first < 4 * static_cast<std::uint32_t>(rows); first += 4) {
                 for (std::uint32_t k = 0; k < 4; ++k)
-                    body.add_polygon(std::vector<std::uint32_t>{first + k, first + 4 + k, first + 4 + (k + 1) % 4, first + (k + 1) % 4});
+                    body.add_polygon(std::vector<std::uint32_t>{first + k, first + 4 + k, first + 4 + (k + 1) % 4,
+                                                                first + (k + 1) % 4});
             }
             const auto last = static_cast<std::uint32_t>(4 * rows), around = last + 4;
             if (turns_back) {
                 body.add_polygon(std::vector<std::uint32_t>{last + 3, last + 2, last + 1, last});
             } else {
-                for (const auto& [x, y] : {std::pair(20.0, 20.0), {220.0, 20.0}, {220.0, 220.0}, {20.0, 220.0}}) body.positions.emplace_back(x, y, 0);
+                for (const auto& [x, y] : {std::pair(20.0, 20.0), {220.0, 20.0}, {220.0, 220.0}, {20.0, 220.0}})
+                    body.positions.emplace_back(x, y, 0);
                 for (std::uint32_t k = 0; k < 4; ++k)
-                    body.add_polygon(std::vector<std::uint32_t>{around + k, around + (k + 1) % 4, last + (k + 1) % 4, last + k});
+                    body.add_polygon(
+                        std::vector<std::uint32_t>{around + k, around + (k + 1) % 4, last + (k + 1) % 4, last + k});
             }
-            Scene scene = scene_of({body, soup_of({{10, 10, 100}, {230, 10, 100}, {230, 230, 100}, {10, 230, 100}}, {{0, 1, 2, 3}})});
+            Scene scene = scene_of(
+                {body, soup_of({{10, 10, 100}, {230, 10, 100}, {230, 230, 100}, {10, 230, 100}}, {{0, 1, 2, 3}})});
             scene.lines.classes = LineClass::silhouette;
             scene.lines.style.hidden.style = HiddenStyle::solid;
             // In the picture: rows that stand for one another may be drawn in one place.
@@ -422,14 +462,16 @@ TEST(HiddenLines, OutlineOfABodySeenAlongItsWalls) {
     }
 }
 
-/// A step down along y whose wall leans back by some 1/256 pixel, in rows and columns of triangles, turned around the middle.
+/// A step down along y whose wall leans back by some 1/256 pixel, in rows and columns of triangles, turned around the
+/// middle.
 PolygonSoup leaning_step(double height, double lean_px, std::uint32_t rows, std::uint32_t columns, double angle) {
     PolygonSoup soup;
     soup.object_names = {"step"};
     for (std::uint32_t j = 0; j <= columns; ++j) {
         const double y = -80 + 160.0 * j / columns;
         soup.positions.emplace_back(-80, y, height);
-        for (std::uint32_t i = 0; i <= rows; ++i) soup.positions.emplace_back(-lean_px * i / rows, y, height - height * i / rows);
+        for (std::uint32_t i = 0; i <= rows; ++i)
+            soup.positions.emplace_back(-lean_px * i / rows, y, height - height * i / rows);
         soup.positions.emplace_back(80, y, 0);
     }
     const std::uint32_t width = rows + 3;
@@ -441,7 +483,8 @@ PolygonSoup leaning_step(double height, double lean_px, std::uint32_t rows, std:
         }
     }
     return transformed(std::move(soup), [=](glm::dvec3 p) {
-        return glm::dvec3(120.13 + std::cos(angle) * p.x - std::sin(angle) * p.y, 120.86 + std::sin(angle) * p.x + std::cos(angle) * p.y, p.z);
+        return glm::dvec3(120.13 + std::cos(angle) * p.x - std::sin(angle) * p.y,
+                          120.86 + std::sin(angle) * p.x + std::cos(angle) * p.y, p.z);
     });
 }
 
@@ -449,8 +492,10 @@ PolygonSoup leaning_step(double height, double lean_px, std::uint32_t rows, std:
 TEST(HiddenLines, OutlineOverAWallThatLeansBack) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         Random random(seed);
-        const auto rows = static_cast<std::uint32_t>(random.integer(1, 4)), columns = static_cast<std::uint32_t>(random.integer(1, 4));
-        const PolygonSoup step = leaning_step(random.real(8, 50), random.real(0, 3) / 256, rows, columns, random.real(0, 6));
+        const auto rows = static_cast<std::uint32_t>(random.integer(1, 4)),
+                   columns = static_cast<std::uint32_t>(random.integer(1, 4));
+        const PolygonSoup step =
+            leaning_step(random.real(8, 50), random.real(0, 3) / 256, rows, columns, random.real(0, 6));
         const auto drawn = [](const std::vector<PolygonSoup>& objects) {
             Scene scene = scene_of(objects);
             scene.lines.classes = LineClass::silhouette;
@@ -459,7 +504,8 @@ TEST(HiddenLines, OutlineOverAWallThatLeansBack) {
         };
         const Image seen = drawn({step});
         EXPECT_LT(sum(seen, "lines_hidden.A"), 0.5) << "seed " << seed;
-        const PolygonSoup sheet = soup_of({{-500, -500, 100}, {500, -500, 100}, {500, 500, 100}, {-500, 500, 100}}, {{0, 1, 2, 3}});
+        const PolygonSoup sheet =
+            soup_of({{-500, -500, 100}, {500, -500, 100}, {500, 500, 100}, {-500, 500, 100}}, {{0, 1, 2, 3}});
         EXPECT_NEAR(sum(drawn({step, sheet}), "lines_hidden.A"), sum(seen, "lines.A"), 1.5) << "seed " << seed;
     }
 }
@@ -518,12 +564,14 @@ TEST(HiddenLines, EqualForAnyNumberOfThreadsAndAnyCrop) {
 
 TEST(HiddenLines, DashesRunOnAroundCornersOfAPolyline) {
     // A wall hides a sheet whose border consists of many short edges.
-    Scene scene = scene_of({soup_of({{5, 5, 100}, {235, 5, 100}, {235, 235, 100}, {5, 235, 100}}, {{0, 1, 2, 3}}),
-                            moved(transformed(make_plane(180, 100, 23, 1), [](glm::dvec3 p) { return glm::dvec3(p.x, p.z, 0); }), {120, 120.5, 0})});
+    Scene scene =
+        scene_of({soup_of({{5, 5, 100}, {235, 5, 100}, {235, 235, 100}, {5, 235, 100}}, {{0, 1, 2, 3}}),
+                  moved(transformed(make_plane(180, 100, 23, 1), [](glm::dvec3 p) { return glm::dvec3(p.x, p.z, 0); }),
+                        {120, 120.5, 0})});
     scene.lines.style.hidden.style = HiddenStyle::dashed;
     scene.lines.style.hidden.dash_px = {{10, 6}};
     const Image image = draw(scene, pixel_camera(kSize, kSize));
-    const int row = 69;  // y = 240 - 170.5
+    const int row = 69;                // y = 240 - 170.5
     std::vector<double> starts, ends;  // of dashes, where the coverage passes one half
     double before = value(image, "lines_hidden.A", 39, row);
     for (int x = 40; x < 200; ++x) {
@@ -535,7 +583,8 @@ TEST(HiddenLines, DashesRunOnAroundCornersOfAPolyline) {
     ASSERT_GE(starts.size(), 8u);
     for (std::size_t i = 1; i < starts.size(); ++i) EXPECT_NEAR(starts[i] - starts[i - 1], 16, 1);
     const std::size_t skip = ends[0] < starts[0] ? 1 : 0;
-    for (std::size_t i = 0; i + skip < ends.size() && i < starts.size(); ++i) EXPECT_NEAR(ends[i + skip] - starts[i], 10, 1.01);
+    for (std::size_t i = 0; i + skip < ends.size() && i < starts.size(); ++i)
+        EXPECT_NEAR(ends[i + skip] - starts[i], 10, 1.01);
 }
 
 TEST(HiddenLines, DashesHangOnNoOrder) {
@@ -553,14 +602,16 @@ TEST(HiddenLines, DashesHangOnNoOrder) {
     const Image a = drawn(given), b = drawn(turned);
     EXPECT_GT(sum(a, "lines_hidden.A"), 100);
     for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) ASSERT_EQ(value(a, "lines_hidden.A", x, y), value(b, "lines_hidden.A", x, y)) << x << ' ' << y;
+        for (int x = 0; x < kSize; ++x)
+            ASSERT_EQ(value(a, "lines_hidden.A", x, y), value(b, "lines_hidden.A", x, y)) << x << ' ' << y;
     }
 }
 
 TEST(HiddenLines, OpenMeshesShowTheirInsides) {
     // A box without its front: from the front, no line of it is hidden.
-    const Scene scene = scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-                                          {{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}})});
+    const Scene scene =
+        scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                          {{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}})});
     const Layers layers(scene, perspective_camera({0.5, 0.5, 5}, {0.5, 0.5, 0}, 25));
     EXPECT_EQ(layers.pass.lines().size(), 12u);
     EXPECT_NEAR(layers.all_hidden_px(), 0, 0.01);

@@ -77,8 +77,10 @@ TEST(IntersectionTest, IsTrueOfTrianglesThatPassThroughEachOtherAndOfNoneThatAre
                 positions.push_back(p);
             }
         }
-        const bool is_flat = volume(points[0], points[0][0] + glm::cross(points[0][1] - points[0][0], points[0][2] - points[0][0])) == 0 ||
-                             volume(points[1], points[1][0] + glm::cross(points[1][1] - points[1][0], points[1][2] - points[1][0])) == 0;
+        const bool is_flat =
+            volume(points[0], points[0][0] + glm::cross(points[0][1] - points[0][0], points[0][2] - points[0][0])) ==
+                0 ||
+            volume(points[1], points[1][0] + glm::cross(points[1][1] - points[1][0], points[1][2] - points[1][0])) == 0;
         if (is_flat) continue;
         const Scene scene = scene_of({soup_of(positions, {{0, 1, 2}, {3, 4, 5}})});
         ASSERT_EQ(scene.meshes[0].triangles.size(), 2u);
@@ -99,7 +101,8 @@ TEST(IntersectionTest, IsTrueOfTrianglesThatPassThroughEachOtherAndOfNoneThatAre
 }
 
 TEST(IntersectionTest, SeesATipThatSinglePrecisionDoesNot) {
-    Scene scene = scene_of({soup_of({{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {{0, 1, 2}}), soup_of({{0, 0, 1}, {-1, 0, -1}, {1, 0, -1}}, {{0, 1, 2}})});
+    Scene scene = scene_of({soup_of({{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {{0, 1, 2}}),
+                            soup_of({{0, 0, 1}, {-1, 0, -1}, {1, 0, -1}}, {{0, 1, 2}})});
     scene.objects[1].to_world = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 1e-10));
     EXPECT_TRUE(IntersectionTest(scene).may_intersect({0, 0}, {1, 0}));
 }
@@ -112,13 +115,20 @@ Scene tangle(Random& random) {
         PolygonSoup soup;
         const double size = std::pow(10.0, random.real(-2, 0.7));
         switch (random.integer(0, 3)) {
-            case 0: soup = make_torus(size, 0.4 * size, random.integer(5, 30), random.integer(4, 20)); break;
-            case 1: soup = make_box(glm::dvec3(random.real(0.5, 1), random.real(0.5, 1), random.real(0.01, 1)) * size); break;
-            case 2: soup = make_plane(size, size, random.integer(1, 9), random.integer(1, 9)); break;
+            case 0:
+                soup = make_torus(size, 0.4 * size, random.integer(5, 30), random.integer(4, 20));
+                break;
+            case 1:
+                soup = make_box(glm::dvec3(random.real(0.5, 1), random.real(0.5, 1), random.real(0.01, 1)) * size);
+                break;
+            case 2:
+                soup = make_plane(size, size, random.integer(1, 9), random.integer(1, 9));
+                break;
             default:
                 for (std::uint32_t t = 0; t < static_cast<std::uint32_t>(random.integer(1, 60)); ++t) {
                     const glm::dvec3 center = random.in_box(0.7 * size);
-                    for (int k = 0; k < 3; ++k) soup.positions.push_back(center + random.direction() * random.real(0, size));
+                    for (int k = 0; k < 3; ++k)
+                        soup.positions.push_back(center + random.direction() * random.real(0, size));
                     soup.add_polygon(std::vector<std::uint32_t>{3 * t, 3 * t + 1, 3 * t + 2});
                 }
         }
@@ -128,7 +138,8 @@ Scene tangle(Random& random) {
     const std::size_t given = scene.objects.size();
     for (std::size_t i = 0; i < given + 2; ++i) {
         if (i >= given) scene.objects.push_back(scene.objects[i - given]);
-        scene.objects[i].to_world = glm::rotate(glm::translate(glm::dmat4(1.0), random.in_box(0.6)), random.real(0, 6), random.direction());
+        scene.objects[i].to_world =
+            glm::rotate(glm::translate(glm::dmat4(1.0), random.in_box(0.6)), random.real(0, 6), random.direction());
     }
     return scene;
 }
@@ -149,8 +160,10 @@ TEST(IntersectingPairs, AreAllThatMayIntersect) {
             const auto& a = scene.meshes[scene.objects[all[i].instance].mesh].triangles[all[i].triangle];
             for (std::size_t k = i + 1; k < all.size(); ++k) {
                 const auto& b = scene.meshes[scene.objects[all[k].instance].mesh].triangles[all[k].triangle];
-                const bool is_connected = all[i].instance == all[k].instance &&
-                                          std::any_of(a.begin(), a.end(), [&](std::uint32_t v) { return std::count(b.begin(), b.end(), v) > 0; });
+                const bool is_connected =
+                    all[i].instance == all[k].instance && std::any_of(a.begin(), a.end(), [&](std::uint32_t v) {
+                        return std::count(b.begin(), b.end(), v) > 0;
+                    });
                 if (!is_connected && test.may_intersect(all[i], all[k])) expected.push_back({all[i], all[k]});
             }
         }
@@ -179,7 +192,8 @@ TEST(IntersectingPairs, AreLeftToTheViewWhereSinglePrecisionEnds) {
 /// Long facets around a slanted axis: the boxes of all overlap, and hardly any intersect.
 Scene slanted_facets(std::uint32_t count) {
     PolygonSoup soup;
-    const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 1, 1)), u = glm::normalize(glm::dvec3(1, -1, 0)), v = glm::cross(axis, u);
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 1, 1)), u = glm::normalize(glm::dvec3(1, -1, 0)),
+                     v = glm::cross(axis, u);
     for (std::uint32_t i = 0; i < count; ++i) {
         const double a = 6.283185307179586 * i / count;
         const glm::dvec3 around = std::cos(a) * u + std::sin(a) * v;
@@ -222,7 +236,8 @@ TEST(BoxTree, FindsEachPairOnce) {
         for (std::uint32_t i = 0; i < count; ++i) {
             for (std::uint32_t k = i + 1; k < count; ++k) {
                 const ScreenBox &a = boxes[i], &b = boxes[k];
-                if (a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1 && a.low < b.high && b.low < a.high) expected.push_back({i, k});
+                if (a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1 && a.low < b.high && b.low < a.high)
+                    expected.push_back({i, k});
             }
         }
         const BoxTree tree(boxes, best_kernels(), 2);
@@ -244,7 +259,8 @@ constexpr int kWidth = 200, kHeight = 160;
 
 Image draw(const Scene& scene, const Camera& camera, PixelRect crop = {0, 0, kWidth, kHeight}, int threads = 2) {
     const Frame frame = make_frame(scene, camera, kWidth, kHeight, crop);
-    Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true, true}, frame.criteria.classes);
+    Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true, true},
+              frame.criteria.classes);
     RunOptions options;
     options.threads = threads;
     render_abuffer(frame, options, film);
@@ -311,14 +327,16 @@ TEST(IntersectingPairs, GiveTheSameLinesAndPieces) {
         ASSERT_EQ(with.lines.size(), without.lines.size()) << "trial " << trial;
         for (std::size_t i = 0; i < with.lines.size(); ++i) {
             const WholeLine &a = with.lines[i], &b = without.lines[i];
-            ASSERT_TRUE(a.from == b.from && a.to == b.to && a.owners == b.owners && a.nodes == b.nodes && a.drawn_as == b.drawn_as)
+            ASSERT_TRUE(a.from == b.from && a.to == b.to && a.owners == b.owners && a.nodes == b.nodes &&
+                        a.drawn_as == b.drawn_as)
                 << "trial " << trial << ", line " << i;
             if (a.drawn_as != LineClass::intersection) continue;
             ++intersections;
             const Frame frame = make_frame(scene, camera, kWidth, kHeight, {0, 0, kWidth, kHeight});
             const ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
             for (const std::uint32_t owner : a.owners) {
-                for (const ScreenVertex& v : screen.triangle(screen.surface_of(owner)).corners) cut += v.x == ScreenVertex::kOffScreen;
+                for (const ScreenVertex& v : screen.triangle(screen.surface_of(owner)).corners)
+                    cut += v.x == ScreenVertex::kOffScreen;
             }
         }
         ASSERT_EQ(with.pieces.size(), without.pieces.size()) << "trial " << trial;
@@ -334,12 +352,14 @@ TEST(IntersectingPairs, GiveTheSameLinesAndPieces) {
 
 /// Folded sheets whose folds lie about in the plane of a wall, some steep and some flat to the eye.
 Scene folds_in_walls(Random& random) {
-    std::vector<PolygonSoup> objects{transformed(make_plane(4, 4, 3, 3), [](glm::dvec3 p) { return glm::dvec3(p.x, p.z, 0); })};
+    std::vector<PolygonSoup> objects{
+        transformed(make_plane(4, 4, 3, 3), [](glm::dvec3 p) { return glm::dvec3(p.x, p.z, 0); })};
     for (int i = 0; i < 12; ++i) {
         const auto near = [&](double z) { return glm::dvec3(random.real(-1.8, 1.8), random.real(-1.8, 1.8), z); };
         const double off = std::pow(10.0, random.real(-6, -2));
         const auto in_wall = [&] { return near(random.real(-off, off)); };
-        objects.push_back(soup_of({in_wall(), in_wall(), near(random.real(0.01, 1)), near(random.real(-1, -0.01))}, {{0, 1, 2}, {1, 0, 3}}));
+        objects.push_back(soup_of({in_wall(), in_wall(), near(random.real(0.01, 1)), near(random.real(-1, -0.01))},
+                                  {{0, 1, 2}, {1, 0, 3}}));
     }
     return scene_of(std::move(objects));
 }
@@ -356,7 +376,8 @@ TEST(IntersectingPairs, GiveTheSameLinesWhereFoldsLieInPlanes) {
         const Found with(scene, camera, 1);
         ASSERT_EQ(with.lines.size(), without.lines.size()) << "trial " << trial;
         for (std::size_t i = 0; i < with.lines.size(); ++i) {
-            ASSERT_TRUE(with.lines[i].from == without.lines[i].from && with.lines[i].to == without.lines[i].to) << "trial " << trial;
+            ASSERT_TRUE(with.lines[i].from == without.lines[i].from && with.lines[i].to == without.lines[i].to)
+                << "trial " << trial;
             intersections += with.lines[i].drawn_as == LineClass::intersection;
         }
     }
@@ -370,7 +391,8 @@ double second_wall_begins_at(double x, bool has_many, int crop_x0) {
     };
     std::vector<PolygonSoup> objects{wall(-5, -5, 105, 105, 50), wall(x, 20, 90, 90, 40), wall(5, 50, 95, 80, 0)};
     if (has_many) {
-        objects.push_back(transformed(make_plane(60, 40, 40, 40), [](glm::dvec3 p) { return glm::dvec3(p.x + 50, p.z + 60, 70); }));
+        objects.push_back(
+            transformed(make_plane(60, 40, 40, 40), [](glm::dvec3 p) { return glm::dvec3(p.x + 50, p.z + 60, 70); }));
     }
     Scene scene = scene_of(std::move(objects));
     scene.lines.style.hidden.style = HiddenStyle::solid;

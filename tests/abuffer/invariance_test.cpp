@@ -24,7 +24,8 @@ Scene heap(std::uint64_t seed, double scale = 1) {
             const glm::dvec3 center = random.in_box(1);
             std::vector<std::uint32_t> corners;
             const int count = random.integer(3, 4);
-            const glm::dvec3 u = random.direction() * random.real(0.1, 0.8), v = random.direction() * random.real(0.1, 0.8);
+            const glm::dvec3 u = random.direction() * random.real(0.1, 0.8),
+                             v = random.direction() * random.real(0.1, 0.8);
             for (int k = 0; k < count; ++k) {
                 const double a = 6.283185307 * k / count;
                 corners.push_back(static_cast<std::uint32_t>(soup.positions.size()));
@@ -35,7 +36,8 @@ Scene heap(std::uint64_t seed, double scale = 1) {
         objects.push_back(soup);
     }
     objects.push_back(transformed(make_torus(0.7, 0.25, 24, 12), [=](glm::dvec3 p) { return p * scale; }));
-    objects.push_back(transformed(make_box({0.8, 0.5, 1.1}), [=](glm::dvec3 p) { return (p + glm::dvec3(0.2, 0.3, -0.1)) * scale; }));
+    objects.push_back(
+        transformed(make_box({0.8, 0.5, 1.1}), [=](glm::dvec3 p) { return (p + glm::dvec3(0.2, 0.3, -0.1)) * scale; }));
     Scene scene = scene_of(std::move(objects));
     scene.lines.classes = LineClassSet::all();
     return scene;
@@ -102,9 +104,10 @@ std::vector<PolygonSoup> pixel_heap(std::uint64_t seed, int width, int height) {
             std::vector<std::uint32_t> corners;
             for (int k = 0; k < 3; ++k) {
                 corners.push_back(static_cast<std::uint32_t>(soup.positions.size()));
-                soup.positions.emplace_back((random.integer(5, width - 6) * 256 + 17 + 2 * random.integer(0, 100)) / 256.0,
-                                            (random.integer(5, height - 6) * 256 + 17 + 2 * random.integer(0, 100)) / 256.0,
-                                            random.integer(-64, 64) / 2.0);
+                soup.positions.emplace_back(
+                    (random.integer(5, width - 6) * 256 + 17 + 2 * random.integer(0, 100)) / 256.0,
+                    (random.integer(5, height - 6) * 256 + 17 + 2 * random.integer(0, 100)) / 256.0,
+                    random.integer(-64, 64) / 2.0);
             }
             soup.add_polygon(corners);
         }
@@ -140,7 +143,8 @@ TEST(Invariance, MirroringMirrorsThePicture) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
         const auto objects = pixel_heap(seed, kWidth, kHeight);
         auto mirrored = objects;
-        for (auto& soup : mirrored) soup = transformed(soup, [](glm::dvec3 p) { return glm::dvec3(kWidth - p.x, p.y, p.z); });
+        for (auto& soup : mirrored)
+            soup = transformed(soup, [](glm::dvec3 p) { return glm::dvec3(kWidth - p.x, p.y, p.z); });
         const Drawing a(scene_of(objects), pixel_camera(kWidth, kHeight), kWidth, kHeight);
         const Drawing b(scene_of(mirrored), pixel_camera(kWidth, kHeight), kWidth, kHeight);
         double difference = 0, total = 0;
@@ -160,7 +164,8 @@ TEST(Invariance, TheOrderOfPolygonsChangesNoLine) {
         const PolygonSoup box = make_box({1, 0.4, 1});
         for (std::size_t i = 0; i < box.polygon_count(); ++i) {
             std::vector<std::uint32_t> corners;
-            for (const std::uint32_t v : box.polygon(i)) corners.push_back(v + static_cast<std::uint32_t>(soup.positions.size()));
+            for (const std::uint32_t v : box.polygon(i))
+                corners.push_back(v + static_cast<std::uint32_t>(soup.positions.size()));
             soup.add_polygon(corners);
         }
         for (const glm::dvec3& p : box.positions) soup.positions.push_back(p);
@@ -170,7 +175,8 @@ TEST(Invariance, TheOrderOfPolygonsChangesNoLine) {
         std::vector<std::size_t> order(soup.polygon_count());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
         Random random(seed);
-        for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
+        for (std::size_t i = order.size() - 1; i > 0; --i)
+            std::swap(order[i], order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
         for (const std::size_t i : order) {
             const auto polygon = soup.polygon(i);
             shuffled.add_polygon(polygon);
@@ -183,7 +189,8 @@ TEST(Invariance, TheOrderOfPolygonsChangesNoLine) {
 
 TEST(Invariance, CuttingAFaceWithoutANewPolygonAddsNoLine) {
     // A quadrilateral, and the same with a fifth corner in the middle of a side.
-    const PolygonSoup quad = soup_of({{20.1, 20.1, 0}, {80.1, 22.1, 10}, {78.1, 81.1, 20}, {21.1, 77.1, 10}}, {{0, 1, 2, 3}});
+    const PolygonSoup quad =
+        soup_of({{20.1, 20.1, 0}, {80.1, 22.1, 10}, {78.1, 81.1, 20}, {21.1, 77.1, 10}}, {{0, 1, 2, 3}});
     PolygonSoup five = quad;
     five.positions.push_back(0.5 * (quad.positions[0] + quad.positions[1]));
     five.corners = {0, 4, 1, 2, 3};

@@ -14,7 +14,9 @@ namespace {
 using namespace test;
 
 Drawing some_drawing() {
-    Scene scene = scene_of({make_box({1, 1, 1}), transformed(make_sphere(0.4, 32, 16), [](glm::dvec3 p) { return p + glm::dvec3(0.5, 0.3, 0.2); })});
+    Scene scene =
+        scene_of({make_box({1, 1, 1}),
+                  transformed(make_sphere(0.4, 32, 16), [](glm::dvec3 p) { return p + glm::dvec3(0.5, 0.3, 0.2); })});
     scene.lines.style.colors.fill({0.2f, 0.4f, 0.6f});
     scene.surfaces.shading = SurfaceShading::lambert;
     return Drawing(scene, perspective_camera({2, 1.5, 3}, {0, 0, 0}), 120, 100);
@@ -104,7 +106,8 @@ TEST(Layers, EveryPixelIsPut) {
     for (const Method& method : methods()) {
         for (const Scene& s : scenes) {
             for (const PixelRect crop : {PixelRect{0, 0, 150, 140}, PixelRect{3, 5, 144, 131}}) {
-                EXPECT_TRUE(same_bits(drawn_over(method, s, crop, 0x00), drawn_over(method, s, crop, 0xA5))) << method.name;
+                EXPECT_TRUE(same_bits(drawn_over(method, s, crop, 0x00), drawn_over(method, s, crop, 0xA5)))
+                    << method.name;
             }
         }
     }

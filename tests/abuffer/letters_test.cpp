@@ -20,9 +20,12 @@ using namespace test;
 using Outline = std::vector<glm::dvec2>;  // counterclockwise; a hole is joined by a bridge, to and fro
 
 const Outline kL{{0, 0}, {0.6, 0}, {0.6, 0.2}, {0.2, 0.2}, {0.2, 1}, {0, 1}};
-const Outline kE{{0, 0}, {0.6, 0}, {0.6, 0.2}, {0.2, 0.2}, {0.2, 0.45}, {0.5, 0.45}, {0.5, 0.6}, {0.2, 0.6}, {0.2, 0.85}, {0.6, 0.85}, {0.6, 1}, {0, 1}};
-const Outline kA{{0, 0}, {0.25, 0}, {0.35, 0.25}, {0.42, 0.4}, {0.5, 0.7}, {0.58, 0.4}, {0.42, 0.4}, {0.35, 0.25}, {0.65, 0.25}, {0.75, 0}, {1, 0}, {0.6, 1}, {0.4, 1}};
-const Outline kFrame{{0, 0}, {0.3, 0.3}, {0.3, 0.7}, {0.7, 0.7}, {0.7, 0.3}, {0.3, 0.3}, {0, 0}, {1, 0}, {1, 1}, {0, 1}};
+const Outline kE{{0, 0},     {0.6, 0},   {0.6, 0.2},  {0.2, 0.2},  {0.2, 0.45}, {0.5, 0.45},
+                 {0.5, 0.6}, {0.2, 0.6}, {0.2, 0.85}, {0.6, 0.85}, {0.6, 1},    {0, 1}};
+const Outline kA{{0, 0},       {0.25, 0},    {0.35, 0.25}, {0.42, 0.4}, {0.5, 0.7}, {0.58, 0.4}, {0.42, 0.4},
+                 {0.35, 0.25}, {0.65, 0.25}, {0.75, 0},    {1, 0},      {0.6, 1},   {0.4, 1}};
+const Outline kFrame{{0, 0},     {0.3, 0.3}, {0.3, 0.7}, {0.7, 0.7}, {0.7, 0.3},
+                     {0.3, 0.3}, {0, 0},     {1, 0},     {1, 1},     {0, 1}};
 
 /// Its front is at `z`.
 PolygonSoup sheet(const Outline& outline, double z = 0) {
@@ -61,12 +64,15 @@ PolygonSoup plate(int parts) {
     soup.positions = whole.positions;
     for (std::size_t i = 0; i < whole.polygon_count(); ++i) {
         const auto corners = whole.polygon(i);
-        const bool is_front = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return whole.positions[c].z == 0; });
+        const bool is_front =
+            std::all_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return whole.positions[c].z == 0; });
         if (!is_front) soup.add_polygon(std::vector<std::uint32_t>(corners.begin(), corners.end()));
     }
     const auto first = static_cast<std::uint32_t>(soup.positions.size()), along = static_cast<std::uint32_t>(parts + 1);
     for (int y = 0; y <= parts; ++y) {
-        for (int x = 0; x <= parts; ++x) soup.positions.emplace_back(glm::mix(low.x, high.x, double(x) / parts), glm::mix(low.y, high.y, double(y) / parts), 0);
+        for (int x = 0; x <= parts; ++x)
+            soup.positions.emplace_back(glm::mix(low.x, high.x, double(x) / parts),
+                                        glm::mix(low.y, high.y, double(y) / parts), 0);
     }
     for (std::uint32_t y = 0; y + 1 < along; ++y) {
         for (std::uint32_t x = 0; x + 1 < along; ++x) {
@@ -78,7 +84,8 @@ PolygonSoup plate(int parts) {
 }
 
 Camera camera_before(Random& random, bool orthographic) {
-    const glm::dvec3 middle(0.6, 0.5, -0.15), to_eye = glm::normalize(glm::dvec3(random.real(-1, 1), random.real(-0.6, 0.9), random.real(0.4, 1)));
+    const glm::dvec3 middle(0.6, 0.5, -0.15),
+        to_eye = glm::normalize(glm::dvec3(random.real(-1, 1), random.real(-0.6, 0.9), random.real(0.4, 1)));
     Camera camera = perspective_camera(middle + 4.0 * to_eye, middle, 35);
     camera.orthographic = orthographic;
     camera.height = 2.2;
@@ -108,8 +115,14 @@ struct Letter {
 };
 
 std::vector<Letter> letters() {
-    return {{"L", body(kL)},           {"E", body(kE)},         {"A", body(kA)},           {"frame", body(kFrame)},
-            {"E, turned", turned(body(kE))}, {"A, sunk", body(kA, -1e-6)}, {"L, a sheet", sheet(kL)}, {"frame, a sheet", turned(sheet(kFrame))},
+    return {{"L", body(kL)},
+            {"E", body(kE)},
+            {"A", body(kA)},
+            {"frame", body(kFrame)},
+            {"E, turned", turned(body(kE))},
+            {"A, sunk", body(kA, -1e-6)},
+            {"L, a sheet", sheet(kL)},
+            {"frame, a sheet", turned(sheet(kFrame))},
             {"two side by side", joined({body(kL), moved(body(kL), {0.603, 0, 0})})}};
 }
 
@@ -121,9 +134,11 @@ TEST(Letters, InAPlateAreNotSeen) {
             const Camera camera = camera_before(random, seed % 4 == 3);
             const int samples = seed % 3 == 2 ? 2 : 0;
             const Drawing expected = drawn(plate(1), camera, samples);
-            EXPECT_EQ(largest_difference(drawn(joined({letter.soup, plate(1)}), camera, samples), expected), 0) << letter.name << ", seed " << seed;
+            EXPECT_EQ(largest_difference(drawn(joined({letter.soup, plate(1)}), camera, samples), expected), 0)
+                << letter.name << ", seed " << seed;
             if (seed >= 8) continue;
-            EXPECT_EQ(largest_difference(drawn(joined({plate(1), letter.soup}), camera, samples), expected), 0) << letter.name << ", last, seed " << seed;
+            EXPECT_EQ(largest_difference(drawn(joined({plate(1), letter.soup}), camera, samples), expected), 0)
+                << letter.name << ", last, seed " << seed;
         }
     }
 }
@@ -135,7 +150,8 @@ TEST(Letters, InAPlateOfSeveralFacesAreNotSeen) {
             Random random(static_cast<std::uint64_t>(seed));
             const Camera camera = camera_before(random, seed % 4 == 3);
             const Drawing expected = drawn(plate(3), camera, 0);
-            EXPECT_EQ(largest_difference(drawn(joined({letter.soup, plate(3)}), camera, 0), expected), 0) << letter.name << ", seed " << seed;
+            EXPECT_EQ(largest_difference(drawn(joined({letter.soup, plate(3)}), camera, 0), expected), 0)
+                << letter.name << ", seed " << seed;
         }
     }
 }
@@ -143,17 +159,24 @@ TEST(Letters, InAPlateOfSeveralFacesAreNotSeen) {
 // The floor is cut behind the eye: what is left of a triangle, and of its neighbours, is more than one triangle.
 TEST(Letters, InAFloorThatReachesBehindTheEyeAreNotSeen) {
     Outline ring;
-    for (int i = 0; i <= 24; ++i) ring.push_back(glm::dvec2(0.5) + 0.5 * glm::dvec2(std::cos(glm::radians(15.0 * i)), std::sin(glm::radians(15.0 * i))));
-    for (int i = 24; i >= 0; --i) ring.push_back(glm::dvec2(0.5) + 0.3 * glm::dvec2(std::cos(glm::radians(15.0 * i)), std::sin(glm::radians(15.0 * i))));
+    for (int i = 0; i <= 24; ++i)
+        ring.push_back(glm::dvec2(0.5) +
+                       0.5 * glm::dvec2(std::cos(glm::radians(15.0 * i)), std::sin(glm::radians(15.0 * i))));
+    for (int i = 24; i >= 0; --i)
+        ring.push_back(glm::dvec2(0.5) +
+                       0.3 * glm::dvec2(std::cos(glm::radians(15.0 * i)), std::sin(glm::radians(15.0 * i))));
     ring[24] = ring[0];
     ring[25] = ring.back();
     const PolygonSoup floor = moved(make_box({6, 3, 0.3}), {1, 0.5, -0.15});
-    const PolygonSoup text = joined({moved(body(kL), {-1, 0, 0}), moved(body(kA), {0.1, 0, 0}), moved(body(ring), {1.2, 0, 0}), moved(body(kE), {2.3, 0, 0})});
+    const PolygonSoup text = joined({moved(body(kL), {-1, 0, 0}), moved(body(kA), {0.1, 0, 0}),
+                                     moved(body(ring), {1.2, 0, 0}), moved(body(kE), {2.3, 0, 0})});
     for (int seed = 0; seed < 60; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
         const glm::dvec3 target(random.real(-1, 2), random.real(0, 1), 0);
         const double reach = seed % 2 == 0 ? 3 : 0.6;
-        const Camera camera = perspective_camera(target + glm::dvec3(random.real(-reach, reach), random.real(-reach, reach), random.real(0.03, 0.25)), target, 60);
+        const Camera camera = perspective_camera(
+            target + glm::dvec3(random.real(-reach, reach), random.real(-reach, reach), random.real(0.03, 0.25)),
+            target, 60);
         const Drawing d = drawn(joined({text, floor}), camera, 0), expected = drawn(floor, camera, 0);
         // Not to the bit: a letter that ends less than a sample before the floor's own outline may make that wider.
         EXPECT_EQ(ink_apart(d, expected), 0) << seed;
@@ -161,7 +184,8 @@ TEST(Letters, InAFloorThatReachesBehindTheEyeAreNotSeen) {
     }
 }
 
-// What is behind a curtain with one layer in front is what is seen without it. (A letter's back is in the plate: sheets.)
+// What is behind a curtain with one layer in front is what is seen without it. (A letter's back is in the plate:
+// sheets.)
 TEST(Letters, InAPlateAreNotAmongHiddenLines) {
     for (const Outline& outline : {kL, kE, kFrame}) {
         for (int seed = 0; seed < 20; ++seed) {
@@ -169,7 +193,8 @@ TEST(Letters, InAPlateAreNotAmongHiddenLines) {
             const Camera camera = camera_before(random, false);
             const glm::dmat4 to_world = glm::inverse(camera.to_view());
             PolygonSoup curtain;
-            for (const glm::dvec2 p : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) curtain.positions.emplace_back(to_world * glm::dvec4(p, -1, 1));
+            for (const glm::dvec2 p : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+                curtain.positions.emplace_back(to_world * glm::dvec4(p, -1, 1));
             curtain.add_polygon(std::vector<std::uint32_t>{0, 1, 2, 3});
             const auto hidden_px = [&](const PolygonSoup& soup) {
                 Scene scene = scene_of({soup, curtain});
@@ -181,8 +206,8 @@ TEST(Letters, InAPlateAreNotAmongHiddenLines) {
     }
 }
 
-// Nothing fills the notch of a letter on its own, or before a plate: then it is a line, also where it is narrower than samples
-// are apart.
+// Nothing fills the notch of a letter on its own, or before a plate: then it is a line, also where it is narrower than
+// samples are apart.
 TEST(Letters, OnTheirOwnKeepTheirOutline) {
     for (int seed = 0; seed < 4; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
@@ -190,7 +215,8 @@ TEST(Letters, OnTheirOwnKeepTheirOutline) {
         const PolygonSoup back = moved(plate(1), {0, 0, -1});
         for (const Outline& outline : {kL, kA}) {
             Scene scene = scene_of({joined({body(outline), back})});
-            const Drawing d(scene, camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_abuffer), truth(scene, camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_reference);
+            const Drawing d(scene, camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_abuffer),
+                truth(scene, camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_reference);
             EXPECT_LE(ink_apart(truth, d), 0.5) << seed;
         }
     }
@@ -200,15 +226,19 @@ TEST(Letters, OnTheirOwnKeepTheirOutline) {
 TEST(Letters, DoNotHideAFinThatIsNarrowerThanSamplesAreApart) {
     for (int seed = 0; seed < 12; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
-        const double left = random.real(-0.4, 0), right = random.real(0.1, 0.5), width = 0.002, height = random.real(0.01, 0.03);
+        const double left = random.real(-0.4, 0), right = random.real(0.1, 0.5), width = 0.002,
+                     height = random.real(0.01, 0.03);
         PolygonSoup flange;
         for (const double y : {-1.0, 1.0}) {
             const double x = y < 0 ? left : right;
-            for (const glm::dvec2 p : {glm::dvec2(-1, 0), {x, 0}, {x, height}, {x + width, height}, {x + width, 0}, {1.2, 0}}) flange.positions.emplace_back(p.x, y, p.y);
+            for (const glm::dvec2 p :
+                 {glm::dvec2(-1, 0), {x, 0}, {x, height}, {x + width, height}, {x + width, 0}, {1.2, 0}})
+                flange.positions.emplace_back(p.x, y, p.y);
         }
         for (std::uint32_t i = 0; i < 5; ++i) flange.add_polygon(std::vector<std::uint32_t>{i, i + 1, i + 7, i + 6});
         PolygonSoup beneath;
-        for (const glm::dvec2 p : {glm::dvec2(-1.3, -1.3), {1.7, -1.3}, {1.7, 1.7}, {-1.3, 1.7}}) beneath.positions.emplace_back(p, 0);
+        for (const glm::dvec2 p : {glm::dvec2(-1.3, -1.3), {1.7, -1.3}, {1.7, 1.7}, {-1.3, 1.7}})
+            beneath.positions.emplace_back(p, 0);
         beneath.add_polygon(std::vector<std::uint32_t>{0, 1, 2, 3});
         const Camera camera = perspective_camera({0.2 * (seed % 3), 0.15 * (seed % 3), 6}, {0, 0, 0}, 35);
         for (const int samples : {0, 2}) {
@@ -226,7 +256,8 @@ TEST(Letters, DoNotHideAFinThatIsNarrowerThanSamplesAreApart) {
 TEST(Letters, InAPlateKeepWhatIsAskedFor) {
     Random random(1);
     const Camera camera = camera_before(random, false);
-    const Drawing plain = drawn(plate(1), camera, 0), polygons = drawn(joined({body(kL), plate(1)}), camera, 0, LineClass::polygon);
+    const Drawing plain = drawn(plate(1), camera, 0),
+                  polygons = drawn(joined({body(kL), plate(1)}), camera, 0, LineClass::polygon);
     EXPECT_GT(polygons.sum("lines.A"), plain.sum("lines.A") + 100);
     PolygonSoup marked = joined({body(kL), plate(1)});
     marked.marked_edges.push_back({2, 3});  // along the notch

@@ -22,7 +22,9 @@ Scene heap(int count) {
     Random random(1);
     std::vector<PolygonSoup> objects;
     for (int i = 0; i < count; ++i) {
-        const auto at = [&](double x, double y) { return i % 3 == 0 ? glm::dvec3(x, y, 0) : glm::dvec3(x, y, 0) + random.in_box(1); };
+        const auto at = [&](double x, double y) {
+            return i % 3 == 0 ? glm::dvec3(x, y, 0) : glm::dvec3(x, y, 0) + random.in_box(1);
+        };
         if (i % 4 != 3) {
             objects.push_back(soup_of({at(2, 3), at(46, 5), at(9, 45)}, {{0, 1, 2}}));
             continue;
@@ -78,13 +80,10 @@ TEST(LevelHeap, DependsOnNoRoom) {
             EXPECT_GT(whole.covered, 3000);
             EXPECT_GT(whole.room_for_contests, static_cast<std::size_t>(count) / 2 * kSize * kSize)
                 << "not enough are level";
-            for (const std::size_t most :
-                 {std::size_t{60000}, std::size_t{20000}, std::size_t{100}}) {
+            for (const std::size_t most : {std::size_t{60000}, std::size_t{20000}, std::size_t{100}}) {
                 const HeapSamples selected = samples_of(scene, *kernels, most);
-                EXPECT_EQ(selected.ids, whole.ids)
-                    << kernels->name << ", " << count << " surfaces, " << most;
-                EXPECT_EQ(selected.nearness, whole.nearness)
-                    << kernels->name << ", " << count << " surfaces, " << most;
+                EXPECT_EQ(selected.ids, whole.ids) << kernels->name << ", " << count << " surfaces, " << most;
+                EXPECT_EQ(selected.nearness, whole.nearness) << kernels->name << ", " << count << " surfaces, " << most;
             }
         }
     }
@@ -96,14 +95,12 @@ TEST(LevelHeap, TakesTheSameMemoryForAnyNumber) {
     const PolygonSoup one = soup_of({{2, 3, 0}, {46, 5, 0}, {9, 45, 0}}, {{0, 1, 2}});
     std::size_t room = 0;
     for (const int count : {200, 1000, 3000}) {
-        const Scene scene =
-            scene_of(std::vector<PolygonSoup>(static_cast<std::size_t>(count), one));
+        const Scene scene = scene_of(std::vector<PolygonSoup>(static_cast<std::size_t>(count), one));
         const HeapSamples found = samples_of(scene, best_kernels(), 20000);
         if (room == 0) room = found.room_for_contests;
         EXPECT_EQ(found.room_for_contests, room) << count;
         EXPECT_LT(room, 3 * Contests::kMostAtSample * 4 * kSize * kSize);
-        for (const std::uint32_t id : found.ids)
-            ASSERT_TRUE(id >> 1 == 0 || id == SampleTile::kBackground) << count;
+        for (const std::uint32_t id : found.ids) ASSERT_TRUE(id >> 1 == 0 || id == SampleTile::kBackground) << count;
         EXPECT_GT(found.covered, 3000);
     }
 }

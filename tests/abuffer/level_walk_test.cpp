@@ -48,8 +48,9 @@ void compare(Random& random, const Scene& scene, const Camera& camera, Counts& c
             }
             ++counts.told;
             const glm::dvec2 past = distance * out;
-            const SurfaceWalk walk = walk_to_end(frame.surfaces, {instance, h / 3}, (middle - past) / 256.0, (middle + past) / 256.0,
-                                                 frame.criteria, 96, screen.sharp_edges(instance));
+            const SurfaceWalk walk =
+                walk_to_end(frame.surfaces, {instance, h / 3}, (middle - past) / 256.0, (middle + past) / 256.0,
+                            frame.criteria, 96, screen.sharp_edges(instance));
             ASSERT_EQ(walk.end, WalkEnd::arrived) << "half-edge " << h << " distance " << distance;
         }
     }

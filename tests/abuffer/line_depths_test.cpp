@@ -49,18 +49,25 @@ TEST(LineDepths, TellWhereALineMayBeHidden) {
                     if (!(static_cast<double>(highest) > std::min(l.nearness_from, l.nearness_to) - 1e-6)) continue;
                     for (int step = 0; step <= 4000; ++step) {
                         const glm::dvec2 p = glm::mix(l.from, l.to, step / 4000.0);
-                        const glm::dvec2 beside = glm::max(glm::max(glm::dvec2(low) - p, p - glm::dvec2(high)), glm::dvec2(0.0));
-                        const glm::dvec2 tile_low = glm::dvec2(r.x0, r.y0) * 256.0, tile_high = glm::dvec2(r.x1, r.y1) * 256.0;
-                        const bool is_in_tile = p.x >= tile_low.x && p.y >= tile_low.y && p.x < tile_high.x && p.y < tile_high.y;
+                        const glm::dvec2 beside =
+                            glm::max(glm::max(glm::dvec2(low) - p, p - glm::dvec2(high)), glm::dvec2(0.0));
+                        const glm::dvec2 tile_low = glm::dvec2(r.x0, r.y0) * 256.0,
+                                         tile_high = glm::dvec2(r.x1, r.y1) * 256.0;
+                        const bool is_in_tile =
+                            p.x >= tile_low.x && p.y >= tile_low.y && p.x < tile_high.x && p.y < tile_high.y;
                         must = must || (is_in_tile && beside == glm::dvec2(0.0) &&
                                         static_cast<double>(highest) > std::min(l.nearness_from, l.nearness_to) + 1e-6);
                         may = may || std::max(beside.x, beside.y) < 1024 + 600;
                     }
                 }
-                if (must) { EXPECT_TRUE(found.contains(tile)) << "trial " << trial; }
+                if (must) {
+                    EXPECT_TRUE(found.contains(tile)) << "trial " << trial;
+                }
                 // Lines from beside the picture may be noted along its border, which is not checked here.
                 const bool is_inner = r.x0 > -32 && r.x1 < 160 && r.y0 > 0 && r.y1 < 96;
-                if (!may && is_inner) { EXPECT_FALSE(found.contains(tile)) << "trial " << trial; }
+                if (!may && is_inner) {
+                    EXPECT_FALSE(found.contains(tile)) << "trial " << trial;
+                }
                 visited += must;
                 left_out += !found.contains(tile);
             }
@@ -94,7 +101,8 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
             const int size = 1 << random.integer(2, 11);
             for (int k = 0; k < 3; ++k) {
                 corners.push_back(static_cast<std::uint32_t>(vertices.size()));
-                vertices.push_back({x + random.integer(-size, size), y + random.integer(-size, size), static_cast<float>(random.real(0, 1))});
+                vertices.push_back({x + random.integer(-size, size), y + random.integer(-size, size),
+                                    static_cast<float>(random.real(0, 1))});
             }
             if (random.integer(0, 20) == 0) vertices.back().x = ScreenVertex::kOffScreen;
         }
@@ -106,7 +114,8 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
         for (const TileKernels* kernels : all_kernels()) {
             found.emplace_back(4 * (count - begin) + kRoomBehindCulled);
             of_tile.emplace_back(4 * (count - begin) + kRoomBehindCulled);
-            const std::size_t n = kernels->find_in_front(mesh, begin, count, depths.grid(), found.back().data(), of_tile.back().data());
+            const std::size_t n =
+                kernels->find_in_front(mesh, begin, count, depths.grid(), found.back().data(), of_tile.back().data());
             found.back().resize(n);
             of_tile.back().resize(n);
             EXPECT_EQ(found.back(), found[0]) << kernels->name << " trial " << trial;
@@ -116,22 +125,33 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
             const ScreenVertex &a = vertices[3 * t], &b = vertices[3 * t + 1], &c = vertices[3 * t + 2];
             std::set<std::uint32_t> tiles_found, must;
             for (std::size_t i = 0; i < found[0].size(); ++i) {
-                if (found[0][i] == t) { EXPECT_TRUE(tiles_found.insert(of_tile[0][i]).second) << "trial " << trial << " triangle " << t; }
+                if (found[0][i] == t) {
+                    EXPECT_TRUE(tiles_found.insert(of_tile[0][i]).second) << "trial " << trial << " triangle " << t;
+                }
             }
-            const bool is_found = !tiles_found.empty(), needs_look = tiles_found == std::set<std::uint32_t>{kSeveralTiles};
+            const bool is_found = !tiles_found.empty(),
+                       needs_look = tiles_found == std::set<std::uint32_t>{kSeveralTiles};
             if (c.x == ScreenVertex::kOffScreen) {
                 EXPECT_TRUE(needs_look) << "trial " << trial;
                 continue;
             }
-            const glm::ivec2 low(std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})), high(std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}));
-            depths.for_tiles(low, high, std::max({a.nearness, b.nearness, c.nearness}), [&](std::uint32_t tile) { must.insert(tile); });
+            const glm::ivec2 low(std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})),
+                high(std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}));
+            depths.for_tiles(low, high, std::max({a.nearness, b.nearness, c.nearness}),
+                             [&](std::uint32_t tile) { must.insert(tile); });
             // What lies above or below the rows may be found in their border.
             const PixelRect rows = tiles.rect();
             const bool is_beside = high.y < rows.y0 * 256 || low.y >= rows.y1 * 256;
-            if (!needs_look && !is_beside) { EXPECT_EQ(tiles_found, must) << "trial " << trial << " triangle " << t; }
-            if (!needs_look) { EXPECT_TRUE(std::includes(tiles_found.begin(), tiles_found.end(), must.begin(), must.end())); }
+            if (!needs_look && !is_beside) {
+                EXPECT_EQ(tiles_found, must) << "trial " << trial << " triangle " << t;
+            }
+            if (!needs_look) {
+                EXPECT_TRUE(std::includes(tiles_found.begin(), tiles_found.end(), must.begin(), must.end()));
+            }
             const bool is_small = high.x - low.x <= 1024 && high.y - low.y <= 1024;  // in two by two blocks at most
-            if (is_small) { EXPECT_FALSE(needs_look) << "trial " << trial << " triangle " << t; }
+            if (is_small) {
+                EXPECT_FALSE(needs_look) << "trial " << trial << " triangle " << t;
+            }
             in_one_tile += tiles_found.size() == 1 && !needs_look;
             in_several_tiles += tiles_found.size() > 1;
             found_count += is_found;

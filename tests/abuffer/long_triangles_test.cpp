@@ -25,7 +25,8 @@ constexpr double kBeside = 2 * 256, kAnywhere = 1e9;
 Scene long_triangles(Random& random, int count) {
     PolygonSoup soup;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 from = 1.5 * random.in_box(1) * glm::dvec3(1, 1, i % 8 == 0 ? 4 : 1), along = random.real(1, 4) * random.direction();
+        const glm::dvec3 from = 1.5 * random.in_box(1) * glm::dvec3(1, 1, i % 8 == 0 ? 4 : 1),
+                         along = random.real(1, 4) * random.direction();
         const glm::dvec3 across = random.real(0.005, i % 5 == 0 ? 1 : 0.02) * random.direction();
         for (const glm::dvec3& p : {from, from + along, from + 0.5 * along + across}) {
             soup.corners.push_back(static_cast<std::uint32_t>(soup.positions.size()));
@@ -38,7 +39,8 @@ Scene long_triangles(Random& random, int count) {
 ScreenPolygon polygon_of(const ScreenSurfaces& screen, SurfaceId s) {
     if (screen.facing(screen.number_of(s)) == off_screen) return screen.surfaces().screen_polygon(s);
     ScreenPolygon polygon;
-    for (const ScreenVertex& v : screen.triangle(s).corners) polygon.corners[static_cast<std::size_t>(polygon.count++)] = {v.x, v.y};
+    for (const ScreenVertex& v : screen.triangle(s).corners)
+        polygon.corners[static_cast<std::size_t>(polygon.count++)] = {v.x, v.y};
     return polygon;
 }
 
@@ -59,7 +61,8 @@ bool covers_more(const ScreenPolygon& polygon, const PixelRect& rect, double siz
         low = glm::min(low, glm::dvec2(p.x, p.y));
         high = glm::max(high, glm::dvec2(p.x, p.y));
     }
-    const glm::dvec2 common = glm::min(high, glm::dvec2(rect.x1, rect.y1) * 256.0) - glm::max(low, glm::dvec2(rect.x0, rect.y0) * 256.0);
+    const glm::dvec2 common =
+        glm::min(high, glm::dvec2(rect.x1, rect.y1) * 256.0) - glm::max(low, glm::dvec2(rect.x0, rect.y0) * 256.0);
     return std::max(common.x, common.y) > size;
 }
 
@@ -85,7 +88,8 @@ TEST(LongTriangles, AreInTilesOfLayersThatTheyTouch) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const Scene scene = long_triangles(random, 120);
-        const Frame frame = make_frame(scene, perspective_camera({0, 0, 4}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+        const Frame frame =
+            make_frame(scene, perspective_camera({0, 0, 4}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
         ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
         const TriangleBins facings(screen, frame.crop, 2, best_kernels(), 1);
         const PixelTiles tiles({0, 0, 416, 320}, 32);
@@ -108,7 +112,8 @@ TEST(LongTriangles, AreInTilesOfLayersThatTheyTouch) {
                 const bool is_inner = rect.x0 > 0 && rect.y0 > 0 && rect.x1 < 416 && rect.y1 < 320;
                 if (!is_inner) continue;  // those at the border stand for what is beyond it
                 const auto list = bins.triangles(tile);
-                const bool is_listed = std::any_of(list.begin(), list.end(), [n](std::uint32_t v) { return (v & ~OccluderBins::kClipped) == n; });
+                const bool is_listed = std::any_of(list.begin(), list.end(),
+                                                   [n](std::uint32_t v) { return (v & ~OccluderBins::kClipped) == n; });
                 ASSERT_NO_FATAL_FAILURE(expect_listed(polygon, rect, is_long ? kBeside : kAnywhere, is_listed, counts));
             }
         }
@@ -123,7 +128,8 @@ TEST(LongTriangles, AreInBlocksThatTheyTouch) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const Scene scene = long_triangles(random, 60);
-        const Frame frame = make_frame(scene, perspective_camera({0, 0, 4}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+        const Frame frame =
+            make_frame(scene, perspective_camera({0, 0, 4}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
         const int per_pixel = 2 << seed % 2;
         ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
         constexpr bool kKeepsThin = true;
@@ -151,19 +157,23 @@ TEST(LongTriangles, AreInBlocksThatTheyTouch) {
             blocks.fill(tile, candidates);
             for (std::size_t b = 0; b < blocks.count(); ++b) {
                 const FinePart& part = candidates[blocks.candidates(b).front()].part;
-                const PixelRect block{part.block_x * kMergeBlockPx, part.block_y * kMergeBlockPx, (part.block_x + 1) * kMergeBlockPx, (part.block_y + 1) * kMergeBlockPx};
+                const PixelRect block{part.block_x * kMergeBlockPx, part.block_y * kMergeBlockPx,
+                                      (part.block_x + 1) * kMergeBlockPx, (part.block_y + 1) * kMergeBlockPx};
                 for (std::uint32_t n = 0; n < screen.triangle_count(); ++n) {
                     if (screen.facing(n) == edge_on) continue;
                     const auto& list = blocks.triangles(b);
-                    const bool is_listed = std::any_of(list.begin(), list.end(), [n](const CrossedTriangle& t) { return t.number == n; });
+                    const bool is_listed =
+                        std::any_of(list.begin(), list.end(), [n](const CrossedTriangle& t) { return t.number == n; });
                     const ScreenPolygon polygon = polygon_of(screen, screen.surface_of(n));
                     const auto shifted = [&](ScreenPolygon p) {  // blocks begin half a sample later
                         for (SubpixelPoint& c : p.corners) c = {c.x - grid.half_pitch, c.y - grid.half_pitch};
                         return p;
                     };
                     // Up to two by two blocks of a tile are told by its box.
-                    const bool is_long = width_of(polygon) > 3 * 256 * kMergeBlockPx && covers_more(polygon, rect, 2.1 * 256 * kMergeBlockPx);
-                    ASSERT_NO_FATAL_FAILURE(expect_listed(shifted(polygon), block, is_long ? kBeside : kAnywhere, is_listed, counts));
+                    const bool is_long = width_of(polygon) > 3 * 256 * kMergeBlockPx &&
+                                         covers_more(polygon, rect, 2.1 * 256 * kMergeBlockPx);
+                    ASSERT_NO_FATAL_FAILURE(
+                        expect_listed(shifted(polygon), block, is_long ? kBeside : kAnywhere, is_listed, counts));
                 }
             }
         }

@@ -39,25 +39,19 @@ Scene marks_of(std::vector<PolygonSoup> objects) {
     return scene;
 }
 
-Drawing drawing(const Scene& scene, const Camera& camera,
-                PixelRect crop = {0, 0, kPicture, kPicture}, int threads = 2) {
+Drawing drawing(const Scene& scene, const Camera& camera, PixelRect crop = {0, 0, kPicture, kPicture},
+                int threads = 2) {
     return Drawing(scene, camera, kPicture, kPicture, crop, threads, render_abuffer);
 }
-double ink(const Scene& scene, const Camera& camera) {
-    return drawing(scene, camera).sum("lines.A");
-}
+double ink(const Scene& scene, const Camera& camera) { return drawing(scene, camera).sum("lines.A"); }
 
 const Camera kPixels = pixel_camera(kPicture, kPicture);
 
 /// A box around the middle of the picture, in pixels.
-PolygonSoup box_at(glm::dvec3 middle, glm::dvec3 size) {
-    return moved(make_box(size), middle);
-}
+PolygonSoup box_at(glm::dvec3 middle, glm::dvec3 size) { return moved(make_box(size), middle); }
 
 /// Round ends reach half a width beyond.
-double stroke_px(double length) {
-    return length + M_PI / 4;
-}
+double stroke_px(double length) { return length + M_PI / 4; }
 
 TEST(LooseLines, AreDrawnWhereNothingElseIs) {
     const Scene scene = marks_of({line_of({{10.3, 20.1, 0}, {70.2, 20.1, 5}, {70.2, 80.4, -5}})});
@@ -70,8 +64,7 @@ TEST(LooseLines, AreDrawnWhereNothingElseIs) {
 }
 
 TEST(LooseLines, AreDrawnWithoutLinesThatSamplesMiss) {
-    Scene scene =
-        marks_of({line_of({{10.3, 20.1, 0}, {70.2, 50.1, 5}}), box_at({50, 50, 20}, {20, 60, 10})});
+    Scene scene = marks_of({line_of({{10.3, 20.1, 0}, {70.2, 50.1, 5}}), box_at({50, 50, 20}, {20, 60, 10})});
     const double expected = ink(scene, kPixels);
     for (const int samples : {2, 4, 8}) {
         scene.abuffer.samples = samples;
@@ -89,11 +82,9 @@ TEST(LooseLines, AreHiddenBySurfaces) {
             add_line(box, points);
             return ink(marks_of({box}), kPixels);
         };
-        EXPECT_NEAR(drawn({{10, 50.3, 0}, {90, 50.3, 0}}), 2 * stroke_px(20) - M_PI / 4, 1)
-            << "through the box";
+        EXPECT_NEAR(drawn({{10, 50.3, 0}, {90, 50.3, 0}}), 2 * stroke_px(20) - M_PI / 4, 1) << "through the box";
         EXPECT_NEAR(drawn({{10, 50.3, 30}, {90, 50.3, 30}}), stroke_px(80), 0.5) << "in front";
-        EXPECT_NEAR(drawn({{10, 50.3, -30}, {90, 50.3, -30}}), 2 * stroke_px(20) - M_PI / 4, 1)
-            << "behind";
+        EXPECT_NEAR(drawn({{10, 50.3, -30}, {90, 50.3, -30}}), 2 * stroke_px(20) - M_PI / 4, 1) << "behind";
         EXPECT_NEAR(drawn({{10, 50.3, 60}, {90, 50.3, -20}}), stroke_px(40) + stroke_px(20), 1.5)
             << "in by the front face";
         EXPECT_NEAR(drawn({{40, 50.3, 0}, {60, 50.3, 0}}), 0, 0) << "inside";
@@ -106,8 +97,8 @@ TEST(LooseLines, OnAFaceAreDrawnOnce) {
         Random random(seed);
         const glm::dvec3 direction = glm::normalize(random.direction() + glm::dvec3(0, 0, 1.2));
         const bool is_one_object = seed % 2 == 0, is_orthographic = seed % 4 < 2;
-        const Camera camera = is_orthographic ? ortho_camera(5.0 * direction, 2.2)
-                                              : perspective_camera(5.0 * direction, {0, 0, 0}, 28);
+        const Camera camera =
+            is_orthographic ? ortho_camera(5.0 * direction, 2.2) : perspective_camera(5.0 * direction, {0, 0, 0}, 28);
         const glm::dvec3 a(random.real(-0.45, 0.45), random.real(-0.45, 0.45), 0.5),
             b(random.real(-0.45, 0.45), random.real(-0.45, 0.45), 0.5);
         const auto scene_with = [&](double side) {  // on the front face or the back face
@@ -132,16 +123,13 @@ TEST(LooseLines, FromCornerToCornerOfAFace) {
     PolygonSoup box = make_box({40, 40, 40});
     box = moved(box, {50, 50, 0});
     const auto is_corner = [&](double x, double y) {
-        return static_cast<std::uint32_t>(
-            std::find(box.positions.begin(), box.positions.end(), glm::dvec3(x, y, 20)) -
-            box.positions.begin());
+        return static_cast<std::uint32_t>(std::find(box.positions.begin(), box.positions.end(), glm::dvec3(x, y, 20)) -
+                                          box.positions.begin());
     };
     for (const bool falls : {false, true}) {
         PolygonSoup with_line = box;
-        with_line.marked_edges.push_back(
-            {is_corner(30, falls ? 70 : 30), is_corner(70, falls ? 30 : 70)});
-        EXPECT_NEAR(ink(marks_of({with_line}), kPixels), stroke_px(40 * std::sqrt(2.0)), 0.5)
-            << falls;
+        with_line.marked_edges.push_back({is_corner(30, falls ? 70 : 30), is_corner(70, falls ? 30 : 70)});
+        EXPECT_NEAR(ink(marks_of({with_line}), kPixels), stroke_px(40 * std::sqrt(2.0)), 0.5) << falls;
     }
 }
 
@@ -160,8 +148,7 @@ TEST(LooseLines, AlongAnEdgeAreDrawnOnce) {
 TEST(LooseLines, AreCutAtTheNearPlane) {
     const Camera camera = perspective_camera({0, 0, 0}, {0, 0, -1}, 60);
     // From behind the eye to far away in the middle of the picture, below it.
-    const Scene scene =
-        marks_of({line_of({{0, -1, 10}, {0, -1, -1000}}), line_of({{-1, 1, -5}, {1, 1, -5}})});
+    const Scene scene = marks_of({line_of({{0, -1, 10}, {0, -1, -1000}}), line_of({{-1, 1, -5}, {1, 1, -5}})});
     const Drawing drawn = drawing(scene, camera);
     EXPECT_EQ(drawn.drawn_share({50, 51}, {50, 100}), 1);
     EXPECT_NEAR(drawing(scene, camera, {0, 50, kPicture, kPicture}).sum("lines.A"), 50, 1);
@@ -169,12 +156,11 @@ TEST(LooseLines, AreCutAtTheNearPlane) {
 
 TEST(LooseLines, ThreadsTilesCropsAndCapsChangeNothing) {
     Random random(7);
-    PolygonSoup lines, sphere = transformed(make_sphere(25, 24, 12),
-                                            [](glm::dvec3 p) { return p + glm::dvec3(50, 50, 0); });
+    PolygonSoup lines,
+        sphere = transformed(make_sphere(25, 24, 12), [](glm::dvec3 p) { return p + glm::dvec3(50, 50, 0); });
     for (int i = 0; i < 60; ++i) {
         const glm::dvec3 a = random.in_box(50), b = random.in_box(50);
-        add_line(i % 2 == 0 ? lines : sphere,
-                 {a + glm::dvec3(50, 50, 0), b + glm::dvec3(50, 50, 0)});
+        add_line(i % 2 == 0 ? lines : sphere, {a + glm::dvec3(50, 50, 0), b + glm::dvec3(50, 50, 0)});
     }
     for (const HiddenStyle hidden : {HiddenStyle::none, HiddenStyle::solid, HiddenStyle::dashed}) {
         Scene scene = marks_of({sphere, lines});
@@ -182,17 +168,14 @@ TEST(LooseLines, ThreadsTilesCropsAndCapsChangeNothing) {
         scene.lines.style.hidden.style = hidden;
         const Drawing whole = drawing(scene, kPixels);
         for (const int threads : {1, 3})
-            EXPECT_TRUE(
-                same_bits(whole.image(),
-                          drawing(scene, kPixels, {0, 0, kPicture, kPicture}, threads).image()));
+            EXPECT_TRUE(same_bits(whole.image(), drawing(scene, kPixels, {0, 0, kPicture, kPicture}, threads).image()));
         const PixelRect crop{23, 31, 77, 68};
         const Drawing part = drawing(scene, kPixels, crop);
         for (int y = crop.y0; y < crop.y1; ++y) {
             for (int x = crop.x0; x < crop.x1; ++x)
                 ASSERT_EQ(part.line(x - crop.x0, y - crop.y0), whole.line(x, y)) << x << ' ' << y;
         }
-        const Frame frame =
-            make_frame(scene, kPixels, kPicture, kPicture, {0, 0, kPicture, kPicture});
+        const Frame frame = make_frame(scene, kPixels, kPicture, kPicture, {0, 0, kPicture, kPicture});
         LayerSet layers;
         const auto image_of = [&](const RunOptions& options) {
             Film film({0, 0, kPicture, kPicture}, frame.crop, layers, frame.criteria.classes);
@@ -207,8 +190,7 @@ TEST(LooseLines, ThreadsTilesCropsAndCapsChangeNothing) {
 }
 
 TEST(LooseLines, HiddenOnesCountTheLayersInFront) {
-    Scene scene = marks_of(
-        {box_at({120, 120, 0}, {100, 100, 100}), line_of({{20, 120.5, -80}, {220, 120.5, -80}})});
+    Scene scene = marks_of({box_at({120, 120, 0}, {100, 100, 100}), line_of({{20, 120.5, -80}, {220, 120.5, -80}})});
     scene.lines.style.hidden.style = HiddenStyle::solid;
     const Layers layers(scene, pixel_camera(test::kSize, test::kSize));
     ASSERT_EQ(layers.pass.lines().size(), 1u);
@@ -216,8 +198,7 @@ TEST(LooseLines, HiddenOnesCountTheLayersInFront) {
     EXPECT_NEAR(layers.all_hidden_px(), 100, 0.1);
     // On the back of the box: only the front is before it. On its front: nothing is.
     for (const auto& [z, count] : {std::pair(-50.0, 1), {50.0, 0}}) {
-        scene = marks_of(
-            {box_at({120, 120, 0}, {100, 100, 100}), line_of({{80, 120.5, z}, {160, 130, z}})});
+        scene = marks_of({box_at({120, 120, 0}, {100, 100, 100}), line_of({{80, 120.5, z}, {160, 130, z}})});
         scene.lines.style.hidden.style = HiddenStyle::solid;
         const Layers on_face(scene, pixel_camera(test::kSize, test::kSize));
         EXPECT_NEAR(on_face.all_hidden_px(), count * std::hypot(80, 9.5), 0.1) << z;
@@ -241,11 +222,13 @@ TEST(LooseLines, AreWhereRaysSeeThem) {
         PolygonSoup lines;
         for (int i = 0; i < 5; ++i) {
             const glm::dvec3 middle(50, 50, 0);
-            add_line(i % 2 == 0 ? ball : lines, {middle + random.in_box(45), middle + random.in_box(45), middle + random.in_box(45)});
+            add_line(i % 2 == 0 ? ball : lines,
+                     {middle + random.in_box(45), middle + random.in_box(45), middle + random.in_box(45)});
         }
         Scene scene = marks_of({ball, box_at({60, 40, 10}, {30, 20, 15}), lines});
         scene.reference.samples = 8;
-        const Drawing drawn = drawing(scene, kPixels), truth(scene, kPixels, kPicture, kPicture, {0, 0, kPicture, kPicture}, 2, render_reference);
+        const Drawing drawn = drawing(scene, kPixels),
+                      truth(scene, kPixels, kPicture, kPicture, {0, 0, kPicture, kPicture}, 2, render_reference);
         EXPECT_GT(truth.sum("lines.A"), 50);
         // A stroke's end where its line passes under an edge along a row of pixels may lie over that edge.
         int differing = 0;
@@ -269,8 +252,7 @@ TEST(LooseLines, DashesRunOnOverJoints) {
     EXPECT_NEAR(ink(one, kPixels), ink(many, kPixels), 0.1);
     const Drawing a = drawing(one, kPixels), b = drawing(many, kPixels);
     for (int y = 0; y < kPicture; ++y) {
-        for (int x = 0; x < kPicture; ++x)
-            ASSERT_NEAR(a.line(x, y), b.line(x, y), 0.05) << x << ' ' << y;
+        for (int x = 0; x < kPicture; ++x) ASSERT_NEAR(a.line(x, y), b.line(x, y), 0.05) << x << ' ' << y;
     }
     // Where a marked edge of a polygon goes on as a loose line, too.
     PolygonSoup sheet = soup_of({{10, 20, 0}, {50, 45, 0}, {20, 60, 0}, {90, 70, 0}}, {{0, 1, 2}});
@@ -285,8 +267,7 @@ bool is_behind(const std::vector<PolygonSoup>& objects, glm::dvec3 p, double sla
     for (const PolygonSoup& soup : objects) {
         for (std::size_t i = 0; i < soup.polygon_count(); ++i) {
             const auto c = soup.polygon(i);
-            const glm::dvec3 a = soup.positions[c[0]], b = soup.positions[c[1]],
-                             d = soup.positions[c[2]];
+            const glm::dvec3 a = soup.positions[c[0]], b = soup.positions[c[1]], d = soup.positions[c[2]];
             const auto side = [&](const glm::dvec3& u, const glm::dvec3& v) {
                 return (v.x - u.x) * (p.y - u.y) - (v.y - u.y) * (p.x - u.x);
             };
@@ -346,8 +327,7 @@ TEST(LooseLines, ThousandsInOnePlace) {
     Random random(1);
     PolygonSoup heap;
     for (std::uint32_t i = 0; i < 1000; ++i) {
-        for (int k = 0; k < 3; ++k)
-            heap.positions.push_back(random.in_box(3) + glm::dvec3(50, 50, 0));
+        for (int k = 0; k < 3; ++k) heap.positions.push_back(random.in_box(3) + glm::dvec3(50, 50, 0));
         heap.add_polygon(std::vector<std::uint32_t>{3 * i, 3 * i + 1, 3 * i + 2});
     }
     for (int i = 0; i < 1000; ++i)

@@ -24,9 +24,12 @@ PolygonSoup turned_about_y(const PolygonSoup& soup) {
 }
 PolygonSoup slab(double height) { return turned_about_y(moved(make_box({12, height, 1.5}), {0, 0.5 * height, 0})); }
 PolygonSoup strip(double height) {
-    return turned_about_y(soup_of({{-6, height, -0.75}, {6, height, -0.75}, {6, height, 0.75}, {-6, height, 0.75}}, {{0, 1, 2, 3}}));
+    return turned_about_y(
+        soup_of({{-6, height, -0.75}, {6, height, -0.75}, {6, height, 0.75}, {-6, height, 0.75}}, {{0, 1, 2, 3}}));
 }
-PolygonSoup ground(double half) { return soup_of({{-half, 0, -half}, {half, 0, -half}, {half, 0, half}, {-half, 0, half}}, {{0, 1, 2, 3}}); }
+PolygonSoup ground(double half) {
+    return soup_of({{-half, 0, -half}, {half, 0, -half}, {half, 0, half}, {-half, 0, half}}, {{0, 1, 2, 3}});
+}
 
 Camera camera_at(double elevation_deg, bool orthographic) {
     const double e = glm::radians(elevation_deg), distance = kViewHeight / (2 * std::tan(glm::radians(15.0)));
@@ -54,21 +57,31 @@ TEST(LowRelief, IsSeenOnAGround) {
                         for (const bool orthographic : {false, true}) {
                             const Camera camera = camera_at(elevation_deg, orthographic);
                             const auto drawn = [&](double height_px) {
-                                const PolygonSoup road = (is_slab ? slab : strip)(height_px * kPixel), plane = ground(half);
-                                std::vector<PolygonSoup> objects = is_first ? std::vector{road, plane} : std::vector{plane, road};
+                                const PolygonSoup road = (is_slab ? slab : strip)(height_px * kPixel),
+                                                  plane = ground(half);
+                                std::vector<PolygonSoup> objects =
+                                    is_first ? std::vector{road, plane} : std::vector{plane, road};
                                 if (in_one) objects = {test::joined(objects)};
-                                return Drawing(scene_of(objects), camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render_abuffer);
+                                return Drawing(scene_of(objects), camera, kPx, kPx, {0, 0, kPx, kPx}, 2,
+                                               render_abuffer);
                             };
                             const Drawing expected = drawn(0.05);
                             for (const double height_px : {0.02, 0.006, half > 1000 ? 0.003 : 0.001}) {
-                                const std::string what = std::to_string(half) + (is_slab ? " slab" : " strip") + (in_one ? ", one" : ", two") +
-                                                         (is_first ? ", first, " : ", second, ") + std::to_string(elevation_deg) +
-                                                         (orthographic ? " orthographic, " : " perspective, ") + std::to_string(height_px);
+                                const std::string what =
+                                    std::to_string(half) + (is_slab ? " slab" : " strip") +
+                                    (in_one ? ", one" : ", two") + (is_first ? ", first, " : ", second, ") +
+                                    std::to_string(elevation_deg) +
+                                    (orthographic ? " orthographic, " : " perspective, ") + std::to_string(height_px);
                                 const Drawing d = drawn(height_px);
                                 EXPECT_LE(ink_apart(d, expected), 0.5) << what;
                                 EXPECT_LE(ink_apart(expected, d), 0.5) << what;
-                                EXPECT_NEAR(d.sum("lines.A"), expected.sum("lines.A"), 0.02 * expected.sum("lines.A")) << what;
-                                if (!in_one) { EXPECT_NEAR(pixels_of(d, is_first ? 1 : 2), pixels_of(expected, is_first ? 1 : 2), 8) << what; }
+                                EXPECT_NEAR(d.sum("lines.A"), expected.sum("lines.A"), 0.02 * expected.sum("lines.A"))
+                                    << what;
+                                if (!in_one) {
+                                    EXPECT_NEAR(pixels_of(d, is_first ? 1 : 2), pixels_of(expected, is_first ? 1 : 2),
+                                                8)
+                                        << what;
+                                }
                             }
                         }
                     }

@@ -71,7 +71,8 @@ Frame frame_of(const Scene& scene, PixelRect crop) {
 
 Image draw(const Scene& scene, RunOptions options = {}, PixelRect crop = {0, 0, kWidth, kHeight}) {
     const Frame frame = frame_of(scene, crop);
-    Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true, true}, frame.criteria.classes);
+    Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true, true},
+              frame.criteria.classes);
     render_abuffer(frame, options, film);
     return film.image();
 }
@@ -205,10 +206,12 @@ TEST(Memory, ListsOfEdgesAreCountedFromAbove) {
         for (std::size_t row = 0; row < all.size(); ++row) {
             std::uint64_t in_row = 0;
             for (int column = 0; column < tiles.columns(); ++column) {
-                in_row += edges.in(row * static_cast<std::size_t>(tiles.columns()) + static_cast<std::size_t>(column)).size();
+                in_row +=
+                    edges.in(row * static_cast<std::size_t>(tiles.columns()) + static_cast<std::size_t>(column)).size();
             }
             using List = TileLists<TileEdge>;
-            EXPECT_GE(all[row] - plain[row], in_row * (2 * sizeof(List::Record) + sizeof(TileEdge))) << "seed " << seed << " row " << row;
+            EXPECT_GE(all[row] - plain[row], in_row * (2 * sizeof(List::Record) + sizeof(TileEdge)))
+                << "seed " << seed << " row " << row;
             count += in_row;
         }
         EXPECT_GT(count, 1000u);

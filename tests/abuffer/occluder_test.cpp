@@ -78,10 +78,12 @@ TEST(Occluder, TheKernelClipsAsOneByOne) {
             const Occluder& t = triangles[i];
             planes.push_back(&t);
             const double certain = slack + t.slack;
-            const double at_begin = t.nearness_at(a) - line.nearness_at(begin), at_end = t.nearness_at(b) - line.nearness_at(end);
+            const double at_begin = t.nearness_at(a) - line.nearness_at(begin),
+                         at_end = t.nearness_at(b) - line.nearness_at(end);
             if (std::max(at_begin, at_end) < -certain) continue;
             Expected e{i, false, false, begin, end, begin, end};
-            e.is_level = std::min(at_begin, at_end) <= certain && clip_where_hidden(line, -certain, t, e.level_begin, e.level_end);
+            e.is_level = std::min(at_begin, at_end) <= certain &&
+                         clip_where_hidden(line, -certain, t, e.level_begin, e.level_end);
             e.is_any = clip_where_hidden(line, certain, t, e.begin, e.end);
             double first = begin, last = end;
             along_edges += clip_where_hidden(line, certain, t, first, last, true) && !e.is_any;
@@ -90,12 +92,13 @@ TEST(Occluder, TheKernelClipsAsOneByOne) {
             partly += e.is_any && (e.begin > begin || e.end < end);
             level += e.is_level;
         }
-        const PlaneLine plane_line{{line.from.x, line.to.x, a.x, b.x},
-                                   {line.from.y, line.to.y, a.y, b.y},
-                                   {line.nearness_from, line.nearness_to, line.nearness_at(begin), line.nearness_at(end)},
-                                   begin,
-                                   end,
-                                   slack};
+        const PlaneLine plane_line{
+            {line.from.x, line.to.x, a.x, b.x},
+            {line.from.y, line.to.y, a.y, b.y},
+            {line.nearness_from, line.nearness_to, line.nearness_at(begin), line.nearness_at(end)},
+            begin,
+            end,
+            slack};
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<HiddenPart> parts(triangles.size());
             parts.resize(kernels->clip_hidden(planes.data(), planes.size(), plane_line, parts.data()));
@@ -103,8 +106,10 @@ TEST(Occluder, TheKernelClipsAsOneByOne) {
             for (std::size_t k = 0; k < parts.size(); ++k) {
                 const HiddenPart& p = parts[k];
                 const Expected& e = expected[k];
-                EXPECT_TRUE(p.triangle == e.triangle && p.is_any == e.is_any && p.is_level == e.is_level) << kernels->name << " round " << round;
-                EXPECT_TRUE(!e.is_level || (p.level_begin == e.level_begin && p.level_end == e.level_end)) << kernels->name << " round " << round;
+                EXPECT_TRUE(p.triangle == e.triangle && p.is_any == e.is_any && p.is_level == e.is_level)
+                    << kernels->name << " round " << round;
+                EXPECT_TRUE(!e.is_level || (p.level_begin == e.level_begin && p.level_end == e.level_end))
+                    << kernels->name << " round " << round;
                 if (!e.is_any) continue;
                 EXPECT_TRUE(p.begin == e.begin && p.end == e.end) << kernels->name << " round " << round;
             }
@@ -124,7 +129,8 @@ TEST(Occluder, TheKernelClipsTwiceAsOnceAndAgain) {
         const Occluder t = random_triangle(random, places);
         WholeLine line;
         while (line.from == line.to) {
-            for (glm::dvec2* end : {&line.from, &line.to}) *end = {random.integer(0, places), random.integer(0, places)};
+            for (glm::dvec2* end : {&line.from, &line.to})
+                *end = {random.integer(0, places), random.integer(0, places)};
         }
         line.nearness_from = random.integer(-2, 6);
         line.nearness_to = random.integer(0, 1) == 0 ? line.nearness_from : random.integer(-2, 6);
@@ -133,16 +139,19 @@ TEST(Occluder, TheKernelClipsTwiceAsOnceAndAgain) {
         double most_begin = begin, most_end = end, own_begin = begin, own_end = end;
         const bool is_any_most = clip_where_hidden(line, least, t, most_begin, most_end, true);
         const bool is_any = is_any_most && clip_where_hidden(line, slack, t, own_begin, own_end);
-        const PlaneLine clipped{{line.from.x, line.to.x}, {line.from.y, line.to.y}, {line.nearness_from, line.nearness_to}, begin, end, 0};
+        const PlaneLine clipped{
+            {line.from.x, line.to.x}, {line.from.y, line.to.y}, {line.nearness_from, line.nearness_to}, begin, end, 0};
         for (const TileKernels* kernels : all_kernels()) {
             HiddenParts parts;
             kernels->clip_twice(t, clipped, least, slack, parts);
             ASSERT_EQ(parts.is_any_most, is_any_most) << kernels->name << " seed " << seed;
             if (!is_any_most) continue;
             ASSERT_EQ(parts.is_any, is_any) << kernels->name << " seed " << seed;
-            ASSERT_EQ(std::pair(parts.most_begin, parts.most_end), std::pair(most_begin, most_end)) << kernels->name << " seed " << seed;
+            ASSERT_EQ(std::pair(parts.most_begin, parts.most_end), std::pair(most_begin, most_end))
+                << kernels->name << " seed " << seed;
             if (is_any) {
-                ASSERT_EQ(std::pair(parts.begin, parts.end), std::pair(own_begin, own_end)) << kernels->name << " seed " << seed;
+                ASSERT_EQ(std::pair(parts.begin, parts.end), std::pair(own_begin, own_end))
+                    << kernels->name << " seed " << seed;
             }
         }
         ++(is_any ? any : is_any_most ? only_most : none);

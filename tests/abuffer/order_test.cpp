@@ -1,5 +1,5 @@
-// The order of polygons and vertices in a file says nothing about the picture: places found in models that people use, where rounding
-// or a sliver decided.
+// The order of polygons and vertices in a file says nothing about the picture: places found in models that people use,
+// where rounding or a sliver decided.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,8 @@ PolygonSoup shuffled(const PolygonSoup& soup, Random& random) {
     const auto order_of = [&](std::size_t count) {
         std::vector<std::uint32_t> order(count);
         std::iota(order.begin(), order.end(), 0u);
-        for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+        for (std::size_t i = count; i > 1; --i)
+            std::swap(order[i - 1], order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
         return order;
     };
     const auto vertices = order_of(soup.positions.size());
@@ -47,7 +48,8 @@ PolygonSoup shuffled(const PolygonSoup& soup, Random& random) {
     for (const std::uint32_t p : order_of(soup.polygon_count())) {
         std::vector<std::uint32_t> corners;
         for (const std::uint32_t c : soup.polygon(p)) corners.push_back(place[c]);
-        std::rotate(corners.begin(), corners.begin() + random.integer(0, static_cast<int>(corners.size()) - 1), corners.end());
+        std::rotate(corners.begin(), corners.begin() + random.integer(0, static_cast<int>(corners.size()) - 1),
+                    corners.end());
         other.add_polygon(corners);
     }
     return other;
@@ -68,12 +70,14 @@ void expect_no_order(const Place& place) {
         const Drawing other = draw(place, shuffled(place.model, random), render_abuffer);
         ASSERT_TRUE(first.coverage() == other.coverage()) << "seed " << kSeed << ", order " << i;
         if (place.hidden != HiddenStyle::none) {
-            ASSERT_NEAR(first.sum("lines_hidden.A"), other.sum("lines_hidden.A"), 1e-9) << "seed " << kSeed << ", order " << i;
+            ASSERT_NEAR(first.sum("lines_hidden.A"), other.sum("lines_hidden.A"), 1e-9)
+                << "seed " << kSeed << ", order " << i;
         }
     }
 }
 
-// A fold along a row, in a scan of a bunny: whether it is a contour is asked on its edge, not a rounding error beside it.
+// A fold along a row, in a scan of a bunny: whether it is a contour is asked on its edge, not a rounding error beside
+// it.
 TEST(Order, OfAFoldAlongARow) {
     const PolygonSoup scan = soup_of({{-0.039692, 0.046080, -0.021311},
                                       {-0.038368, 0.045701, -0.022973},
@@ -83,13 +87,13 @@ TEST(Order, OfAFoldAlongARow) {
                                       {-0.037421, 0.046616, -0.021804},
                                       {-0.039968, 0.046140, -0.020328}},
                                      {{0, 1, 2}, {3, 4, 5}, {4, 3, 6}, {6, 3, 0}, {0, 3, 1}, {3, 5, 1}});
-    const Camera camera =
-        perspective_camera({-0.20992861778937022, -0.030415977444826187, -0.18356645441120056}, {-0.0168405, 0.110154, -0.001537});
+    const Camera camera = perspective_camera({-0.20992861778937022, -0.030415977444826187, -0.18356645441120056},
+                                             {-0.0168405, 0.110154, -0.001537});
     expect_no_order({scan, camera, {470, 408, 492, 430}});
 }
 
-// A sheet ends beside a fold, in the plane of one of its faces and but for rounding: they have no more than a sliver of the screen in
-// common, and the sheet hides nothing of the fold, whichever comes first.
+// A sheet ends beside a fold, in the plane of one of its faces and but for rounding: they have no more than a sliver of
+// the screen in common, and the sheet hides nothing of the fold, whichever comes first.
 TEST(Order, OfASheetThatEndsBesideAFold) {
     const Place place{soup_of({{-7.125843338384551, 13.199302844705768, -138.0},
                                {-7.125843338384551, 13.199302844705768, -117.00005340576172},
@@ -111,7 +115,8 @@ TEST(Order, OfASheetThatEndsBesideAFold) {
     EXPECT_NEAR(ink, draw(place, place.model, render_reference).sum("lines.A"), 1);  // the fold has 6 of 43
 }
 
-// Borders of a teapot's spout within its body, in contact with two neighbours one after the other: no dot between the contacts.
+// Borders of a teapot's spout within its body, in contact with two neighbours one after the other: no dot between the
+// contacts.
 TEST(Order, OfContactsThatMeet) {
     const PolygonSoup spout = soup_of({{0.000000, 1.037175, -1.992750},
                                        {0.000000, 1.178400, -1.972000},
@@ -127,12 +132,13 @@ TEST(Order, OfContactsThatMeet) {
                                        {-2.115967, 0.731578, 0.144000},
                                        {-2.113835, 0.711032, 0.081000}},
                                       {{0, 1, 2}, {3, 4, 5}, {5, 6, 3}, {7, 8, 9}, {10, 11, 12}, {12, 9, 10}});
-    const Camera camera = perspective_camera({5.826264236871671, 2.793804647109596, -7.9993638867810315}, {0.217, 1.575, 0.0});
+    const Camera camera =
+        perspective_camera({5.826264236871671, 2.793804647109596, -7.9993638867810315}, {0.217, 1.575, 0.0});
     expect_no_order({spout, camera, {596, 319, 618, 340}, HiddenStyle::solid});
 }
 
-// Strokes on one side of a rough ball's contour, at which one triangle is a wall seen nearly edge-on, on the other side of the edge than
-// the surface: the surface says which side is which.
+// Strokes on one side of a rough ball's contour, at which one triangle is a wall seen nearly edge-on, on the other side
+// of the edge than the surface: the surface says which side is which.
 TEST(Order, OfAWallBehindAContour) {
     const PolygonSoup ball = soup_of({{1.0784982442855835, 0.4099586606025696, 1.6425725221633911},
                                       {1.0720760822296143, 0.4252711534500122, 1.5732669830322266},
@@ -141,13 +147,15 @@ TEST(Order, OfAWallBehindAContour) {
                                       {1.0903856754302979, 0.47444990277290344, 1.5142865180969238},
                                       {1.1079907417297363, 0.45247650146484375, 1.583343505859375}},
                                      {{0, 1, 2}, {0, 2, 3}, {4, 3, 2}, {0, 3, 5}});
-    const Camera camera = perspective_camera({-2.3748178074763104, -0.16716297688561355, -1.7383308488569554}, {1, 1, 1});
+    const Camera camera =
+        perspective_camera({-2.3748178074763104, -0.16716297688561355, -1.7383308488569554}, {1, 1, 1});
     for (const StrokeSide side : {StrokeSide::inside, StrokeSide::outside}) {
         expect_no_order({ball, camera, {0, 0, 64, 48}, HiddenStyle::none, side, 64, 48});
     }
 }
 
-// A strip of a scan, narrower than a pixel, whose surface ends at walls that lean back: they are not in front, whichever comes first.
+// A strip of a scan, narrower than a pixel, whose surface ends at walls that lean back: they are not in front,
+// whichever comes first.
 TEST(Order, OfWallsThatLeanBack) {
     const PolygonSoup strip = soup_of({{0.008927, 0.159211, -0.0212875},
                                        {0.00927702, 0.159206, -0.0212875},
@@ -166,12 +174,14 @@ TEST(Order, OfWallsThatLeanBack) {
 
 /// Whoever asks; also where the screen does not say it: off the screen, and of an edge that is seen as a point.
 TEST(Order, OfAnEdgesEndsIsOneForAll) {
-    const PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 5}, {0, 0, 20}, {1, 0, 20}, {0, 1, 30}}, {{0, 1, 2}, {0, 1, 3}, {4, 5, 6}});
+    const PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 5}, {0, 0, 20}, {1, 0, 20}, {0, 1, 30}},
+                                     {{0, 1, 2}, {0, 1, 3}, {4, 5, 6}});
     const Scene scene = scene_of({soup});
     const Frame frame = make_frame(scene, perspective_camera({0, 0, 10}, {0, 0, 0}), 64, 48, {0, 0, 64, 48});
     const ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
     const ScreenVertex* const v = screen.vertices(0);
-    ASSERT_TRUE(v[0].x == v[3].x && v[0].y == v[3].y && v[4].x == ScreenVertex::kOffScreen && v[6].x == ScreenVertex::kOffScreen);
+    ASSERT_TRUE(v[0].x == v[3].x && v[0].y == v[3].y && v[4].x == ScreenVertex::kOffScreen &&
+                v[6].x == ScreenVertex::kOffScreen);
     for (std::uint32_t a = 0; a < soup.positions.size(); ++a) {
         for (std::uint32_t b = 0; b < a; ++b) {
             const auto [first, second] = ends_in_order(screen, 0, a, b);
@@ -181,7 +191,8 @@ TEST(Order, OfAnEdgesEndsIsOneForAll) {
     }
 }
 
-// Borders of two patches, hidden by a third one's: rounding must not hang on which of an edge's vertices has the smaller number.
+// Borders of two patches, hidden by a third one's: rounding must not hang on which of an edge's vertices has the
+// smaller number.
 TEST(Order, OfHiddenBorders) {
     const PolygonSoup patches = soup_of({{1.321973204612732, 1.1658313274383545, 1.6500877141952515},
                                          {1.6924697160720825, 0.9115604162216187, 1.4119840860366821},
@@ -197,24 +208,35 @@ TEST(Order, OfHiddenBorders) {
     expect_no_order({patches, camera, {0, 0, 64, 48}, HiddenStyle::solid, StrokeSide::both, 64, 48});
 }
 
-// Dashes of a hidden loop of intersections of two open boxes: its direction is told from where it leads, not from a rounding error at
-// its beginning.
+// Dashes of a hidden loop of intersections of two open boxes: its direction is told from where it leads, not from a
+// rounding error at its beginning.
 TEST(Order, OfDashesOnALoopOfIntersections) {
     const PolygonSoup boxes = soup_of({{0.9633804559707642, 0.5461980700492859, 1.0211864709854126},
-                                      {1.5170626640319824, 0.5461980700492859, 1.0211864709854126},
-                                      {1.5170626640319824, 0.8148892521858215, 1.0211864709854126},
-                                      {0.9633804559707642, 0.8148892521858215, 1.0211864709854126},
-                                      {0.9633804559707642, 0.8148892521858215, 0.12538374960422516},
-                                      {1.5170626640319824, 0.8148892521858215, 0.12538374960422516},
-                                      {1.5170626640319824, 0.5461980700492859, 0.12538374960422516},
-                                      {1.0247840881347656, 0.6580300331115723, 0.9475802779197693},
-                                      {1.0247840881347656, 0.9174270629882812, 0.9475802779197693},
-                                      {1.9899392127990723, 0.9174270629882812, 0.9475802779197693},
-                                      {1.9899392127990723, 0.6580300331115723, 0.9475802779197693},
-                                      {1.9899392127990723, 0.6580300331115723, 1.293300986289978},
-                                      {1.0247840881347656, 0.6580300331115723, 1.293300986289978},
-                                      {1.0247840881347656, 0.9174270629882812, 1.293300986289978}},
-                                      {{0, 1, 2}, {0, 2, 3}, {4, 3, 2}, {4, 2, 5}, {6, 5, 2}, {6, 2, 1}, {7, 8, 9}, {7, 9, 10}, {7, 10, 11}, {7, 11, 12}, {7, 12, 13}, {7, 13, 8}});
+                                       {1.5170626640319824, 0.5461980700492859, 1.0211864709854126},
+                                       {1.5170626640319824, 0.8148892521858215, 1.0211864709854126},
+                                       {0.9633804559707642, 0.8148892521858215, 1.0211864709854126},
+                                       {0.9633804559707642, 0.8148892521858215, 0.12538374960422516},
+                                       {1.5170626640319824, 0.8148892521858215, 0.12538374960422516},
+                                       {1.5170626640319824, 0.5461980700492859, 0.12538374960422516},
+                                       {1.0247840881347656, 0.6580300331115723, 0.9475802779197693},
+                                       {1.0247840881347656, 0.9174270629882812, 0.9475802779197693},
+                                       {1.9899392127990723, 0.9174270629882812, 0.9475802779197693},
+                                       {1.9899392127990723, 0.6580300331115723, 0.9475802779197693},
+                                       {1.9899392127990723, 0.6580300331115723, 1.293300986289978},
+                                       {1.0247840881347656, 0.6580300331115723, 1.293300986289978},
+                                       {1.0247840881347656, 0.9174270629882812, 1.293300986289978}},
+                                      {{0, 1, 2},
+                                       {0, 2, 3},
+                                       {4, 3, 2},
+                                       {4, 2, 5},
+                                       {6, 5, 2},
+                                       {6, 2, 1},
+                                       {7, 8, 9},
+                                       {7, 9, 10},
+                                       {7, 10, 11},
+                                       {7, 11, 12},
+                                       {7, 12, 13},
+                                       {7, 13, 8}});
     const Camera camera = perspective_camera({4.984774384940026, 2.0710398788598177, -0.7956744356975693}, {1, 1, 1});
     expect_no_order({boxes, camera, {0, 0, 64, 48}, HiddenStyle::dashed, StrokeSide::both, 64, 48});
 }

@@ -36,7 +36,8 @@ Scene heap_of_tori(std::uint64_t seed) {
 
 /// Bytes at the peak of a render, beyond what was there before. 0: the cap was refused, and `least` is what it names.
 std::size_t peak_of(const Scene& scene, int threads, std::uint64_t cap_bytes, std::uint64_t& least) {
-    const Frame frame = make_frame(scene, perspective_camera({2, 1, 12}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+    const Frame frame =
+        make_frame(scene, perspective_camera({2, 1, 12}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
     Film film(frame.crop, frame.crop, LayerSet{}, frame.criteria.classes);
     RunOptions options;
     options.threads = threads;

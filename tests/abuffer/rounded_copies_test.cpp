@@ -25,7 +25,8 @@ PolygonSoup triangulated(const PolygonSoup& soup) {
     triangles.positions = soup.positions;
     for (std::size_t i = 0; i < soup.polygon_count(); ++i) {
         const auto polygon = soup.polygon(i);
-        for (std::size_t k = 2; k < polygon.size(); ++k) triangles.add_polygon(std::vector{polygon[0], polygon[k - 1], polygon[k]});
+        for (std::size_t k = 2; k < polygon.size(); ++k)
+            triangles.add_polygon(std::vector{polygon[0], polygon[k - 1], polygon[k]});
     }
     return triangles;
 }
@@ -33,8 +34,9 @@ PolygonSoup triangulated(const PolygonSoup& soup) {
 /// A surface, turned at random, of a size of some 100 units.
 PolygonSoup any_surface(Random& random, int kind) {
     const int sides = random.integer(8, 24);
-    const PolygonSoup soup = kind == 0   ? make_box({100, 30, 3})
-                             : kind == 1 ? soup_of({{-60, 0, -40}, {60, 0, -40}, {60, 0, 40}, {-60, 0, 40}}, {{0, 1, 2, 3}})
+    const PolygonSoup soup = kind == 0 ? make_box({100, 30, 3})
+                             : kind == 1
+                                 ? soup_of({{-60, 0, -40}, {60, 0, -40}, {60, 0, 40}, {-60, 0, 40}}, {{0, 1, 2, 3}})
                              : kind == 2 ? make_cylinder(30, 30, 80, sides)
                              : kind == 3 ? make_box({50, 60, 40})
                                          : make_sphere(40, sides, sides / 2);
@@ -54,7 +56,8 @@ struct View {
 
 View any_view(Random& random) {
     View view;
-    const double fov_deg = random.integer(0, 1) == 0 ? 8 : 30, distance = 170 / (2 * std::tan(glm::radians(0.5 * fov_deg)));
+    const double fov_deg = random.integer(0, 1) == 0 ? 8 : 30,
+                 distance = 170 / (2 * std::tan(glm::radians(0.5 * fov_deg)));
     view.camera = perspective_camera(distance * random.direction(), glm::dvec3(0.0), fov_deg);
     view.pixel = 170.0 / kPx;
     if (random.integer(0, 3) == 0) {
@@ -81,7 +84,9 @@ TEST(RoundedCopies, LookLikeOneSurface) {
         RenderFunction render;
         int samples, trials;
     };
-    for (const Way& way : {Way{"abuffer", render_abuffer, 0, 40}, {"abuffer, 2 samples", render_abuffer, 2, 20}, {"patel", render_patel, 0, 6},
+    for (const Way& way : {Way{"abuffer", render_abuffer, 0, 40},
+                           {"abuffer, 2 samples", render_abuffer, 2, 20},
+                           {"patel", render_patel, 0, 6},
                            {"reference", render_reference, 4, 10}}) {
         for (int seed = 0; seed < way.trials; ++seed) {
             Random random(static_cast<std::uint64_t>(seed));
@@ -91,8 +96,9 @@ TEST(RoundedCopies, LookLikeOneSurface) {
             if (random.integer(0, 1) == 0 || seed % 5 == 2 || seed % 5 == 4) copy = triangulated(copy);
             const bool in_one = random.integer(0, 2) == 0, is_copy_first = random.integer(0, 1) == 0;
             const Drawing once = drawn(scene_of({surface}), view.camera, way.render, way.samples);
-            const Drawing twice = drawn(is_copy_first ? scene_with(copy, surface, in_one) : scene_with(surface, copy, in_one), view.camera,
-                                        way.render, way.samples);
+            const Drawing twice =
+                drawn(is_copy_first ? scene_with(copy, surface, in_one) : scene_with(surface, copy, in_one),
+                      view.camera, way.render, way.samples);
             const std::string what = std::string(way.name) + ", seed " + std::to_string(seed);
             EXPECT_LE(ink_apart(twice, once), 0.2) << what << ": false lines";
             EXPECT_LE(ink_apart(once, twice), 0.2) << what << ": missing lines";
@@ -119,7 +125,9 @@ TEST(RoundedCopies, ShowOneOfTheTwo) {
 
 /// Ink of lines, seen or not, of one picture where the other has none within two pixels.
 double all_ink_apart(const Drawing& a, const Drawing& b) {
-    const auto ink = [](const Drawing& d, int x, int y) { return std::max(d.line(x, y), d.at("lines_hidden.A", x, y)); };
+    const auto ink = [](const Drawing& d, int x, int y) {
+        return std::max(d.line(x, y), d.at("lines_hidden.A", x, y));
+    };
     double apart = 0;
     for (int y = 2; y + 2 < kPx; ++y) {
         for (int x = 2; x + 2 < kPx; ++x) {
@@ -138,9 +146,11 @@ TEST(RoundedCopies, AmongHiddenLines) {
         Random random(static_cast<std::uint64_t>(seed));
         const PolygonSoup surface = any_surface(random, seed % 5);
         const View view = any_view(random);
-        Scene once = scene_of({surface}), twice = scene_with(surface, triangulated(rounded(surface, view.pixel / 12)), false);
+        Scene once = scene_of({surface}),
+              twice = scene_with(surface, triangulated(rounded(surface, view.pixel / 12)), false);
         once.lines.style.hidden.style = twice.lines.style.hidden.style = HiddenStyle::solid;
-        const Drawing expected = drawn(once, view.camera, render_abuffer), d = drawn(twice, view.camera, render_abuffer);
+        const Drawing expected = drawn(once, view.camera, render_abuffer),
+                      d = drawn(twice, view.camera, render_abuffer);
         EXPECT_LE(all_ink_apart(d, expected), 0.5) << seed << ": false lines";
         EXPECT_LE(all_ink_apart(expected, d), 0.5) << seed << ": missing lines";
     }
@@ -157,7 +167,8 @@ PolygonSoup crossing_sheet(double slope, int parts) {
     }
     for (int j = 0; j < parts; ++j) {
         for (int i = 0; i < parts; ++i) {
-            const auto first = static_cast<std::uint32_t>(j * (parts + 1) + i), above = first + static_cast<std::uint32_t>(parts) + 1;
+            const auto first = static_cast<std::uint32_t>(j * (parts + 1) + i),
+                       above = first + static_cast<std::uint32_t>(parts) + 1;
             sheet.add_polygon(std::vector{first, first + 1, above + 1, above});
         }
     }
@@ -170,11 +181,13 @@ TEST(RoundedCopies, AreNotSurfacesThatCross) {
         for (const int parts : {1, 9, 40}) {
             if (angle_deg < 0.5 && parts == 40) continue;
             Camera camera = perspective_camera({0, 0, 400}, glm::dvec3(0.0), 20);
-            const Scene scene = scene_of({crossing_sheet(0, parts), crossing_sheet(std::tan(glm::radians(angle_deg)), parts == 1 ? 1 : parts + 2)});
+            const Scene scene = scene_of({crossing_sheet(0, parts), crossing_sheet(std::tan(glm::radians(angle_deg)),
+                                                                                   parts == 1 ? 1 : parts + 2)});
             for (const RenderFunction render : {render_abuffer, render_reference}) {
                 const Drawing d = drawn(scene, camera, render, render == render_reference ? 4 : 0);
                 const double length_px = 120 * std::sqrt(1.04) * kPx / (800 * std::tan(glm::radians(10.0)));
-                EXPECT_NEAR(d.sum(LineClass::intersection), length_px, 0.06 * length_px) << angle_deg << ' ' << parts << (render == render_abuffer ? "" : " reference");
+                EXPECT_NEAR(d.sum(LineClass::intersection), length_px, 0.06 * length_px)
+                    << angle_deg << ' ' << parts << (render == render_abuffer ? "" : " reference");
             }
         }
     }

@@ -46,7 +46,11 @@ Counts compare(const Scene& scene, glm::dvec3 eye, int samples) {
             const std::size_t a = s.index(column, row), b = down ? s.index(column, row + 1) : s.index(column + 1, row);
             if (s.ids[a] == SampleTile::kBackground || s.ids[a] >> 1 == s.ids[b] >> 1) return;
             pairs.push_back(SamplePair::at(column - s.first_column, row - s.first_row, down));
-            neighbours.push_back({column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down, {tile.surface_at(a), tile.surface_at(b)}});
+            neighbours.push_back({column * pitch + pitch / 2,
+                                  row * pitch + pitch / 2,
+                                  pitch,
+                                  down,
+                                  {tile.surface_at(a), tile.surface_at(b)}});
         };
         for (int row = s.first_row; row + 1 < s.first_row + s.rows; ++row) {
             for (int column = s.first_column; column + 1 < s.first_column + s.columns; ++column) {
@@ -54,12 +58,24 @@ Counts compare(const Scene& scene, glm::dvec3 eye, int samples) {
                 add(column, row, true);
             }
         }
-        const SampleView view{s.nearness.data(), s.ids.data(), s.first_column, s.first_row, s.columns, s.rows, s.stride, samples,
-                              0, 0, nullptr, nullptr, 0};
+        const SampleView view{s.nearness.data(),
+                              s.ids.data(),
+                              s.first_column,
+                              s.first_row,
+                              s.columns,
+                              s.rows,
+                              s.stride,
+                              samples,
+                              0,
+                              0,
+                              nullptr,
+                              nullptr,
+                              0};
         for (const TileKernels* kernels : all_kernels()) {
             for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
                 std::vector<std::uint8_t> is_smooth(pairs.size(), 7);
-                kernels->find_smooth(view, screen.mesh(i), fast.smooth_limits(), pairs.data(), pairs.size(), is_smooth.data());
+                kernels->find_smooth(view, screen.mesh(i), fast.smooth_limits(), pairs.data(), pairs.size(),
+                                     is_smooth.data());
                 for (std::size_t p = 0; p < pairs.size(); ++p) {
                     const bool expected = neighbours[p].surfaces[0].instance == i && fast.is_smooth(neighbours[p]);
                     EXPECT_EQ(is_smooth[p], expected ? 1 : 0) << kernels->name << ", pair " << p << " of tile " << t;
@@ -80,7 +96,8 @@ TEST(SmoothPairs, ManyAtOnceAreAsEachAlone) {
         std::vector<PolygonSoup> objects;
         objects.push_back(rough_sphere(random, random.integer(40, 260), random.real(0, 4), random.real(0.2, 8)));
         objects.push_back(make_torus(0.9, 0.3, random.integer(5, 90), random.integer(5, 60)));
-        sum += compare(scene_of(std::move(objects)), random.direction() * random.real(2.0, 9.0), 1 << random.integer(1, 3));
+        sum += compare(scene_of(std::move(objects)), random.direction() * random.real(2.0, 9.0),
+                       1 << random.integer(1, 3));
     }
     EXPECT_GT(sum.smooth, 20000);
     EXPECT_GT(sum.rough, 20000);
@@ -92,7 +109,8 @@ TEST(SmoothPairs, WallsAndSharpEdges) {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        std::vector<PolygonSoup> objects{make_cylinder(0.6, 0.6, 6, random.integer(40, 2000)), rough_sphere(random, 300, 20, 30)};
+        std::vector<PolygonSoup> objects{make_cylinder(0.6, 0.6, 6, random.integer(40, 2000)),
+                                         rough_sphere(random, 300, 20, 30)};
         const glm::dvec3 eye(random.real(-0.01, 0.01), 9, random.real(-0.01, 0.01));
         sum += compare(scene_of(std::move(objects)), eye, 4);
     }

@@ -32,8 +32,8 @@ struct Wire {
     glm::dvec3 middle() const { return glm::dvec3(22, 22, 0) + place; }
     PolygonSoup soup() const {
         const glm::dvec3 along = direction();
-        const glm::dvec3 u = glm::normalize(
-            glm::cross(along, std::abs(along.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        const glm::dvec3 u =
+            glm::normalize(glm::cross(along, std::abs(along.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
         const glm::dvec3 v = glm::cross(along, u);
         PolygonSoup soup;
         const auto n = static_cast<std::uint32_t>(sides);
@@ -61,8 +61,7 @@ struct Wire {
 Camera pixels_in_perspective() {
     // At the depth of the middle a unit is a pixel.
     const double distance = 60;
-    return perspective_camera({22, 22, distance}, {22, 22, 0},
-                              glm::degrees(2 * std::atan(0.5 * kSize / distance)));
+    return perspective_camera({22, 22, distance}, {22, 22, 0}, glm::degrees(2 * std::atan(0.5 * kSize / distance)));
 }
 
 Wire random_wire(Random& random) {
@@ -86,8 +85,7 @@ Found look(const Drawing& drawn, const Camera& camera, const Wire& wire) {
     const Projection projection = camera.projection(kSize, kSize, 0);
     const auto pixel = [&](double end) {
         return projection.to_pixel(
-            glm::dvec3(camera.to_view() *
-                       glm::dvec4(wire.middle() + end * wire.half_length * wire.direction(), 1)));
+            glm::dvec3(camera.to_view() * glm::dvec4(wire.middle() + end * wire.half_length * wire.direction(), 1)));
     };
     const glm::dvec2 a = pixel(-1), b = pixel(1);
     double sum = 0;
@@ -98,8 +96,8 @@ Found look(const Drawing& drawn, const Camera& camera, const Wire& wire) {
 }
 
 std::string words(const Wire& w) {
-    return std::to_string(w.thickness) + " px, " + std::to_string(w.sides) + " sides, " +
-           std::to_string(w.angle_deg) + " deg, tilt " + std::to_string(w.tilt_deg);
+    return std::to_string(w.thickness) + " px, " + std::to_string(w.sides) + " sides, " + std::to_string(w.angle_deg) +
+           " deg, tilt " + std::to_string(w.tilt_deg);
 }
 
 TEST(ThinWires, AreLinesOfFullStrengthAtAnyThickness) {
@@ -131,8 +129,7 @@ TEST(ThinWires, DoNotBlinkWhileTheyMove) {
         for (int frame = 0; frame < 20; ++frame) {
             wire.place += step;
             wire.angle_deg += 0.037;
-            const double strength =
-                look(draw(scene_of({wire.soup()}), camera, kSize), camera, wire).strength;
+            const double strength = look(draw(scene_of({wire.soup()}), camera, kSize), camera, wire).strength;
             least = std::min(least, strength);
             most = std::max(most, strength);
         }
@@ -148,14 +145,12 @@ TEST(ThinWires, AreDrawnCloseToASurface) {
         wire.tilt_deg = 0;
         wire.thickness = std::pow(10, random.real(-3, -1));
         const double gap = seed % 3 == 0 ? 0.5 * wire.thickness : random.real(0.02, 1);
-        const PolygonSoup face = transformed(make_box({100, 100, 4}), [&](glm::dvec3 p) {
-            return p + glm::dvec3(22, 22, wire.place.z - gap - 2);
-        });
+        const PolygonSoup face = transformed(
+            make_box({100, 100, 4}), [&](glm::dvec3 p) { return p + glm::dvec3(22, 22, wire.place.z - gap - 2); });
         const Camera camera = pixel_camera(kSize, kSize);
         const Found found = look(draw(scene_of({wire.soup(), face}), camera, kSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire) << ", " << gap << " in front";
-        EXPECT_GT(found.strength, 0.96)
-            << seed << ": " << words(wire) << ", " << gap << " in front";
+        EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire) << ", " << gap << " in front";
     }
 }
 
@@ -163,9 +158,8 @@ TEST(ThinWires, BehindASurfaceAreHidden) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         Random random(3000 + seed);
         const Wire wire = random_wire(random);
-        Scene scene = scene_of({wire.soup(), transformed(make_box({100, 100, 4}), [](glm::dvec3 p) {
-                                    return p + glm::dvec3(22, 22, 40);
-                                })});
+        Scene scene = scene_of({wire.soup(), transformed(make_box({100, 100, 4}),
+                                                         [](glm::dvec3 p) { return p + glm::dvec3(22, 22, 40); })});
         const Camera camera = pixel_camera(kSize, kSize);
         EXPECT_EQ(draw(scene, camera, kSize).sum("lines.A"), 0) << seed;
         scene.lines.style.hidden.style = HiddenStyle::solid;
@@ -183,8 +177,7 @@ TEST(ThinWires, BehindASurfaceAreHidden) {
         const glm::dvec3 along = wire.direction();
         const double length = 2 * wire.half_length * std::hypot(along.x, along.y);
         EXPECT_GT(sum, 0.95 * width * length) << seed << ": " << words(wire);
-        EXPECT_LT(sum, (width + 0.06 + 1.2 * wire.thickness) * (length + 1))
-            << seed << ": " << words(wire);
+        EXPECT_LT(sum, (width + 0.06 + 1.2 * wire.thickness) * (length + 1)) << seed << ": " << words(wire);
     }
 }
 
@@ -203,12 +196,10 @@ TEST(ThinWires, MayGetThinTowardsOneEnd) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {  // with an apex
         Random random(5000 + seed);
         Wire wire = random_wire(random);
-        const glm::dmat3 turn(
-            glm::rotate(glm::dmat4(1.0), glm::radians(wire.angle_deg - 90), glm::dvec3(0, 0, 1)));
+        const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), glm::radians(wire.angle_deg - 90), glm::dvec3(0, 0, 1)));
         wire.tilt_deg = 0;
-        const PolygonSoup cone =
-            transformed(make_cylinder(0.5 * wire.thickness, 0, 2 * wire.half_length, wire.sides),
-                        [&](glm::dvec3 p) { return turn * p + wire.middle(); });
+        const PolygonSoup cone = transformed(make_cylinder(0.5 * wire.thickness, 0, 2 * wire.half_length, wire.sides),
+                                             [&](glm::dvec3 p) { return turn * p + wire.middle(); });
         const Camera camera = pixel_camera(kSize, kSize);
         const Found found = look(draw(scene_of({cone}), camera, kSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire);
@@ -222,13 +213,11 @@ TEST(ThinWires, RingsOfThemAreClosed) {
         const double thickness = std::pow(10, random.real(-4, -0.5)), radius = random.real(5, 17);
         const int segments = random.integer(8, 200);
         const glm::dvec3 offset = glm::dvec3(22, 22, 0) + random.in_box(2);
-        const PolygonSoup ring =
-            transformed(make_torus(radius, 0.5 * thickness, segments, random.integer(3, 12)),
-                        [&](glm::dvec3 p) { return glm::dvec3(p.x, p.z, p.y) + offset; });
+        const PolygonSoup ring = transformed(make_torus(radius, 0.5 * thickness, segments, random.integer(3, 12)),
+                                             [&](glm::dvec3 p) { return glm::dvec3(p.x, p.z, p.y) + offset; });
         const Drawing drawn = draw(scene_of({ring}), pixel_camera(kSize, kSize), kSize);
         const double length = 2 * segments * radius * std::sin(M_PI / segments);
-        EXPECT_GT(drawn.sum("lines.A"), 0.96 * length)
-            << seed << ": " << thickness << ' ' << segments;
+        EXPECT_GT(drawn.sum("lines.A"), 0.96 * length) << seed << ": " << thickness << ' ' << segments;
         EXPECT_LT(drawn.sum("lines.A"), (1.06 + 1.1 * thickness) * length)
             << seed << ": " << thickness << ' ' << segments;
     }
@@ -240,14 +229,11 @@ TEST(ThinWires, PlatesSeenEdgeOn) {
         Random random(7000 + seed);
         Wire wire = random_wire(random);
         wire.tilt_deg = 0;
-        const double depth = random.real(0.5, 20),
-                     lean = seed % 2 == 0 ? 0 : random.real(-0.001, 0.001);
-        const glm::dmat3 turn(
-            glm::rotate(glm::dmat4(1.0), glm::radians(wire.angle_deg), glm::dvec3(0, 0, 1)));
+        const double depth = random.real(0.5, 20), lean = seed % 2 == 0 ? 0 : random.real(-0.001, 0.001);
+        const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), glm::radians(wire.angle_deg), glm::dvec3(0, 0, 1)));
         const PolygonSoup plate =
-            transformed(make_box({2 * wire.half_length, wire.thickness, depth}), [&](glm::dvec3 p) {
-                return turn * (p + glm::dvec3(0, lean * p.z, 0)) + wire.middle();
-            });
+            transformed(make_box({2 * wire.half_length, wire.thickness, depth}),
+                        [&](glm::dvec3 p) { return turn * (p + glm::dvec3(0, lean * p.z, 0)) + wire.middle(); });
         const Camera camera = pixel_camera(kSize, kSize);
         const Found found = look(draw(scene_of({plate}), camera, kSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire);

@@ -31,7 +31,8 @@ TEST(Transparency, LinesBehindGlassAreWeakened) {
     EXPECT_NEAR(across(glass, 90), 1, 0.02);
     EXPECT_NEAR(across(glass, 150), 0.75, 0.02);
     double by_class = 0;
-    for (int x = 66; x < 74; ++x) by_class += value(glass, "coverage.silhouette", x, 150) + value(glass, "coverage.crease", x, 150);
+    for (int x = 66; x < 74; ++x)
+        by_class += value(glass, "coverage.silhouette", x, 150) + value(glass, "coverage.crease", x, 150);
     EXPECT_NEAR(by_class, across(glass, 150), 0.01);
     EXPECT_NEAR(across(glass, 200), 0, 0.001) << "nothing is behind the pane there";
 }
@@ -48,7 +49,8 @@ TEST(Transparency, DashesRunOnBehindGlass) {
         fold.add_polygon(std::vector<std::uint32_t>{3 * i, 3 * i + 1, 3 * i + 4, 3 * i + 3});
         fold.add_polygon(std::vector<std::uint32_t>{3 * i, 3 * i + 3, 3 * i + 5, 3 * i + 2});
     }
-    Scene scene = scene_of({fold, soup_of({{60.3, 20, 100}, {170.8, 20, 100}, {170.8, 220, 100}, {60.3, 220, 100}}, {{0, 1, 2, 3}})});
+    Scene scene = scene_of(
+        {fold, soup_of({{60.3, 20, 100}, {170.8, 20, 100}, {170.8, 220, 100}, {60.3, 220, 100}}, {{0, 1, 2, 3}})});
     scene.lines.classes = LineClass::crease;
     scene.lines.style.dash_px = {12, 10};
     scene.materials.push_back({});
@@ -63,7 +65,8 @@ TEST(Transparency, DashesRunOnBehindGlass) {
         scene.materials[1].opacity = opacity;
         const Image behind = draw(scene, pixel_camera(kSize, kSize));
         for (int y = 0; y < kSize; ++y) {
-            for (int x = 0; x < kSize; ++x) ASSERT_NEAR(value(behind, "lines.A", x, y), value(without, "lines.A", x, y), 0.1) << x << ' ' << y;
+            for (int x = 0; x < kSize; ++x)
+                ASSERT_NEAR(value(behind, "lines.A", x, y), value(without, "lines.A", x, y), 0.1) << x << ' ' << y;
         }
     }
 }
@@ -98,10 +101,12 @@ TEST(Transparency, SurfacesAreCompositedInOrder) {
     EXPECT_EQ(value(all_glass, "id.object", 120, 120), 3) << "numbers are those of the nearest surface";
 }
 
-// Of faces in one plane the first is seen (decision 9), also if it is of glass: rounding does not tell at each sample anew.
+// Of faces in one plane the first is seen (decision 9), also if it is of glass: rounding does not tell at each sample
+// anew.
 TEST(Transparency, GlassFlushWithASolidHasOneColour) {
     const PolygonSoup inlay = transformed(make_box({1.4, 0.1, 1.4}), [](glm::dvec3 p) {
-        return glm::dvec3(std::cos(0.35) * p.x - std::sin(0.35) * p.z, p.y + 0.05, std::sin(0.35) * p.x + std::cos(0.35) * p.z);
+        return glm::dvec3(std::cos(0.35) * p.x - std::sin(0.35) * p.z, p.y + 0.05,
+                          std::sin(0.35) * p.x + std::cos(0.35) * p.z);
     });
     const PolygonSoup board = make_box({4, 0.2, 3});
     for (const bool is_glass_first : {true, false}) {
@@ -117,10 +122,13 @@ TEST(Transparency, GlassFlushWithASolidHasOneColour) {
             const Image image = draw(scene, camera);
             const Frame frame = make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize});
             const glm::dvec2 first = pixel_of(frame, camera, {0, 0.1, 0});
-            const auto color = [&](glm::dvec2 at) { return value(image, "surface.B", static_cast<int>(at.x), static_cast<int>(at.y)); };
+            const auto color = [&](glm::dvec2 at) {
+                return value(image, "surface.B", static_cast<int>(at.x), static_cast<int>(at.y));
+            };
             EXPECT_EQ(color(first) > 0.01, is_glass_first) << k;
             for (const double x : {-0.5, -0.21, 0.13, 0.45}) {
-                for (const double z : {-0.44, -0.1, 0.28, 0.5}) EXPECT_NEAR(color(pixel_of(frame, camera, {x, 0.1, z})), color(first), 1e-3) << k;
+                for (const double z : {-0.44, -0.1, 0.28, 0.5})
+                    EXPECT_NEAR(color(pixel_of(frame, camera, {x, 0.1, z})), color(first), 1e-3) << k;
             }
         }
     }
@@ -134,7 +142,8 @@ TEST(Transparency, GlassDoesNotCountAsALayer) {
     scene.materials[2].opacity = 0.5f;
     const Layers layers(scene, pixel_camera(kSize, kSize));
     EXPECT_GT(layers.hidden_px(2), 300);
-    EXPECT_EQ(layers.hidden_px(3) + layers.hidden_px(4), layers.hidden_px(3)) << "only the box's rear face is behind its front";
+    EXPECT_EQ(layers.hidden_px(3) + layers.hidden_px(4), layers.hidden_px(3))
+        << "only the box's rear face is behind its front";
     for (const LinePart& p : layers.pass.pieces()) {
         if (layers.pass.lines()[p.line].owners[0] < 12) {
             EXPECT_EQ(p.transmission, 128);

@@ -38,9 +38,11 @@ TEST(TriangleBins, RunsThatFaceAwayAreSummedUp) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        const Scene scene = scene_of({rough_sphere(random, random.integer(8, 200), random.real(0, 8)), make_box({0.4, 0.9, 1.2})});
+        const Scene scene =
+            scene_of({rough_sphere(random, random.integer(8, 200), random.real(0, 8)), make_box({0.4, 0.9, 1.2})});
         const PixelRect picture{0, 0, 150, 110};
-        const Frame frame = make_frame(scene, perspective_camera(random.direction() * random.real(2.0, 9.0), {0, 0, 0}), 150, 110, picture);
+        const Frame frame = make_frame(scene, perspective_camera(random.direction() * random.real(2.0, 9.0), {0, 0, 0}),
+                                       150, 110, picture);
         for (const TileKernels* kernels : all_kernels()) {
             ScreenSurfaces screen(frame.surfaces, frame.criteria, *kernels, 1);
             const TriangleBins bins(screen, picture, 1 << random.integer(1, 3), *kernels, 1);

@@ -29,10 +29,10 @@ struct Pixel {
     }
     VisibleSamples<Mask> resolve() const {
         VisibleSamples<Mask> visible;
-        resolve_visibility<Mask>(fragments, kGrid, 10, 20,
-                                 [this](const Fragment<Mask>& f) -> const DepthPlane& { return planes[f.surface]; },
-                                 [this](const Fragment<Mask>& a, const Fragment<Mask>& b) { return order(a.surface, b.surface); },
-                                 visible);
+        resolve_visibility<Mask>(
+            fragments, kGrid, 10, 20,
+            [this](const Fragment<Mask>& f) -> const DepthPlane& { return planes[f.surface]; },
+            [this](const Fragment<Mask>& a, const Fragment<Mask>& b) { return order(a.surface, b.surface); }, visible);
         return visible;
     }
     void add(Mask mask, DepthPlane plane, int in_family = -1, int is_behind = 0) {

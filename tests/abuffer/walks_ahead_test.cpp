@@ -60,8 +60,9 @@ void expect_equal_classes(const FastWalk& ahead, const FastWalk& alone) {
 }
 
 bool is_over_sliver(const FastWalk& walk, std::uint32_t instance, const SurfaceSet& surfaces) {
-    return std::any_of(walk.steps + 1, walk.steps + walk.step_count,
-                       [&](const FastWalk::Step& step) { return is_sliver(surfaces, {instance, step.triangle}); });
+    return std::any_of(walk.steps + 1, walk.steps + walk.step_count, [&](const FastWalk::Step& step) {
+        return is_sliver(surfaces, {instance, step.triangle});
+    });
 }
 
 /// Pairs of a tile that show different triangles.
@@ -72,7 +73,11 @@ std::vector<NeighbourSamples> pairs_of(const SurfaceTile& tile, int samples) {
     const auto add = [&](int column, int row, bool down) {
         const std::size_t a = s.index(column, row), b = down ? s.index(column, row + 1) : s.index(column + 1, row);
         if (s.ids[a] >> 1 == s.ids[b] >> 1) return;
-        pairs.push_back({column * pitch + pitch / 2, row * pitch + pitch / 2, pitch, down, {tile.surface_at(a), tile.surface_at(b)}});
+        pairs.push_back({column * pitch + pitch / 2,
+                         row * pitch + pitch / 2,
+                         pitch,
+                         down,
+                         {tile.surface_at(a), tile.surface_at(b)}});
     };
     for (int row = s.first_row; row + 1 < s.first_row + s.rows; ++row) {
         for (int column = s.first_column; column + 1 < s.first_column + s.columns; ++column) {
@@ -108,7 +113,8 @@ Counts compare(const Scene& scene, const Camera& camera, int samples) {
                     FastWalk alone;
                     walker.walk(pair, i % 2 == 1, alone);
                     const SurfaceId other = pair.surfaces[1 - i % 2];
-                    const bool is_through = alone.end == FastWalk::arrived && SurfaceId{pair.surfaces[i % 2].instance, alone.triangle} == other;
+                    const bool is_through = alone.end == FastWalk::arrived &&
+                                            SurfaceId{pair.surfaces[i % 2].instance, alone.triangle} == other;
                     const bool has_steps = !other.is_background() && !is_through;
                     expect_equal(*known, alone, has_steps);
                     if (is_through) expect_equal_classes(*known, alone);
@@ -143,8 +149,8 @@ TEST(WalksAhead, ManyAtOnceAreAsEachAlone) {
     EXPECT_GT(sum.stopped, 50000);
 }
 
-/// Terraces seen from the front: walls that are edge-on to within snapping, or exactly, where walks turn back and go on in another
-/// depth.
+/// Terraces seen from the front: walls that are edge-on to within snapping, or exactly, where walks turn back and go on
+/// in another depth.
 TEST(WalksAhead, WallsSeenEdgeOn) {
     Counts sum;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {

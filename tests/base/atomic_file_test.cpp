@@ -164,11 +164,16 @@ int dead_process() {
 
 TEST(AtomicFile, WhatDeadProcessesLeftIsRemoved) {
     const TemporaryFolder folder;
-    const std::string dead = std::to_string(dead_process()), alive = std::to_string(::getppid()), own = std::to_string(::getpid());
-    const std::vector<std::string> stale = {".o.burin-" + dead + "-0.exr", ".o.burin-" + dead + "-17.exr", ".o.burin-" + dead + "-1.png",
-                                            ".o.burin-" + own + "-3.exr"};
-    std::vector<std::string> others = {".o.burin-" + alive + "-0.exr", ".p.burin-" + dead + "-0.exr", ".o.burin-x", ".o.burin-" + dead,
-                                       "o.burin-" + dead + "-0.exr", ".o.burin--1-0.exr"};
+    const std::string dead = std::to_string(dead_process()), alive = std::to_string(::getppid()),
+                      own = std::to_string(::getpid());
+    const std::vector<std::string> stale = {".o.burin-" + dead + "-0.exr", ".o.burin-" + dead + "-17.exr",
+                                            ".o.burin-" + dead + "-1.png", ".o.burin-" + own + "-3.exr"};
+    std::vector<std::string> others = {".o.burin-" + alive + "-0.exr",
+                                       ".p.burin-" + dead + "-0.exr",
+                                       ".o.burin-x",
+                                       ".o.burin-" + dead,
+                                       "o.burin-" + dead + "-0.exr",
+                                       ".o.burin--1-0.exr"};
     for (const std::string& name : stale) folder.write(name, "x");
     for (const std::string& name : others) folder.write(name, "x");
     // Of a process on another machine that shares the folder.

@@ -24,7 +24,8 @@ TEST(JsonWriter, TextsAreUtf8) {
         std::string result = json.text();
         return result.substr(result.find('"') + 1, result.rfind('"') - result.find('"') - 1);
     };
-    for (const std::string text : {"a", "\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x96\x8B", "\xF4\x8F\xBF\xBF"}) EXPECT_EQ(quoted(text), text);
+    for (const std::string text : {"a", "\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x96\x8B", "\xF4\x8F\xBF\xBF"})
+        EXPECT_EQ(quoted(text), text);
     EXPECT_EQ(quoted("Terraind\xE4k"), "Terraind\xC3\xA4k") << "Latin-1";
     EXPECT_EQ(quoted("\xC3"), "\xC3\x83") << "broken off";
     EXPECT_EQ(quoted("\xC0\x80"), "\xC3\x80\xC2\x80") << "longer than it need be";

@@ -25,9 +25,15 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"strokes", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render"}},
     {"abuffer", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes"}},
     {"output", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render"}},
-    {"methods", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer", "output"}},
-    {"compare", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer", "output", "methods"}},
-    {"cli", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer", "output", "methods", "compare"}},
+    {"methods",
+     {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer",
+      "output"}},
+    {"compare",
+     {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer", "output",
+      "methods"}},
+    {"cli",
+     {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer", "output",
+      "methods", "compare"}},
 };
 
 // docs/methods/abuffer.md: the same within the folder.

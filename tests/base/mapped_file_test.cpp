@@ -51,7 +51,8 @@ TEST(MappedFile, IsNotOpenUnlessItHasTo) {
     EXPECT_EQ(next_descriptor(), before);
 }
 
-/// Runs work in a process of its own. Its exit status, or 128 + the number of the signal that ended it; and what it printed.
+/// Runs work in a process of its own. Its exit status, or 128 + the number of the signal that ended it; and what it
+/// printed.
 std::pair<int, std::string> in_process(const std::function<void()>& work) {
     int ends[2];
     if (::pipe(ends) != 0) return {-1, ""};
@@ -66,7 +67,8 @@ std::pair<int, std::string> in_process(const std::function<void()>& work) {
     ::close(ends[1]);
     std::string printed;
     char buffer[1000];
-    for (ssize_t count; (count = ::read(ends[0], buffer, sizeof buffer)) > 0;) printed.append(buffer, static_cast<std::size_t>(count));
+    for (ssize_t count; (count = ::read(ends[0], buffer, sizeof buffer)) > 0;)
+        printed.append(buffer, static_cast<std::size_t>(count));
     ::close(ends[0]);
     int status = 0;
     ::waitpid(child, &status, 0);
@@ -81,7 +83,8 @@ void look_at(const MappedFile& file) {
 
 TEST(MappedFile, AFileThatIsCutEndsAProgramWithItsName) {
     test::TemporaryFolder folder;
-    const std::string path = folder.write("a\nb", std::string(100000, 'x')), other_path = folder.write("other", std::string(100000, 'x'));
+    const std::string path = folder.write("a\nb", std::string(100000, 'x')),
+                      other_path = folder.write("other", std::string(100000, 'x'));
     const auto read_cut = [&](bool is_program) {
         return in_process([&] {
             if (is_program) MappedFile::end_process_where_files_are_cut();
@@ -94,7 +97,9 @@ TEST(MappedFile, AFileThatIsCutEndsAProgramWithItsName) {
     };
     const auto [status, message] = read_cut(true);
     EXPECT_EQ(status, 1);
-    EXPECT_EQ(message, folder.path() + "/a?b: cannot read: the file has become shorter while it was read; is another program writing it?\n");
+    EXPECT_EQ(message,
+              folder.path() +
+                  "/a?b: cannot read: the file has become shorter while it was read; is another program writing it?\n");
     EXPECT_EQ(::truncate(path.c_str(), 100000), 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they handle signals themselves
     EXPECT_EQ(read_cut(false).first, 128 + SIGBUS) << "a library leaves signals alone";

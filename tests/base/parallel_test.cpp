@@ -79,7 +79,8 @@ TEST(ParallelFor, TheFirstExceptionIsPassedOnAndStopsTheOthers) {
 TEST(ParallelFor, EachWorkerIsCalledInIncreasingOrder) {
     for (const int threads : {1, 2, 7}) {
         std::vector<std::vector<std::size_t>> indices(static_cast<std::size_t>(threads));
-        parallel_for(500, threads, [&](std::size_t i, int worker) { indices[static_cast<std::size_t>(worker)].push_back(i); });
+        parallel_for(500, threads,
+                     [&](std::size_t i, int worker) { indices[static_cast<std::size_t>(worker)].push_back(i); });
         for (const auto& of_worker : indices) EXPECT_TRUE(std::is_sorted(of_worker.begin(), of_worker.end()));
     }
 }
@@ -110,7 +111,8 @@ TEST(ParallelFor, FewerThreadsDoTheSameWhereThereAreNoMore) {
     pthread_attr_t before, large;
     ASSERT_EQ(pthread_getattr_default_np(&before), 0);
     ASSERT_EQ(pthread_getattr_default_np(&large), 0);
-    ASSERT_EQ(pthread_attr_setstacksize(&large, std::size_t{1} << 50), 0);  // more than can be addressed: none can be started
+    ASSERT_EQ(pthread_attr_setstacksize(&large, std::size_t{1} << 50),
+              0);  // more than can be addressed: none can be started
     ASSERT_EQ(pthread_setattr_default_np(&large), 0);
     constexpr int kThreads = 200;
     for (const auto& parallel : kBoth) {
@@ -135,9 +137,8 @@ TEST(ParallelFor, IsCalledWithinItselfAndFromSeveralThreads) {
     for (int k = 0; k < 3; ++k) {
         callers.emplace_back([&] {
             for (int again = 0; again < 20; ++again) {
-                parallel_for(5, 2, [&](std::size_t, int) {
-                    parallel_for_parts(7, 3, [&](std::size_t, int) { ++calls; });
-                });
+                parallel_for(5, 2,
+                             [&](std::size_t, int) { parallel_for_parts(7, 3, [&](std::size_t, int) { ++calls; }); });
             }
         });
     }

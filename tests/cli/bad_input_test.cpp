@@ -18,16 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kExtensions = {".obj",  ".ply", ".stl", ".off",
-                                              ".gltf", ".glb", ".toml"};
+const std::vector<std::string> kExtensions = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb", ".toml"};
 
 ProgramResult render(const TemporaryFolder& folder, const std::string& input) {
     return run_burin(folder.path(), {"render", input, "-r", "16x12", "-o", "out.exr"});
 }
 
 /// Expects a failure that names the input, or another file in its place.
-void expect_refused(const TemporaryFolder& folder, const std::string& input,
-                    const std::string& words = "", const std::string& named = "") {
+void expect_refused(const TemporaryFolder& folder, const std::string& input, const std::string& words = "",
+                    const std::string& named = "") {
     const auto before = folder.names();
     const ProgramResult result = render(folder, input);
     EXPECT_FALSE(result.timed_out) << input;
@@ -89,12 +88,10 @@ TEST(BadInput, EmptyFilesAndGarbage) {
         folder.write("blank" + extension, "\n \n");
         folder.write("zeros" + extension, std::string(1000, '\0'));
         folder.write("noise" + extension, noise);
-        folder.write("text" + extension,
-                     "The quick brown fox jumps over the lazy dog.\nAnd again.\n");
+        folder.write("text" + extension, "The quick brown fox jumps over the lazy dog.\nAnd again.\n");
         folder.write("png" + extension, "\x89PNG\r\n\x1a\n" + noise);
         expect_refused(folder, "empty" + extension, "the file is empty");
-        for (const char* name : {"blank", "zeros", "noise", "text", "png"})
-            expect_refused(folder, name + extension);
+        for (const char* name : {"blank", "zeros", "noise", "text", "png"}) expect_refused(folder, name + extension);
     }
 }
 
@@ -123,8 +120,8 @@ TEST(BadInput, TruncatedFiles) {
                 continue;
             }
             const ProgramResult result = render(folder, cut);
-            EXPECT_TRUE(result.status == 0 || (result.status == 1 && is_one_line(result.err) &&
-                                               result.err.starts_with(cut)))
+            EXPECT_TRUE(result.status == 0 ||
+                        (result.status == 1 && is_one_line(result.err) && result.err.starts_with(cut)))
                 << name << " cut at " << size << ": " << result.err;
             fs::remove(folder.file("out.exr"));
         }
@@ -139,8 +136,8 @@ TEST(BadInput, DamagedBytesNeverCrash) {
             Random random(static_cast<std::uint64_t>(trial) + 100 * content.size());
             std::string damaged = content;
             for (int i = 0; i < 1 + trial / 2; ++i) {
-                damaged[static_cast<std::size_t>(random.integer(
-                    0, static_cast<int>(content.size()) - 1))] = static_cast<char>(random.bits());
+                damaged[static_cast<std::size_t>(random.integer(0, static_cast<int>(content.size()) - 1))] =
+                    static_cast<char>(random.bits());
             }
             std::string input = "bad" + fs::path(name).extension().string();
             if (name == "tetra.bin") {
@@ -151,8 +148,8 @@ TEST(BadInput, DamagedBytesNeverCrash) {
             }
             const ProgramResult result = render(folder, input);
             EXPECT_FALSE(result.timed_out);
-            EXPECT_TRUE(result.status == 0 || (result.status == 1 && is_one_line(result.err) &&
-                                               result.err.starts_with(input)))
+            EXPECT_TRUE(result.status == 0 ||
+                        (result.status == 1 && is_one_line(result.err) && result.err.starts_with(input)))
                 << name << ", trial " << trial << ": status " << result.status << ' ' << result.err;
             fs::remove(folder.file("out.exr"));
         }
@@ -163,37 +160,32 @@ TEST(BadInput, DamagedBytesNeverCrash) {
 TEST(BadInput, CountsOfFourBillion) {
     const TemporaryFolder folder;
     const std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex ";
-    const std::string rest =
-        "\nproperty float x\nproperty float y\nproperty float z\nelement face ";
+    const std::string rest = "\nproperty float x\nproperty float y\nproperty float z\nelement face ";
     const std::string list = "\nproperty list uint int vertex_indices\nend_header\n";
-    for (const char* count : {"4000000000", "4294967295", "4294967296", "18446744073709551615",
-                              "99999999999999999999", "-1"}) {
+    for (const char* count :
+         {"4000000000", "4294967295", "4294967296", "18446744073709551615", "99999999999999999999", "-1"}) {
         folder.write("a.ply", ply + count + rest + "1" + list + std::string(100, 'x'));
         folder.write("b.ply", ply + "0" + rest + count + list + std::string(100, 'x'));
         folder.write("c.off", std::string("OFF\n") + count + " 1 0\n0 0 0\n");
-        folder.write("d.off",
-                     std::string("OFF\n3 ") + count + " 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-        folder.write("e.off",
-                     std::string("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n") + count + " 0 1 2\n");
+        folder.write("d.off", std::string("OFF\n3 ") + count + " 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+        folder.write("e.off", std::string("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n") + count + " 0 1 2\n");
         folder.write("f.obj", std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 ") + count + "\n");
         folder.write(
             "g.gltf",
             std::string(
                 R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"componentType":5126,"count":)") +
                 count + R"(,"type":"VEC3"}]})");
-        for (const char* name : {"a.ply", "b.ply", "c.off", "d.off", "e.off", "g.gltf"})
-            expect_refused(folder, name);
+        for (const char* name : {"a.ply", "b.ply", "c.off", "d.off", "e.off", "g.gltf"}) expect_refused(folder, name);
         if (std::string(count) != "-1") expect_refused(folder, "f.obj");  // -1 is the last vertex
     }
     // The list of one face, and the triangles of an STL.
-    folder.write("h.ply", ply + "3" + rest + "1" + list + std::string(36, '\0') +
-                              std::string(4, '\xff') + std::string(20, '\0'));
+    folder.write("h.ply", ply + "3" + rest + "1" + list + std::string(36, '\0') + std::string(4, '\xff') +
+                              std::string(20, '\0'));
     expect_refused(folder, "h.ply");
     folder.write("i.stl", std::string(80, ' ') + std::string(4, '\xff') + std::string(50, '\0'));
     expect_refused(folder, "i.stl");
-    folder.write("j.glb",
-                 bytes_of(std::uint32_t{0x46546C67}, std::uint32_t{2}, std::uint32_t{0xFFFFFFFF}) +
-                     std::string(40, ' '));
+    folder.write("j.glb", bytes_of(std::uint32_t{0x46546C67}, std::uint32_t{2}, std::uint32_t{0xFFFFFFFF}) +
+                              std::string(40, ' '));
     expect_refused(folder, "j.glb");
 }
 
@@ -206,8 +198,8 @@ TEST(BadInput, CoordinatesThatAreNoNumbers) {
         expect_refused(folder, "a.obj", "", "a.obj:2: ");
         folder.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 " + v + "\n0 1 0\n3 0 1 2\n");
         expect_refused(folder, "a.off", "", "a.off:4: ");
-        folder.write("a.stl", "solid\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 " +
-                                  v + "\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+        folder.write("a.stl", "solid\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 " + v +
+                                  "\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
         expect_refused(folder, "a.stl", "", "a.stl:5: ");
         folder.write("a.ply",
                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
@@ -218,9 +210,7 @@ TEST(BadInput, CoordinatesThatAreNoNumbers) {
     }
     for (const std::uint32_t bits : {nan_bits, infinity_bits, infinity_bits | 0x80000000u}) {
         for (const auto& [name, content] : tetrahedra()) {
-            if (name != "binary.ply" && name != "binary.stl" && name != "tetra.glb" &&
-                name != "tetra.bin")
-                continue;
+            if (name != "binary.ply" && name != "binary.stl" && name != "tetra.glb" && name != "tetra.bin") continue;
             // The coordinate 1.0f stands in each of them; put the odd number in its place.
             std::string bad = content;
             const std::size_t at = bad.find(bytes_of(1.0f));
@@ -245,8 +235,8 @@ TEST(BadInput, CoordinatesThatAreNoNumbers) {
 TEST(BadInput, VertexNumbersOutOfRange) {
     const TemporaryFolder folder;
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    for (const char* face : {"f 1 2 4", "f 0 1 2", "f -4 -1 -2", "f 1 2 x", "f 1 2 3.5",
-                             "f 1//9 2 99999999999999999999"}) {
+    for (const char* face :
+         {"f 1 2 4", "f 0 1 2", "f -4 -1 -2", "f 1 2 x", "f 1 2 3.5", "f 1//9 2 99999999999999999999"}) {
         folder.write("a.obj", vertices + face + "\n");
         expect_refused(folder, "a.obj", "", "a.obj:4: ");
     }
@@ -256,8 +246,7 @@ TEST(BadInput, VertexNumbersOutOfRange) {
     expect_refused(folder, "b.off", "", "b.off:6: ");
 }
 
-std::string gltf(const std::string& nodes, const std::string& uri = "tri.bin",
-                 const std::string& scene = "[0]") {
+std::string gltf(const std::string& nodes, const std::string& uri = "tri.bin", const std::string& scene = "[0]") {
     return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":)" + scene + R"(}],"nodes":)" + nodes +
            R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
            R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
@@ -296,8 +285,7 @@ TEST(BadInput, FilesOutsideOfTheModelsFolder) {
     bad_uris.push_back(folder.file("secret.bin"));
     for (const std::string& uri : bad_uris) {
         folder.write("model/a.gltf", gltf(mesh, uri));
-        const ProgramResult result =
-            render(folder, "model/a.gltf");  // names either of the two files
+        const ProgramResult result = render(folder, "model/a.gltf");  // names either of the two files
         EXPECT_EQ(result.status, 1) << uri;
         EXPECT_TRUE(is_one_line(result.err)) << uri << ": " << result.err;
         EXPECT_EQ(folder.names(), (std::vector<std::string>{"model", "secret.bin"})) << uri;
@@ -309,11 +297,9 @@ TEST(BadInput, NodesThatGoInCircles) {
     folder.write("tri.bin", bytes_of(0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f));
     for (const char* nodes :
          {R"([{"mesh":0,"children":[0]}])", R"([{"mesh":0,"children":[1]},{"children":[0]}])",
-          R"([{"mesh":0,"children":[1]},{"children":[2]},{"children":[1]}])",
-          R"([{"mesh":0,"children":[7]}])", R"([{"mesh":1}])", R"([{"mesh":-1}])",
-          R"([{"mesh":"0"}])", R"([{"mesh":0,"matrix":[1,2,3]}])",
-          R"([{"mesh":0,"scale":[1e999,1,1]}])", R"([{"mesh":0,"camera":3}])", R"([{}])", R"([])",
-          R"({})"}) {
+          R"([{"mesh":0,"children":[1]},{"children":[2]},{"children":[1]}])", R"([{"mesh":0,"children":[7]}])",
+          R"([{"mesh":1}])", R"([{"mesh":-1}])", R"([{"mesh":"0"}])", R"([{"mesh":0,"matrix":[1,2,3]}])",
+          R"([{"mesh":0,"scale":[1e999,1,1]}])", R"([{"mesh":0,"camera":3}])", R"([{}])", R"([])", R"({})"}) {
         folder.write("a.gltf", gltf(nodes));
         expect_refused(folder, "a.gltf");
     }
@@ -331,8 +317,7 @@ TEST(BadInput, NodesThatGoInCircles) {
     folder.write("a.gltf", gltf(nodes + R"({"mesh":0}])"));
     EXPECT_LE(render(folder, "a.gltf").status, 1);
     fs::remove(folder.file("out.exr"));
-    folder.write("a.gltf",
-                 R"({"asset":)" + std::string(200000, '[') + std::string(200000, ']') + "}");
+    folder.write("a.gltf", R"({"asset":)" + std::string(200000, '[') + std::string(200000, ']') + "}");
     expect_refused(folder, "a.gltf");
 }
 
@@ -342,8 +327,7 @@ TEST(BadInput, ModelsWithoutSurfaces) {
     folder.write("dots.obj", "v 0 0 0\nv 1 0 0\nv 0 0 0\nl 1\nl 1 3\n");
     folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     folder.write("same.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
-    for (const char* name : {"points.obj", "dots.obj", "flat.obj", "same.obj"})
-        expect_refused(folder, name);
+    for (const char* name : {"points.obj", "dots.obj", "flat.obj", "same.obj"}) expect_refused(folder, name);
 }
 
 TEST(BadInput, ScenesWithBrokenParts) {
@@ -363,11 +347,9 @@ TEST(BadInput, ScenesWithBrokenParts) {
     expect_refused(folder, "a.toml", "same place", "a.toml:3:1: ");
     folder.write("a.toml", "[[object]]\nshape='box'\n\"a\\nb\\u001b[31m\"=1\n");
     expect_refused(folder, "a.toml", "a?b?[31m");
-    folder.write("a.toml",
-                 "[[object]]\nshape='box'\nmatrix=[1e200,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n");
+    folder.write("a.toml", "[[object]]\nshape='box'\nmatrix=[1e200,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n");
     expect_refused(folder, "a.toml", "far too large");
-    folder.write("a.toml",
-                 "[[object]]\nshape='box'\nmatrix=[1e50,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n");
+    folder.write("a.toml", "[[object]]\nshape='box'\nmatrix=[1e50,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n");
     expect_refused(folder, "a.toml", "1e30");
 }
 
@@ -376,7 +358,8 @@ TEST(BadInput, AnImageThatNoMemoryHolds) {
     folder.write("cube.obj", kCubeObj);
     // An EXR of visible lines is never in memory as a whole.
     using Arguments = std::vector<std::string>;
-    for (const Arguments& kind : {Arguments{"out.png"}, Arguments{"out.exr", "--hidden", "solid"}, Arguments{"out.exr", "--method", "patel"}}) {
+    for (const Arguments& kind :
+         {Arguments{"out.png"}, Arguments{"out.exr", "--hidden", "solid"}, Arguments{"out.exr", "--method", "patel"}}) {
         Arguments arguments{"render", "cube.obj", "-r", "65535x65535", "-o"};
         arguments.insert(arguments.end(), kind.begin(), kind.end());
         const ProgramResult result = run_burin(folder.path(), arguments);

@@ -14,9 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Commands, HelpNamesCommandsAndOptions) {
     const TemporaryFolder folder;
@@ -95,8 +93,8 @@ TEST(Commands, MethodsAsTextAndJson) {
         EXPECT_FALSE(method.at("source").get<std::string>().empty());
         EXPECT_TRUE(contains(text.out, method.at("name").get<std::string>()));
         for (const Json& line_class : method.at("draws")) {
-            EXPECT_TRUE(std::set<std::string>({"silhouette", "border", "crease", "intersection",
-                                               "object", "material", "polygon", "mark"})
+            EXPECT_TRUE(std::set<std::string>(
+                            {"silhouette", "border", "crease", "intersection", "object", "material", "polygon", "mark"})
                             .contains(line_class.get<std::string>()));
         }
     }
@@ -160,8 +158,7 @@ TEST(Commands, InfoAsText) {
     const ProgramResult result = run_burin(folder.path(), {"info", "cube.obj"});
     EXPECT_EQ(result.status, 0);
     EXPECT_EQ(result.err, "");
-    for (const char* word :
-         {"cube.obj", "objects", "triangles  12", "bounds", "edges", "materials", "cameras"}) {
+    for (const char* word : {"cube.obj", "objects", "triangles  12", "bounds", "edges", "materials", "cameras"}) {
         EXPECT_TRUE(contains(result.out, word)) << word;
     }
     EXPECT_FALSE(contains(result.out, "\x1b"));  // names must not steer the terminal
@@ -185,8 +182,7 @@ TEST(Commands, InfoReadsEveryFormat) {
 TEST(Commands, ExplainShowsThePixel) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
-    const std::vector<std::string> view = {"--eye",   "0,0,5", "--target", "0,0,0",
-                                           "--ortho", "4",     "-r",       "100x100"};
+    const std::vector<std::string> view = {"--eye", "0,0,5", "--target", "0,0,0", "--ortho", "4", "-r", "100x100"};
     const auto explain = [&](const std::string& pixel) {
         std::vector<std::string> arguments = {"explain", "cube.obj", "--pixel", pixel};
         arguments.insert(arguments.end(), view.begin(), view.end());
@@ -221,12 +217,12 @@ TEST(Commands, WhatCannotBePrintedIsAFailure) {
     folder.write("cube.obj", kCubeObj);
     ProgramOptions full;
     full.stdout_file = "/dev/full";
-    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-             {"info", "cube.obj"},
-             {"methods"},
-             {"--help"},
-             {"explain", "cube.obj", "--pixel", "1,1"},
-             {"render", "cube.obj", "-o", "a.exr", "-r", "9x9", "--stats", "-"}}) {
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"info", "cube.obj"},
+                                               {"methods"},
+                                               {"--help"},
+                                               {"explain", "cube.obj", "--pixel", "1,1"},
+                                               {"render", "cube.obj", "-o", "a.exr", "-r", "9x9", "--stats", "-"}}) {
         const ProgramResult result = run_burin(folder.path(), arguments, full);
         EXPECT_EQ(result.status, 1) << arguments[0];
         EXPECT_TRUE(is_one_line(result.err)) << result.err;

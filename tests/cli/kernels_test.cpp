@@ -51,8 +51,7 @@ TEST_F(Kernels, PicturesAreTheSameWithEachInstructionSet) {
         const ProgramResult result = render(kernels, "one.exr");
         if (result.status == 2) {  // this processor lacks it, which must be said
             EXPECT_NE(std::string(kernels), "baseline");
-            EXPECT_NE(result.err.find("this processor has no such instructions"), std::string::npos)
-                << result.err;
+            EXPECT_NE(result.err.find("this processor has no such instructions"), std::string::npos) << result.err;
             continue;
         }
         EXPECT_EQ(result.status, 0) << result.err;

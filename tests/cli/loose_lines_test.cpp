@@ -25,7 +25,8 @@ class LooseLinesOfFiles : public testing::Test {
 };
 
 TEST_F(LooseLinesOfFiles, AreCounted) {
-    const Json both = Json::parse(run({"info", "both.obj", "--json"}).out).at("edges"), lines = Json::parse(run({"info", "lines.obj", "--json"}).out);
+    const Json both = Json::parse(run({"info", "both.obj", "--json"}).out).at("edges"),
+               lines = Json::parse(run({"info", "lines.obj", "--json"}).out);
     EXPECT_EQ(both.at("total"), 12);
     EXPECT_EQ(both.at("marked"), 2);
     EXPECT_EQ(both.at("loose"), 2);
@@ -37,12 +38,16 @@ TEST_F(LooseLinesOfFiles, AreCounted) {
 TEST_F(LooseLinesOfFiles, WhatIsLeftOutIsNamedOnce) {
     const ProgramResult plain = run({"render", "both.obj", "-o", "a.png", "-r", "40x40"});
     EXPECT_EQ(plain.status, 0);
-    EXPECT_EQ(plain.err, "burin: note: the class mark is not drawn, and so 2 lines of the input are missing; "
-                         "--lines mark,border,silhouette,intersection,object,crease has it, too\n");
+    EXPECT_EQ(plain.err,
+              "burin: note: the class mark is not drawn, and so 2 lines of the input are missing; "
+              "--lines mark,border,silhouette,intersection,object,crease has it, too\n");
     EXPECT_EQ(run({"render", "both.obj", "-o", "a.png", "-r", "40x40", "--lines", "mark"}).err, "");
     EXPECT_EQ(run({"render", "lines.obj", "-o", "a.png", "-r", "40x40", "--lines", "mark"}).err, "");
-    const ProgramResult other = run({"render", "both.obj", "-m", "simple", "-o", "a.png", "-r", "40x40", "--lines", "mark"});
-    EXPECT_EQ(other.err, "burin: note: method simple draws edges of polygons only, and leaves out 2 lines of the input; abuffer draws them\n");
+    const ProgramResult other =
+        run({"render", "both.obj", "-m", "simple", "-o", "a.png", "-r", "40x40", "--lines", "mark"});
+    EXPECT_EQ(other.err,
+              "burin: note: method simple draws edges of polygons only, and leaves out 2 lines of the input; abuffer "
+              "draws them\n");
 }
 
 TEST_F(LooseLinesOfFiles, AreDrawnByDefaultWhereNoPolygonIs) {
@@ -55,7 +60,8 @@ TEST_F(LooseLinesOfFiles, AreDrawnByDefaultWhereNoPolygonIs) {
 
 TEST_F(LooseLinesOfFiles, NoMethodFailsWithoutPolygons) {
     for (const Method& method : methods()) {
-        const ProgramResult result = run({"render", "lines.obj", "-q", "-m", std::string(method.name), "-o", "a.png", "-r", "40x40", "--lines", "mark"});
+        const ProgramResult result = run({"render", "lines.obj", "-q", "-m", std::string(method.name), "-o", "a.png",
+                                          "-r", "40x40", "--lines", "mark"});
         EXPECT_EQ(result.status, 0) << method.name;
         EXPECT_EQ(result.err, "") << method.name;
     }

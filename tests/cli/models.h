@@ -43,12 +43,10 @@ std::string bytes_of(Values... values) {
 inline std::vector<std::pair<std::string, std::string>> tetrahedra() {
     const float points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-    std::string obj = "# a tetrahedron\n", off = "OFF\n4 4 6\n", stl_text = "solid tetra\n",
-                stl(80, ' ');
+    std::string obj = "# a tetrahedron\n", off = "OFF\n4 4 6\n", stl_text = "solid tetra\n", stl(80, ' ');
     std::string vertices_text, faces_text, vertices, triangles, indices;
     for (const auto& p : points) {
-        const std::string text =
-            std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) + "\n";
+        const std::string text = std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) + "\n";
         obj += "v " + text;
         vertices_text += text;
         vertices += bytes_of(p[0], p[1], p[2]);
@@ -63,8 +61,8 @@ inline std::vector<std::pair<std::string, std::string>> tetrahedra() {
         for (const int i : f) {
             obj += " " + std::to_string(i + 1);
             faces_text += " " + std::to_string(i);
-            stl_text += "vertex " + std::to_string(points[i][0]) + " " +
-                        std::to_string(points[i][1]) + " " + std::to_string(points[i][2]) + "\n";
+            stl_text += "vertex " + std::to_string(points[i][0]) + " " + std::to_string(points[i][1]) + " " +
+                        std::to_string(points[i][2]) + "\n";
             stl += bytes_of(points[i][0], points[i][1], points[i][2]);
             triangles += bytes_of(std::int32_t{i});
             indices += bytes_of(static_cast<std::uint16_t>(i));
@@ -75,8 +73,7 @@ inline std::vector<std::pair<std::string, std::string>> tetrahedra() {
         stl += bytes_of(std::uint16_t{0});
     }
     const auto ply = [](const std::string& encoding) {
-        return "ply\nformat " + encoding +
-               " 1.0\nelement vertex 4\nproperty float x\nproperty float y\n" +
+        return "ply\nformat " + encoding + " 1.0\nelement vertex 4\nproperty float x\nproperty float y\n" +
                "property float z\nelement face 4\nproperty list uchar int "
                "vertex_indices\nend_header\n";
     };
@@ -92,11 +89,9 @@ inline std::vector<std::pair<std::string, std::string>> tetrahedra() {
     std::string json = gltf("");
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::string chunks = bytes_of(static_cast<std::uint32_t>(json.size())) + "JSON" + json +
-                               bytes_of(std::uint32_t{72}) + std::string("BIN\0", 4) + vertices +
-                               indices;
+                               bytes_of(std::uint32_t{72}) + std::string("BIN\0", 4) + vertices + indices;
     const std::string glb =
-        "glTF" + bytes_of(std::uint32_t{2}, static_cast<std::uint32_t>(chunks.size() + 12)) +
-        chunks;
+        "glTF" + bytes_of(std::uint32_t{2}, static_cast<std::uint32_t>(chunks.size() + 12)) + chunks;
     return {{"tetra.obj", obj},
             {"tetra.off", off + vertices_text + faces_text},
             {"text.ply", ply("ascii") + vertices_text + faces_text},

@@ -18,8 +18,7 @@ std::string stl_with_a_nan(std::uint32_t count) {
     std::string stl(80, ' ');
     stl += bytes_of(count);
     for (const float x : {0.0f, std::numeric_limits<float>::quiet_NaN(), 1.0f}) {
-        stl += bytes_of(0.0f, 0.0f, 1.0f, 0.0f, 0.0f, x, 1.0f, 0.0f, x, 0.0f, 1.0f, x,
-                        std::uint16_t{0});
+        stl += bytes_of(0.0f, 0.0f, 1.0f, 0.0f, 0.0f, x, 1.0f, 0.0f, x, 0.0f, 1.0f, x, std::uint16_t{0});
     }
     return stl;
 }
@@ -27,8 +26,7 @@ std::string stl_with_a_nan(std::uint32_t count) {
 TEST(Notes, AreOneLineEachUnlessQuiet) {
     const TemporaryFolder folder;
     folder.write("a.stl", stl_with_a_nan(3));
-    folder.write("scene.toml",
-                 "[[object]]\nfile = \"a.stl\"\n[[object]]\nfile = \"a.stl\"\nsubdivide = 1\n");
+    folder.write("scene.toml", "[[object]]\nfile = \"a.stl\"\n[[object]]\nfile = \"a.stl\"\nsubdivide = 1\n");
     for (const char* input : {"a.stl", "scene.toml"}) {
         const std::vector<std::string> render{"render",  input,   "-r",    "16x12",    "-o",
                                               "out.png", "--eye", "0,0,3", "--target", "0,0,0"};
@@ -43,8 +41,7 @@ TEST(Notes, AreOneLineEachUnlessQuiet) {
         quiet.push_back("-q");
         EXPECT_EQ(run_burin(folder.path(), quiet).err, "");
     }
-    const ProgramResult explain =
-        run_burin(folder.path(), {"explain", "a.stl", "-r", "16x12", "--pixel", "3,3"});
+    const ProgramResult explain = run_burin(folder.path(), {"explain", "a.stl", "-r", "16x12", "--pixel", "3,3"});
     EXPECT_EQ(explain.status, 0);
     EXPECT_TRUE(is_one_line(explain.err)) << explain.err;
 }
@@ -55,13 +52,10 @@ TEST(Notes, StandInInfo) {
     const ProgramResult info = run_burin(folder.path(), {"info", "a.stl"});
     EXPECT_EQ(info.status, 0);
     EXPECT_EQ(info.err, "");
-    EXPECT_NE(
-        info.out.find(
-            "note       a.stl: the header promises 0 triangles, the file has 3, which are read\n"),
-        std::string::npos)
+    EXPECT_NE(info.out.find("note       a.stl: the header promises 0 triangles, the file has 3, which are read\n"),
+              std::string::npos)
         << info.out;
-    EXPECT_NE(info.out.find("note       a.stl: triangles left out: 1;"), std::string::npos)
-        << info.out;
+    EXPECT_NE(info.out.find("note       a.stl: triangles left out: 1;"), std::string::npos) << info.out;
     const ProgramResult result = run_burin(folder.path(), {"info", "a.stl", "--json"});
     EXPECT_EQ(result.err, "");
     const Json json = Json::parse(result.out);
@@ -102,12 +96,15 @@ TEST(Notes, StrictRefusesInstead) {
 TEST(Notes, NameWhatAnObjAndItsMaterialsHaveThatIsNotDrawn) {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl m\nKd 1 \\\n0 0\nd 0,5 x\nd nan\nnewmtl n\nd 0.5\n");
-    folder.write("a.obj", "mtllib a.mtl\nmtllib missing.mtl\n" + std::string(kCubeObj) + "usemtl m\np 1 2\np 3\nf 1 2 3\n");
+    folder.write("a.obj",
+                 "mtllib a.mtl\nmtllib missing.mtl\n" + std::string(kCubeObj) + "usemtl m\np 1 2\np 3\nf 1 2 3\n");
     const ProgramResult info = run_burin(folder.path(), {"info", "a.obj", "--json"});
     EXPECT_EQ(info.status, 0) << info.err;
     const Json notes = Json::parse(info.out).at("notes");
-    EXPECT_EQ(notes, Json::array({"a.obj: material files that are not read: 1; the first one is 'missing.mtl'; materials have the default colour",
-                                  "a.obj: values of Kd, d and Tr that are not understood: 2; the first one is at " + folder.file("a.mtl") + ":4",
+    EXPECT_EQ(notes, Json::array({"a.obj: material files that are not read: 1; the first one is 'missing.mtl'; "
+                                  "materials have the default colour",
+                                  "a.obj: values of Kd, d and Tr that are not understood: 2; the first one is at " +
+                                      folder.file("a.mtl") + ":4",
                                   "a.obj: points left out: 2"}));
     const ProgramResult strict = run_burin(folder.path(), {"info", "a.obj", "--strict"});
     EXPECT_EQ(strict.status, 1);
@@ -119,17 +116,14 @@ TEST(Notes, NameWhatAnObjAndItsMaterialsHaveThatIsNotDrawn) {
 
 TEST(Notes, PolygonsThatWereCutAreCounted) {
     const TemporaryFolder folder;
-    folder.write(
-        "a.obj",
-        "v 0 0 0\nv 1 0 0\nv 0.5 1 0\nv 0.5 1.5 0\nv 0.5 2 0\nf 1 2 3 1 2 4 1 2 5\nf 3 4 1\n");
+    folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0.5 1 0\nv 0.5 1.5 0\nv 0.5 2 0\nf 1 2 3 1 2 4 1 2 5\nf 3 4 1\n");
     const Json json = Json::parse(run_burin(folder.path(), {"info", "a.obj", "--json"}).out);
     EXPECT_EQ(json["repairs"]["cut_polygons"], 1);
     EXPECT_EQ(json["repairs"]["cut_pieces"], 3);
     EXPECT_EQ(json["polygons"], 2);
     const std::string info = run_burin(folder.path(), {"info", "a.obj"}).out;
-    EXPECT_NE(
-        info.find("  cut        1 polygons that pass an edge twice in one direction, into 3\n"),
-        std::string::npos)
+    EXPECT_NE(info.find("  cut        1 polygons that pass an edge twice in one direction, into 3\n"),
+              std::string::npos)
         << info;
     folder.write("b.obj", kCubeObj);
     EXPECT_EQ(run_burin(folder.path(), {"info", "b.obj"}).out.find("  cut "), std::string::npos);

@@ -49,9 +49,8 @@ TEST_F(Output, PlacesThatCannotBeWritten) {
     fs::create_directory(folder_.file("folder.png"));
     ASSERT_EQ(::mkfifo(folder_.file("pipe.exr").c_str(), 0600), 0);
     fs::create_symlink("/dev/full", folder_.file("full.exr"));
-    for (const char* output :
-         {"folder.exr", "folder.png", "missing/out.exr", "missing/out.png", "cube.obj/out.exr",
-          "pipe.exr", "full.exr", "/proc/out.exr", "/proc/out.tif"}) {
+    for (const char* output : {"folder.exr", "folder.png", "missing/out.exr", "missing/out.png", "cube.obj/out.exr",
+                               "pipe.exr", "full.exr", "/proc/out.exr", "/proc/out.tif"}) {
         expect_failure(output);
     }
     const std::string long_name(300, 'x');
@@ -131,13 +130,11 @@ TEST_F(Output, NamesWithSpacesAndUmlauts) {
     folder_.write("mein Ordner/Würfel 立方体.obj", kCubeObj);
     folder_.write("mein Ordner/Szene.toml", "[[object]]\nfile = \"Würfel 立方体.obj\"\n");
     fs::create_directory(folder_.file("Bilder für 'alle'"));
-    for (const char* output :
-         {"Bilder für 'alle'/große Würfel.exr", "Bilder für 'alle'/große Würfel.png",
-          "./mein Ordner/../mein Ordner/a.exr", "-out.exr"}) {
+    for (const char* output : {"Bilder für 'alle'/große Würfel.exr", "Bilder für 'alle'/große Würfel.png",
+                               "./mein Ordner/../mein Ordner/a.exr", "-out.exr"}) {
         for (const char* input : {"mein Ordner/Würfel 立方体.obj", "mein Ordner/Szene.toml"}) {
             const ProgramResult result =
-                run_burin(folder_.path(),
-                          {"render", input, "-r", "20x20", std::string("--output=") + output});
+                run_burin(folder_.path(), {"render", input, "-r", "20x20", std::string("--output=") + output});
             EXPECT_EQ(result.status, 0) << result.err;
             EXPECT_TRUE(fs::exists(folder_.file(output)));
             fs::remove(folder_.file(output));
@@ -145,18 +142,13 @@ TEST_F(Output, NamesWithSpacesAndUmlauts) {
     }
     // A path need not be UTF-8.
     folder_.write("M\xFCller.obj", kCubeObj);
-    EXPECT_EQ(
-        run_burin(folder_.path(), {"render", "M\xFCller.obj", "-r", "9x9", "-o", "M\xFCller.exr"})
-            .status,
-        0);
+    EXPECT_EQ(run_burin(folder_.path(), {"render", "M\xFCller.obj", "-r", "9x9", "-o", "M\xFCller.exr"}).status, 0);
 }
 
 TEST_F(Output, UpperCaseExtensions) {
     folder_.write("CUBE.OBJ", kCubeObj);
     for (const char* output : {"A.EXR", "A.Png", "A.TIFF"}) {
-        EXPECT_EQ(
-            run_burin(folder_.path(), {"render", "CUBE.OBJ", "-r", "9x9", "-o", output}).status, 0)
-            << output;
+        EXPECT_EQ(run_burin(folder_.path(), {"render", "CUBE.OBJ", "-r", "9x9", "-o", output}).status, 0) << output;
     }
     EXPECT_EQ(read_file(folder_.file("A.Png")).substr(1, 3), "PNG");
     EXPECT_EQ(read_file(folder_.file("A.TIFF")).substr(0, 2), "II");
@@ -167,12 +159,10 @@ TEST_F(Output, ClosedStandardStreamsDoNotHarmTheFile) {
     for (const char* output : {"out.exr", "out.png"}) {
         ASSERT_EQ(render(output).status, 0);
         const std::string expected = read_file(folder_.file(output));
-        for (const std::vector<int>& closed :
-             std::vector<std::vector<int>>{{0}, {2}, {0, 1}, {1, 2}, {0, 1, 2}}) {
+        for (const std::vector<int>& closed : std::vector<std::vector<int>>{{0}, {2}, {0, 1}, {1, 2}, {0, 1, 2}}) {
             ProgramOptions options;
             options.closed_streams = closed;
-            ASSERT_EQ(render(output, options, {"--progress", "alf", "-v", "--stats", "-"}).status,
-                      0);
+            ASSERT_EQ(render(output, options, {"--progress", "alf", "-v", "--stats", "-"}).status, 0);
             EXPECT_TRUE(read_file(folder_.file(output)) == expected) << output;
             EXPECT_EQ(run_burin(folder_.path(), {"info", "cube.obj"}, options).status, 0);
         }

@@ -35,8 +35,7 @@ Channel make_pipe() {
 
 Channel make_terminal() {
     const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-    if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0)
-        throw std::runtime_error("no terminal");
+    if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) throw std::runtime_error("no terminal");
     return {master, ::open(::ptsname(master), O_RDWR | O_NOCTTY | O_CLOEXEC)};
 }
 
@@ -55,8 +54,7 @@ bool drain(int fd, std::string& text) {
 
 }  // namespace
 
-Program::Program(const std::string& folder, const std::vector<std::string>& arguments,
-                 const ProgramOptions& options)
+Program::Program(const std::string& folder, const std::vector<std::string>& arguments, const ProgramOptions& options)
     : options_(options) {
     std::vector<std::string> words = {BURIN_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -72,9 +70,8 @@ Program::Program(const std::string& folder, const std::vector<std::string>& argu
         // Nothing here may allocate: between fork and exec only system calls are safe.
         if (::chdir(folder.c_str()) != 0) ::_exit(126);
         ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
-        const int target = options.stdout_file.empty()
-                               ? out.write_end
-                               : ::open(options.stdout_file.c_str(), O_WRONLY | O_CLOEXEC);
+        const int target =
+            options.stdout_file.empty() ? out.write_end : ::open(options.stdout_file.c_str(), O_WRONLY | O_CLOEXEC);
         ::dup2(target, STDOUT_FILENO);
         ::dup2(err.write_end, STDERR_FILENO);
         for (const int stream : options.closed_streams) ::close(stream);
@@ -105,17 +102,14 @@ Program::~Program() {
     if (err_ >= 0) ::close(err_);
 }
 
-void Program::send(int signal_number) const {
-    ::kill(child_, signal_number);
-}
+void Program::send(int signal_number) const { ::kill(child_, signal_number); }
 
 ProgramResult Program::wait() {
     ProgramResult result;
     const auto end = Clock::now() + std::chrono::seconds(options_.time_limit_s);
     std::array<pollfd, 2> streams = {pollfd{out_, POLLIN, 0}, pollfd{err_, POLLIN, 0}};
     while (streams[0].fd >= 0 || streams[1].fd >= 0) {
-        const auto left =
-            std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
         if (left <= 0) {
             result.timed_out = true;
             ::kill(child_, SIGKILL);
@@ -134,8 +128,7 @@ ProgramResult Program::wait() {
 }
 
 bool is_one_line(const std::string& text) {
-    return text.size() > 1 && std::count(text.begin(), text.end(), '\n') == 1 &&
-           text.back() == '\n';
+    return text.size() > 1 && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
 }
 
 }  // namespace burin::test

@@ -34,8 +34,7 @@ struct ProgramResult {
 /// The program itself, running in a folder, with its memory and time limited.
 class Program {
   public:
-    Program(const std::string& folder, const std::vector<std::string>& arguments,
-            const ProgramOptions& options = {});
+    Program(const std::string& folder, const std::vector<std::string>& arguments, const ProgramOptions& options = {});
     ~Program();
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;

@@ -31,18 +31,15 @@ TEST(ProgressTest, AlfLinesCountUpToAHundred) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
     const Arguments small = render_at("200x150");
-    for (const Arguments& arguments :
-         {kLongEnough, render_at("1x1"), small + Arguments{"-q"}, small + Arguments{"-j", "1"},
-          small + Arguments{"--repeat", "2"}}) {
-        const ProgramResult result =
-            run_burin(folder.path(), arguments + Arguments{"--progress", "alf"});
+    for (const Arguments& arguments : {kLongEnough, render_at("1x1"), small + Arguments{"-q"},
+                                       small + Arguments{"-j", "1"}, small + Arguments{"--repeat", "2"}}) {
+        const ProgramResult result = run_burin(folder.path(), arguments + Arguments{"--progress", "alf"});
         ASSERT_EQ(result.status, 0) << result.err;
         std::istringstream lines(result.out);
         int last = -1, count = 0;
         for (std::string line; std::getline(lines, line); ++count) {
             std::smatch match;
-            ASSERT_TRUE(std::regex_match(line, match, std::regex("ALF_PROGRESS ([0-9]+)%")))
-                << line;
+            ASSERT_TRUE(std::regex_match(line, match, std::regex("ALF_PROGRESS ([0-9]+)%"))) << line;
             EXPECT_GT(std::stoi(match[1]), last);
             last = std::stoi(match[1]);
         }
@@ -61,12 +58,10 @@ TEST(ProgressTest, ABarOnATerminalOnly) {
     const ProgramResult shown = run_burin(folder.path(), kLongEnough, terminal);
     EXPECT_EQ(shown.status, 0);
     EXPECT_EQ(shown.out, "");
-    EXPECT_TRUE(std::regex_search(
-        shown.err, std::regex("\rrendering +\\[#*\\.*\\] +[0-9]+ %  [0-9]+:[0-9][0-9] left")))
+    EXPECT_TRUE(std::regex_search(shown.err, std::regex("\rrendering +\\[#*\\.*\\] +[0-9]+ %  [0-9]+:[0-9][0-9] left")))
         << shown.err;
     // The bar goes away, and one line stays that says what was written.
-    EXPECT_TRUE(
-        std::regex_search(shown.err, std::regex("\r\x1b\\[K[^\r]*out.exr: 1200x900[^\r\n]*\r?\n$")))
+    EXPECT_TRUE(std::regex_search(shown.err, std::regex("\r\x1b\\[K[^\r]*out.exr: 1200x900[^\r\n]*\r?\n$")))
         << shown.err;
     EXPECT_EQ(run_burin(folder.path(), kLongEnough + Arguments{"-q"}, terminal).err, "");
 }
@@ -78,8 +73,7 @@ TEST(ProgressTest, AReaderThatGoesAwayDoesNotSpoilTheFile) {
     const std::string expected = read_file(folder.file("out.exr"));
     ProgramOptions full;
     full.stdout_file = "/dev/full";
-    const ProgramResult result =
-        run_burin(folder.path(), kLongEnough + Arguments{"--progress", "alf"}, full);
+    const ProgramResult result = run_burin(folder.path(), kLongEnough + Arguments{"--progress", "alf"}, full);
     EXPECT_EQ(result.status, 1);
     EXPECT_TRUE(is_one_line(result.err)) << result.err;
     EXPECT_TRUE(read_file(folder.file("out.exr")) == expected);
@@ -99,8 +93,7 @@ void interrupt(int signal_number, const std::string& output, std::chrono::millis
     const auto start = std::chrono::steady_clock::now();
     program.send(signal_number);
     const ProgramResult result = program.wait();
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_EQ(result.status, 130);
     EXPECT_FALSE(result.timed_out);
     EXPECT_LT(seconds, kSanitized ? 30 : 4);

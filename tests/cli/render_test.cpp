@@ -44,8 +44,7 @@ fov = 30
     }
 
     /// Renders INPUT at 96x64 with more options; returns the file's bytes.
-    std::string bytes(Arguments options, const std::string& output = "out.exr",
-                      const char* input = "cube.obj") const {
+    std::string bytes(Arguments options, const std::string& output = "out.exr", const char* input = "cube.obj") const {
         Arguments arguments = {"render", input, "-r", "96x64", "-o", output};
         arguments.insert(arguments.end(), options.begin(), options.end());
         const ProgramResult result = run_burin(folder_.path(), arguments);
@@ -80,15 +79,13 @@ std::map<std::string, PixelType> types(const Image& image) {
     return result;
 }
 
-constexpr PixelType kHalf = PixelType::float16, kFloat = PixelType::float32,
-                    kUint = PixelType::uint32;
+constexpr PixelType kHalf = PixelType::float16, kFloat = PixelType::float32, kUint = PixelType::uint32;
 
 TEST_F(Render, AnExrHasTheDocumentedLayers) {
     const std::map<std::string, PixelType> usual = {
-        {"R", kHalf},         {"G", kHalf},           {"B", kHalf},         {"A", kHalf},
-        {"lines.R", kHalf},   {"lines.G", kHalf},     {"lines.B", kHalf},   {"lines.A", kHalf},
-        {"Z", kFloat},        {"N.X", kFloat},        {"N.Y", kFloat},      {"N.Z", kFloat},
-        {"id.object", kUint}, {"id.material", kUint}, {"id.polygon", kUint}};
+        {"R", kHalf},       {"G", kHalf},       {"B", kHalf},         {"A", kHalf},           {"lines.R", kHalf},
+        {"lines.G", kHalf}, {"lines.B", kHalf}, {"lines.A", kHalf},   {"Z", kFloat},          {"N.X", kFloat},
+        {"N.Y", kFloat},    {"N.Z", kFloat},    {"id.object", kUint}, {"id.material", kUint}, {"id.polygon", kUint}};
     EXPECT_EQ(types(exr({})), usual);
     EXPECT_EQ(types(exr({"--layers", "beauty,lines,Z,N,ids"})), usual);
 }
@@ -103,37 +100,29 @@ TEST_F(Render, LayersByName) {
                                                              {"id.object", kUint},
                                                              {"id.material", kUint},
                                                              {"id.polygon", kUint}}));
-    EXPECT_EQ(types(exr({"--layers", "surface"})), (Types{{"surface.R", kHalf},
-                                                          {"surface.G", kHalf},
-                                                          {"surface.B", kHalf},
-                                                          {"surface.A", kHalf}}));
+    EXPECT_EQ(types(exr({"--layers", "surface"})),
+              (Types{{"surface.R", kHalf}, {"surface.G", kHalf}, {"surface.B", kHalf}, {"surface.A", kHalf}}));
     EXPECT_EQ(types(exr({"--layers", "coverage"})), (Types{{"coverage.silhouette", kHalf},
                                                            {"coverage.border", kHalf},
                                                            {"coverage.crease", kHalf},
                                                            {"coverage.intersection", kHalf},
                                                            {"coverage.object", kHalf}}));
-    EXPECT_EQ(
-        types(exr({"--layers", "coverage", "--lines", "mark,polygon,material"})),
-        (Types{
-            {"coverage.mark", kHalf}, {"coverage.polygon", kHalf}, {"coverage.material", kHalf}}));
+    EXPECT_EQ(types(exr({"--layers", "coverage", "--lines", "mark,polygon,material"})),
+              (Types{{"coverage.mark", kHalf}, {"coverage.polygon", kHalf}, {"coverage.material", kHalf}}));
 }
 
 TEST_F(Render, LayersDoNotChangeEachOther) {
     const Image all = exr({"--layers", "beauty,lines,Z,N,ids,coverage,surface"}, "scene.toml");
     for (const char* layer : {"beauty", "lines", "Z", "N", "ids", "coverage", "surface"}) {
         const Image one = exr({"--layers", layer}, "scene.toml");
-        for (const Channel& c : one.channels())
-            EXPECT_TRUE(c.bytes == all.find(c.name)->bytes) << c.name;
+        for (const Channel& c : one.channels()) EXPECT_TRUE(c.bytes == all.find(c.name)->bytes) << c.name;
     }
 }
 
 TEST_F(Render, BackgroundAndModelInEveryChannel) {
     const Image image = exr({"--eye", "0,0,5", "--target", "0,0,0"});
-    const auto at = [&](const char* name, int x, int y) {
-        return image.value(*image.find(name), x, y);
-    };
-    for (const char* name :
-         {"R", "A", "lines.A", "N.Z", "id.object", "id.material", "id.polygon"}) {
+    const auto at = [&](const char* name, int x, int y) { return image.value(*image.find(name), x, y); };
+    for (const char* name : {"R", "A", "lines.A", "N.Z", "id.object", "id.material", "id.polygon"}) {
         EXPECT_EQ(at(name, 1, 1), 0) << name;
     }
     EXPECT_EQ(at("Z", 1, 1), INFINITY);
@@ -184,8 +173,7 @@ TEST_F(Render, BitsOfPngAndTiff) {
 }
 
 TEST_F(Render, LayersOfAPngAreNoted) {
-    const Arguments arguments = {"render", "cube.obj", "-r",       "9x9",
-                                 "-o",     "out.png",  "--layers", "Z"};
+    const Arguments arguments = {"render", "cube.obj", "-r", "9x9", "-o", "out.png", "--layers", "Z"};
     const ProgramResult result = run_burin(folder_.path(), arguments);
     EXPECT_EQ(result.status, 0);
     EXPECT_NE(result.err.find("note"), std::string::npos);
@@ -221,18 +209,20 @@ TEST_F(Render, ACapForMemoryChangesNothing) {
 }
 
 TEST_F(Render, TooLittleMemoryIsRefusedWithTheLeast) {
-    const ProgramResult result = run_burin(folder_.path(), {"render", "scene.toml", "-o", "little.exr", "-j", "1", "--memory", "1M"});
+    const ProgramResult result =
+        run_burin(folder_.path(), {"render", "scene.toml", "-o", "little.exr", "-j", "1", "--memory", "1M"});
     EXPECT_EQ(result.status, 1);
     EXPECT_TRUE(is_one_line(result.err)) << result.err;
     const std::string words = "scene.toml: --memory: this picture takes at least ";
     ASSERT_EQ(result.err.find(words), 0u) << result.err;
     const std::string least = result.err.substr(words.size(), result.err.find(';') - words.size());
-    EXPECT_EQ(run_burin(folder_.path(), {"render", "scene.toml", "-o", "little.exr", "-j", "1", "--memory", least}).status, 0) << least;
+    EXPECT_EQ(
+        run_burin(folder_.path(), {"render", "scene.toml", "-o", "little.exr", "-j", "1", "--memory", least}).status, 0)
+        << least;
 }
 
 TEST_F(Render, ACropOfAPngLiesOnPaper) {
-    const DisplayImage whole = picture({}, "whole.png"),
-                       crop = picture({"--crop", "30,20,60,50"}, "crop.png");
+    const DisplayImage whole = picture({}, "whole.png"), crop = picture({"--crop", "30,20,60,50"}, "crop.png");
     ASSERT_EQ(crop.width, 96);
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 96; ++x) {
@@ -274,9 +264,10 @@ TEST_F(Render, WidthsAnglesAndMasks) {
     EXPECT_TRUE(bytes({"--samples", "2", "--set", "abuffer.fine_lines=true"}) == bytes({"-m", "abuffer"}));
     EXPECT_FALSE(bytes({"-m", "gbuffer"}) == bytes({"-m", "gbuffer", "--operator", "sobel,roberts"}));
     EXPECT_FALSE(bytes({"-m", "gbuffer"}) == bytes({"-m", "gbuffer", "--supersample", "4"}));
-    EXPECT_TRUE(bytes({"-m", "gbuffer", "--operator", "first,second,profile,sobel,roberts,id", "--supersample", "2"}) ==
-                bytes({"-m", "gbuffer", "--set", "gbuffer.operators=['id','first','second','profile','sobel','roberts']",
-                       "--set", "gbuffer.supersample=2"}));
+    EXPECT_TRUE(
+        bytes({"-m", "gbuffer", "--operator", "first,second,profile,sobel,roberts,id", "--supersample", "2"}) ==
+        bytes({"-m", "gbuffer", "--set", "gbuffer.operators=['id','first','second','profile','sobel','roberts']",
+               "--set", "gbuffer.supersample=2"}));
     EXPECT_TRUE(bytes({"-m", "patel", "--mask", "16"}) == bytes({"--method=patel", "--mask=16"}));
 }
 
@@ -287,18 +278,13 @@ TEST_F(Render, OverridesAreTheOptionsByAnotherName) {
     EXPECT_TRUE(bytes({"--set", "camera.eye=[1,2,9]"}) == bytes({"--eye", "1,2,9"}));
     EXPECT_TRUE(bytes({"--set", "lines.width=2", "--set", "lines.crease_angle=91"}) ==
                 bytes({"-w", "2", "--crease-angle", "91"}));
-    EXPECT_TRUE(bytes({"--set", "lines.width=5", "-w", "2"}) ==
-                bytes({"-w", "2"}));  // options are stronger
-    EXPECT_TRUE(bytes({"--set", "surfaces.shading=none"}) ==
-                bytes({"--set", "surfaces.shading='none'"}));
-    EXPECT_TRUE(bytes({"--set", "picture.background=#ff0000"}, "a.png") ==
-                bytes({"--background", "#f00"}, "b.png"));
+    EXPECT_TRUE(bytes({"--set", "lines.width=5", "-w", "2"}) == bytes({"-w", "2"}));  // options are stronger
+    EXPECT_TRUE(bytes({"--set", "surfaces.shading=none"}) == bytes({"--set", "surfaces.shading='none'"}));
+    EXPECT_TRUE(bytes({"--set", "picture.background=#ff0000"}, "a.png") == bytes({"--background", "#f00"}, "b.png"));
 }
 
 TEST_F(Render, CamerasByNameAndByHand) {
-    const auto scene = [&](const Arguments& options) {
-        return bytes(options, "out.exr", "scene.toml");
-    };
+    const auto scene = [&](const Arguments& options) { return bytes(options, "out.exr", "scene.toml"); };
     EXPECT_TRUE(scene({}) == scene({"--camera", "front"}));  // the first one is the default
     EXPECT_FALSE(scene({}) == scene({"--camera", "side"}));
     EXPECT_TRUE(scene({"--camera", "side"}) ==
@@ -319,9 +305,9 @@ TEST_F(Render, VectorsMayStartWithAMinus) {
 }
 
 TEST_F(Render, ArgumentOrderDoesNotMatter) {
-    const std::vector<Arguments> groups = {
-        {"cube.obj"}, {"-o", "out.exr"}, {"--size", "40x30"}, {"-w", "2"}, {"--eye", "-1,2,5"},
-        {"-q"},       {"--lines=all"},   {"render"}};
+    const std::vector<Arguments> groups = {{"cube.obj"},    {"-o", "out.exr"},   {"--size", "40x30"},
+                                           {"-w", "2"},     {"--eye", "-1,2,5"}, {"-q"},
+                                           {"--lines=all"}, {"render"}};
     std::vector<int> order = {7, 0, 1, 2, 3, 4, 5, 6};
     std::string first;
     for (int turn = 0; turn < 8; ++turn) {
@@ -358,19 +344,17 @@ TEST_F(Render, ThreadsDoNotChangeTheFile) {
 }
 
 TEST_F(Render, Stats) {
-    const ProgramResult printed =
-        run_burin(folder_.path(),
-                  {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "a.exr", "--stats", "-", "-j", "2"});
+    const ProgramResult printed = run_burin(
+        folder_.path(), {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "a.exr", "--stats", "-", "-j", "2"});
     EXPECT_EQ(printed.status, 0);
     EXPECT_EQ(printed.err, "");
-    ASSERT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "b.exr",
-                                         "--stats", "s.json", "-j", "2"})
+    ASSERT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "b.exr", "--stats",
+                                         "s.json", "-j", "2"})
                   .status,
               0);
     for (const std::string& text : {printed.out, read_file(folder_.file("s.json"))}) {
         const Json stats = Json::parse(text);
-        for (const char* stage :
-             {"load", "prepare", "raster", "resolve", "lines", "shade", "write", "total"}) {
+        for (const char* stage : {"load", "prepare", "raster", "resolve", "lines", "shade", "write", "total"}) {
             EXPECT_GE(stats.at("stages").at(stage).get<double>(), 0) << stage;
             EXPECT_LT(stats.at("stages").at(stage).get<double>(), 60) << stage;
         }
@@ -400,14 +384,10 @@ TEST_F(Render, ScenesHaveASizeOfTheirOwn) {
     folder_.write("small.toml", "[picture]\nsize=[31,17]\n[[object]]\nshape='box'\n");
     ASSERT_EQ(run_burin(folder_.path(), {"render", "small.toml", "-o", "a.exr"}).status, 0);
     EXPECT_EQ(read_exr(folder_.file("a.exr")).display(), (PixelRect{0, 0, 31, 17}));
-    ASSERT_EQ(
-        run_burin(folder_.path(), {"render", "small.toml", "-o", "a.exr", "-r", "5x7"}).status, 0);
+    ASSERT_EQ(run_burin(folder_.path(), {"render", "small.toml", "-o", "a.exr", "-r", "5x7"}).status, 0);
     EXPECT_EQ(read_exr(folder_.file("a.exr")).display(), (PixelRect{0, 0, 5, 7}));
-    ASSERT_EQ(
-        run_burin(folder_.path(), {"render", "small.toml", "-o", "a.exr", "-r", "1x1"}).status, 0);
-    ASSERT_EQ(
-        run_burin(folder_.path(), {"render", "small.toml", "-o", "a.exr", "-r", "1x3000"}).status,
-        0);
+    ASSERT_EQ(run_burin(folder_.path(), {"render", "small.toml", "-o", "a.exr", "-r", "1x1"}).status, 0);
+    ASSERT_EQ(run_burin(folder_.path(), {"render", "small.toml", "-o", "a.exr", "-r", "1x3000"}).status, 0);
 }
 
 TEST_F(Render, TheDefaultSizeAndName) {
@@ -423,41 +403,45 @@ TEST_F(Render, TheDefaultSizeAndName) {
 }
 
 TEST_F(Render, WhatIsSaidOnTheWay) {
-    EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr"}).err,
-              "");
-    const ProgramResult verbose =
-        run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-v"});
+    EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr"}).err, "");
+    const ProgramResult verbose = run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-v"});
     EXPECT_EQ(verbose.status, 0);
     EXPECT_EQ(verbose.out, "");
     EXPECT_EQ(verbose.err.find("a.exr: 40x30, 12 triangles"), 0u) << verbose.err;
     EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--mask", "16"}).err,
               "burin: note: --mask is for method patel and changes nothing here\n");
-    const std::string unused = run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-m", "simple",
-                                                          "--set", "lines.dash=[3, 2]", "--set", "lines.contours=smooth",
-                                                          "--set", "lines.filter=gaussian", "--crease-angle", "30,50"}).err;
+    const std::string unused =
+        run_burin(folder_.path(),
+                  {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-m", "simple", "--set", "lines.dash=[3, 2]",
+                   "--set", "lines.contours=smooth", "--set", "lines.filter=gaussian", "--crease-angle", "30,50"})
+            .err;
     for (const char* part : {"lines.dash is for method abuffer", "lines.contours is for", "lines.filter is for",
                              "fades no creases; it draws them from 40 degrees on"}) {
         EXPECT_NE(unused.find(part), std::string::npos) << unused;
     }
-    EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--eye", "9,9,9", "--target", "18,18,18"}).err,
+    EXPECT_EQ(run_burin(folder_.path(),
+                        {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--eye", "9,9,9", "--target", "18,18,18"})
+                  .err,
               "burin: note: no sample of the picture sees a surface; does the camera look at the scene?\n");
     EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "--bits", "16"}).err,
               "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n");
-    const std::string hidden = run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-m", "patel", "--operator", "id",
-                                                          "--set", "lines.hidden.style=solid"}).err;
+    const std::string hidden =
+        run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-m", "patel", "--operator",
+                                   "id", "--set", "lines.hidden.style=solid"})
+            .err;
     for (const char* part : {"--operator is for method gbuffer", "lines.hidden is for method abuffer"}) {
         EXPECT_NE(hidden.find(part), std::string::npos) << hidden;
     }
     // Methods whose widths go in steps, which a user should know.
-    EXPECT_NE(run_burin(folder_.path(), {"render", "cube.obj", "-m", "gbuffer", "-r", "40x30", "-o", "a.exr", "-w", "2.5"}).err.find("about 2 px wide"),
-              std::string::npos);
-    EXPECT_NE(run_burin(folder_.path(),
-                        {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "a.exr", "-w", "1.37"})
-                  .err.find("note"),
-              std::string::npos);
-    EXPECT_EQ(run_burin(folder_.path(),
-                        {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-w", "1.37", "-q"})
-                  .err,
+    EXPECT_NE(
+        run_burin(folder_.path(), {"render", "cube.obj", "-m", "gbuffer", "-r", "40x30", "-o", "a.exr", "-w", "2.5"})
+            .err.find("about 2 px wide"),
+        std::string::npos);
+    EXPECT_NE(
+        run_burin(folder_.path(), {"render", "cube.obj", "-m", "patel", "-r", "40x30", "-o", "a.exr", "-w", "1.37"})
+            .err.find("note"),
+        std::string::npos);
+    EXPECT_EQ(run_burin(folder_.path(), {"render", "cube.obj", "-r", "40x30", "-o", "a.exr", "-w", "1.37", "-q"}).err,
               "");
 }
 

@@ -33,13 +33,10 @@ class SafeFiles : public testing::Test {
         folder_.write("both.toml", "[[object]]\nfile='cube.obj'\n[[object]]\nfile='tetra.gltf'\n");
     }
 
-    ProgramResult run(const Arguments& arguments) const {
-        return run_burin(folder_.path(), arguments);
-    }
+    ProgramResult run(const Arguments& arguments) const { return run_burin(folder_.path(), arguments); }
     /// Expects exit status 2, one line that names the option and the input, and every file as it
     /// was.
-    void expect_refused(const Arguments& arguments, const std::string& option,
-                        const std::string& input) const {
+    void expect_refused(const Arguments& arguments, const std::string& option, const std::string& input) const {
         const auto names = folder_.names();
         const std::string before = read_file(folder_.file(input));
         const ProgramResult result = run(arguments);
@@ -70,22 +67,17 @@ TEST_F(SafeFiles, NoOutputIsAnInput) {
                 }
             };
             link("out.png");
-            expect_refused({"render", "both.toml", "-r", "20x20", "-o", "out.png"}, "--output",
+            expect_refused({"render", "both.toml", "-r", "20x20", "-o", "out.png"}, "--output", input);
+            expect_refused({"render", "both.toml", "-r", "20x20", "-o", "x.exr", "--stats", "out.png"}, "--stats",
                            input);
-            expect_refused(
-                {"render", "both.toml", "-r", "20x20", "-o", "x.exr", "--stats", "out.png"},
-                "--stats", input);
             fs::remove(folder_.file("out.png"));
-            expect_refused(
-                {"render", "both.toml", "-r", "20x20", "-o", "x.exr", "--stats", "./" + input},
-                "--stats", input);
-            for (const char* name :
-                 {"report/truth.png", "report/patel.png", "report/patel_diff.png",
-                  "report/metrics.json", "report/report.html"}) {
+            expect_refused({"render", "both.toml", "-r", "20x20", "-o", "x.exr", "--stats", "./" + input}, "--stats",
+                           input);
+            for (const char* name : {"report/truth.png", "report/patel.png", "report/patel_diff.png",
+                                     "report/metrics.json", "report/report.html"}) {
                 link(name);
-                expect_refused(
-                    {"compare", "both.toml", "-r", "20x20", "-o", "report", "--methods", "patel"},
-                    "--output", input);
+                expect_refused({"compare", "both.toml", "-r", "20x20", "-o", "report", "--methods", "patel"},
+                               "--output", input);
                 fs::remove(folder_.file(name));
             }
         }
@@ -102,13 +94,12 @@ TEST_F(SafeFiles, OutputsAreDifferentFiles) {
                               "../"
                               "a.exr"}) {
         const bool is_other = std::string(stats).starts_with("../");
-        const ProgramResult result = run({"render", "cube.obj", "-r", "20x20", "-o", "a.exr",
-                                          "--stats", is_other ? folder_.path() + "/a.exr" : stats});
+        const ProgramResult result = run({"render", "cube.obj", "-r", "20x20", "-o", "a.exr", "--stats",
+                                          is_other ? folder_.path() + "/a.exr" : stats});
         EXPECT_EQ(result.status, 2) << stats << result.err;
     }
     run({"render", "cube.obj", "-r", "20x20", "-o", "a.exr"});
-    EXPECT_EQ(run({"render", "cube.obj", "-r", "20x20", "-o", "a.exr", "--stats", "b.json"}).status,
-              2);
+    EXPECT_EQ(run({"render", "cube.obj", "-r", "20x20", "-o", "a.exr", "--stats", "b.json"}).status, 2);
 }
 
 TEST_F(SafeFiles, LinksToNothingAreFollowed) {
@@ -122,24 +113,22 @@ TEST_F(SafeFiles, LinksToNothingAreFollowed) {
     fs::create_symlink("missing/001.png", folder_.file("far.png"));
     const ProgramResult result = run({"render", "cube.obj", "-o", "far.png"});
     EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.err.find("far.png: cannot write: the folder missing does not exist"), 0u)
-        << result.err;
+    EXPECT_EQ(result.err.find("far.png: cannot write: the folder missing does not exist"), 0u) << result.err;
     EXPECT_TRUE(fs::is_symlink(folder_.file("far.png")));
 }
 
 /// Nothing is drawn for a name that cannot be used: the input is not even looked at.
 TEST_F(SafeFiles, NamesThatAreTooLongFailBeforeTheWork) {
-    for (const Arguments& outputs : {Arguments{"-o", std::string(252, 'n') + ".png"},
-                                     Arguments{"-o", std::string(252, 'n') + ".exr"},
-                                     Arguments{"-o", "a.png", "--stats", std::string(256, 'n')}}) {
+    for (const Arguments& outputs :
+         {Arguments{"-o", std::string(252, 'n') + ".png"}, Arguments{"-o", std::string(252, 'n') + ".exr"},
+          Arguments{"-o", "a.png", "--stats", std::string(256, 'n')}}) {
         Arguments arguments = {"render", "missing.obj"};
         arguments.insert(arguments.end(), outputs.begin(), outputs.end());
         const ProgramResult result = run(arguments);
         EXPECT_EQ(result.status, 1);
         EXPECT_NE(result.err.find("the name is too long"), std::string::npos) << result.err;
     }
-    EXPECT_EQ(
-        run({"render", "cube.obj", "-r", "20x20", "-o", std::string(251, 'n') + ".png"}).status, 0);
+    EXPECT_EQ(run({"render", "cube.obj", "-r", "20x20", "-o", std::string(251, 'n') + ".png"}).status, 0);
 }
 
 /// The program without the module that it needs for TIFF.
@@ -163,8 +152,7 @@ TEST_F(SafeFiles, AMissingModuleIsToldBeforeTheWork) {
 }
 
 TEST_F(SafeFiles, ASingleNumberSignIsALetter) {
-    for (const char* name : {"a#1.png", "#.png", "a#b#.png", "x%01y.png", "100%.png", "%0.png",
-                             "$F.png", "a%04.png"}) {
+    for (const char* name : {"a#1.png", "#.png", "a#b#.png", "x%01y.png", "100%.png", "%0.png", "$F.png", "a%04.png"}) {
         EXPECT_EQ(run({"render", "cube.obj", "-r", "20x20", "-o", name}).status, 0) << name;
         EXPECT_TRUE(fs::exists(folder_.file(name))) << name;
     }
@@ -176,21 +164,19 @@ TEST_F(SafeFiles, ASingleNumberSignIsALetter) {
 TEST_F(SafeFiles, WhatStandsBehindTwoDashesIsTheInput) {
     folder_.write("-r.obj", kCubeObj);
     folder_.write("render", "");
-    for (const Arguments& arguments :
-         {Arguments{"render", "-r", "20x20", "-o", "a.png", "--", "-r.obj"},
-          Arguments{"render", "--", "-r.obj", "-r", "20x20", "-o", "a.png"},
-          Arguments{"--", "render", "-r.obj", "-r", "20x20", "-o", "a.png"},
-          Arguments{"-r", "20x20", "-o", "a.png", "render", "--", "-r.obj"},
-          Arguments{"info", "--", "cube.obj"}, Arguments{"methods", "--"}}) {
+    for (const Arguments& arguments : {Arguments{"render", "-r", "20x20", "-o", "a.png", "--", "-r.obj"},
+                                       Arguments{"render", "--", "-r.obj", "-r", "20x20", "-o", "a.png"},
+                                       Arguments{"--", "render", "-r.obj", "-r", "20x20", "-o", "a.png"},
+                                       Arguments{"-r", "20x20", "-o", "a.png", "render", "--", "-r.obj"},
+                                       Arguments{"info", "--", "cube.obj"}, Arguments{"methods", "--"}}) {
         const ProgramResult result = run(arguments);
         EXPECT_EQ(result.status, 0) << result.err;
         if (arguments[0] == "info" || arguments[0] == "methods") continue;
         EXPECT_TRUE(fs::remove(folder_.file("a.png")));
     }
     EXPECT_EQ(run({"info", "--", "render"}).status, 1);  // a file of no known kind
-    for (const Arguments& arguments :
-         {Arguments{"--"}, Arguments{"info", "--"}, Arguments{"info", "cube.obj", "--", "-r.obj"},
-          Arguments{"--", "-r.obj"}}) {
+    for (const Arguments& arguments : {Arguments{"--"}, Arguments{"info", "--"},
+                                       Arguments{"info", "cube.obj", "--", "-r.obj"}, Arguments{"--", "-r.obj"}}) {
         EXPECT_EQ(run(arguments).status, 2);
     }
 }
@@ -200,8 +186,7 @@ TEST_F(SafeFiles, MoreMemoryForModelsIsAllowedByAnOption) {
     folder_.write("small.toml", "[[object]]\nshape='sphere'\n");
     for (const char* command : {"info", "render", "explain", "compare"}) {
         Arguments arguments = {command, "ball.toml"};
-        if (command == std::string("explain"))
-            arguments.insert(arguments.end(), {"--pixel", "1,1"});
+        if (command == std::string("explain")) arguments.insert(arguments.end(), {"--pixel", "1,1"});
         if (command == std::string("compare") || command == std::string("render"))
             arguments.insert(arguments.end(), {"-o", "out.png"});
         const ProgramResult result = run(arguments);
@@ -213,8 +198,7 @@ TEST_F(SafeFiles, MoreMemoryForModelsIsAllowedByAnOption) {
         EXPECT_NE(result.err.find("--memory-model 3840M"), std::string::npos) << result.err;
         arguments[1] = "small.toml";
         arguments.insert(arguments.end(), {"--memory-model", "100K"});
-        EXPECT_NE(run(arguments).err.find("more than the 100 KB that --memory-model allows"),
-                  std::string::npos);
+        EXPECT_NE(run(arguments).err.find("more than the 100 KB that --memory-model allows"), std::string::npos);
     }
     EXPECT_EQ(run({"info", "small.toml", "--memory-model", "1M"}).status, 0);
     EXPECT_EQ(run({"info", "small.toml", "--memory-model", "lots"}).status, 2);
@@ -236,9 +220,7 @@ void write_large(const std::string& path) {
         repeat("3 0 1 2\n", 1500000);
     } else if (extension == ".stl") {
         text = std::string(80, ' ') + bytes_of(std::uint32_t{400000});
-        repeat(
-            bytes_of(0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, std::uint16_t{0}),
-            400000);
+        repeat(bytes_of(0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, std::uint16_t{0}), 400000);
     } else if (extension == ".ply") {
         text =
             "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty "
@@ -268,8 +250,7 @@ TEST_F(SafeFiles, AModelThatIsCutWhileItIsRead) {
             EXPECT_EQ(result.status, 1) << name << ": " << result.err;
             EXPECT_TRUE(is_one_line(result.err)) << result.err;
             EXPECT_EQ(result.err.find(name), 0u) << result.err;
-            told += result.err.find("the file has become shorter while it was read") !=
-                    std::string::npos;
+            told += result.err.find("the file has become shorter while it was read") != std::string::npos;
         }
         EXPECT_GT(told, 0) << name;
     }
@@ -281,8 +262,8 @@ TEST_F(SafeFiles, NothingIsLeftByAnySignal) {
     for (const int signal_number : {SIGHUP, SIGQUIT, SIGXCPU, SIGKILL}) {
         const auto before = folder_.names();
         for (const char* output : {"out.exr", "out.png"}) {
-            Program program(folder_.path(), {"render", "teapot.toml", "-r", "6000x5000",
-                                             "--samples", "8", "-o", output, "-j", "1", "-q"});
+            Program program(folder_.path(), {"render", "teapot.toml", "-r", "6000x5000", "--samples", "8", "-o", output,
+                                             "-j", "1", "-q"});
             std::this_thread::sleep_for(std::chrono::milliseconds(kSanitized ? 3000 : 500));
             program.send(signal_number);
             const ProgramResult result = program.wait();
@@ -319,8 +300,9 @@ TEST_F(SafeFiles, TooLittleMemoryIsToldAsSuch) {
         ProgramOptions options;
         options.memory_limit = megabytes << 20;
         for (const char* method : {"reference", "abuffer"}) {
-            const ProgramResult result = run_burin(
-                folder_.path(), {"render", "tetra.gltf", "-r", "16x12", "-m", method, "-j", "1", "-o", "out.exr"}, options);
+            const ProgramResult result =
+                run_burin(folder_.path(),
+                          {"render", "tetra.gltf", "-r", "16x12", "-m", method, "-j", "1", "-o", "out.exr"}, options);
             if (result.status == 0) continue;
             ++refused;
             EXPECT_EQ(result.status, 1) << result.err;
@@ -333,8 +315,7 @@ TEST_F(SafeFiles, TooLittleMemoryIsToldAsSuch) {
 
 /// A few hundred thousand names take no longer than it takes to read them.
 TEST_F(SafeFiles, ManyNamesAreNotComparedEachWithEach) {
-    std::string cameras = "[[object]]\nshape='box'\n", materials = cameras, used,
-                highlight = "[zbuffer]\nhighlight=[";
+    std::string cameras = "[[object]]\nshape='box'\n", materials = cameras, used, highlight = "[zbuffer]\nhighlight=[";
     for (int i = 0; i < 100000; ++i) {
         const std::string n = std::to_string(i);
         cameras += "[[camera]]\nname='" + n + "'\n";

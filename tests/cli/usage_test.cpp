@@ -15,8 +15,7 @@ class Usage : public testing::Test {
   protected:
     Usage() {
         folder_.write("cube.obj", kCubeObj);
-        folder_.write("scene.toml",
-                      "[[object]]\nfile='cube.obj'\n[[camera]]\nname='front'\neye=[1,2,9]\n");
+        folder_.write("scene.toml", "[[object]]\nfile='cube.obj'\n[[camera]]\nname='front'\neye=[1,2,9]\n");
     }
 
     /// Runs it and expects wrong usage; `words` must be in the message.
@@ -72,7 +71,8 @@ TEST_F(Usage, WhatIsNotInThisVersion) {
 }
 
 TEST_F(Usage, Memory) {
-    for (const char* size : {"0", "0G", "-2G", "2X", "G", "2GG", "2 G", "1e9", "0x10", "inf", "nan", "2,5G", "M2", "9999999999T", "0.0001"}) {
+    for (const char* size : {"0", "0G", "-2G", "2X", "G", "2GG", "2 G", "1e9", "0x10", "inf", "nan", "2,5G", "M2",
+                             "9999999999T", "0.0001"}) {
         expect_bad_options({"--memory", size}, "--memory: ");
     }
     expect_bad_options({"--memory", "2G", "-m", "patel"}, "--memory: method patel cannot render in pieces");
@@ -82,7 +82,8 @@ TEST_F(Usage, Memory) {
 TEST_F(Usage, UnknownNames) {
     expect_bad_options({"-m", "magic"}, "--method: unknown method 'magic'");
     expect_bad_options({"--lines", "silhouette,edge"}, "--lines: unknown line class 'edge'");
-    expect_bad_options({"-m", "gbuffer", "--operator", "id,edges"}, "--operator: unknown operator 'edges'; known are first,second");
+    expect_bad_options({"-m", "gbuffer", "--operator", "id,edges"},
+                       "--operator: unknown operator 'edges'; known are first,second");
     expect_bad_options({"--samples", "3"}, "--samples: must be 2, 4 or 8");
     expect_bad_options({"--supersample", "3"}, "--supersample: must be 1, 2, 4 or 8");
     expect_bad_options({"--supersample", "16"}, "--supersample: must be from 1 to 8");
@@ -101,7 +102,8 @@ TEST_F(Usage, UnknownNames) {
     for (const char* output : {"a.jpg", "a.gif", "a.", "a.exr.bak"}) {
         expect_refused({"render", "cube.obj", "-o", output}, "--output: unknown kind of image");
     }
-    for (const char* output : {"a", ".png"}) expect_refused({"render", "cube.obj", "-o", output}, "--output: the name has no suffix");
+    for (const char* output : {"a", ".png"})
+        expect_refused({"render", "cube.obj", "-o", output}, "--output: the name has no suffix");
 }
 
 TEST_F(Usage, Sizes) {
@@ -132,8 +134,7 @@ TEST_F(Usage, Sizes) {
 }
 
 TEST_F(Usage, WidthsAndAngles) {
-    for (const char* value :
-         {"0", "-1", "-.5", "nan", "inf", "-inf", "1025", "1e300", "wide", "1px", "1,5", ""}) {
+    for (const char* value : {"0", "-1", "-.5", "nan", "inf", "-inf", "1025", "1e300", "wide", "1px", "1,5", ""}) {
         expect_bad_options({"-w", value}, "--line-width");
         expect_bad_options({std::string("--line-width=") + value}, "--line-width");
     }
@@ -141,18 +142,16 @@ TEST_F(Usage, WidthsAndAngles) {
         expect_bad_options({"--crease-angle", value}, "--crease-angle");
     for (const char* value : {"0", "180", "-35", "nan", "inf", "wide", ""})
         expect_bad_options({"--fov", value}, "--fov");
-    for (const char* value : {"0", "-1", "nan", "inf", ""})
-        expect_bad_options({"--ortho", value}, "--ortho");
+    for (const char* value : {"0", "-1", "nan", "inf", ""}) expect_bad_options({"--ortho", value}, "--ortho");
 }
 
 TEST_F(Usage, Cameras) {
     for (const char* option : {"--eye", "--target", "--up"}) {
-        for (const char* value :
-             {"1", "1,2", "1,2,3,4", "a,b,c", "1,2,", ",,", "1,2,nan", "inf,0,0", "1 2 3", ""}) {
+        for (const char* value : {"1", "1,2", "1,2,3,4", "a,b,c", "1,2,", ",,", "1,2,nan", "inf,0,0", "1 2 3", ""}) {
             expect_bad_options({option, value}, option);
         }
         expect_bad_options({option, "-a,b,c"}, "must be three numbers");  // a value, not options
-        expect_bad_options({option}, option);  // at the end, without a value
+        expect_bad_options({option}, option);                             // at the end, without a value
     }
     expect_bad_options({"--eye", "1,2,3", "--target", "1,2,3"}, "same place");
     expect_bad_options({"--eye", "0,0,0"}, "same place");  // the middle of the cube
@@ -167,9 +166,8 @@ TEST_F(Usage, Cameras) {
 }
 
 TEST_F(Usage, Crops) {
-    for (const char* crop :
-         {"0,0,0,0", "5,5,5,9", "9,5,5,9", "0,0,101,100", "0,0,100,101", "-1,0,10,10", "0,-1,9,9",
-          "1,2,3", "1,2,3,4,5", "a,b,c,d", "0,0,1.5,2", ""}) {
+    for (const char* crop : {"0,0,0,0", "5,5,5,9", "9,5,5,9", "0,0,101,100", "0,0,100,101", "-1,0,10,10", "0,-1,9,9",
+                             "1,2,3", "1,2,3,4,5", "a,b,c,d", "0,0,1.5,2", ""}) {
         expect_bad_options({"-r", "100x100", "--crop", crop}, "--crop");
     }
 }
@@ -177,16 +175,12 @@ TEST_F(Usage, Crops) {
 TEST_F(Usage, OtherValues) {
     for (const char* value : {"0", "8", "32", "65", "512", "-64", "many", ""})
         expect_bad_options({"--mask", value}, "--mask");
-    for (const char* value : {"0", "1", "10", "32", "x", ""})
-        expect_bad_options({"--bits", value}, "--bits");
-    for (const char* value : {"-1", "1025", "1.5", "all", ""})
-        expect_bad_options({"-j", value}, "--threads");
-    for (const char* value : {"0", "-1", "x", ""})
-        expect_bad_options({"--repeat", value}, "--repeat");
+    for (const char* value : {"0", "1", "10", "32", "x", ""}) expect_bad_options({"--bits", value}, "--bits");
+    for (const char* value : {"-1", "1025", "1.5", "all", ""}) expect_bad_options({"-j", value}, "--threads");
+    for (const char* value : {"0", "-1", "x", ""}) expect_bad_options({"--repeat", value}, "--repeat");
     for (const char* value : {"white", "#12", "#ggg", "fff", ""})
         expect_bad_options({"--background", value}, "--background");
-    for (const char* option :
-         {"-o", "-m", "--lines", "--layers", "--stats", "--camera", "--progress"}) {
+    for (const char* option : {"-o", "-m", "--lines", "--layers", "--stats", "--camera", "--progress"}) {
         expect_refused({"render", "cube.obj", option, ""},
                        "empty");  // an unset variable of a script
     }
@@ -195,22 +189,18 @@ TEST_F(Usage, OtherValues) {
 }
 
 TEST_F(Usage, Overrides) {
-    for (const char* value :
-         {"lines.width", "=2", "lines.width=-1", "lines.width=fat", "lines.widht=2", "=", "",
-          "lines..width=1", "object.7.scale=2", "a.b.c=1"}) {
+    for (const char* value : {"lines.width", "=2", "lines.width=-1", "lines.width=fat", "lines.widht=2", "=", "",
+                              "lines..width=1", "object.7.scale=2", "a.b.c=1"}) {
         expect_bad_options({"--set", value}, "--set");
     }
-    expect_bad_options({"--set", "lines.width=2", "--set", "lines.draw=7"},
-                       "--set lines.draw=7");
+    expect_bad_options({"--set", "lines.width=2", "--set", "lines.draw=7"}, "--set lines.draw=7");
     expect_bad_options({"--set"}, "--set");
     expect_bad_options({"--set", "lines.color=a\nb"}, "a?b");  // still one line
 }
 
 TEST_F(Usage, StatsMustNotDestroyFiles) {
-    expect_refused({"render", "cube.obj", "-o", "out.exr", "--stats", "out.exr"},
-                   "--stats: would overwrite");
-    expect_refused({"render", "cube.obj", "-o", "out.exr", "--stats", "./cube.obj"},
-                   "--stats: would overwrite");
+    expect_refused({"render", "cube.obj", "-o", "out.exr", "--stats", "out.exr"}, "--stats: would overwrite");
+    expect_refused({"render", "cube.obj", "-o", "out.exr", "--stats", "./cube.obj"}, "--stats: would overwrite");
 }
 
 }  // namespace

@@ -16,17 +16,14 @@ void add_stroke(Plane& plane, const Segment& s, double width_px, double overhang
     const glm::dvec2 along = s.along(), across = s.across();
     const glm::dvec2 low = glm::min(s.a, s.b) - width_px - 2.0 - overhang_px;
     const glm::dvec2 high = glm::max(s.a, s.b) + width_px + 2.0 + overhang_px;
-    const auto inside = [](double v, int size) {
-        return std::clamp(static_cast<int>(v), 0, size - 1);
-    };
+    const auto inside = [](double v, int size) { return std::clamp(static_cast<int>(v), 0, size - 1); };
     for (int y = inside(low.y, plane.height); y <= inside(high.y, plane.height); ++y) {
         for (int x = inside(low.x, plane.width); x <= inside(high.x, plane.width); ++x) {
             const glm::dvec2 p = glm::dvec2(x + 0.5, y + 0.5) - s.a;
             const double t = glm::dot(p, along);
             if (t < -overhang_px || t > s.length() + overhang_px) continue;
             float& value = plane.at(x, y);
-            value = std::max(
-                value, static_cast<float>(band_coverage(glm::dot(p, across), across, width_px)));
+            value = std::max(value, static_cast<float>(band_coverage(glm::dot(p, across), across, width_px)));
         }
     }
 }
@@ -44,8 +41,7 @@ TEST(TestChart, HasOneLinePerDegreeInsideThePicture) {
     ASSERT_EQ(chart.star.size(), 180u);
     for (std::size_t i = 0; i < 180; ++i) {
         const glm::dvec2 along = chart.star[i].along();
-        const double degrees =
-            std::atan2(-along.y, along.x) * 180 / 3.14159265358979323846;  // y points down
+        const double degrees = std::atan2(-along.y, along.x) * 180 / 3.14159265358979323846;  // y points down
         EXPECT_NEAR(std::remainder(degrees - static_cast<double>(i), 180), 0, 1e-6);
         for (const glm::dvec2 end : {chart.star[i].a, chart.star[i].b}) {
             EXPECT_TRUE(end.x > 0 && end.y > 0 && end.x < chart.width && end.y < chart.height);
@@ -74,11 +70,9 @@ TEST(ChartMetrics, MeasuresLeaksStipplesAndHalfSilhouettes) {
     const TestChart chart = make_test_chart(1);
     Plane drawing(chart.width, chart.height);
     for (const Segment& s : chart.star) add_stroke(drawing, s, 1);
-    for (std::size_t i = 0; i < chart.slopes.size(); i += 2)
-        add_stroke(drawing, chart.slopes[i], 1);
+    for (std::size_t i = 0; i < chart.slopes.size(); i += 2) add_stroke(drawing, chart.slopes[i], 1);
     for (const Segment& s : chart.silhouettes) add_stroke(drawing, s, 0.5, 2);
-    for (std::size_t i = 0; i < 8; ++i)
-        add_stroke(drawing, chart.hidden[i].segment, 1);  // the two smallest gaps
+    for (std::size_t i = 0; i < 8; ++i) add_stroke(drawing, chart.hidden[i].segment, 1);  // the two smallest gaps
     ComparisonRow row;
     measure_chart(chart, drawing, kCreasesAndSilhouettes, 1, row);
     EXPECT_NEAR(*row.values[Metric::stippled_share], 0.5, 1e-9);
@@ -128,8 +122,7 @@ TEST(ChartMetrics, AMethodDrawsTheLinesWhereTheyAre) {
     chart.scene.patel.mask_bits = 256;
     const View view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
     ComparisonRow row;
-    measure_chart(chart,
-                  render_lines(*find_method("patel"), chart.scene, view, {2, nullptr}).coverage,
+    measure_chart(chart, render_lines(*find_method("patel"), chart.scene, view, {2, nullptr}).coverage,
                   LineClassSet::all(), 1, row);
     EXPECT_LT(*row.values[Metric::offset_px], 0.01);
     for (const double width : row.curves->width_px) EXPECT_GT(width, 0.6);
@@ -145,8 +138,7 @@ TEST(ChartMetrics, HiddenLinesLeakThroughSteepCovers) {
     const View view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
     for (const char* name : {"offset", "slope-offset", "id-buffer"}) {
         ComparisonRow row;
-        measure_chart(chart,
-                      render_lines(*find_method(name), chart.scene, view, {2, nullptr}).coverage,
+        measure_chart(chart, render_lines(*find_method(name), chart.scene, view, {2, nullptr}).coverage,
                       LineClassSet::all(), 1, row);
         EXPECT_GT(row.curves->leak_share.front(), 0.1) << name;
         EXPECT_LT(row.curves->leak_share.back(), 0.5 * row.curves->leak_share.front()) << name;

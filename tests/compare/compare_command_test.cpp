@@ -42,13 +42,11 @@ void expect_rising_progress(const std::string& out) {
 TEST(Compare, WritesPicturesMetricsAndAReport) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
-    const ProgramResult r =
-        run_compare(folder, {"cube.obj", "-o", "a/b", "--size", "64x48", "--methods", "patel",
-                             "--lines", "silhouette,crease", "--frames", "2", "--progress", "alf"});
+    const ProgramResult r = run_compare(folder, {"cube.obj", "-o", "a/b", "--size", "64x48", "--methods", "patel",
+                                                 "--lines", "silhouette,crease", "--frames", "2", "--progress", "alf"});
     ASSERT_EQ(r.status, 0) << r.err;
     expect_rising_progress(r.out);
-    for (const char* name :
-         {"truth.png", "patel.png", "patel_diff.png", "metrics.csv", "report.html"}) {
+    for (const char* name : {"truth.png", "patel.png", "patel_diff.png", "metrics.csv", "report.html"}) {
         EXPECT_GT(fs::file_size(folder.file("a/b/") + name), 100u) << name;
     }
     const auto metrics = nlohmann::json::parse(read_file(folder.file("a/b/metrics.json")));
@@ -80,9 +78,8 @@ TEST(Compare, TheChartIsDrawnWithTheMethodsSettings) {
     folder.write("cube.obj", kCubeObj);
     double ratios[2];
     for (int i = 0; i < 2; ++i) {
-        const ProgramResult r =
-            run_compare(folder, {"cube.obj", "-o", "d", "--size", "32x24", "--methods", "abuffer",
-                                 "--set", i == 0 ? "abuffer.samples=2" : "abuffer.samples=8"});
+        const ProgramResult r = run_compare(folder, {"cube.obj", "-o", "d", "--size", "32x24", "--methods", "abuffer",
+                                                     "--set", i == 0 ? "abuffer.samples=2" : "abuffer.samples=8"});
         ASSERT_EQ(r.status, 0) << r.err;
         ratios[i] = measured(folder)["silhouette_ratio"];
     }
@@ -94,14 +91,13 @@ TEST(Compare, DrawsBothSidesOfVisibleLinesWhateverTheSceneAsksFor) {
     folder.write("cube.obj", kCubeObj);
     double rmse[2];
     for (int i = 0; i < 2; ++i) {
-        std::vector<std::string> arguments = {"cube.obj", "-o", "d", "--size", "32x24",
-                                              "--methods", "abuffer"};
+        std::vector<std::string> arguments = {"cube.obj", "-o", "d", "--size", "32x24", "--methods", "abuffer"};
         if (i == 0) {
             arguments.insert(arguments.end(), {"--crease-angle", "90"});
         } else {
-            arguments.insert(arguments.end(), {"--set", "lines.side=inside", "--set",
-                                               "lines.hidden.style=solid", "--set", "lines.dash=[3, 2]",
-                                               "--set", "lines.contours=smooth", "--crease-angle", "60,120"});
+            arguments.insert(arguments.end(),
+                             {"--set", "lines.side=inside", "--set", "lines.hidden.style=solid", "--set",
+                              "lines.dash=[3, 2]", "--set", "lines.contours=smooth", "--crease-angle", "60,120"});
         }
         const ProgramResult r = run_compare(folder, arguments);
         ASSERT_EQ(r.status, 0) << r.err;
@@ -119,9 +115,8 @@ TEST(Compare, LinesUnderAnotherClassesNameAreNoErrors) {
     folder.write("sheets.obj",
                  "o wall\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nf 1 2 3 4\n"
                  "o sheet\nv -1 -1 -1\nv 1 -1 1\nv 1 1 1\nv -1 1 -1\nf 5 6 7 8\n");
-    const ProgramResult r = run_compare(
-        folder, {"sheets.obj", "-o", "d", "--size", "96x96", "--methods", "gbuffer", "--lines",
-                 "silhouette,crease,object"});
+    const ProgramResult r = run_compare(folder, {"sheets.obj", "-o", "d", "--size", "96x96", "--methods", "gbuffer",
+                                                 "--lines", "silhouette,crease,object"});
     ASSERT_EQ(r.status, 0) << r.err;
     EXPECT_LT(measured(folder)["false_share"], 0.01);
     EXPECT_EQ(measured(folder)["truth_classes"],
@@ -132,8 +127,8 @@ TEST(Compare, LinesUnderAnotherClassesNameAreNoErrors) {
 TEST(Compare, WithoutAChartThereIsNoRowAtEqualWidth) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
-    const ProgramResult r = run_compare(folder, {"cube.obj", "-o", "d", "--size", "64x48", "-w", "40",
-                                                 "--methods", "patel"});
+    const ProgramResult r =
+        run_compare(folder, {"cube.obj", "-o", "d", "--size", "64x48", "-w", "40", "--methods", "patel"});
     ASSERT_EQ(r.status, 0) << r.err;
     EXPECT_TRUE(measured(folder)["rmse"].is_number());
     for (const char* key : {"rmse", "ssim", "width_px", "time_s"})
@@ -146,8 +141,8 @@ TEST(Compare, RemovesWhatAnEarlierComparisonLeft) {
     fs::create_directory(folder.file("d"));
     for (const char* name : {"d/metrics.json", "d/simple.png", "d/simple_diff.png", "d/mine.png"})
         folder.write(name, "old");
-    const ProgramResult r = run_compare(
-        folder, {"cube.obj", "-o", "d", "--size", "32x24", "-w", "40", "--methods", "patel"});
+    const ProgramResult r =
+        run_compare(folder, {"cube.obj", "-o", "d", "--size", "32x24", "-w", "40", "--methods", "patel"});
     ASSERT_EQ(r.status, 0) << r.err;
     EXPECT_FALSE(fs::exists(folder.file("d/simple.png")));
     EXPECT_FALSE(fs::exists(folder.file("d/simple_diff.png")));
@@ -157,9 +152,8 @@ TEST(Compare, RemovesWhatAnEarlierComparisonLeft) {
 TEST(Compare, AnEmptyTruthGivesNoMetrics) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
-    const ProgramResult r =
-        run_compare(folder, {"cube.obj", "-o", "d", "--size", "32x24", "--methods", "patel",
-                             "--lines", "intersection"});
+    const ProgramResult r = run_compare(
+        folder, {"cube.obj", "-o", "d", "--size", "32x24", "--methods", "patel", "--lines", "intersection"});
     ASSERT_EQ(r.status, 0) << r.err;
     for (const char* key : {"rmse", "ssim", "flip_mean", "missed_share", "false_share"}) {
         EXPECT_TRUE(measured(folder)[key].is_null()) << key;
@@ -195,8 +189,7 @@ TEST(Compare, RefusesWhatCannotBe) {
 TEST(Compare, AnInterruptLeavesNothingHalfWritten) {
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
-    Program program(folder.path(), {"compare", "cube.obj", "-o", "d", "--size", "3000x3000",
-                                    "--methods", "patel"});
+    Program program(folder.path(), {"compare", "cube.obj", "-o", "d", "--size", "3000x3000", "--methods", "patel"});
     while (!fs::exists(folder.file("d"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     program.send(SIGINT);
     const ProgramResult r = program.wait();

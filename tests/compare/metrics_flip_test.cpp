@@ -5,9 +5,7 @@
 namespace burin {
 namespace {
 
-ColorPlanes constant(float r, float g, float b) {
-    return {Plane(40, 30, r), Plane(40, 30, g), Plane(40, 30, b)};
-}
+ColorPlanes constant(float r, float g, float b) { return {Plane(40, 30, r), Plane(40, 30, g), Plane(40, 30, b)}; }
 
 TEST(Flip, EqualPicturesDoNotDiffer) {
     ColorPlanes picture = constant(0.2f, 0.7f, 0.4f);
@@ -47,8 +45,7 @@ TEST(Flip, AMovedLineCountsMoreThanAFainterOne) {
 TEST(Flip, DoesNotDependOnThreads) {
     ColorPlanes a = constant(1, 1, 1);
     for (int i = 0; i < 30; ++i) a[0].at(i, i) = 0;
-    const FlipError one = flip_error(a, constant(1, 1, 1), 1),
-                    many = flip_error(a, constant(1, 1, 1), 3);
+    const FlipError one = flip_error(a, constant(1, 1, 1), 1), many = flip_error(a, constant(1, 1, 1), 3);
     EXPECT_EQ(one.map.values, many.map.values);
 }
 

@@ -40,12 +40,10 @@ TEST(BandCoverage, IsTheAreaOfAStrokeInAPixel) {
                 constexpr int kGrid = 400;
                 int inside = 0;
                 for (int i = 0; i < kGrid * kGrid; ++i) {
-                    const glm::dvec2 p((i % kGrid + 0.5) / kGrid - 0.5,
-                                       (i / kGrid + 0.5) / kGrid - 0.5);
+                    const glm::dvec2 p((i % kGrid + 0.5) / kGrid - 0.5, (i / kGrid + 0.5) / kGrid - 0.5);
                     inside += std::abs(u + glm::dot(p, n)) <= width / 2;
                 }
-                EXPECT_NEAR(band_coverage(u, n, width),
-                            static_cast<double>(inside) / (kGrid * kGrid), 0.004)
+                EXPECT_NEAR(band_coverage(u, n, width), static_cast<double>(inside) / (kGrid * kGrid), 0.004)
                     << angle << " degrees, u " << u << ", width " << width;
             }
         }

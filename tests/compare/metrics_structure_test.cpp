@@ -27,9 +27,7 @@ TEST(Ssim, ConstantPicturesFollowTheFormula) {
     EXPECT_NEAR(*ssim(a, b, 1), (2 * 0.5 * 0.25 + c1) / (0.25 + 0.0625 + c1), 1e-3);
 }
 
-TEST(Ssim, IndependentNoiseIsUnlike) {
-    EXPECT_LT(std::abs(*ssim(noise(200, 190, 1), noise(200, 190, 2), 1)), 0.1);
-}
+TEST(Ssim, IndependentNoiseIsUnlike) { EXPECT_LT(std::abs(*ssim(noise(200, 190, 1), noise(200, 190, 2), 1)), 0.1); }
 
 TEST(Ssim, NeedsAWindowAndFiveScales) {
     EXPECT_FALSE(ssim(Plane(10, 40), Plane(10, 40), 1));

@@ -48,9 +48,7 @@ TEST(MetricsFiles, WhatDoesNotApplyIsNullInJsonAndEmptyInCsv) {
     EXPECT_NE(json.find("\"psnr_db\": null"), std::string::npos);
     EXPECT_EQ(json.find("inf"), std::string::npos);
     EXPECT_NE(csv.find(",0.25,,"), std::string::npos);
-    const auto columns = [](std::string_view line) {
-        return std::count(line.begin(), line.end(), ',');
-    };
+    const auto columns = [](std::string_view line) { return std::count(line.begin(), line.end(), ','); };
     const std::size_t first = csv.find('\n'), second = csv.find('\n', first + 1);
     EXPECT_EQ(columns(csv.substr(0, first)), columns(csv.substr(first, second - first)));
 }
@@ -62,8 +60,7 @@ TEST(Report, IsOnePageInWhichNamesOfFilesCannotBreakOut) {
     const std::string page = test::read_file(folder.file("report.html"));
     EXPECT_EQ(page.find("{{"), std::string::npos);
     EXPECT_EQ(page.find("</script><b>"), std::string::npos);
-    EXPECT_NE(page.find("data:image/png;base64," + base64("no picture, but bytes")),
-              std::string::npos);
+    EXPECT_NE(page.find("data:image/png;base64," + base64("no picture, but bytes")), std::string::npos);
     for (const char* outside : {"src=\"http", "href=\"http", "url(", "@import", "fetch("}) {
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
     }

@@ -23,8 +23,7 @@ Bytes inflated(std::span<const std::uint8_t> stream, std::size_t size) {
 }
 
 void expect_survives(Deflater& deflater, const Bytes& bytes) {
-    EXPECT_TRUE(inflated(deflater.compress(bytes), bytes.size()) == bytes)
-        << bytes.size() << " bytes";
+    EXPECT_TRUE(inflated(deflater.compress(bytes), bytes.size()) == bytes) << bytes.size() << " bytes";
 }
 
 TEST(Deflate, RunsOfEveryLengthSurvive) {
@@ -44,7 +43,8 @@ TEST(Deflate, KnownRunsChangeNothing) {
         Bytes bytes;
         std::vector<Deflater::Run> runs;
         for (int part = random.integer(1, 30); part > 0; --part) {
-            for (int i = random.integer(0, 40); i > 0; --i) bytes.push_back(static_cast<std::uint8_t>(random.integer(0, 3)));
+            for (int i = random.integer(0, 40); i > 0; --i)
+                bytes.push_back(static_cast<std::uint8_t>(random.integer(0, 3)));
             if (bytes.size() < 2) continue;
             const std::size_t begin = bytes.size();
             for (int i = random.integer(0, 700); i > 0; --i) bytes.push_back(bytes[bytes.size() - 2]);
@@ -93,8 +93,7 @@ TEST(Deflate, RareBytesGetCodesOfAllowedLengths) {
         before = std::exchange(count, count + before);
     }
     Random random(1);
-    for (std::size_t i = bytes.size() - 1; i > 0; --i)
-        std::swap(bytes[i], bytes[random.bits() % (i + 1)]);
+    for (std::size_t i = bytes.size() - 1; i > 0; --i) std::swap(bytes[i], bytes[random.bits() % (i + 1)]);
     Deflater deflater;
     expect_survives(deflater, bytes);
     // The longest codes one after the other, from each place in a byte.

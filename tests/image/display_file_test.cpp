@@ -26,8 +26,8 @@ DisplayImage noise(int width, int height, int channels, int bits) {
     Random random(static_cast<std::uint64_t>(width * height + channels + bits));
     DisplayImage image{width, height, channels, {}};
     for (int i = 0; i < width * height * channels; ++i) {
-        image.pixels.push_back(static_cast<std::uint16_t>(
-            bits == 16 ? random.integer(0, 65535) : 257 * random.integer(0, 255)));
+        image.pixels.push_back(
+            static_cast<std::uint16_t>(bits == 16 ? random.integer(0, 65535) : 257 * random.integer(0, 255)));
     }
     return image;
 }
@@ -45,8 +45,7 @@ TEST(DisplayFile, PngAndTiffKeepEveryValue) {
                     EXPECT_EQ(back.width, width);
                     EXPECT_EQ(back.height, height);
                     EXPECT_EQ(back.channels, channels);
-                    EXPECT_TRUE(back.pixels == image.pixels)
-                        << name << ' ' << channels << ' ' << bits;
+                    EXPECT_TRUE(back.pixels == image.pixels) << name << ' ' << channels << ' ' << bits;
                     if (std::tolower(name[2]) == 'p') {  // byte 24 of a PNG is its depth
                         EXPECT_EQ(static_cast<int>(read_file(folder.file(name))[24]), bits);
                     }
@@ -60,8 +59,7 @@ TEST(DisplayFile, EightBitsRoundToTheNearest) {
     const TemporaryFolder folder;
     DisplayImage image{256, 257, 3, {}};
     for (int i = 0; i < 256 * 257; ++i) {
-        for (int c = 0; c < 3; ++c)
-            image.pixels.push_back(static_cast<std::uint16_t>(std::min(i, 65535)));
+        for (int c = 0; c < 3; ++c) image.pixels.push_back(static_cast<std::uint16_t>(std::min(i, 65535)));
     }
     for (const char* name : {"a.png", "a.tif"}) {
         write_display_image(folder.file(name), image, 8);
@@ -86,8 +84,7 @@ TEST(DisplayFile, AFullDiskLeavesNothing) {
     const TemporaryFolder folder;
     const DisplayImage image = noise(70, 60, 3, 8);
     for (const std::string extension : {"png", "tif"}) {
-        const std::string whole = folder.file("whole." + extension),
-                          target = folder.file("a." + extension);
+        const std::string whole = folder.file("whole." + extension), target = folder.file("a." + extension);
         write_display_image(whole, image, 8);
         const std::size_t size = read_file(whole).size();
         folder.write("a." + extension, "old");
@@ -112,8 +109,7 @@ TEST(DisplayFile, AFullDiskLeavesNothing) {
         }
         std::signal(SIGXFSZ, old_handler);
     }
-    EXPECT_EQ(folder.names(),
-              (std::vector<std::string>{"a.png", "a.tif", "whole.png", "whole.tif"}));
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png", "a.tif", "whole.png", "whole.tif"}));
 }
 
 TEST(DisplayFile, AnInterruptLeavesNothing) {
@@ -144,8 +140,7 @@ TEST(DisplayFile, RefusesWhatItCannotWriteOrRead) {
     EXPECT_THROW(read_display_image(folder.write("text.png", "this is no image")), InputError);
     write_display_image(folder.file("a.png"), noise(50, 50, 3, 8), 8);
     const std::string bytes = read_file(folder.file("a.png"));
-    EXPECT_THROW(read_display_image(folder.write("cut.png", bytes.substr(0, bytes.size() / 2))),
-                 InputError);
+    EXPECT_THROW(read_display_image(folder.write("cut.png", bytes.substr(0, bytes.size() / 2))), InputError);
 }
 
 }  // namespace

@@ -28,20 +28,17 @@ int value_at(const DisplayImage& image, int x, int y, int channel) {
 
 /// The transfer function as IEC 61966-2-1 writes it, in double precision.
 double code_of(double linear) {
-    return 65535 *
-           (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+    return 65535 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
 }
 
 TEST(Srgb, TheFunctionsAreInverses) {
     for (int code = 0; code <= 65535; ++code) {
         const float unit = static_cast<float>(code) / 65535.0f;
-        EXPECT_NEAR(static_cast<double>(srgb_from_linear(linear_from_srgb(unit))), code / 65535.0,
-                    1e-6);
+        EXPECT_NEAR(static_cast<double>(srgb_from_linear(linear_from_srgb(unit))), code / 65535.0, 1e-6);
     }
     for (int i = 0; i <= 10000; ++i) {
         const float linear = static_cast<float>(i) / 10000.0f;
-        EXPECT_NEAR(static_cast<double>(linear_from_srgb(srgb_from_linear(linear))), i / 10000.0,
-                    1e-6);
+        EXPECT_NEAR(static_cast<double>(linear_from_srgb(srgb_from_linear(linear))), i / 10000.0, 1e-6);
     }
 }
 
@@ -75,31 +72,26 @@ TEST(ToDisplay, LaysThePictureOverPaper) {
 }
 
 TEST(ToDisplay, WithoutPaperTheAlphaIsNotMultipliedIn) {
-    const DisplayImage half =
-        to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {0.25f, 0.1f, 0.0f, 0.5f}), {});
+    const DisplayImage half = to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {0.25f, 0.1f, 0.0f, 0.5f}), {});
     ASSERT_EQ(half.channels, 4);
     EXPECT_NEAR(value_at(half, 0, 0, 0), code_of(0.5), 1.0);
     EXPECT_NEAR(value_at(half, 0, 0, 1), code_of(0.2), 1.0);
     EXPECT_EQ(value_at(half, 0, 0, 2), 0);
     EXPECT_EQ(value_at(half, 0, 0, 3), 32768);  // linear: alpha is no light
 
-    const DisplayImage nothing =
-        to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 0}), {});
+    const DisplayImage nothing = to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 0}), {});
     for (int c = 0; c < 4; ++c) EXPECT_EQ(value_at(nothing, 0, 0, c), 0);
 }
 
 TEST(ToDisplay, ExtremesAreExact) {
     // Beyond 0..1 and NaN clamp; white on white paper stays white whatever the alpha.
-    const DisplayImage odd =
-        to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {2.0f, -1.0f, NAN, 1.0f}), glm::vec3(0));
+    const DisplayImage odd = to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {2.0f, -1.0f, NAN, 1.0f}), glm::vec3(0));
     EXPECT_EQ(value_at(odd, 0, 0, 0), 65535);
     EXPECT_EQ(value_at(odd, 0, 0, 1), 0);
     EXPECT_EQ(value_at(odd, 0, 0, 2), 0);
-    const DisplayImage black =
-        to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}), glm::vec3(1));
+    const DisplayImage black = to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}), glm::vec3(1));
     EXPECT_EQ(value_at(black, 0, 0, 0), 0);
-    const DisplayImage paper =
-        to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 0}), glm::vec3(1));
+    const DisplayImage paper = to_display(one_color({0, 0, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 0}), glm::vec3(1));
     EXPECT_EQ(value_at(paper, 0, 0, 0), 65535);
 }
 
@@ -136,8 +128,7 @@ TEST(ToDisplay, RowsAndColumnsKeepTheirPlace) {
     const char* const names[] = {"R", "G", "B", "A"};
     for (int c = 0; c < 4; ++c) {
         auto values = image.add(names[c], PixelType::float32).as<float>();
-        for (std::size_t i = 0; i < 6; ++i)
-            values[i] = c == 3 ? 1.0f : linear_from_srgb(static_cast<float>(i) / 10);
+        for (std::size_t i = 0; i < 6; ++i) values[i] = c == 3 ? 1.0f : linear_from_srgb(static_cast<float>(i) / 10);
     }
     const DisplayImage display = to_display(image, glm::vec3(0));
     for (int i = 0; i < 6; ++i) EXPECT_NEAR(value_at(display, i % 3, i / 3, 1), 6553.5 * i, 1.0);

@@ -40,8 +40,7 @@ Image noise_image(PixelRect display, PixelRect data, std::uint64_t seed) {
         }
     }
     for (const char* name : {"id.object", "id.polygon"}) {
-        for (std::uint32_t& v : image.add(name, PixelType::uint32).as<std::uint32_t>())
-            v = random.bits();
+        for (std::uint32_t& v : image.add(name, PixelType::uint32).as<std::uint32_t>()) v = random.bits();
     }
     return image;
 }
@@ -105,8 +104,7 @@ TEST(Exr, EqualImagesGiveEqualFiles) {
 
 TEST(Exr, TheHeaderHasTextsAndNoDate) {
     const TemporaryFolder folder;
-    write_exr(folder.file("a.exr"), noise_image({0, 0, 8, 8}, {0, 0, 8, 8}, 1),
-              {1, {{"software", "burin 1"}}});
+    write_exr(folder.file("a.exr"), noise_image({0, 0, 8, 8}, {0, 0, 8, 8}, 1), {1, {{"software", "burin 1"}}});
     const std::string header = read_file(folder.file("a.exr")).substr(0, 1000);
     EXPECT_NE(header.find("software"), std::string::npos);
     EXPECT_NE(header.find("burin 1"), std::string::npos);
@@ -145,7 +143,8 @@ TEST(Exr, RowsMayComeInAnyOrder) {
     std::vector<int> rows;
     for (int y = data.y0; y < data.y1; y += ExrWriter::kChunkRows) rows.push_back(y);
     for (const int threads : {1, 3}) {
-        for (std::size_t i = rows.size(); i > 1; --i) std::swap(rows[i - 1], rows[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+        for (std::size_t i = rows.size(); i > 1; --i)
+            std::swap(rows[i - 1], rows[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
         ExrWriter writer(folder.file("rows.exr"), image.display(), data, image.formats(), {});
         parallel_for(rows.size(), threads, [&](std::size_t i, int) {
             // A part of the image that has these rows, and sometimes more.
@@ -156,7 +155,8 @@ TEST(Exr, RowsMayComeInAnyOrder) {
             for (const Channel& c : image.channels()) {
                 Channel& copy = part.add(c.name, c.type);
                 const std::size_t row_bytes = copy.bytes.size() / static_cast<std::size_t>(part.height());
-                std::copy_n(c.bytes.begin() + static_cast<std::ptrdiff_t>(row_bytes * static_cast<std::size_t>(part_rows.y0 - data.y0)),
+                std::copy_n(c.bytes.begin() + static_cast<std::ptrdiff_t>(
+                                                  row_bytes * static_cast<std::size_t>(part_rows.y0 - data.y0)),
                             copy.bytes.size(), copy.bytes.begin());
             }
             writer.write_chunk(strip_of(part), rows[i]);
@@ -197,7 +197,8 @@ TEST(Exr, MissingBlocksAreBackground) {
                     for (int x = x0; x < x1; ++x) {
                         std::byte* const pixel = all.bytes.data() + static_cast<std::size_t>(y * width + x) * size;
                         if (is_there) {
-                            std::copy_n(pixel, size, own.bytes.data() + static_cast<std::size_t>(y * (x1 - x0) + x - x0) * size);
+                            std::copy_n(pixel, size,
+                                        own.bytes.data() + static_cast<std::size_t>(y * (x1 - x0) + x - x0) * size);
                         } else {
                             std::copy_n(strip.background[c].data(), size, pixel);
                         }
@@ -249,8 +250,7 @@ TEST(Exr, RefusesWhatItCannotWriteOrRead) {
     const Image image = noise_image({0, 0, 4, 4}, {0, 0, 4, 4}, 1);
     EXPECT_THROW(write_exr(folder.file("missing/a.exr"), image, {}), InputError);
     EXPECT_THROW(write_exr(folder.path(), image, {}), InputError);
-    EXPECT_THROW(write_exr(folder.file("empty.exr"), Image({0, 0, 4, 4}, {0, 0, 4, 4}), {}),
-                 InputError);
+    EXPECT_THROW(write_exr(folder.file("empty.exr"), Image({0, 0, 4, 4}, {0, 0, 4, 4}), {}), InputError);
     EXPECT_TRUE(folder.names().empty());
 
     EXPECT_THROW(read_exr(folder.file("missing.exr")), InputError);

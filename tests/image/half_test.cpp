@@ -19,8 +19,7 @@ constexpr std::uint16_t kInfinity = 0x7C00;
 double value_of(std::uint16_t half) {
     const int exponent = half >> 10 & 31;
     const int mantissa = half & 1023;
-    const double magnitude =
-        exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
+    const double magnitude = exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
     return (half & 0x8000) != 0 ? -magnitude : magnitude;
 }
 
@@ -73,11 +72,9 @@ TEST(Half, LargerBitsAreLargerNumbers) {
 TEST(Half, RoundsHalfwayToEven) {
     for (unsigned bits = 0; bits < kInfinity; ++bits) {
         const auto half = static_cast<std::uint16_t>(bits);
-        const double above =
-            bits + 1 == kInfinity ? 65536.0 : value_of(static_cast<std::uint16_t>(bits + 1));
+        const double above = bits + 1 == kInfinity ? 65536.0 : value_of(static_cast<std::uint16_t>(bits + 1));
         const auto middle = static_cast<float>((value_of(half) + above) / 2);  // exact in a float
-        for (const float near :
-             {std::nextafter(middle, 0.0f), middle, std::nextafter(middle, 1e9f)}) {
+        for (const float near : {std::nextafter(middle, 0.0f), middle, std::nextafter(middle, 1e9f)}) {
             ASSERT_EQ(half_from_float(near), nearest_half(near)) << bits;
             ASSERT_EQ(half_from_float(-near), nearest_half(-near)) << bits;
         }
@@ -91,8 +88,7 @@ TEST(Half, RoundsRandomNumbersToTheNearest) {
         if (!std::isnan(any)) {
             ASSERT_EQ(half_from_float(any), nearest_half(any)) << trial << ": " << any;
         }
-        const auto usual =
-            static_cast<float>(std::ldexp(random.real(-1, 1), random.integer(-30, 18)));
+        const auto usual = static_cast<float>(std::ldexp(random.real(-1, 1), random.integer(-30, 18)));
         ASSERT_EQ(half_from_float(usual), nearest_half(usual)) << trial << ": " << usual;
     }
 }

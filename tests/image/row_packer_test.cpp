@@ -20,7 +20,8 @@ Bytes sorted_differences(const Bytes& raw) {
     for (const std::size_t odd : {0, 1}) {
         for (std::size_t i = odd; i < raw.size(); i += 2) bytes.push_back(raw[i]);
     }
-    for (std::size_t i = bytes.size() - 1; i > 0; --i) bytes[i] = static_cast<std::uint8_t>(bytes[i] - bytes[i - 1] + 128);
+    for (std::size_t i = bytes.size() - 1; i > 0; --i)
+        bytes[i] = static_cast<std::uint8_t>(bytes[i] - bytes[i - 1] + 128);
     return bytes;
 }
 
@@ -37,7 +38,8 @@ struct Strip {
         strip.block_width = block_width;
         for (int c = random.integer(1, 6); c > 0; --c) {
             types.push_back(static_cast<PixelType>(random.integer(0, 2)));
-            for (std::byte& b : strip.background.emplace_back()) b = static_cast<std::byte>(random.integer(0, 1) * random.integer(0, 255));
+            for (std::byte& b : strip.background.emplace_back())
+                b = static_cast<std::byte>(random.integer(0, 1) * random.integer(0, 255));
         }
         order.resize(types.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -81,7 +83,8 @@ TEST(RowPacker, BytesAreThoseOfOpenExr) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const Strip strip(random);
-        const int first = random.integer(0, strip.strip.data.y1 - 1), end = random.integer(first + 1, strip.strip.data.y1);
+        const int first = random.integer(0, strip.strip.data.y1 - 1),
+                  end = random.integer(first + 1, strip.strip.data.y1);
         const RowPacker packer(strip.strip, strip.types, strip.order, first, end);
         const Bytes wanted = strip.raw(first, end);
         Bytes raw;

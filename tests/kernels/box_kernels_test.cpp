@@ -32,7 +32,8 @@ TEST(BoxKernels, BoxesThatTouchAreFound) {
         for (std::size_t i = 0; i < boxes.size(); ++i) boxes.set(i, box());
         boxes.resize(count);
         const ScreenBox own = box();
-        const auto least_x0 = static_cast<float>(random.integer(-5, 6)), least_y0 = static_cast<float>(random.integer(-5, 6));
+        const auto least_x0 = static_cast<float>(random.integer(-5, 6)),
+                   least_y0 = static_cast<float>(random.integer(-5, 6));
         for (std::size_t begin = 0; begin <= count; begin += 3) {
             std::vector<std::uint32_t> expected;
             for (std::size_t i = begin; i < count; ++i) {
@@ -74,12 +75,14 @@ TEST(BoxKernels, OverlapsOfEightAndEightAreFound) {
             for (auto& list : corners) list.push_back(static_cast<std::uint32_t>(random.integer(0, 20)));
         }
         const std::uint32_t* const corner_lists[3] = {corners[0].data(), corners[1].data(), corners[2].data()};
-        const auto a_count = static_cast<std::size_t>(random.integer(1, 8)), b_count = static_cast<std::size_t>(random.integer(1, 8));
+        const auto a_count = static_cast<std::size_t>(random.integer(1, 8)),
+                   b_count = static_cast<std::size_t>(random.integer(1, 8));
         std::uint64_t expected = 0, expected_unconnected = 0;
         for (std::size_t i = 0; i < a_count; ++i) {
             for (std::size_t k = 0; k < b_count; ++k) {
                 const ScreenBox a = boxes[i], b = boxes[8 + k];
-                const bool overlap = a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1 && a.low < b.high && b.low < a.high;
+                const bool overlap =
+                    a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1 && a.low < b.high && b.low < a.high;
                 bool are_connected = false;
                 for (const auto& p : corners) {
                     for (const auto& q : corners) are_connected = are_connected || p[i] == q[8 + k];

@@ -36,7 +36,7 @@ TEST(CullKernels, CullingLosesNoSample) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         const int per_pixel = 2 << seed % 3;
         Triangles triangles(100 + seed, per_pixel, 0, 0);
-        triangles.vertices[5].x = ScreenVertex::kOffScreen;  // of triangle 1
+        triangles.vertices[5].x = ScreenVertex::kOffScreen;    // of triangle 1
         triangles.vertices[7].x += 4 * kLargestSmallTriangle;  // of triangle 2
         const TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), 7, false};
         for (const TileKernels* kernels : all_kernels()) {
@@ -49,7 +49,9 @@ TEST(CullKernels, CullingLosesNoSample) {
                     std::find_if(kept.begin(), kept.end(), [t](const TileTriangle& k) { return k.triangle == t; }) -
                     kept.begin());
             };
-            const auto key_of = [&](std::uint32_t t) { return place_of(t) == found ? 0xFFFFu : culled.keys[place_of(t)]; };
+            const auto key_of = [&](std::uint32_t t) {
+                return place_of(t) == found ? 0xFFFFu : culled.keys[place_of(t)];
+            };
             EXPECT_EQ(culled.others, (std::vector<std::uint32_t>{1, 2}));
             for (std::uint32_t t = 3; t < triangles.count(); ++t) {
                 const std::int64_t area = triangles.area(t);
@@ -60,13 +62,15 @@ TEST(CullKernels, CullingLosesNoSample) {
                 const bool covers = std::any_of(tile.ids.begin(), tile.ids.end(),
                                                 [](std::uint32_t id) { return id != SampleTile::kBackground; });
                 if (!covers) continue;
-                ASSERT_EQ(key_of(t), tile_key(0, area > 0 ? wound_clockwise : wound_counterclockwise)) << kernels->name << " seed " << seed;
+                ASSERT_EQ(key_of(t), tile_key(0, area > 0 ? wound_clockwise : wound_counterclockwise))
+                    << kernels->name << " seed " << seed;
                 const TileTriangle& own = kept[place_of(t)];
                 EXPECT_EQ(own.highest, in_tile(triangles, t, tile).highest);
                 for (int row = 0; row < tile.rows; ++row) {
                     for (int column = 0; column < tile.columns; ++column) {
                         if (tile.ids[tile.index(column, row)] == SampleTile::kBackground) continue;
-                        EXPECT_TRUE(column / kBlockSamples >= own.first_column() && column / kBlockSamples <= own.last_column() &&
+                        EXPECT_TRUE(column / kBlockSamples >= own.first_column() &&
+                                    column / kBlockSamples <= own.last_column() &&
                                     row / kBlockSamples >= own.first_row() && row / kBlockSamples <= own.last_row());
                     }
                 }
@@ -80,13 +84,16 @@ TEST(CullKernels, CullingListsInOneOrder) {
     constexpr int kShift = 5, kTiles = 4, kSize = kTiles << kShift, kPerPixel = 2;
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         Triangles triangles(700 + seed, kPerPixel, 0, 0);
-        const TileGrid grid{0, 0, kSize, kSize, kTiles, 8 - std::countr_zero(static_cast<unsigned>(kPerPixel)), kShift, seed % 2 == 0};
+        const TileGrid grid{
+            0, 0, kSize, kSize, kTiles, 8 - std::countr_zero(static_cast<unsigned>(kPerPixel)), kShift, seed % 2 == 0};
         const Culled first(*all_kernels().front(), triangles, grid);
         for (const TileKernels* kernels : all_kernels()) {
             const Culled culled(*kernels, triangles, grid);
             EXPECT_EQ(culled.keys, first.keys) << kernels->name << " seed " << seed;
             EXPECT_EQ(culled.others, first.others) << kernels->name << " seed " << seed;
-            const auto is_same = [](const TileTriangle& a, const TileTriangle& b) { return a.triangle == b.triangle && a.blocks == b.blocks; };
+            const auto is_same = [](const TileTriangle& a, const TileTriangle& b) {
+                return a.triangle == b.triangle && a.blocks == b.blocks;
+            };
             EXPECT_TRUE(std::ranges::equal(culled.kept, first.kept, is_same)) << kernels->name << " seed " << seed;
         }
     }
@@ -99,7 +106,14 @@ TEST(CullKernels, TrianglesOfSeveralTilesAreListedForEach) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         const int per_pixel = 2 << seed % 3;
         Triangles triangles(300 + seed, per_pixel, 0, 0);
-        const TileGrid grid{0, 0, kTiles * kSize, kTiles * kSize, kTiles, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), kShift, seed % 2 == 0};
+        const TileGrid grid{0,
+                            0,
+                            kTiles * kSize,
+                            kTiles * kSize,
+                            kTiles,
+                            8 - std::countr_zero(static_cast<unsigned>(per_pixel)),
+                            kShift,
+                            seed % 2 == 0};
         for (const TileKernels* kernels : all_kernels()) {
             const Culled culled(*kernels, triangles, grid);
             std::vector<int> times(triangles.count());
@@ -120,7 +134,8 @@ TEST(CullKernels, TrianglesOfSeveralTilesAreListedForEach) {
                 }
                 for (std::size_t i = 0; i < expected.kept.size(); ++i) {
                     const std::uint32_t t = expected.kept[i].triangle;
-                    const bool is_other = std::find(culled.others.begin(), culled.others.end(), t) != culled.others.end();
+                    const bool is_other =
+                        std::find(culled.others.begin(), culled.others.end(), t) != culled.others.end();
                     in_many += is_other ? 1 : 0;
                     if (!is_other) alone.push_back({t, expected.keys[i], expected.kept[i].blocks});
                 }
@@ -128,7 +143,8 @@ TEST(CullKernels, TrianglesOfSeveralTilesAreListedForEach) {
                 std::sort(alone.begin(), alone.end());
                 EXPECT_EQ(listed, alone) << kernels->name << " seed " << seed << " tile " << tile;
             }
-            in_several += static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [](int n) { return n > 1; }));
+            in_several +=
+                static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [](int n) { return n > 1; }));
         }
     }
     EXPECT_GT(in_several, 1000u);
@@ -147,7 +163,8 @@ TEST(CullKernels, ThinTrianglesAreKeptIfWanted) {
         }
         for (std::size_t t = 0; t < triangles.count(); t += 2) {
             const int y = triangles.vertices[3 * t].y & ~(pitch - 1);
-            for (std::size_t k = 0; k < 3; ++k) triangles.vertices[3 * t + k].y = y + pitch / 2 + random.integer(1, pitch - 1);
+            for (std::size_t k = 0; k < 3; ++k)
+                triangles.vertices[3 * t + k].y = y + pitch / 2 + random.integer(1, pitch - 1);
         }
         TileGrid grid{0, 0, 100, 90, 1, 8 - std::countr_zero(static_cast<unsigned>(per_pixel)), 7, true};
         for (const TileKernels* kernels : all_kernels()) {
@@ -165,13 +182,16 @@ TEST(CullKernels, ThinTrianglesAreKeptIfWanted) {
                 const auto [y0, y1] = std::minmax({v[0].y, v[1].y, v[2].y});
                 const auto at = [&](int sample) { return sample * pitch + pitch / 2; };
                 const bool is_in_grid = x1 >= at(0) && x0 <= at(grid.width) && y1 >= at(0) && y0 <= at(grid.height);
-                const auto own = std::find_if(all.begin(), all.end(), [t](const auto& k) { return k.first.triangle == t; });
-                ASSERT_EQ(own != all.end(), is_in_grid && triangles.area(t) != 0) << kernels->name << " seed " << seed << " triangle " << t;
+                const auto own =
+                    std::find_if(all.begin(), all.end(), [t](const auto& k) { return k.first.triangle == t; });
+                ASSERT_EQ(own != all.end(), is_in_grid && triangles.area(t) != 0)
+                    << kernels->name << " seed " << seed << " triangle " << t;
                 if (own == all.end() || own->second != tile_key(0, thin)) continue;
                 ++thin_count;
                 const auto block = [&](double place, bool up, int last) {
                     const double sample = (place - pitch / 2) / pitch;
-                    return std::clamp(static_cast<int>(up ? std::ceil(sample) : std::floor(sample)), 0, last) / kBlockSamples;
+                    return std::clamp(static_cast<int>(up ? std::ceil(sample) : std::floor(sample)), 0, last) /
+                           kBlockSamples;
                 };
                 EXPECT_LE(own->first.first_column(), block(x0, true, grid.width));
                 EXPECT_GE(own->first.last_column(), block(x1, false, grid.width));

@@ -82,17 +82,20 @@ TEST(FillKernels, PixelsLieInThePlanesOfTheirTriangles) {
         for (const TileKernels* kernels : all_kernels()) {
             std::array<float, kCount + 3> distance, normal[3];
             std::array<std::uint32_t, kCount + 3> ids[3];
-            kernels->put_geometry({projection.orthographic, first.x, first.y, projection.focal_px}, looks.data(), look_at.data(), kCount,
+            kernels->put_geometry({projection.orthographic, first.x, first.y, projection.focal_px}, looks.data(),
+                                  look_at.data(), kCount,
                                   {distance.data(),
                                    {normal[0].data(), normal[1].data(), normal[2].data()},
                                    {ids[0].data(), ids[1].data(), ids[2].data()}});
             for (std::size_t i = 0; i < kCount; ++i) {
                 const TriangleLook& look = looks[look_at[i]];
-                const double expected = distance_along_ray(projection, look, glm::dvec2(x0 + 0.5 + static_cast<double>(i), y + 0.5));
+                const double expected =
+                    distance_along_ray(projection, look, glm::dvec2(x0 + 0.5 + static_cast<double>(i), y + 0.5));
                 if (look_at[i] == 0) {
                     ASSERT_EQ(distance[i], std::numeric_limits<float>::infinity());
                 } else {
-                    ASSERT_NEAR(distance[i], expected, 1e-6 * expected) << kernels->name << ", seed " << seed << ", pixel " << i;
+                    ASSERT_NEAR(distance[i], expected, 1e-6 * expected)
+                        << kernels->name << ", seed " << seed << ", pixel " << i;
                 }
                 for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(normal[c][i], look.world_normal[c]);
                 ASSERT_EQ(ids[0][i], look.object_id);
@@ -111,7 +114,8 @@ TEST(FillKernels, NormalsOfTrianglesAreUnitVectors) {
         const float size = std::exp2(static_cast<float>(random.integer(-40, 40)));
         std::vector<glm::vec3> positions(6);
         for (glm::vec3& p : positions) {
-            for (int c = 0; c < 3; ++c) p[c] = size * static_cast<float>(random.integer(-9, 9)) * (c == 1 ? 1e-3f : 1.0f);
+            for (int c = 0; c < 3; ++c)
+                p[c] = size * static_cast<float>(random.integer(-9, 9)) * (c == 1 ? 1e-3f : 1.0f);
         }
         std::vector<std::array<std::uint32_t, 3>> triangles(count);
         for (auto& corners : triangles) {
@@ -121,13 +125,17 @@ TEST(FillKernels, NormalsOfTrianglesAreUnitVectors) {
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<float> normals(4 * count + 4, 7.0f);
             std::vector<std::uint8_t> is_thin(count + 1, 7);
-            kernels->triangle_normals(&positions[0].x, count > 0 ? triangles[0].data() : nullptr, count, thin_square, normals.data(), is_thin.data());
+            kernels->triangle_normals(&positions[0].x, count > 0 ? triangles[0].data() : nullptr, count, thin_square,
+                                      normals.data(), is_thin.data());
             for (std::size_t t = 0; t < count; ++t) {
                 const auto corner = [&](std::size_t k) { return glm::dvec3(positions[triangles[t][k]]); };
-                const glm::dvec3 p = corner(1) - corner(0), q = corner(2) - corner(0), r = q - p, area = glm::cross(p, q);
-                const double longest = std::max({glm::dot(p, p), glm::dot(q, q), glm::dot(r, r)}), square = glm::dot(area, area);
+                const glm::dvec3 p = corner(1) - corner(0), q = corner(2) - corner(0), r = q - p,
+                                 area = glm::cross(p, q);
+                const double longest = std::max({glm::dot(p, p), glm::dot(q, q), glm::dot(r, r)}),
+                             square = glm::dot(area, area);
                 const glm::vec3 unit(area * (1 / std::max(std::sqrt(square), 1e-300)));
-                for (int c = 0; c < 3; ++c) EXPECT_EQ(normals[4 * t + static_cast<std::size_t>(c)], unit[c]) << kernels->name;
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_EQ(normals[4 * t + static_cast<std::size_t>(c)], unit[c]) << kernels->name;
                 EXPECT_EQ(normals[4 * t + 3], 0.0f);
                 const bool expected = !(square > thin_square * longest * longest);
                 EXPECT_EQ(is_thin[t], expected ? 1 : 0) << kernels->name;
@@ -146,9 +154,11 @@ TEST(FillKernels, RoughNormalsAreNearlyNormals) {
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         Random random(seed);
         const auto count = static_cast<std::size_t>(random.integer(0, 40));
-        const double size = std::exp2(random.integer(-60, 60)), flat = std::exp2(-random.integer(0, 14)), away = random.integer(0, 2);
+        const double size = std::exp2(random.integer(-60, 60)), flat = std::exp2(-random.integer(0, 14)),
+                     away = random.integer(0, 2);
         std::vector<glm::vec3> positions(12);
-        for (glm::vec3& p : positions) p = glm::vec3(size * (glm::dvec3(away, 2 * away, -away) + random.in_box(1) * glm::dvec3(1, flat, 1)));
+        for (glm::vec3& p : positions)
+            p = glm::vec3(size * (glm::dvec3(away, 2 * away, -away) + random.in_box(1) * glm::dvec3(1, flat, 1)));
         std::vector<std::array<std::uint32_t, 3>> triangles(count);
         for (auto& corners : triangles) {
             for (std::uint32_t& corner : corners) corner = static_cast<std::uint32_t>(random.integer(0, 11));
@@ -157,7 +167,8 @@ TEST(FillKernels, RoughNormalsAreNearlyNormals) {
         const std::uint32_t* const corners = count > 0 ? triangles[0].data() : nullptr;
         std::vector<float> normals(4 * count);
         std::vector<std::uint8_t> is_thin(count);
-        baseline_kernels().triangle_normals(&positions[0].x, corners, count, thin_square, normals.data(), is_thin.data());
+        baseline_kernels().triangle_normals(&positions[0].x, corners, count, thin_square, normals.data(),
+                                            is_thin.data());
         std::vector<std::int16_t> first;
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<std::int16_t> rough(4 * count + 4, 7);
@@ -171,7 +182,8 @@ TEST(FillKernels, RoughNormalsAreNearlyNormals) {
                 }
                 ASSERT_LT(square, 9) << kernels->name << ", seed " << seed << ", triangle " << t;
                 ASSERT_EQ(rough[4 * t + 3], 0);
-                ASSERT_EQ(found[t], is_thin[t] != 0 ? kMayBeSliver : 0) << kernels->name << ", seed " << seed << ", triangle " << t;
+                ASSERT_EQ(found[t], is_thin[t] != 0 ? kMayBeSliver : 0)
+                    << kernels->name << ", seed " << seed << ", triangle " << t;
                 slivers += is_thin[t];
             }
             ASSERT_EQ(rough[4 * count], 7);
@@ -193,16 +205,19 @@ TEST(FillKernels, CreasesAreWhatIsNotPlainlySmooth) {
         std::vector<std::uint32_t> begins(half_edges), next(half_edges), order(half_edges);
         for (std::uint32_t& b : begins) b = static_cast<std::uint32_t>(random.integer(0, 5));
         std::iota(order.begin(), order.end(), 0u);
-        for (std::size_t i = half_edges; i-- > 1;) std::swap(order[i], order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
+        for (std::size_t i = half_edges; i-- > 1;)
+            std::swap(order[i], order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
         for (std::size_t i = 0; i < half_edges;) {
-            const std::size_t length = std::min(half_edges - i, static_cast<std::size_t>(random.integer(0, 5) == 0 ? random.integer(1, 4) : 2));
+            const std::size_t length = std::min(
+                half_edges - i, static_cast<std::size_t>(random.integer(0, 5) == 0 ? random.integer(1, 4) : 2));
             for (std::size_t k = 0; k < length; ++k) next[order[i + k]] = order[i + (k + 1) % length];
             i += length;
         }
         std::vector<std::int16_t> normals(4 * triangles);
         for (std::size_t t = 0; t < triangles; ++t) {
-            const std::array<std::int16_t, 4> normal =
-                random.integer(0, 2) > 0 ? std::array<std::int16_t, 4>{-19660, 26213, 0, 0} : std::array<std::int16_t, 4>{0, 32767, 0, 0};
+            const std::array<std::int16_t, 4> normal = random.integer(0, 2) > 0
+                                                           ? std::array<std::int16_t, 4>{-19660, 26213, 0, 0}
+                                                           : std::array<std::int16_t, 4>{0, 32767, 0, 0};
             std::copy(normal.begin(), normal.end(), normals.begin() + static_cast<std::ptrdiff_t>(4 * t));
         }
         const std::int32_t between = 26213 * 32767;
@@ -211,7 +226,8 @@ TEST(FillKernels, CreasesAreWhatIsNotPlainlySmooth) {
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<std::uint8_t> found(triangles - first + 1, 8);
             std::vector<std::uint32_t> in_doubt(half_edges), expected_doubts;
-            in_doubt.resize(kernels->find_creases(begins.data(), next.data(), normals.data(), first, triangles - first, low, high, found.data(), in_doubt.data()));
+            in_doubt.resize(kernels->find_creases(begins.data(), next.data(), normals.data(), first, triangles - first,
+                                                  low, high, found.data(), in_doubt.data()));
             for (std::size_t t = first; t < triangles; ++t) {
                 unsigned expected = 8;
                 for (std::size_t k = 0; k < 3; ++k) {
@@ -221,7 +237,8 @@ TEST(FillKernels, CreasesAreWhatIsNotPlainlySmooth) {
                     const bool is_pair = g != h && next[g] == h && begins[g] != begins[h];
                     const bool is_smooth = is_pair && cosine > high;
                     expected |= is_smooth ? 0u : 1u << k;
-                    if (is_pair && !is_smooth && cosine >= low) expected_doubts.push_back(static_cast<std::uint32_t>(h));
+                    if (is_pair && !is_smooth && cosine >= low)
+                        expected_doubts.push_back(static_cast<std::uint32_t>(h));
                     ++(is_smooth ? smooth : creases);
                 }
                 ASSERT_EQ(found[t - first], expected) << kernels->name << ", seed " << seed << ", triangle " << t;

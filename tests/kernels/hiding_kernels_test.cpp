@@ -89,13 +89,15 @@ TEST(HidingKernels, TrianglesThatMayHideALineAreFound) {
         // Within 4096 pixels, or beyond.
         const bool is_near = round % 2 == 0;
         const double sign = random.integer(0, 1) == 0 ? -1 : 1;
-        const glm::dvec2 origin(sign * random.integer(is_near ? 0 : 1 << 21, is_near ? 1000000 : 1 << 23), random.integer(0, 1000000));
+        const glm::dvec2 origin(sign * random.integer(is_near ? 0 : 1 << 21, is_near ? 1000000 : 1 << 23),
+                                random.integer(0, 1000000));
         std::vector<CrossedTriangle> triangles;
         std::vector<glm::dvec2> corners[kCount];
         for (std::size_t i = 0; i < kCount; ++i) {
             glm::dvec2 p[3];
             const glm::dvec2 center = origin + glm::dvec2(random.integer(0, 8192), random.integer(0, 8192));
-            for (glm::dvec2& at : p) at = glm::floor(center + size * glm::dvec2(random.real(-1, 1), random.real(-1, 1)));
+            for (glm::dvec2& at : p)
+                at = glm::floor(center + size * glm::dvec2(random.real(-1, 1), random.real(-1, 1)));
             const glm::dvec2 u = p[1] - p[0], v = p[2] - p[0];
             if (u.x * v.y - u.y * v.x < 0) std::swap(p[1], p[2]);
             triangles.push_back(triangle_of(p[0], p[1], p[2], 0.125f * static_cast<float>(random.integer(0, 8))));
@@ -104,7 +106,8 @@ TEST(HidingKernels, TrianglesThatMayHideALineAreFound) {
         const glm::dvec2 a = origin + glm::dvec2(random.real(0, 8192), random.real(0, 8192));
         const double length = random.integer(0, 9) == 0 ? 0 : std::pow(2.0, random.integer(2, 12));
         const glm::dvec2 b = a + length * glm::dvec2(random.real(-1, 1), random.real(-1, 1));
-        const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y), 0.25f};
+        const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
+                              static_cast<float>(b.y), 0.25f};
         std::vector<std::uint32_t> listed;
         for (std::uint32_t i = 0; i < kCount; ++i) {
             if (random.integer(0, 4) != 0) listed.push_back(i);
@@ -112,7 +115,8 @@ TEST(HidingKernels, TrianglesThatMayHideALineAreFound) {
         std::vector<std::vector<std::uint32_t>> found;
         for (const TileKernels* kernels : all_kernels()) {
             found.push_back(listed);  // one list after the other
-            found.back().resize(kernels->find_hiding(triangles.data(), found.back().data(), listed.size(), line, found.back().data()));
+            found.back().resize(
+                kernels->find_hiding(triangles.data(), found.back().data(), listed.size(), line, found.back().data()));
             EXPECT_EQ(found.back(), found[0]) << kernels->name;
         }
         found_count += static_cast<int>(found[0].size());
@@ -125,13 +129,15 @@ TEST(HidingKernels, TrianglesThatMayHideALineAreFound) {
             for (int step = 0; step <= 200; ++step) {
                 const glm::dvec2 p = glm::mix(a, b, step / 200.0);
                 bool is_inside = true;
-                for (std::size_t k = 0; k < 3; ++k) is_inside = is_inside && cross(corners[i][(k + 1) % 3] - corners[i][k], p - corners[i][k]) > 0;
+                for (std::size_t k = 0; k < 3; ++k)
+                    is_inside = is_inside && cross(corners[i][(k + 1) % 3] - corners[i][k], p - corners[i][k]) > 0;
                 has_point_inside = has_point_inside || is_inside;
             }
             for (std::size_t k = 0; k < 3; ++k) {
                 const glm::dvec2 edge = corners[i][(k + 1) % 3] - corners[i][k];
                 if (edge == glm::dvec2(0.0)) continue;
-                gap = std::max(gap, -std::max(cross(edge, a - corners[i][k]), cross(edge, b - corners[i][k])) / glm::length(edge));
+                gap = std::max(
+                    gap, -std::max(cross(edge, a - corners[i][k]), cross(edge, b - corners[i][k])) / glm::length(edge));
             }
             if (length > 0) {
                 double low = 1e30, high = -1e30;
@@ -177,7 +183,8 @@ TEST(HidingKernels, TrianglesThatOnlyTouchAnExactLineAreNotFound) {
             triangles.push_back(triangle_of(own[0], own[1], own[2], 1));
         }
         const glm::dvec2 a = place(), b = place();
-        ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y), 0.5f};
+        ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
+                        static_cast<float>(b.y), 0.5f};
         line.is_exact = true;
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<std::uint32_t> found(kCount);
@@ -191,7 +198,8 @@ TEST(HidingKernels, TrianglesThatOnlyTouchAnExactLineAreNotFound) {
                 for (double step = 0; step <= kSteps; ++step) {
                     const glm::dvec2 p = kSteps * a + step * (b - a);
                     bool is_inside = true;
-                    for (std::size_t k = 0; k < 3; ++k) is_inside = is_inside && cross(own[(k + 1) % 3] - own[k], p - kSteps * own[k]) >= 0;
+                    for (std::size_t k = 0; k < 3; ++k)
+                        is_inside = is_inside && cross(own[(k + 1) % 3] - own[k], p - kSteps * own[k]) >= 0;
                     inside += is_inside;
                 }
                 // Whether an edge has the line beyond it, but for an end.
@@ -223,13 +231,15 @@ TEST(HidingKernels, LinesJustInsideLargeTrianglesAreFound) {
     Random random(9);
     const auto cross = [](glm::dvec2 u, glm::dvec2 v) { return u.x * v.y - u.y * v.x; };
     const auto direction = [&] {
-        const double angle = random.integer(0, 1) == 0 ? random.real(0, 6.3) : 1.5708 * random.integer(0, 3) + random.real(-0.03, 0.03);
+        const double angle =
+            random.integer(0, 1) == 0 ? random.real(0, 6.3) : 1.5708 * random.integer(0, 3) + random.real(-0.03, 0.03);
         return glm::dvec2(std::cos(angle), std::sin(angle));
     };
     int inside = 0;
     for (int round = 0; round < 60000; ++round) {
         // An edge through the picture, to the end of the guard band or not so far.
-        const glm::dvec2 middle(random.real(0, kSize), random.real(0, kSize)), along = direction(), inwards(-along.y, along.x);
+        const glm::dvec2 middle(random.real(0, kSize), random.real(0, kSize)), along = direction(),
+                                                                               inwards(-along.y, along.x);
         const auto corner = [&](glm::dvec2 towards) {
             const glm::dvec2 room = (kGuardBand - glm::sign(towards) * (middle - 0.5 * kSize)) / glm::abs(towards);
             return glm::floor(middle + std::min({room.x, room.y, std::pow(2.0, random.real(10, 30))}) * towards);
@@ -245,10 +255,12 @@ TEST(HidingKernels, LinesJustInsideLargeTrianglesAreFound) {
         for (std::size_t k = 0; k < 3; ++k) is_inside = is_inside && cross(p[(k + 1) % 3] - p[k], a - p[k]) > 0;
         if (!is_inside) continue;
         ++inside;
-        const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y), 0.5f};
+        const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
+                              static_cast<float>(b.y), 0.5f};
         for (const TileKernels* kernels : all_kernels()) {
             std::uint32_t number = 0;
-            ASSERT_EQ(kernels->find_hiding(&triangle, &number, 1, line, &number), 1u) << kernels->name << " round " << round;
+            ASSERT_EQ(kernels->find_hiding(&triangle, &number, 1, line, &number), 1u)
+                << kernels->name << " round " << round;
         }
     }
     EXPECT_GT(inside, 30000);
@@ -281,8 +293,10 @@ TEST(HidingKernels, TrianglesArePutAsLinesCrossThem) {
                     v.y -= y;
                     return v;
                 };
-                const CrossedTriangle expected = crossed_triangle(corner(0), corner(1), corner(2), static_cast<Facing>(triangles.facing[t]), numbers[i]);
-                EXPECT_EQ(std::memcmp(&put[i], &expected, sizeof expected), 0) << kernels->name << " seed " << seed << " place " << i;
+                const CrossedTriangle expected = crossed_triangle(corner(0), corner(1), corner(2),
+                                                                  static_cast<Facing>(triangles.facing[t]), numbers[i]);
+                EXPECT_EQ(std::memcmp(&put[i], &expected, sizeof expected), 0)
+                    << kernels->name << " seed " << seed << " place " << i;
             }
         }
     }

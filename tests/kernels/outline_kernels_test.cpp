@@ -20,13 +20,15 @@ struct Walked {
         const int vertex_count = random.integer(3, 40), triangle_count = random.integer(1, 40);
         const int size = 1 << random.integer(1, 16);
         for (int i = 0; i < vertex_count; ++i) {
-            vertices.push_back({random.integer(-size, size), random.integer(-size, size), static_cast<float>(random.real(0, 1))});
+            vertices.push_back(
+                {random.integer(-size, size), random.integer(-size, size), static_cast<float>(random.real(0, 1))});
         }
         for (int i = 0; i < 3 * triangle_count; ++i) {
             corners.push_back(static_cast<std::uint32_t>(random.integer(0, vertex_count - 1)));
             partners.push_back(static_cast<std::uint32_t>(random.integer(0, 3 * triangle_count - 1)));
         }
-        for (int i = 0; i < triangle_count; ++i) sharp.push_back(static_cast<std::uint8_t>(random.integer(0, 3) == 0 ? random.integer(0, 15) : 0));
+        for (int i = 0; i < triangle_count; ++i)
+            sharp.push_back(static_cast<std::uint8_t>(random.integer(0, 3) == 0 ? random.integer(0, 15) : 0));
         mesh.vertices = vertices.data();
         mesh.corners = corners.data();
         mesh.partners = partners.data();
@@ -77,15 +79,19 @@ TEST(OutlineKernels, FindWhereWalksLeaveSurfaces) {
                 if ((walks.how[i] & MeshWalks::kFolds) == 0 || (given.sharp[t] >> exit % 3 & 1) != 0) continue;
                 ASSERT_LT(at, found->count) << kernels->name << ", seed " << seed;
                 const auto corner = [&](std::uint32_t k) { return given.vertices[given.corners[3 * t + k % 3]]; };
-                const ScreenVertex a = corner(0), b = corner(1), c = corner(2), from = corner(exit), to = corner(exit % 3 + 1);
+                const ScreenVertex a = corner(0), b = corner(1), c = corner(2), from = corner(exit),
+                                   to = corner(exit % 3 + 1);
                 const bool backwards = walks.backwards[w] != 0, down = walks.down[w] != 0;
                 const double left = walks.left[walks.end_step[i]], fraction = backwards ? 1 - left : left;
                 const double along = walks.origin[w] - (backwards ? pitch : 0) + fraction * pitch;
                 const double x = down ? walks.across[w] : along, y = down ? along : walks.across[w];
                 const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y, area = ux * vy - uy * vx;
-                const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa, qc = static_cast<double>(c.nearness) - qa;
+                const double qa = static_cast<double>(a.nearness), qb = static_cast<double>(b.nearness) - qa,
+                             qc = static_cast<double>(c.nearness) - qa;
                 const double low = std::min({0.0, qb, qc}), high = std::max({0.0, qb, qc}), px = x - a.x, py = y - a.y;
-                const double q = area == 0 ? high : std::clamp(((px * vy - py * vx) * qb + (ux * py - uy * px) * qc) / area, low, high);
+                const double q =
+                    area == 0 ? high
+                              : std::clamp(((px * vy - py * vx) * qb + (ux * py - uy * px) * qc) / area, low, high);
                 EXPECT_EQ(found->walk[at], w) << kernels->name << ", seed " << seed;
                 EXPECT_EQ(found->exit[at], exit);
                 EXPECT_EQ(found->partner[at], given.partners[exit]);

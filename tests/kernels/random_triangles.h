@@ -51,9 +51,19 @@ struct Triangles {
 };
 
 inline SampleView view_of(SampleTile& tile) {
-    return {tile.nearness.data(), tile.ids.data(), tile.first_column, tile.first_row,
-            tile.columns,         tile.rows,       tile.stride,       tile.samples_per_pixel,
-            0.0f,                 0.0f,            nullptr,           nullptr, 0};
+    return {tile.nearness.data(),
+            tile.ids.data(),
+            tile.first_column,
+            tile.first_row,
+            tile.columns,
+            tile.rows,
+            tile.stride,
+            tile.samples_per_pixel,
+            0.0f,
+            0.0f,
+            nullptr,
+            nullptr,
+            0};
 }
 
 /// One triangle after the other, one sample after the other: ScanConverter says which ones.
@@ -99,8 +109,7 @@ inline TileTriangle in_tile(const Triangles& triangles, std::uint32_t t, const S
     const auto to = [pitch](int at) { return std::floor(static_cast<double>(at) / pitch - 0.5); };
     const auto [x0, x1] = std::minmax({v[0].x, v[1].x, v[2].x});
     const auto [y0, y1] = std::minmax({v[0].y, v[1].y, v[2].y});
-    return {t,
-            std::max({v[0].nearness, v[1].nearness, v[2].nearness}),
+    return {t, std::max({v[0].nearness, v[1].nearness, v[2].nearness}),
             TileTriangle::pack(block(from(x0), tile.first_column, tile.columns - 1),
                                block(to(x1), tile.first_column, tile.columns - 1),
                                block(from(y0), tile.first_row, tile.rows - 1),

@@ -76,17 +76,20 @@ TEST(SortHiding, TrianglesAreFoundInBlocksWhereTheyAreNearer) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         Random random(seed);
         const auto integer = [&](int low, int high) { return random.integer(low, high); };
-        HidingGrid grid{integer(-9000, 9000), integer(-9000, 9000), integer(1, 9), integer(1, 9), integer(0, 5), nullptr};
+        HidingGrid grid{integer(-9000, 9000), integer(-9000, 9000), integer(1, 9),
+                        integer(1, 9),        integer(0, 5),        nullptr};
         std::vector<float> cells(static_cast<std::size_t>(4 * grid.columns * grid.rows));
         for (float& nearness : cells) nearness = integer(0, 3) == 0 ? 1e30f : static_cast<float>(integer(0, 8));
         std::vector<float> farthest(HidingGrid::kPlaces * static_cast<std::size_t>(grid.columns * grid.rows));
         for (int i = 0; i < grid.columns * grid.rows; ++i) {
             const auto cell = [&](int x, int y) {
-                return cells[static_cast<std::size_t>((2 * (i / grid.columns) + y) * 2 * grid.columns + 2 * (i % grid.columns) + x)];
+                return cells[static_cast<std::size_t>((2 * (i / grid.columns) + y) * 2 * grid.columns +
+                                                      2 * (i % grid.columns) + x)];
             };
             for (const auto& [low_x, high_x] : {std::pair{0, 0}, {0, 1}, {1, 1}}) {
                 for (const auto& [low_y, high_y] : {std::pair{0, 0}, {0, 1}, {1, 1}}) {
-                    farthest[HidingGrid::kPlaces * static_cast<std::size_t>(i) + HidingGrid::place(low_x, high_x, low_y, high_y)] =
+                    farthest[HidingGrid::kPlaces * static_cast<std::size_t>(i) +
+                             HidingGrid::place(low_x, high_x, low_y, high_y)] =
                         std::min({cell(low_x, low_y), cell(high_x, low_y), cell(low_x, high_y), cell(high_x, high_y)});
                 }
             }
@@ -118,7 +121,8 @@ TEST(SortHiding, TrianglesAreFoundInBlocksWhereTheyAreNearer) {
             std::vector<HidingInBlock> found(4 * listed.size());
             std::vector<std::uint32_t> others(listed.size());
             std::size_t others_found = 0;
-            found.resize(kernels->sort_hiding(mesh, listed.data(), listed.size(), grid, found.data(), others.data(), &others_found));
+            found.resize(kernels->sort_hiding(mesh, listed.data(), listed.size(), grid, found.data(), others.data(),
+                                              &others_found));
             others.resize(others_found);
             std::vector<Entry> entries;
             for (const HidingInBlock& f : found) entries.push_back(entry(f.block, f.triangle));

@@ -19,7 +19,8 @@ TEST(SortKernels, TrianglesGoToTheListsOfTheirKeys) {
         Random random(seed);
         const auto count = static_cast<std::size_t>(random.integer(0, seed % 2 == 0 ? 40 : 700));
         const int key_count = random.integer(1, 30), longest = random.integer(1, 40);
-        std::vector<std::uint32_t> keys(count + kRoomBehindCulled, 3), numbers(keys.size()), blocks(keys.size()), starts(keys.size());
+        std::vector<std::uint32_t> keys(count + kRoomBehindCulled, 3), numbers(keys.size()), blocks(keys.size()),
+            starts(keys.size());
         std::vector<float> highest(keys.size());
         for (std::size_t i = 0, left = 0; i < count; ++i, --left) {
             if (left == 0) left = static_cast<std::size_t>(random.integer(1, longest));
@@ -40,7 +41,9 @@ TEST(SortKernels, TrianglesGoToTheListsOfTheirKeys) {
         expected_starts.push_back(static_cast<std::uint32_t>(count));
         for (const TileKernels* kernels : all_kernels()) {
             const std::size_t found = kernels->find_runs(keys.data(), count, starts.data());
-            ASSERT_EQ(std::vector<std::uint32_t>(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(found) + 1), expected_starts)
+            ASSERT_EQ(
+                std::vector<std::uint32_t>(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(found) + 1),
+                expected_starts)
                 << kernels->name << " seed " << seed;
             std::vector<std::uint32_t> next(static_cast<std::size_t>(key_count));
             std::uint32_t room = 0;

@@ -47,7 +47,8 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
                     for (std::size_t i = 0; i < count; ++i) numbers[i] = drawable[first + i].triangle;
                     if (with_look) {
                         kernels->find_farthest(view_of(tile), farthest.data());
-                        numbers.resize(kernels->find_nearer(farthest.data(), 0, 0, &drawable[first], count, numbers.data()));
+                        numbers.resize(
+                            kernels->find_nearer(farthest.data(), 0, 0, &drawable[first], count, numbers.data()));
                     }
                     kernels->draw_small(view_of(tile), triangles.mesh, numbers.data(), numbers.size());
                     drawn += numbers.size();
@@ -82,7 +83,8 @@ TEST(TileKernels, PolygonsAreDrawnRowByRow) {
         ScreenPolygon polygon;
         polygon.count = 3;
         for (std::size_t k = 0; k < 3; ++k) {
-            polygon.corners[k] = {(first_column * pitch + random.integer(-reach, reach)) & mask, (first_row * pitch + random.integer(-reach, reach)) & mask};
+            polygon.corners[k] = {(first_column * pitch + random.integer(-reach, reach)) & mask,
+                                  (first_row * pitch + random.integer(-reach, reach)) & mask};
         }
         const ScanConverter scan(polygon, per_pixel);
         if (!scan.fits_doubles()) continue;
@@ -92,13 +94,16 @@ TEST(TileKernels, PolygonsAreDrawnRowByRow) {
         plane.low = -3;
         plane.high = 3;
         plane.id = 10;
-        const int top = std::max(scan.first_row() - first_row, 0), bottom = std::min(scan.end_row() - first_row, tile.rows);
-        const SampleRect rect{random.integer(0, tile.columns - 1), top, random.integer(1, tile.columns), std::max(bottom, top)};
+        const int top = std::max(scan.first_row() - first_row, 0),
+                  bottom = std::min(scan.end_row() - first_row, tile.rows);
+        const SampleRect rect{random.integer(0, tile.columns - 1), top, random.integer(1, tile.columns),
+                              std::max(bottom, top)};
         SampleTile expected = tile;
         int count = 0;
         for (int row = rect.first_row; row < rect.end_row; ++row) {
             const SampleSpan span = scan.span(row + first_row);
-            const int from = std::max(span.begin - first_column, rect.first_column), to = std::min(span.end - first_column, rect.end_column);
+            const int from = std::max(span.begin - first_column, rect.first_column),
+                      to = std::min(span.end - first_column, rect.end_column);
             if (from >= to) continue;
             baseline_kernels().draw_span(view_of(expected), row, from, to, plane);
             count += to - from;
@@ -106,7 +111,9 @@ TEST(TileKernels, PolygonsAreDrawnRowByRow) {
         drawn += count;
         for (const TileKernels* kernels : all_kernels()) {
             SampleTile found = tile;
-            EXPECT_EQ(kernels->draw_polygon(view_of(found), scan.edges().data(), scan.edges().size(), rect, plane), count) << kernels->name << " seed " << seed;
+            EXPECT_EQ(kernels->draw_polygon(view_of(found), scan.edges().data(), scan.edges().size(), rect, plane),
+                      count)
+                << kernels->name << " seed " << seed;
             EXPECT_EQ(found.ids, expected.ids) << kernels->name << " seed " << seed;
             EXPECT_EQ(found.nearness, expected.nearness) << kernels->name << " seed " << seed;
         }
@@ -145,7 +152,8 @@ TEST(TileKernels, WhatIsLevelHangsOnNoOrder) {
                 if (first.empty()) first = ids;
                 ASSERT_EQ(ids, first) << kernels->name << " seed " << seed;
             }
-        } while (std::next_permutation(planes.begin(), planes.end(), [](const SpanPlane& a, const SpanPlane& b) { return a.id < b.id; }));
+        } while (std::next_permutation(planes.begin(), planes.end(),
+                                       [](const SpanPlane& a, const SpanPlane& b) { return a.id < b.id; }));
         ((first[0] & 1) != 0 ? plain : level) += 1;
     }
     EXPECT_GT(plain, 100);
@@ -158,9 +166,8 @@ TEST(TileKernels, LosersBehindTheLastOneAreNotNoted) {
     constexpr int kColumns = 8;
     const std::vector<float> nearness(kColumns, 1.0f);
     for (const TileKernels* kernels : all_kernels()) {
-        for (const auto& [loser, id, is_noted] :
-             {std::tuple(1.01f, 40u, true), std::tuple(1.0f, 20u, true),
-              std::tuple(1.0f, 22u, false), std::tuple(0.99f, 4u, false)}) {
+        for (const auto& [loser, id, is_noted] : {std::tuple(1.01f, 40u, true), std::tuple(1.0f, 20u, true),
+                                                  std::tuple(1.0f, 22u, false), std::tuple(0.99f, 4u, false)}) {
             for (const bool loser_is_first : {false, true}) {
                 SampleTile tile;
                 tile.reset(0, 0, kColumns, 1, 2);
@@ -183,15 +190,13 @@ TEST(TileKernels, LosersBehindTheLastOneAreNotNoted) {
                 const SpanPlane far = plane_of(loser, id), near = plane_of(1.05f, 31);
                 kernels->draw_span(view, 0, 0, kColumns, loser_is_first ? far : near);
                 kernels->draw_span(view, 0, 0, kColumns, loser_is_first ? near : far);
-                ASSERT_EQ(contest_count, is_noted ? 8u : 1u)
-                    << kernels->name << " " << loser << " " << id;
+                ASSERT_EQ(contest_count, is_noted ? 8u : 1u) << kernels->name << " " << loser << " " << id;
                 for (std::uint32_t i = 0; i < contest_count; ++i) {
                     EXPECT_EQ(contests[i].loser, id);
                     EXPECT_EQ(contests[i].nearness, loser);
                     EXPECT_EQ(contests[i].sample, is_noted ? i : 7u);
                 }
-                for (int i = 0; i < kColumns; ++i)
-                    EXPECT_EQ(tile.ids[static_cast<std::size_t>(i)], 30u);
+                for (int i = 0; i < kColumns; ++i) EXPECT_EQ(tile.ids[static_cast<std::size_t>(i)], 30u);
             }
         }
     }
@@ -210,7 +215,8 @@ TEST(TileKernels, EdgesThatMayBeLinesAreFound) {
             sharp[t] = static_cast<std::uint8_t>(random.integer(0, 4) == 0 ? random.integer(0, 15) : 0);
             const int half = t < kCount / 2 ? 0 : static_cast<int>(kCount / 2 + 1);
             for (std::uint32_t k = 0; k < 3; ++k) {
-                partners[3 * t + k] = static_cast<std::uint32_t>(3 * (half + random.integer(0, 490)) + random.integer(0, 2));
+                partners[3 * t + k] =
+                    static_cast<std::uint32_t>(3 * (half + random.integer(0, 490)) + random.integer(0, 2));
             }
         }
         ScreenMesh mesh;
@@ -242,13 +248,16 @@ TEST(TileKernels, NearerTrianglesAreFound) {
     constexpr int kColumns = 7, kRows = 5;
     for (int round = 0; round < 40; ++round) {
         std::vector<float> least(BlockTable::kSize, std::numeric_limits<float>::infinity());
-        const auto least_of = [&](std::uint32_t column, std::uint32_t row) -> float& { return least[row * BlockTable::kPitch + column]; };
+        const auto least_of = [&](std::uint32_t column, std::uint32_t row) -> float& {
+            return least[row * BlockTable::kPitch + column];
+        };
         for (std::uint32_t row = 0; row < kRows; ++row) {
             for (std::uint32_t column = 0; column < kColumns; ++column) {
                 if (random.integer(0, 2) == 0) least_of(column, row) = static_cast<float>(random.integer(0, 9));
             }
         }
-        const float level = 0.25f * static_cast<float>(random.integer(0, 4)), per_nearness = 0.125f * static_cast<float>(random.integer(0, 2));
+        const float level = 0.25f * static_cast<float>(random.integer(0, 4)),
+                    per_nearness = 0.125f * static_cast<float>(random.integer(0, 2));
         std::vector<TileTriangle> triangles(97);
         std::vector<std::uint32_t> expected;
         for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -258,7 +267,8 @@ TEST(TileKernels, NearerTrianglesAreFound) {
             const auto range = [&](int count) {
                 const int first = random.integer(0, count - 1);
                 const int more = random.integer(0, 5) == 0 ? 3 : random.integer(0, 1);
-                return Range{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(count - 1, first + more))};
+                return Range{static_cast<std::uint32_t>(first),
+                             static_cast<std::uint32_t>(std::min(count - 1, first + more))};
             };
             const Range columns = range(kColumns), rows = range(kRows);
             TileTriangle& t = triangles[i];
@@ -276,7 +286,8 @@ TEST(TileKernels, NearerTrianglesAreFound) {
         for (const TileKernels* kernels : all_kernels()) {
             kernels->combine_blocks(kColumns, kRows, least.data());
             std::vector<std::uint32_t> found(triangles.size());
-            found.resize(kernels->find_nearer(least.data(), level, per_nearness, triangles.data(), triangles.size(), found.data()));
+            found.resize(kernels->find_nearer(least.data(), level, per_nearness, triangles.data(), triangles.size(),
+                                              found.data()));
             EXPECT_EQ(found, expected) << kernels->name << " round " << round;
         }
     }
@@ -302,7 +313,9 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
         s.from[0] = x0 + random.real(-2, width + 1);
         s.from[1] = y0 + random.real(-2, height + 1);
         const int kind = random.integer(0, 4);
-        const double turn = kind == 0 ? 0.7853981634 * random.integer(0, 7) : kind == 1 ? 3.1415926536 * random.integer(0, 1) + random.real(-0.07, 0.07) : random.real(0, 6.28);
+        const double turn = kind == 0   ? 0.7853981634 * random.integer(0, 7)
+                            : kind == 1 ? 3.1415926536 * random.integer(0, 1) + random.real(-0.07, 0.07)
+                                        : random.real(0, 6.28);
         const double length = random.integer(0, 4) == 0 ? 0 : random.real(0, random.integer(0, 1) == 0 ? 1 : 12);
         s.to[0] = s.from[0] + std::cos(turn) * length;
         s.to[1] = s.from[1] + std::sin(turn) * length;
@@ -328,12 +341,14 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
                     const double shift = stroke_row_shift(kStrokeRows * (y0 + row) + static_cast<int>(r));
                     for (std::size_t c = 0; c < kStrokeColumns; ++c) {
                         const double down = in_sets ? kStrokeColumnShifts[c % kStrokeColumnSets] / kStrokeRows : 0;
-                        const Covers wanted = covers(s, x0 + column + (static_cast<double>(c) + 0.5 + shift) / kStrokeColumns, y + down);
+                        const Covers wanted =
+                            covers(s, x0 + column + (static_cast<double>(c) + 0.5 + shift) / kStrokeColumns, y + down);
                         is_any = is_any || wanted == Covers::yes;
                         may_be_any = may_be_any || wanted != Covers::no;
                         if (wanted == Covers::unsure) continue;
                         const std::uint32_t bit = wanted == Covers::yes ? 1 : 0x80001000u >> c & 1u;
-                        ASSERT_EQ(bits >> c & 1u, bit) << kernels->name << " seed " << seed << ", pixel " << column << "," << row << ", sample " << c << "," << r;
+                        ASSERT_EQ(bits >> c & 1u, bit) << kernels->name << " seed " << seed << ", pixel " << column
+                                                       << "," << row << ", sample " << c << "," << r;
                     }
                 }
                 if (is_any != may_be_any) continue;
@@ -411,7 +426,8 @@ TEST(TileKernels, FindPairsOfSurfacesThatAreNotPlainOrNotLevel) {
         for (std::size_t i = 0; i < tile.ids.size(); ++i) {  // the padding as well
             const int surface = random.integer(0, surfaces);
             if (surface == 0) continue;
-            tile.ids[i] = static_cast<std::uint32_t>(2 * surface) | static_cast<std::uint32_t>(random.integer(0, 3) > 0);
+            tile.ids[i] =
+                static_cast<std::uint32_t>(2 * surface) | static_cast<std::uint32_t>(random.integer(0, 3) > 0);
             tile.nearness[i] = static_cast<float>(random.integer(0, 8));
         }
         SampleView view = view_of(tile);
@@ -419,7 +435,8 @@ TEST(TileKernels, FindPairsOfSurfacesThatAreNotPlainOrNotLevel) {
         view.level_per_nearness = 0.25f;
         const auto is_pair = [&](std::size_t a, std::size_t b) {
             if (tile.ids[a] >> 1 == tile.ids[b] >> 1) return false;
-            const float low = std::min(tile.nearness[a], tile.nearness[b]), high = std::max(tile.nearness[a], tile.nearness[b]);
+            const float low = std::min(tile.nearness[a], tile.nearness[b]),
+                        high = std::max(tile.nearness[a], tile.nearness[b]);
             return (tile.ids[a] & tile.ids[b] & 1) == 0 || !(high - low <= 0.25f * high + 0.5f);
         };
         std::vector<std::array<int, 3>> expected;

@@ -65,14 +65,18 @@ TEST(TriangleIndex, TrianglesThatTouchABoxAreFound) {
     Random random(15);
     int touching = 0, beside = 0, found_count = 0;
     for (int round = 0; round < 300; ++round) {
-        const std::size_t count = static_cast<std::size_t>(round < 50 ? round : round % 100 == 99 ? random.integer(4097, 9000) : random.integer(1, 700));
+        const std::size_t count = static_cast<std::size_t>(round < 50          ? round
+                                                           : round % 100 == 99 ? random.integer(4097, 9000)
+                                                                               : random.integer(1, 700));
         std::vector<CrossedTriangle> triangles;
         std::vector<std::uint32_t> listed;
         for (std::uint32_t i = 0; i < 2 * count; ++i) {
             const double size = std::pow(2.0, random.integer(4, random.integer(0, 9) == 0 ? 24 : 12));
-            triangles.push_back(random_corners(random, size).as_seen(0.125f * static_cast<float>(random.integer(0, 80)), i));
+            triangles.push_back(
+                random_corners(random, size).as_seen(0.125f * static_cast<float>(random.integer(0, 80)), i));
         }
-        for (std::uint32_t i = 0; listed.size() < count; i += static_cast<std::uint32_t>(random.integer(1, 2))) listed.push_back(i);
+        for (std::uint32_t i = 0; listed.size() < count; i += static_cast<std::uint32_t>(random.integer(1, 2)))
+            listed.push_back(i);
         const auto place = [&] { return static_cast<float>(random.integer(0, kTile)); };
         ScreenBox bounds{0, 0, kTile, kTile, 1, 9};
         if (random.integer(0, 3) == 0) bounds.high = bounds.low;  // all at one depth
@@ -83,7 +87,8 @@ TEST(TriangleIndex, TrianglesThatTouchABoxAreFound) {
             box.y1 = box.y0 + static_cast<float>(random.integer(0, 1000));
         }
         // An index is used again, after fewer triangles or more.
-        const std::size_t count_before = std::array{std::size_t{0}, count / 2, 2 * count}[static_cast<std::size_t>(random.integer(0, 2))];
+        const std::size_t count_before =
+            std::array{std::size_t{0}, count / 2, 2 * count}[static_cast<std::size_t>(random.integer(0, 2))];
         std::vector<std::uint32_t> listed_before(2 * count);
         std::iota(listed_before.begin(), listed_before.end(), 0u);
         std::optional<std::vector<std::uint32_t>> expected;
@@ -110,12 +115,15 @@ TEST(TriangleIndex, TrianglesThatTouchABoxAreFound) {
             };
             // What is beyond the bounds is at their border.
             const auto may_touch = [&](const ScreenBox& box) {
-                const bool is_near_border = std::max(box.x1, box.y1) + 2 * kStep > kTile || std::min(box.x0, box.y0) < 2 * kStep;
-                const bool may_be_level = bounds.high == bounds.low || box.low < 1.25f || t.highest > std::min(box.low, 9.0f) - 2 * kDepthStep;
+                const bool is_near_border =
+                    std::max(box.x1, box.y1) + 2 * kStep > kTile || std::min(box.x0, box.y0) < 2 * kStep;
+                const bool may_be_level = bounds.high == bounds.low || box.low < 1.25f ||
+                                          t.highest > std::min(box.low, 9.0f) - 2 * kDepthStep;
                 return is_near_border || (touches(box, kStep) && may_be_level);
             };
             found_count += is_found;
-            if (std::any_of(boxes.begin(), boxes.end(), [&](const ScreenBox& box) { return touches(box, 0) && t.highest > box.low; })) {
+            if (std::any_of(boxes.begin(), boxes.end(),
+                            [&](const ScreenBox& box) { return touches(box, 0) && t.highest > box.low; })) {
                 ++touching;
                 EXPECT_TRUE(is_found) << "round " << round << ' ' << i;
             }
@@ -144,8 +152,8 @@ bool is_crossed(const Corners& c, glm::dvec2 a, glm::dvec2 b) {
     return !is_left && !is_right;
 }
 
-std::vector<std::uint32_t> find_crossed(const TileKernels& kernels, std::span<const CrossedTriangle> triangles, std::vector<std::uint32_t> listed,
-                                        const ScreenLine& line) {
+std::vector<std::uint32_t> find_crossed(const TileKernels& kernels, std::span<const CrossedTriangle> triangles,
+                                        std::vector<std::uint32_t> listed, const ScreenLine& line) {
     constexpr std::size_t kMore = 15;
     constexpr std::uint32_t kNoTriangle = 1u << 30;  // is not to be looked at
     const std::size_t count = listed.size();
@@ -187,7 +195,13 @@ TEST(TriangleIndex, TrianglesCrossedByALineAreFound) {
         const bool is_exact = reach == 0 && is_whole && length <= double{kLongestExact};
         const double direction = random.real(0, 6.3);
         const glm::dvec2 shift = static_cast<double>(reach) * glm::dvec2(std::cos(direction), std::sin(direction));
-        const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y), 0.25f, is_exact, reach};
+        const ScreenLine line{static_cast<float>(a.x),
+                              static_cast<float>(a.y),
+                              static_cast<float>(b.x),
+                              static_cast<float>(b.y),
+                              0.25f,
+                              is_exact,
+                              reach};
         std::vector<std::uint32_t> found;
         for (const TileKernels* kernels : all_kernels()) {
             const std::vector<std::uint32_t> own_found = find_crossed(*kernels, triangles, listed, line);
@@ -212,7 +226,8 @@ TEST(TriangleIndex, TrianglesCrossedByALineAreFound) {
             for (int step = 0; step <= 100; ++step) {
                 const glm::dvec2 p = glm::mix(a, b, step / 100.0) + shift;
                 bool is_inside = true;
-                for (std::size_t k = 0; k < 3; ++k) is_inside = is_inside && cross(c.p[(k + 1) % 3] - c.p[k], p - c.p[k]) > 0;
+                for (std::size_t k = 0; k < 3; ++k)
+                    is_inside = is_inside && cross(c.p[(k + 1) % 3] - c.p[k], p - c.p[k]) > 0;
                 has_point_inside = has_point_inside || is_inside;
             }
             double gap = -1e30;  // along the best axis
@@ -242,13 +257,15 @@ TEST(TriangleIndex, LinesJustInsideLargeTrianglesAreFound) {
     constexpr double kSize = 1 << 21, kGuardBand = 1 << 24;
     Random random(17);
     const auto direction = [&] {
-        const double angle = random.integer(0, 1) == 0 ? random.real(0, 6.3) : 1.5708 * random.integer(0, 3) + random.real(-0.03, 0.03);
+        const double angle =
+            random.integer(0, 1) == 0 ? random.real(0, 6.3) : 1.5708 * random.integer(0, 3) + random.real(-0.03, 0.03);
         return glm::dvec2(std::cos(angle), std::sin(angle));
     };
     int inside = 0;
     for (int round = 0; round < 60000; ++round) {
         // An edge through the picture, to the end of the guard band or not so far.
-        const glm::dvec2 middle(random.real(0, kSize), random.real(0, kSize)), along = direction(), inwards(-along.y, along.x);
+        const glm::dvec2 middle(random.real(0, kSize), random.real(0, kSize)), along = direction(),
+                                                                               inwards(-along.y, along.x);
         const glm::dvec2 tile = double{kTile} * glm::floor(middle / double{kTile});
         const auto corner = [&](glm::dvec2 towards) {
             const glm::dvec2 room = (kGuardBand - glm::sign(towards) * (middle - 0.5 * kSize)) / glm::abs(towards);
@@ -265,9 +282,11 @@ TEST(TriangleIndex, LinesJustInsideLargeTrianglesAreFound) {
         if (!is_inside) continue;
         ++inside;
         const CrossedTriangle triangle = c.as_seen(1.0f, 0);
-        const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x), static_cast<float>(b.y), 0.5f};
+        const ScreenLine line{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
+                              static_cast<float>(b.y), 0.5f};
         for (const TileKernels* kernels : all_kernels()) {
-            ASSERT_EQ(find_crossed(*kernels, {&triangle, 1}, {0}, line).size(), 1u) << kernels->name << " round " << round;
+            ASSERT_EQ(find_crossed(*kernels, {&triangle, 1}, {0}, line).size(), 1u)
+                << kernels->name << " round " << round;
         }
     }
     EXPECT_GT(inside, 30000);

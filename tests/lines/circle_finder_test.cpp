@@ -5,8 +5,8 @@
 namespace burin {
 namespace {
 
-/// The states 0, 1, 2 ... tail + length - 1, and from then on those from `tail` on again and again: at which call a circle
-/// is found, or `calls` if it is not.
+/// The states 0, 1, 2 ... tail + length - 1, and from then on those from `tail` on again and again: at which call a
+/// circle is found, or `calls` if it is not.
 std::uint64_t found_at(std::uint64_t tail, std::uint64_t length, std::uint64_t calls) {
     CircleFinder<std::uint64_t> circle;
     for (std::uint64_t i = 0; i < calls; ++i) {

@@ -18,7 +18,8 @@ constexpr int kWidth = 200, kHeight = 150;
 /// A frame, and what rays see in it.
 struct View {
     explicit View(Scene s, const Camera& camera)
-        : scene(std::move(s)), oracle(scene, camera, kWidth, kHeight),
+        : scene(std::move(s)),
+          oracle(scene, camera, kWidth, kHeight),
           frame(make_frame(scene, camera, kWidth, kHeight, {0, 0, kWidth, kHeight})) {
         std::uint32_t first = 0;
         for (const SceneObject& object : scene.objects) {
@@ -79,7 +80,9 @@ TEST(DecideLine, PutsTheLineWhereTheVisibleSurfaceChanges) {
         const glm::dvec2 b = a + 0.25 * glm::dvec2(std::cos(angle), std::sin(angle));
         const LineDecision d = view.decide(a, b);
         const SurfaceId sa = view.at(a).surface, sb = view.at(b).surface;
-        if (d.classes.empty() || (d.reason != LineReason::turns_away && d.reason != LineReason::passes_through && d.reason != LineReason::feature_edge)) continue;
+        if (d.classes.empty() || (d.reason != LineReason::turns_away && d.reason != LineReason::passes_through &&
+                                  d.reason != LineReason::feature_edge))
+            continue;
         // Only pairs where nothing else shows up on the way.
         bool simple = true;
         for (int k = 1; k < 16; ++k) {
@@ -114,7 +117,8 @@ TEST(DecideLine, NamesTheEdgeThatTheLineIs) {
             ASSERT_NE(d.edge.half_edge, kNoHalfEdge);
             const Mesh& mesh = view.frame.surfaces.mesh_of(d.edge.surface);
             const auto& t = mesh.triangles[d.edge.half_edge / 3];
-            const glm::vec3 p = mesh.positions[t[d.edge.half_edge % 3]], q = mesh.positions[t[(d.edge.half_edge + 1) % 3]];
+            const glm::vec3 p = mesh.positions[t[d.edge.half_edge % 3]],
+                            q = mesh.positions[t[(d.edge.half_edge + 1) % 3]];
             // An edge of a box runs along one axis; a diagonal does not.
             const glm::vec3 along = glm::abs(p - q);
             ASSERT_FLOAT_EQ(along.x + along.y + along.z, 1.0f);

@@ -22,8 +22,9 @@ TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
         s.front_on_left = from.x < to.x;
         return s;
     };
-    std::vector<LineSegment> segments, pieces{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
-                                      piece({3, 1.5}, {4, 2}, 2), piece({4, 2}, {5, 2}, 2), piece({5, 2}, {6, 2}, 2, 1)};
+    std::vector<LineSegment> segments,
+        pieces{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
+               piece({3, 1.5}, {4, 2}, 2), piece({4, 2}, {5, 2}, 2),   piece({5, 2}, {6, 2}, 2, 1)};
     SegmentMerger(best_kernels()).merge(pieces, segments);
     ASSERT_EQ(segments.size(), 4u);
     EXPECT_EQ(segments[0].from, glm::dvec2(0, 0));
@@ -36,7 +37,8 @@ TEST(MergeSegments, TheOrderOfPiecesChangesNothing) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         Random random(seed);
         const int row = random.integer(-3, 200), column = random.integer(-3, 200);
-        const std::uint32_t block = (static_cast<std::uint32_t>(row) & 0xFFFFu) << 16 | (static_cast<std::uint32_t>(column) & 0xFFFFu);
+        const std::uint32_t block =
+            (static_cast<std::uint32_t>(row) & 0xFFFFu) << 16 | (static_cast<std::uint32_t>(column) & 0xFFFFu);
         const glm::dvec2 corner = double{kMergeBlockPx} * glm::dvec2(column, row);
         std::vector<LineSegment> pieces(static_cast<std::size_t>(random.integer(1, 90)));
         const std::uint64_t instance = static_cast<std::uint64_t>(random.integer(0, 5)) << 32;
@@ -52,21 +54,25 @@ TEST(MergeSegments, TheOrderOfPiecesChangesNothing) {
                 s.from = pieces[i - 1].from;
                 s.to = glm::dvec2(random.integer(0, 1) == 0 ? s.to.x : pieces[i - 1].to.x, s.to.y);
             }
-            s.line_key = (seed % 7 == 0 ? static_cast<std::uint64_t>(random.integer(0, 2)) << 32 : instance) | (random.integer(0, 3) == 0 ? 0xFFFFFFFFu : static_cast<std::uint32_t>(random.integer(0, 4)));
+            s.line_key = (seed % 7 == 0 ? static_cast<std::uint64_t>(random.integer(0, 2)) << 32 : instance) |
+                         (random.integer(0, 3) == 0 ? 0xFFFFFFFFu : static_cast<std::uint32_t>(random.integer(0, 4)));
             s.block = block;
         }
         ++(pieces.size() > 64 ? many : few);
         std::vector<LineSegment> shuffled = pieces, merged, other;
-        for (std::size_t i = shuffled.size(); i > 1; --i) std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+        for (std::size_t i = shuffled.size(); i > 1; --i)
+            std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
         SegmentMerger(best_kernels()).merge(pieces, merged);
         SegmentMerger(best_kernels()).merge(shuffled, other);
         ASSERT_EQ(merged.size(), other.size()) << "seed " << seed;
         for (std::size_t i = 0; i < merged.size(); ++i) {
             const LineSegment &a = merged[i], &b = other[i];
-            ASSERT_TRUE(a.line_key == b.line_key && a.from == b.from && a.to == b.to) << "seed " << seed << ", piece " << i;
+            ASSERT_TRUE(a.line_key == b.line_key && a.from == b.from && a.to == b.to)
+                << "seed " << seed << ", piece " << i;
             if (i == 0) continue;
             const LineSegment& before = merged[i - 1];
-            ASSERT_TRUE(before.line_key < a.line_key || (before.line_key == a.line_key && before.from.x <= a.from.x)) << "seed " << seed << ", piece " << i;
+            ASSERT_TRUE(before.line_key < a.line_key || (before.line_key == a.line_key && before.from.x <= a.from.x))
+                << "seed " << seed << ", piece " << i;
         }
     }
     EXPECT_GT(few, 100u);
@@ -99,11 +105,14 @@ TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
             const auto count = [&](const auto& is_it) { return std::count_if(given.begin(), given.end(), is_it); };
             const auto in_block = index.in_block(any.block);
             const auto of_line = index.of_line(any.block, any.line_key);
-            ASSERT_EQ(static_cast<std::ptrdiff_t>(in_block.size()), count([&](const LineSegment& s) { return s.block == any.block; }))
+            ASSERT_EQ(static_cast<std::ptrdiff_t>(in_block.size()),
+                      count([&](const LineSegment& s) { return s.block == any.block; }))
                 << round;
             ASSERT_EQ(static_cast<std::ptrdiff_t>(of_line.size()),
-                      count([&](const LineSegment& s) { return s.block == any.block && s.line_key == any.line_key; })) << round;
-            for (const LineSegment& s : of_line) ASSERT_TRUE(s.block == any.block && s.line_key == any.line_key) << round;
+                      count([&](const LineSegment& s) { return s.block == any.block && s.line_key == any.line_key; }))
+                << round;
+            for (const LineSegment& s : of_line)
+                ASSERT_TRUE(s.block == any.block && s.line_key == any.line_key) << round;
         }
     }
 }

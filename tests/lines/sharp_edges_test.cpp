@@ -17,9 +17,15 @@ namespace {
 using namespace test;
 
 /// Whether the edge from vertex 0 to vertex 1 is sharp, for the first triangle.
-bool is_sharp(const std::vector<std::vector<std::uint32_t>>& polygons, double fold_deg = 0, LineClassSet classes = kDefaultLineClasses) {
+bool is_sharp(const std::vector<std::vector<std::uint32_t>>& polygons, double fold_deg = 0,
+              LineClassSet classes = kDefaultLineClasses) {
     const double a = fold_deg * M_PI / 180;
-    const Mesh mesh = build_meshes(soup_of({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -std::cos(a), std::sin(a)}, {0.5, 0, 1}, {1, 1, 0}}, polygons), {}).front();
+    const Mesh mesh =
+        build_meshes(
+            soup_of({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -std::cos(a), std::sin(a)}, {0.5, 0, 1}, {1, 1, 0}},
+                    polygons),
+            {})
+            .front();
     LineCriteria criteria;
     criteria.classes = classes;
     const std::vector<std::uint8_t> sharp = find_sharp_edges(mesh, criteria);
@@ -52,18 +58,22 @@ TEST(SharpEdges, AreWhereDecisionsMustLook) {
 /// A bumpy sheet, of any size and away from 0, where most angles are near one angle.
 Mesh folded_sheet(Random& random, double fold_deg) {
     const int rows = random.integer(1, 20), columns = random.integer(1, 20);
-    const double size = std::exp2(random.integer(-30, 30)), length = random.integer(0, 3) == 0 ? 300 : 1, up = std::sin(0.5 * fold_deg * M_PI / 180);
+    const double size = std::exp2(random.integer(-30, 30)), length = random.integer(0, 3) == 0 ? 300 : 1,
+                 up = std::sin(0.5 * fold_deg * M_PI / 180);
     const double noise = random.integer(0, 1) * 1e-4, forward = std::cos(0.5 * fold_deg * M_PI / 180);
     std::vector<glm::dvec3> positions;
     std::vector<std::vector<std::uint32_t>> triangles;
     for (int r = 0; r <= rows; ++r) {
-        for (int c = 0; c <= columns; ++c) positions.push_back(size * (glm::dvec3(forward * c, length * r, c % 2 * up) + noise * random.in_box(1)));
+        for (int c = 0; c <= columns; ++c)
+            positions.push_back(size * (glm::dvec3(forward * c, length * r, c % 2 * up) + noise * random.in_box(1)));
     }
     for (int r = 0; r < rows; ++r) {
         for (int c = 0; c < columns; ++c) {
-            const auto a = static_cast<std::uint32_t>(r * (columns + 1) + c), b = a + static_cast<std::uint32_t>(columns) + 1;
+            const auto a = static_cast<std::uint32_t>(r * (columns + 1) + c),
+                       b = a + static_cast<std::uint32_t>(columns) + 1;
             triangles.push_back({a, a + 1, b});
-            triangles.push_back(random.integer(0, 9) == 0 ? std::vector{b, b + 1, a + 1} : std::vector{b + 1, b, a + 1});
+            triangles.push_back(random.integer(0, 9) == 0 ? std::vector{b, b + 1, a + 1}
+                                                          : std::vector{b + 1, b, a + 1});
         }
     }
     return build_meshes(soup_of(positions, triangles), {}).front();
@@ -78,7 +88,8 @@ TEST(SharpEdges, AreThoseThatExactNormalsTell) {
         Mesh mesh = folded_sheet(random, fold_deg);
         LineCriteria criteria;
         criteria.classes = LineClass::crease;
-        criteria.cos_crease_angle = std::cos(fold_deg * M_PI / 180) + random.integer(-5, 5) * std::pow(10, -random.integer(2, 7));
+        criteria.cos_crease_angle =
+            std::cos(fold_deg * M_PI / 180) + random.integer(-5, 5) * std::pow(10, -random.integer(2, 7));
         const std::vector<std::uint8_t> found = find_sharp_edges(mesh, criteria, random.integer(1, 2));
         mesh.triangle_polygon.resize(mesh.triangles.size());  // the way through the code that takes no rough normals
         std::iota(mesh.triangle_polygon.begin(), mesh.triangle_polygon.end(), 0u);

@@ -45,7 +45,8 @@ TEST(CornerNormals, OfASphereAreRadial) {
 TEST(CornerNormals, EndAtCreases) {
     const Scene scene = scene_of({make_box({1, 2, 3})});
     const SmoothMesh smooth = make_smooth(scene.meshes[0], std::cos(40 * std::numbers::pi / 180));
-    for (const glm::vec3& n : smooth.normals) EXPECT_NEAR(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}), 1, 1e-6);
+    for (const glm::vec3& n : smooth.normals)
+        EXPECT_NEAR(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}), 1, 1e-6);
 }
 
 /// Some of the polygons, `seed` says which, are wound the other way. They keep their first corner.
@@ -136,7 +137,8 @@ TEST(SmoothContours, OfACoarseSphereAreOneCircle) {
     const double radius_px = focal_px * sine / std::sqrt(1 - sine * sine);
     // Chords of a polygon with that many corners are so far within its circle.
     const double sagitta_px = radius_px * (1 - std::cos(std::numbers::pi / 16));
-    for (const glm::dvec3 eye : {glm::dvec3(0, 0, 2), glm::dvec3(1.1, 0.9, std::sqrt(4 - 1.21 - 0.81)), glm::dvec3(0.3, 1.7, 1.01)}) {
+    for (const glm::dvec3 eye :
+         {glm::dvec3(0, 0, 2), glm::dvec3(1.1, 0.9, std::sqrt(4 - 1.21 - 0.81)), glm::dvec3(0.3, 1.7, 1.01)}) {
         const glm::dvec3 at = eye * (2 / glm::length(eye));
         Scene scene = smooth_scene(make_sphere(0.5, 16, 8));
         scene.lines.style.width_px = 2;
@@ -198,8 +200,8 @@ TEST(SmoothContours, OfATeapotAreThoseOfAFineOne) {
     const auto teapot = [](int tessellation, Contours contours) {
         Scene scene = smooth_scene(make_teapot(tessellation), contours);
         scene.lines.classes = LineClass::silhouette;
-        return Drawing(scene, perspective_camera({6, 5, 4.5}, {1.8, 1.6, 0.2}, 22), kSize, kSize, {0, 0, kSize, kSize}, 2,
-                       render_abuffer);
+        return Drawing(scene, perspective_camera({6, 5, 4.5}, {1.8, 1.6, 0.2}, 22), kSize, kSize, {0, 0, kSize, kSize},
+                       2, render_abuffer);
     };
     const Drawing fine = teapot(48, Contours::mesh);
     const Drawing mesh = teapot(10, Contours::mesh), smooth = teapot(10, Contours::smooth);

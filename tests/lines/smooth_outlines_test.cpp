@@ -29,8 +29,7 @@ PolygonSoup turned_body(const std::vector<glm::dvec2>& profile, std::uint32_t se
     for (std::uint32_t r = 0; r < rings; ++r) {
         for (std::uint32_t s = 0; s < segments; ++s) {
             const double angle = 2 * std::numbers::pi * s / segments;
-            soup.positions.push_back(
-                {profile[r].x * std::cos(angle), profile[r].y, profile[r].x * std::sin(angle)});
+            soup.positions.push_back({profile[r].x * std::cos(angle), profile[r].y, profile[r].x * std::sin(angle)});
         }
     }
     for (std::uint32_t s = 0; s < segments; ++s) {
@@ -38,8 +37,8 @@ PolygonSoup turned_body(const std::vector<glm::dvec2>& profile, std::uint32_t se
         bottom.push_back(s);
         top.push_back((rings - 1) * segments + s);
         for (std::uint32_t r = 0; r + 1 < rings; ++r) {
-            soup.add_polygon(std::vector{r * segments + s, (r + 1) * segments + s,
-                                         (r + 1) * segments + next, r * segments + next});
+            soup.add_polygon(
+                std::vector{r * segments + s, (r + 1) * segments + s, (r + 1) * segments + next, r * segments + next});
         }
     }
     soup.add_polygon(bottom);
@@ -58,19 +57,11 @@ PolygonSoup round_vase(std::uint32_t segments, int steps) {
 }
 
 PolygonSoup vase(std::uint32_t segments) {
-    return turned_body({{0.3, -1},
-                        {0.7, -0.8},
-                        {0.9, -0.4},
-                        {0.7, 0},
-                        {0.35, 0.3},
-                        {0.3, 0.5},
-                        {0.6, 0.8},
-                        {0.65, 1}},
+    return turned_body({{0.3, -1}, {0.7, -0.8}, {0.9, -0.4}, {0.7, 0}, {0.35, 0.3}, {0.3, 0.5}, {0.6, 0.8}, {0.65, 1}},
                        segments);
 }
 
-Drawing drawing_of(const PolygonSoup& soup, const Camera& camera, Contours contours,
-                   double crease_angle_deg = 40) {
+Drawing drawing_of(const PolygonSoup& soup, const Camera& camera, Contours contours, double crease_angle_deg = 40) {
     Scene scene = scene_of({soup});
     scene.lines.contours = contours;
     scene.lines.classes = LineClassSet(LineClass::silhouette) | LineClass::border;
@@ -89,9 +80,7 @@ class Flood {
     explicit Flood(const Drawing& drawing) : drawing_(drawing), is_reached_(kSize * kSize, false) {
         std::vector<std::pair<int, int>> next;
         const auto reach = [&](int x, int y) {
-            if (x < 0 || y < 0 || x >= kSize || y >= kSize || is_reached(x, y) ||
-                drawing.line(x, y) > 0)
-                return;
+            if (x < 0 || y < 0 || x >= kSize || y >= kSize || is_reached(x, y) || drawing.line(x, y) > 0) return;
             is_reached_[static_cast<std::size_t>(y * kSize + x)] = true;
             next.emplace_back(x, y);
         };
@@ -107,9 +96,7 @@ class Flood {
             reach(x, y + 1);
         }
     }
-    bool is_reached(int x, int y) const {
-        return is_reached_[static_cast<std::size_t>(y * kSize + x)];
-    }
+    bool is_reached(int x, int y) const { return is_reached_[static_cast<std::size_t>(y * kSize + x)]; }
     /// Of the pixels of a surface.
     double share_of_figure() const {
         double all = 0, reached = 0;
@@ -127,10 +114,8 @@ class Flood {
         std::vector<glm::dvec2> found;
         for (int y = 1; y + 1 < kSize; ++y) {
             for (int x = 1; x + 1 < kSize; ++x) {
-                if (!(drawing_.line(x, y) >= 0.2))
-                    continue;  // a line between two pixels has half of either
-                if (is_reached(x - 1, y) || is_reached(x + 1, y) || is_reached(x, y - 1) ||
-                    is_reached(x, y + 1))
+                if (!(drawing_.line(x, y) >= 0.2)) continue;  // a line between two pixels has half of either
+                if (is_reached(x - 1, y) || is_reached(x + 1, y) || is_reached(x, y - 1) || is_reached(x, y + 1))
                     found.push_back({x + 0.5, y + 0.5});
             }
         }
@@ -164,8 +149,7 @@ TEST(SmoothOutlines, OfClosedBodiesAreClosed) {
             for (int view = 0; view < 6; ++view) {
                 const Camera camera = random_camera(random, body.distance);
                 const Drawing mesh = drawing_of(body.soup, camera, Contours::mesh, crease_angle);
-                const Drawing smooth =
-                    drawing_of(body.soup, camera, Contours::smooth, crease_angle);
+                const Drawing smooth = drawing_of(body.soup, camera, Contours::smooth, crease_angle);
                 ASSERT_EQ(Flood(mesh).share_of_figure(), 0) << body.name << " view " << view;
                 EXPECT_LT(Flood(smooth).share_of_figure(), 0.05)
                     << body.name << " view " << view << " crease angle " << crease_angle;
@@ -193,19 +177,15 @@ TEST(SmoothOutlines, OfASphereAreNearerToItThanTheMeshes) {
     const double radius = 0.9, eye_distance = 3.4, sine = radius / eye_distance;
     const double focal_px = 0.5 * kSize / std::tan(17.5 * std::numbers::pi / 180),
                  radius_px = focal_px * sine / std::sqrt(1 - sine * sine);
-    const auto distance = [&](glm::dvec2 p) {
-        return std::abs(glm::distance(p, glm::dvec2(0.5 * kSize)) - radius_px);
-    };
+    const auto distance = [&](glm::dvec2 p) { return std::abs(glm::distance(p, glm::dvec2(0.5 * kSize)) - radius_px); };
     Random random(11);
     for (const auto& [segments, rings] : {std::pair{10, 7}, {12, 6}, {16, 8}, {24, 12}}) {
         for (int view = 0; view < 6; ++view) {
-            const Camera camera =
-                perspective_camera(eye_distance * random.direction(), glm::dvec3(0.0));
-            const Distances mesh = distances(
-                drawing_of(make_sphere(radius, segments, rings), camera, Contours::mesh), distance);
-            const Distances smooth = distances(
-                drawing_of(make_sphere(radius, segments, rings), camera, Contours::smooth),
-                distance);
+            const Camera camera = perspective_camera(eye_distance * random.direction(), glm::dvec3(0.0));
+            const Distances mesh =
+                distances(drawing_of(make_sphere(radius, segments, rings), camera, Contours::mesh), distance);
+            const Distances smooth =
+                distances(drawing_of(make_sphere(radius, segments, rings), camera, Contours::smooth), distance);
             // A pixel's centre is up to a pixel from the line.
             EXPECT_LT(smooth.mean, std::max(mesh.mean, 0.6)) << segments << " view " << view;
             EXPECT_LT(smooth.largest, std::max(mesh.largest, 1.3)) << segments << " view " << view;
@@ -219,26 +199,22 @@ TEST(SmoothOutlines, OfBodiesAreNearerToTheirFineOnesThanTheMeshes) {
         PolygonSoup coarse, fine;
     };
     // Pixels count by their centres: largest distances are off by up to a pixel.
-    const std::vector<Body> bodies = {
-        {"torus", make_torus(0.7, 0.3, 16, 10), make_torus(0.7, 0.3, 160, 100)},
-        {"coarse torus", make_torus(0.7, 0.3, 12, 9), make_torus(0.7, 0.3, 120, 90)},
-        {"cylinder", make_cylinder(0.6, 0.6, 1.4, 12), make_cylinder(0.6, 0.6, 1.4, 192)},
-        {"vase", round_vase(12, 10), round_vase(192, 160)}};
+    const std::vector<Body> bodies = {{"torus", make_torus(0.7, 0.3, 16, 10), make_torus(0.7, 0.3, 160, 100)},
+                                      {"coarse torus", make_torus(0.7, 0.3, 12, 9), make_torus(0.7, 0.3, 120, 90)},
+                                      {"cylinder", make_cylinder(0.6, 0.6, 1.4, 12), make_cylinder(0.6, 0.6, 1.4, 192)},
+                                      {"vase", round_vase(12, 10), round_vase(192, 160)}};
     Random random(13);
     for (const Body& body : bodies) {
         for (int view = 0; view < 6; ++view) {
             const Camera camera = random_camera(random, 3.8);
-            const std::vector<glm::dvec2> truth =
-                Flood(drawing_of(body.fine, camera, Contours::mesh)).shore();
+            const std::vector<glm::dvec2> truth = Flood(drawing_of(body.fine, camera, Contours::mesh)).shore();
             const auto distance = [&](glm::dvec2 p) {
                 double least = 1e300;
                 for (const glm::dvec2& q : truth) least = std::min(least, glm::distance(p, q));
                 return least;
             };
-            const Distances mesh =
-                distances(drawing_of(body.coarse, camera, Contours::mesh), distance);
-            const Distances smooth =
-                distances(drawing_of(body.coarse, camera, Contours::smooth), distance);
+            const Distances mesh = distances(drawing_of(body.coarse, camera, Contours::mesh), distance);
+            const Distances smooth = distances(drawing_of(body.coarse, camera, Contours::smooth), distance);
             EXPECT_LT(smooth.mean, mesh.mean) << body.name << " view " << view;
             EXPECT_LT(smooth.largest, mesh.largest + 1) << body.name << " view " << view;
         }

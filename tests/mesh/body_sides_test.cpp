@@ -42,31 +42,35 @@ PolygonSoup two_boxes(glm::dvec3 apart) {
 
 // Also where two bodies share an edge or a corner.
 TEST(BodySides, OfClosedBodiesHoweverTheyAreWound) {
-    for (const PolygonSoup& soup : {make_box({1, 2, 0.001}), make_sphere(1, 12, 8), make_cylinder(1, 0, 2, 5), two_boxes({0, 1, 2}), two_boxes({2, 1, 2}), two_boxes({9, 0, 0})}) {
+    for (const PolygonSoup& soup : {make_box({1, 2, 0.001}), make_sphere(1, 12, 8), make_cylinder(1, 0, 2, 5),
+                                    two_boxes({0, 1, 2}), two_boxes({2, 1, 2}), two_boxes({9, 0, 0})}) {
         for (int seed = 0; seed < 20; ++seed) {
             Random random(static_cast<std::uint64_t>(seed));
             std::vector<bool> turned;
-            for (std::size_t i = 0; i < soup.polygon_count(); ++i) turned.push_back(seed > 0 && (seed == 1 || random.bits() % 2 != 0));
+            for (std::size_t i = 0; i < soup.polygon_count(); ++i)
+                turned.push_back(seed > 0 && (seed == 1 || random.bits() % 2 != 0));
             const Mesh mesh = mesh_of(soup, [&](std::size_t i) { return turned[i]; });
             const auto sides = find_body_sides(mesh);
             ASSERT_EQ(sides.size(), mesh.triangles.size());
             for (std::uint32_t t = 0; t < sides.size(); ++t) {
                 ASSERT_EQ(sides[t], turned[mesh.polygon_of(t)] ? 1 : -1) << seed << ", triangle " << t;
                 for (std::uint32_t other = 0; other < sides.size(); ++other) {
-                    ASSERT_TRUE(!are_wound_alike(mesh, t, other) || sides[t] == sides[other]) << seed << ", triangles " << t << ", " << other;
+                    ASSERT_TRUE(!are_wound_alike(mesh, t, other) || sides[t] == sides[other])
+                        << seed << ", triangles " << t << ", " << other;
                 }
                 for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
                     const HalfEdge g = mesh.next_on_edge[h];
                     const bool are_two = g != h && mesh.next_on_edge[g] == h;
-                    ASSERT_TRUE(!are_two || are_wound_alike(mesh, t, g / 3) == (sides[t] == sides[g / 3]) || seed > 1) << seed << ", half-edge " << h;
+                    ASSERT_TRUE(!are_two || are_wound_alike(mesh, t, g / 3) == (sides[t] == sides[g / 3]) || seed > 1)
+                        << seed << ", half-edge " << h;
                 }
             }
         }
     }
 }
 
-// By a short way, a long way, or the sides of all: of one sphere the two poles are more than 64 triangles apart, and of two that are
-// wound in opposite ways no way leads from one to the other.
+// By a short way, a long way, or the sides of all: of one sphere the two poles are more than 64 triangles apart, and of
+// two that are wound in opposite ways no way leads from one to the other.
 TEST(BodySides, AreComparedAsAllSidesSay) {
     PolygonSoup two = make_sphere(1, 40, 40);
     const auto one = two.polygon_count();
@@ -84,7 +88,8 @@ TEST(BodySides, AreComparedAsAllSidesSay) {
     ASSERT_NE(all[0], all[last]);
     for (const std::uint32_t a : {0u, 7u, last / 4, last}) {
         const BodySides sides(mesh);
-        for (std::uint32_t b = 0; b <= last; b += 61) EXPECT_EQ(sides.are_same(a, b), all[a] == all[b]) << a << ", " << b;
+        for (std::uint32_t b = 0; b <= last; b += 61)
+            EXPECT_EQ(sides.are_same(a, b), all[a] == all[b]) << a << ", " << b;
     }
     EXPECT_FALSE(are_wound_alike(mesh, 0, last / 2 - 40));
     EXPECT_TRUE(are_wound_alike(mesh, 0, last / 2 - 40, 1u << 14));
@@ -96,8 +101,10 @@ TEST(BodySides, AnOpenBoxIsABodyAndASheetIsNone) {
     open.positions = sheet.positions = box.positions;
     for (std::size_t i = 0; i + 1 < box.polygon_count(); ++i) open.add_polygon(box.polygon(i));
     sheet.add_polygon(box.polygon(2));
-    for (const std::int8_t side : find_body_sides(mesh_of(open, [](std::size_t) { return false; }))) EXPECT_EQ(side, -1);
-    for (const std::int8_t side : find_body_sides(mesh_of(sheet, [](std::size_t) { return false; }))) EXPECT_EQ(side, 0);
+    for (const std::int8_t side : find_body_sides(mesh_of(open, [](std::size_t) { return false; })))
+        EXPECT_EQ(side, -1);
+    for (const std::int8_t side : find_body_sides(mesh_of(sheet, [](std::size_t) { return false; })))
+        EXPECT_EQ(side, 0);
 }
 
 // All edges of the face in the middle are edges of three or four.

@@ -19,11 +19,13 @@ std::vector<Segment> straws(Random& random, int count, bool meet) {
     std::vector<Segment> segments;
     HalfEdge h = 0;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 from = meet ? glm::dvec3(0.0) : random.in_box(0.4), along = random.real(0.3, 1) * random.direction();
+        const glm::dvec3 from = meet ? glm::dvec3(0.0) : random.in_box(0.4),
+                         along = random.real(0.3, 1) * random.direction();
         for (int side = 0; side < 2; ++side) {
             const glm::dvec3 beside = 0.002 * random.direction();
             h += static_cast<HalfEdge>(random.integer(1, 4));
-            segments.push_back({h, static_cast<std::uint32_t>(i), glm::vec3(meet ? from : from + beside), glm::vec3(from + along + beside)});
+            segments.push_back({h, static_cast<std::uint32_t>(i), glm::vec3(meet ? from : from + beside),
+                                glm::vec3(from + along + beside)});
         }
     }
     return segments;
@@ -35,7 +37,8 @@ double distance_to(const Segment& s, const glm::dvec3& p) {
 }
 
 /// The definition, written down once more.
-std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own, const glm::dvec3& at, double reach_part = 0.05) {
+std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own,
+                                          const glm::dvec3& at, double reach_part = 0.05) {
     const glm::dvec3 along = glm::dvec3(own.b) - glm::dvec3(own.a);
     double nearest = reach_part * glm::length(along);
     std::optional<HalfEdge> partner;
@@ -88,16 +91,13 @@ TEST(BorderCrowd, WhatIsSeenNearAPlaceIsFoundAlongTheLineOfSight) {
                 ASSERT_EQ(partner, expected) << "seed " << seed;
             }
             if (!expected) continue;
-            const Segment& other =
-                *std::find_if(segments.begin(), segments.end(),
-                              [&](const Segment& s) { return s.half_edge == *expected; });
+            const Segment& other = *std::find_if(segments.begin(), segments.end(),
+                                                 [&](const Segment& s) { return s.half_edge == *expected; });
             bool is_seen = false;
             for (int step = 0; step <= 2000 && !is_seen; ++step) {
-                const glm::dvec3 off =
-                    glm::mix(glm::dvec3(other.a), glm::dvec3(other.b), step / 2000.0) - at;
+                const glm::dvec3 off = glm::mix(glm::dvec3(other.a), glm::dvec3(other.b), step / 2000.0) - at;
                 const double away = glm::dot(off, sight.direction);
-                is_seen = glm::length(off - away * sight.direction) <
-                          sight.radius + sight.growth * std::abs(away);
+                is_seen = glm::length(off - away * sight.direction) < sight.radius + sight.growth * std::abs(away);
             }
             if (is_seen) {
                 ASSERT_EQ(partner, expected) << "seed " << seed;
@@ -132,7 +132,9 @@ TEST(BorderCrowd, NeighbourhoodsTellOfPlacesAround) {
                     ++searched;
                 }
                 const auto expected = index.seam_partner(own.half_edge, at);
-                if (answer.has_answer) { ASSERT_EQ(answer.partner, expected) << "seed " << seed << " step " << step; }
+                if (answer.has_answer) {
+                    ASSERT_EQ(answer.partner, expected) << "seed " << seed << " step " << step;
+                }
                 changed += step > 0 && expected != before;
                 before = expected;
                 ++asked;
@@ -211,7 +213,9 @@ TEST(BorderCrowd, ReachIsHalvedUntilFewAreInReach) {
         double in_reach = 0;
         for (const Segment& own : segments) {
             const glm::dvec3 middle = 0.5 * (own.a + own.b);
-            for (const Segment& s : segments) in_reach += s.polygon != own.polygon && distance_to(s, middle) <= index.reach_part() * glm::distance(own.a, own.b);
+            for (const Segment& s : segments)
+                in_reach += s.polygon != own.polygon &&
+                            distance_to(s, middle) <= index.reach_part() * glm::distance(own.a, own.b);
         }
         if (jitter > 0) {
             EXPECT_LE(in_reach / 500, 6) << jitter;
@@ -256,7 +260,8 @@ TEST(BorderCrowd, SearchesLookAtFewPieces) {
         std::size_t nearest = 0;
         tree.visit_nearest(at, reach, [&](std::uint32_t p) {
             ++visited;
-            const glm::dvec3 outside = glm::max(glm::max(glm::dvec3(pieces[p].low) - at, at - glm::dvec3(pieces[p].high)), glm::dvec3(0.0));
+            const glm::dvec3 outside =
+                glm::max(glm::max(glm::dvec3(pieces[p].low) - at, at - glm::dvec3(pieces[p].high)), glm::dvec3(0.0));
             if (glm::length(outside) < reach) {
                 reach = glm::length(outside);
                 nearest = p + 1;
@@ -264,7 +269,8 @@ TEST(BorderCrowd, SearchesLookAtFewPieces) {
         });
         double least = 0.05;
         for (const SegmentPiece& p : pieces) {
-            least = std::min(least, glm::length(glm::max(glm::max(glm::dvec3(p.low) - at, at - glm::dvec3(p.high)), glm::dvec3(0.0))));
+            least = std::min(least, glm::length(glm::max(glm::max(glm::dvec3(p.low) - at, at - glm::dvec3(p.high)),
+                                                         glm::dvec3(0.0))));
         }
         ASSERT_EQ(reach, least);
         ASSERT_EQ(nearest != 0, least < 0.05);

@@ -17,7 +17,8 @@ using test::soup_of;
 using Segment = BorderIndex::Segment;
 
 /// The definition, written down once more.
-std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own, const glm::dvec3& at, double reach_part = 0.05) {
+std::optional<HalfEdge> partner_by_search(const std::vector<Segment>& segments, const Segment& own,
+                                          const glm::dvec3& at, double reach_part = 0.05) {
     const glm::dvec3 along = glm::dvec3(own.b) - glm::dvec3(own.a);
     double nearest = reach_part * glm::length(along);
     std::optional<HalfEdge> partner;
@@ -49,13 +50,15 @@ TEST(BorderIndex, AgreesWithASearchThroughAllSegments) {
             const glm::dvec3 direction = glm::normalize(main_direction + 0.3 * random.in_box(1));
             const glm::dvec3 half = std::pow(10.0, random.real(-spread, 1)) * direction;
             h += static_cast<HalfEdge>(random.integer(1, 5));
-            segments.push_back({h, static_cast<std::uint32_t>(random.integer(0, 20)), glm::vec3(middle - half), glm::vec3(middle + half)});
+            segments.push_back({h, static_cast<std::uint32_t>(random.integer(0, 20)), glm::vec3(middle - half),
+                                glm::vec3(middle + half)});
         }
         const BorderIndex index(segments);
         for (const Segment& own : segments) {
             const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), random.real(0, 1));
             const auto expected = partner_by_search(segments, own, at, index.reach_part());
-            ASSERT_EQ(index.seam_partner(own.half_edge, at), expected) << "seed " << seed << ", half-edge " << own.half_edge;
+            ASSERT_EQ(index.seam_partner(own.half_edge, at), expected)
+                << "seed " << seed << ", half-edge " << own.half_edge;
             ASSERT_TRUE(index.find_candidates(own.half_edge, kAll, candidates));
             ASSERT_EQ(candidates.nearest(at), expected) << "seed " << seed << ", half-edge " << own.half_edge;
             found += expected.has_value();
@@ -104,7 +107,8 @@ TEST(BorderIndex, CoordinatesMayHaveAnySize) {
     for (const float size : {1e-37f, 1e-30f, 1e-10f, 1.0f, 1e10f, 1e20f, 1e30f}) {
         std::vector<Segment> segments;
         for (HalfEdge h = 0; h < 20; ++h) {
-            segments.push_back({h, h, {size * static_cast<float>(h / 2), 0, 0}, {size * static_cast<float>(h / 2), size, 0}});
+            segments.push_back(
+                {h, h, {size * static_cast<float>(h / 2), 0, 0}, {size * static_cast<float>(h / 2), size, 0}});
         }
         const BorderIndex index(segments);
         for (HalfEdge h = 0; h < 20; ++h) {
@@ -139,7 +143,8 @@ TEST(SeamPartner, PatchesAlongOneCurveAreSeamsOfEachOther) {
         for (const Segment& s : mesh.borders.segments()) {
             const bool on_curve = std::abs(glm::length(s.a) - 1) < 1e-5 && std::abs(glm::length(s.b) - 1) < 1e-5;
             for (const double t : {0.1, 0.5, 0.8}) {
-                const auto partner = mesh.borders.seam_partner(s.half_edge, glm::mix(glm::dvec3(s.a), glm::dvec3(s.b), t));
+                const auto partner =
+                    mesh.borders.seam_partner(s.half_edge, glm::mix(glm::dvec3(s.a), glm::dvec3(s.b), t));
                 if (!on_curve) {
                     ASSERT_FALSE(partner.has_value()) << "far from the other patch";
                     continue;
@@ -159,7 +164,14 @@ TEST(SeamPartner, PatchesAlongOneCurveAreSeamsOfEachOther) {
 
 TEST(SeamPartner, SlitsWiderThanATwentiethOfTheEdgeAreNoSeams) {
     for (const double slit : {0.049, 0.051, 0.5}) {
-        const PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, -1, 0}, {0, -1, 0}, {0, slit, 0}, {1, slit, 0}, {1, 1 + slit, 0}, {0, 1 + slit, 0}},
+        const PolygonSoup soup = soup_of({{0, 0, 0},
+                                          {1, 0, 0},
+                                          {1, -1, 0},
+                                          {0, -1, 0},
+                                          {0, slit, 0},
+                                          {1, slit, 0},
+                                          {1, 1 + slit, 0},
+                                          {0, 1 + slit, 0}},
                                          {{0, 1, 2, 3}, {4, 5, 6, 7}});
         EXPECT_EQ(count_edges(build_meshes(soup, {}).at(0)).seam, slit < 0.05 ? 2u : 0u) << slit;
     }
@@ -170,7 +182,9 @@ TEST(SeamPartner, EdgesAtAnAngleAreNoSeams) {
     for (const double degrees : {0.0, 20.0, 30.0, 90.0, 150.0, 165.0}) {
         const double a = degrees * std::numbers::pi / 180;
         const glm::dvec3 along(std::cos(a), std::sin(a), 0), up(0, 0, 1);
-        const PolygonSoup soup = soup_of({{-1, 0, 0}, {1, 0, 0}, {1, 0, -1}, {-1, 0, -1}, -along, along, along + up, -along + up}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
+        const PolygonSoup soup =
+            soup_of({{-1, 0, 0}, {1, 0, 0}, {1, 0, -1}, {-1, 0, -1}, -along, along, along + up, -along + up},
+                    {{0, 1, 2, 3}, {4, 5, 6, 7}});
         const bool nearly_parallel = std::abs(std::cos(a)) > 0.9;
         EXPECT_EQ(count_edges(build_meshes(soup, {}).at(0)).seam, nearly_parallel && degrees > 0 ? 2u : 0u) << degrees;
     }
@@ -178,7 +192,10 @@ TEST(SeamPartner, EdgesAtAnAngleAreNoSeams) {
 
 TEST(SeamPartner, APolygonIsNoSeamOfItself) {
     // A sliver whose long sides are nearer than a twentieth of their length.
-    EXPECT_EQ(count_edges(build_meshes(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 0.01, 0}, {0, 0.01, 0}}, {{0, 1, 2, 3}}), {}).at(0)).seam, 0u);
+    EXPECT_EQ(
+        count_edges(build_meshes(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 0.01, 0}, {0, 0.01, 0}}, {{0, 1, 2, 3}}), {}).at(0))
+            .seam,
+        0u);
 }
 
 }  // namespace

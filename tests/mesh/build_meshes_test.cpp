@@ -32,7 +32,8 @@ Mesh build_one(const PolygonSoup& soup) {
 }
 
 TEST(BuildMeshes, VerticesWithEqualCoordinatesAreOne) {
-    const Mesh mesh = build_one(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0, 0.0, -0.0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}));
+    const Mesh mesh = build_one(
+        soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0, 0.0, -0.0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}));
     EXPECT_EQ(mesh.positions.size(), 4u);
     EXPECT_EQ(mesh.repairs.welded_vertices, 2u);
     EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
@@ -41,13 +42,19 @@ TEST(BuildMeshes, VerticesWithEqualCoordinatesAreOne) {
 
 TEST(BuildMeshes, NearlyEqualCoordinatesAreNotWelded) {
     const double next = std::nextafter(1.0f, 2.0f);
-    EXPECT_EQ(build_one(soup_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {next, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 2, 4}})).positions.size(), 5u);
+    EXPECT_EQ(build_one(soup_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {next, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 2, 4}}))
+                  .positions.size(),
+              5u);
     // Below single precision they are equal.
-    EXPECT_EQ(build_one(soup_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1 + 1e-12, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 2, 4}})).positions.size(), 4u);
+    EXPECT_EQ(
+        build_one(soup_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1 + 1e-12, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 2, 4}}))
+            .positions.size(),
+        4u);
 }
 
 TEST(BuildMeshes, ObjectsAreNotWeldedToEachOther) {
-    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}, {3, 4, 6}, {0, 2, 1}});
+    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 0}},
+                               {{0, 1, 2}, {3, 4, 5}, {3, 4, 6}, {0, 2, 1}});
     soup.object_names = {"a", "b"};
     soup.polygon_object = {0, 1, 0, 1};
     const std::vector<Mesh> meshes = build_meshes(soup, {});
@@ -67,8 +74,9 @@ TEST(BuildMeshes, ObjectsAreNotWeldedToEachOther) {
 }
 
 TEST(BuildMeshes, RepeatedCornersInARowCollapse) {
-    const Mesh mesh = build_one(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 0}},
-                                        {{0, 0, 1, 2}, {0, 2, 3, 3, 0, 0}, {0, 1, 4, 3}, {0, 1, 0, 1}, {2, 2, 2}, {0, 1}, {}}));
+    const Mesh mesh =
+        build_one(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 0}},
+                          {{0, 0, 1, 2}, {0, 2, 3, 3, 0, 0}, {0, 1, 4, 3}, {0, 1, 0, 1}, {2, 2, 2}, {0, 1}, {}}));
     EXPECT_EQ(mesh.repairs.input_polygons, 7u);
     EXPECT_EQ(mesh.repairs.input_triangles, 2u + 4 + 2 + 2 + 1);
     EXPECT_EQ(mesh.repairs.degenerate_polygons, 4u);
@@ -77,8 +85,13 @@ TEST(BuildMeshes, RepeatedCornersInARowCollapse) {
 }
 
 TEST(BuildMeshes, SpikesCollapse) {
-    for (const Polygons& polygons : {Polygons{{0, 1, 2, 4, 2, 3}}, {{4, 0, 1, 2, 3, 0}}, {{0, 1, 2, 3, 0, 4}}, {{3, 4, 5, 4, 3, 0, 1, 2}}, {{5, 4, 0, 1, 2, 3, 0, 4}}}) {
-        const Mesh mesh = build_one(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 5, 1}, {6, 5, 7}}, polygons));
+    for (const Polygons& polygons : {Polygons{{0, 1, 2, 4, 2, 3}},
+                                     {{4, 0, 1, 2, 3, 0}},
+                                     {{0, 1, 2, 3, 0, 4}},
+                                     {{3, 4, 5, 4, 3, 0, 1, 2}},
+                                     {{5, 4, 0, 1, 2, 3, 0, 4}}}) {
+        const Mesh mesh =
+            build_one(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 5, 1}, {6, 5, 7}}, polygons));
         EXPECT_EQ(mesh.positions.size(), 4u);
         EXPECT_EQ(mesh.triangles.size(), 2u);
         EXPECT_EQ(count_edges(mesh).border, 4u);
@@ -112,11 +125,13 @@ TEST(BuildMeshes, DuplicatesAreDroppedWhateverTheirWindingAndStart) {
                 std::rotate(other.begin(), other.begin() + first, other.end());
                 if (reversed) std::reverse(other.begin(), other.end());
                 for (const bool swapped : {false, true}) {
-                    const Mesh mesh = build_one(soup_of(heptagon, swapped ? Polygons{other, polygon} : Polygons{polygon, other}));
+                    const Mesh mesh =
+                        build_one(soup_of(heptagon, swapped ? Polygons{other, polygon} : Polygons{polygon, other}));
                     ASSERT_EQ(mesh.repairs.duplicate_polygons, 1u) << n << ' ' << first << ' ' << reversed;
                     ASSERT_EQ(mesh.polygon_count, 1u);
                     ASSERT_EQ(mesh.triangles.size(), n - 2);
-                    ASSERT_EQ(mesh.triangles[0], build_one(soup_of(heptagon, {swapped ? other : polygon})).triangles[0]) << "the first one stays";
+                    ASSERT_EQ(mesh.triangles[0], build_one(soup_of(heptagon, {swapped ? other : polygon})).triangles[0])
+                        << "the first one stays";
                 }
             }
         }
@@ -139,7 +154,8 @@ TEST(BuildMeshes, DuplicatesAfterWeldingAreFoundAmongMany) {
         for (int i = 0; i < 100; i += copies == 2 ? 10 : 1) {
             const auto v = static_cast<std::uint32_t>(positions.size());
             positions.insert(positions.end(), {{0, 0, 0}, {0, 0, 1}, {std::cos(0.06 * i), std::sin(0.06 * i), 0}});
-            polygons.push_back(copies == 1 ? std::vector<std::uint32_t>{v, v + 2, v + 1} : std::vector<std::uint32_t>{v + 1, v + 2, v});
+            polygons.push_back(copies == 1 ? std::vector<std::uint32_t>{v, v + 2, v + 1}
+                                           : std::vector<std::uint32_t>{v + 1, v + 2, v});
         }
     }
     const Mesh mesh = build_one(soup_of(positions, polygons));
@@ -166,8 +182,7 @@ std::vector<int> without_spikes(std::vector<int> corners) {
 std::optional<std::vector<int>> cut_off_piece(std::vector<int>& corners) {
     for (std::size_t j = 0; j < corners.size(); ++j) {
         for (std::size_t i = 0; i < j; ++i) {
-            if (corners[i] != corners[j] || corners[i + 1] != corners[(j + 1) % corners.size()])
-                continue;
+            if (corners[i] != corners[j] || corners[i + 1] != corners[(j + 1) % corners.size()]) continue;
             const auto begin = corners.begin() + static_cast<std::ptrdiff_t>(i),
                        end = corners.begin() + static_cast<std::ptrdiff_t>(j);
             const std::vector<int> piece(begin, end);
@@ -187,7 +202,8 @@ TEST(BuildMeshes, AgreesWithObviousRepairsOnRandomPolygons) {
         Polygons polygons;
         for (int i = random.integer(1, 60); i > 0; --i) {
             std::vector<std::uint32_t> polygon(static_cast<std::size_t>(seed % 2 == 0 ? 3 : random.integer(0, 7)));
-            for (auto& v : polygon) v = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(positions.size()) - 1));
+            for (auto& v : polygon)
+                v = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(positions.size()) - 1));
             polygons.push_back(polygon);
         }
         const Mesh mesh = build_one(soup_of(positions, polygons));
@@ -198,13 +214,13 @@ TEST(BuildMeshes, AgreesWithObviousRepairsOnRandomPolygons) {
         for (const auto& polygon : polygons) {
             std::vector<int> corners;  // numbers of the first vertex at the place
             for (const std::uint32_t v : polygon) {
-                corners.push_back(static_cast<int>(std::find(positions.begin(), positions.end(), positions[v]) - positions.begin()));
+                corners.push_back(
+                    static_cast<int>(std::find(positions.begin(), positions.end(), positions[v]) - positions.begin()));
             }
             pieces.push_back(without_spikes(corners));
         }
         for (std::size_t i = 0; i < pieces.size(); ++i) {
-            while (const auto piece = cut_off_piece(pieces[i]))
-                pieces.push_back(without_spikes(*piece));
+            while (const auto piece = cut_off_piece(pieces[i])) pieces.push_back(without_spikes(*piece));
             pieces[i] = without_spikes(pieces[i]);
         }
         for (const std::vector<int>& corners : pieces) {
@@ -212,7 +228,8 @@ TEST(BuildMeshes, AgreesWithObviousRepairsOnRandomPolygons) {
             for (const int a : corners) {
                 for (const int b : corners) {
                     const auto at = [&](int v) { return positions[static_cast<std::size_t>(v)]; };
-                    has_area = has_area || glm::cross(at(a) - at(corners[0]), at(b) - at(corners[0])) != glm::dvec3(0.0);
+                    has_area =
+                        has_area || glm::cross(at(a) - at(corners[0]), at(b) - at(corners[0])) != glm::dvec3(0.0);
                 }
             }
             if (corners.size() < 3 || !has_area) {
@@ -242,11 +259,15 @@ TEST(BuildMeshes, ModelsFarFromZeroKeepTheirDetails) {
     }
     for (const glm::dvec3& p : expected) body.add<double>({p.x, p.y, p.z});
     body.add<double>({0, 0, 0});  // a vertex that no polygon uses
-    for (int i = 0; i < 20; ++i) body.add<std::uint8_t>({4}).add<std::int32_t>({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+    for (int i = 0; i < 20; ++i)
+        body.add<std::uint8_t>({4}).add<std::int32_t>({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
     const test::TemporaryFolder folder;
-    const PolygonSoup soup = read_ply(folder.write(
-        "far.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 43\nproperty double x\nproperty double y\nproperty double z\n"
-                   "element face 20\nproperty list uchar int vertex_indices\nend_header\n" + body.bytes()));
+    const PolygonSoup soup =
+        read_ply(folder.write("far.ply",
+                              "ply\nformat binary_little_endian 1.0\nelement vertex 43\nproperty double x\nproperty "
+                              "double y\nproperty double z\n"
+                              "element face 20\nproperty list uchar int vertex_indices\nend_header\n" +
+                                  body.bytes()));
     const Mesh mesh = build_one(soup);
     ASSERT_EQ(mesh.positions.size(), expected.size());
     EXPECT_EQ(mesh.polygon_count, 20u);
@@ -269,7 +290,9 @@ TEST(BuildMeshes, NearZeroCoordinatesKeepTheirValues) {
 TEST(BuildMeshes, TheOriginMovesWhereTheModelIsFarFromIt) {
     for (const double distance : {15.0, 17.0}) {
         const glm::dvec3 at(2 * distance, 0, 0);
-        const Mesh mesh = build_one(soup_of({at + glm::dvec3(-2, 0, 0), at + glm::dvec3(2, 0, 0), at + glm::dvec3(0, 1, 0), {-900, 0, 0}}, {{0, 1, 2}}));
+        const Mesh mesh = build_one(
+            soup_of({at + glm::dvec3(-2, 0, 0), at + glm::dvec3(2, 0, 0), at + glm::dvec3(0, 1, 0), {-900, 0, 0}},
+                    {{0, 1, 2}}));
         EXPECT_EQ(mesh.origin.x, distance > 16 ? at.x : 0.0) << distance;
     }
 }
@@ -288,7 +311,8 @@ TEST(BuildMeshes, TrianglesKnowTheirPolygon) {
 }
 
 TEST(BuildMeshes, MaterialsStayWithTheirPolygons) {
-    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 1}, {0, 1, 2, 3}, {0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}});
+    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}},
+                               {{0, 1, 1}, {0, 1, 2, 3}, {0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}});
     soup.polygon_material = {5, 3, 9, 0, 4};
     const Mesh mesh = build_one(soup);
     EXPECT_EQ(mesh.polygon_material, (std::vector<std::uint32_t>{3, 0, 4}));
@@ -300,8 +324,10 @@ TEST(BuildMeshes, MaterialsStayWithTheirPolygons) {
 }
 
 TEST(BuildMeshes, MarksFindTheirEdgesAfterWelding) {
-    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}, {3, 4, 5}});
-    soup.marked_edges = {{4, 0}, {5, 3}, {1, 5}, {6, 0}, {0, 3}};  // loose: 1-5, to a vertex without polygon; of no length
+    PolygonSoup soup =
+        soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}, {3, 4, 5}});
+    soup.marked_edges = {
+        {4, 0}, {5, 3}, {1, 5}, {6, 0}, {0, 3}};  // loose: 1-5, to a vertex without polygon; of no length
     const Mesh mesh = build_one(soup);
     EXPECT_EQ(count_edges(mesh).marked, 4u);
     EXPECT_EQ(count_edges(mesh).loose, 2u);
@@ -313,7 +339,8 @@ TEST(BuildMeshes, MarksFindTheirEdgesAfterWelding) {
 }
 
 TEST(BuildMeshes, MarksBelongToAllObjectsWithTheEdge) {
-    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {4, 5, 3}, {0, 1, 3}});
+    PolygonSoup soup =
+        soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {4, 5, 3}, {0, 1, 3}});
     soup.object_names = {"a", "b", "c"};
     soup.polygon_object = {0, 1, 2};
     soup.marked_edges = {{0, 2}};
@@ -326,7 +353,8 @@ TEST(BuildMeshes, MarksBelongToAllObjectsWithTheEdge) {
 TEST(BuildMeshes, AMarkedDiagonalIsCountedThoughItIsNoEdgeOfAPolygon) {
     PolygonSoup soup = soup_of(kSquare, {{0, 1, 2, 3}});
     EXPECT_EQ(count_edges(build_one(soup)).marked, 0u);
-    soup.marked_edges = {{0, 1}, {0, 2}, {1, 3}};  // one of the diagonals cuts the square, the other one is a loose line
+    soup.marked_edges = {
+        {0, 1}, {0, 2}, {1, 3}};  // one of the diagonals cuts the square, the other one is a loose line
     const EdgeCounts counts = count_edges(build_one(soup));
     EXPECT_EQ(counts.marked, 3u);
     EXPECT_EQ(counts.loose, 1u);
@@ -392,7 +420,9 @@ TEST(BuildMeshes, ManyMarksInManyObjectsComeToAnEnd) {
 
 TEST(BuildMeshes, LargeAndSmallCoordinatesGiveFiniteNormals) {
     for (const double size : {1e-44, 1e-30, 1e-3, 1e20, 1e30}) {
-        const Mesh mesh = build_one(soup_of({{0, 0, 0}, {size, 0, 0}, {size, size, 0}, {0, size, 0}, {0.5 * size, 2 * size, 0}}, {{0, 1, 2, 3}, {3, 2, 4}}));
+        const Mesh mesh =
+            build_one(soup_of({{0, 0, 0}, {size, 0, 0}, {size, size, 0}, {0, size, 0}, {0.5 * size, 2 * size, 0}},
+                              {{0, 1, 2, 3}, {3, 2, 4}}));
         EXPECT_EQ(mesh.triangles.size(), 3u) << size;
         EXPECT_EQ(mesh.polygon_normals[0], glm::vec3(0, 0, 1)) << size;
         EXPECT_EQ(count_edges(mesh).seam, 0u);
@@ -400,7 +430,8 @@ TEST(BuildMeshes, LargeAndSmallCoordinatesGiveFiniteNormals) {
 }
 
 TEST(CountEdges, LeavesOutTheDiagonalsOfPolygons) {
-    const Mesh mesh = build_one(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}, {1, 0, 1}}, {{0, 1, 2, 3}, {1, 4, 5, 2}, {1, 2, 6}}));
+    const Mesh mesh = build_one(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}, {1, 0, 1}},
+                                        {{0, 1, 2, 3}, {1, 4, 5, 2}, {1, 2, 6}}));
     const EdgeCounts counts = count_edges(mesh);
     EXPECT_EQ(counts.edges, 3u + 3 + 2 + 1);
     EXPECT_EQ(counts.border, 8u);

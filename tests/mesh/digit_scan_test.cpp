@@ -21,7 +21,8 @@ TEST(DigitScan, CountsDigitsBeforeAnyOtherByte) {
         const char c = static_cast<char>(byte);
         for (int at = 0; at < 8; ++at) {
             for (const char behind : {'0', '9', ' ', '\xFF', '\xCF'}) {
-                std::string text = std::string("90909090").substr(0, static_cast<std::size_t>(at)) + c + std::string(8, behind);
+                std::string text =
+                    std::string("90909090").substr(0, static_cast<std::size_t>(at)) + c + std::string(8, behind);
                 int expected = 0;
                 while (expected < 8 && is_digit(text[static_cast<std::size_t>(expected)])) ++expected;
                 ASSERT_EQ(count_digits(load_eight(text.data())), expected) << "byte " << byte << " at " << at;
@@ -44,12 +45,15 @@ TEST(DigitScan, GivesTheValueOfOneToEightDigits) {
 
 TEST(DigitScan, AcceptsPlainNumbersAndNothingElse) {
     double value = 0;
-    for (const std::string text : {"0", "7", "-7", "1234567", "-1234567.12345678", "0.1", "000.5", "-0", "3.00000000"}) {
+    for (const std::string text :
+         {"0", "7", "-7", "1234567", "-1234567.12345678", "0.1", "000.5", "-0", "3.00000000"}) {
         const std::string p = padded(text);
         ASSERT_EQ(scan_plain_decimal(p.data(), value), p.data() + text.size()) << text;
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr))) << text;
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr)))
+            << text;
     }
-    for (const std::string text : {"", "-", "+1", "--1", ".5", "5.", "12345678", "0.123456789", "1e5", "1.5E5", "1.5.5", "x", "nan"}) {
+    for (const std::string text :
+         {"", "-", "+1", "--1", ".5", "5.", "12345678", "0.123456789", "1e5", "1.5E5", "1.5.5", "x", "nan"}) {
         EXPECT_EQ(scan_plain_decimal(padded(text).data(), value), nullptr) << text;
     }
     std::uint32_t integer = 0;

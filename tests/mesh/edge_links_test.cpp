@@ -23,7 +23,8 @@ TEST(LinkEdges, AgreesWithAMapOnRandomTriangles) {
         for (auto& t : triangles) {
             for (auto& v : t) v = static_cast<std::uint32_t>(random.integer(0, vertices - 1));
         }
-        ASSERT_EQ(link_edges(triangles, static_cast<std::size_t>(vertices)), test::link_edges_by_map(triangles)) << "seed " << seed;
+        ASSERT_EQ(link_edges(triangles, static_cast<std::size_t>(vertices)), test::link_edges_by_map(triangles))
+            << "seed " << seed;
     }
 }
 

@@ -7,8 +7,7 @@
 namespace burin::test {
 
 std::string base64(std::string_view bytes) {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t bits = 0;
@@ -22,9 +21,7 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
-std::string data_uri(std::string_view bytes) {
-    return "data:application/octet-stream;base64," + base64(bytes);
-}
+std::string data_uri(std::string_view bytes) { return "data:application/octet-stream;base64," + base64(bytes); }
 
 std::string glb(std::string json, std::string binary) {
     json.resize((json.size() + 3) / 4 * 4, ' ');
@@ -40,13 +37,9 @@ std::string glb(std::string json, std::string binary) {
     return bytes + chunk.bytes() + binary;
 }
 
-std::string square_positions() {
-    return ByteWriter().add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}).bytes();
-}
+std::string square_positions() { return ByteWriter().add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}).bytes(); }
 
-std::string square_indices() {
-    return ByteWriter().add<std::uint16_t>({0, 1, 2, 0, 2, 3}).bytes();
-}
+std::string square_indices() { return ByteWriter().add<std::uint16_t>({0, 1, 2, 0, 2, 3}).bytes(); }
 
 std::string GltfParts::json() const {
     std::string text = "{\n";
@@ -67,8 +60,8 @@ std::string GltfParts::json() const {
     add("accessors", accessors);
     add("bufferViews", buffer_views);
     add("buffers", !buffers.empty() ? buffers
-                                    : "[{\"byteLength\": " + std::to_string(binary.size()) +
-                                          ", \"uri\": \"" + data_uri(binary) + "\"}]");
+                                    : "[{\"byteLength\": " + std::to_string(binary.size()) + ", \"uri\": \"" +
+                                          data_uri(binary) + "\"}]");
     return text + "\n}\n";
 }
 
@@ -82,7 +75,8 @@ std::string GltfParts::as_glb() const {
 
 int GltfAccessors::add_view(const std::string& bytes) {
     binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
-    views_ += std::string(views_.empty() ? "" : ", ") + "{\"buffer\": 0, \"byteOffset\": " + std::to_string(binary_.size()) +
+    views_ += std::string(views_.empty() ? "" : ", ") +
+              "{\"buffer\": 0, \"byteOffset\": " + std::to_string(binary_.size()) +
               ", \"byteLength\": " + std::to_string(bytes.size()) + "}";
     binary_ += bytes;
     return view_count_++;
@@ -93,9 +87,11 @@ int GltfAccessors::add_object(const std::string& object) {
     return accessor_count_++;
 }
 
-int GltfAccessors::add(const std::string& bytes, const char* type, int component_type, std::size_t count, const std::string& more) {
+int GltfAccessors::add(const std::string& bytes, const char* type, int component_type, std::size_t count,
+                       const std::string& more) {
     const int view = add_view(bytes);
-    return add_object("{\"bufferView\": " + std::to_string(view) + ", \"type\": \"" + type + "\", \"componentType\": " + std::to_string(component_type) +
+    return add_object("{\"bufferView\": " + std::to_string(view) + ", \"type\": \"" + type +
+                      "\", \"componentType\": " + std::to_string(component_type) +
                       ", \"count\": " + std::to_string(count) + (more.empty() ? "" : ", ") + more + "}");
 }
 

@@ -26,11 +26,9 @@ struct GltfParts {
     std::string scene = "0";
     std::string scenes = R"([{"nodes": [0]}])";
     std::string nodes = R"([{"mesh": 0, "name": "square"}])";
-    std::string meshes =
-        R"([{"name": "quad", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}])";
-    std::string accessors =
-        R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},)"
-        R"( {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}])";
+    std::string meshes = R"([{"name": "quad", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}])";
+    std::string accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},)"
+                            R"( {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}])";
     std::string buffer_views = R"([{"buffer": 0, "byteLength": 48},)"
                                R"( {"buffer": 0, "byteOffset": 48, "byteLength": 12}])";
     std::string buffers;  ///< empty: `binary` in a data URI
@@ -48,7 +46,8 @@ class GltfAccessors {
   public:
     /// Adds an accessor over bytes of its own. `more`: further members of its object, as
     /// R"("normalized": true)". Returns its number.
-    int add(const std::string& bytes, const char* type, int component_type, std::size_t count, const std::string& more = "");
+    int add(const std::string& bytes, const char* type, int component_type, std::size_t count,
+            const std::string& more = "");
     int add_positions(std::initializer_list<float> numbers);
     /// Three numbers each, as floats.
     int add_vectors(std::initializer_list<float> numbers) { return add_positions(numbers); }

@@ -29,14 +29,16 @@ constexpr std::size_t kVertices = 300, kTriangles = 450;
 std::vector<std::uint32_t> some_indices() {
     Random random(3);
     std::vector<std::uint32_t> indices;
-    for (std::size_t i = 0; i < 3 * kTriangles; ++i) indices.push_back(static_cast<std::uint32_t>(random.integer(0, kVertices - 1)));
+    for (std::size_t i = 0; i < 3 * kTriangles; ++i)
+        indices.push_back(static_cast<std::uint32_t>(random.integer(0, kVertices - 1)));
     return indices;
 }
 
 std::vector<float> some_positions() {
     Random random(4);
     std::vector<float> positions;
-    for (std::size_t i = 0; i < 3 * kVertices; ++i) positions.push_back(static_cast<float>(random.integer(-1000, 1000)) / 8);
+    for (std::size_t i = 0; i < 3 * kVertices; ++i)
+        positions.push_back(static_cast<float>(random.integer(-1000, 1000)) / 8);
     return positions;
 }
 
@@ -51,7 +53,8 @@ class CompressedGltf : public testing::Test {
   protected:
     GltfScene read(const GltfParts& parts) { return read_gltf(folder_.write("part.glb", parts.as_glb())); }
     testing::AssertionResult refuses(const GltfParts& parts, std::initializer_list<std::string_view> texts) {
-        return test::refuses([](const std::string& p) { read_gltf(p); }, folder_.write("part.glb", parts.as_glb()), texts);
+        return test::refuses([](const std::string& p) { read_gltf(p); }, folder_.write("part.glb", parts.as_glb()),
+                             texts);
     }
     /// Reads it with one to some bytes of what is compressed changed: it must be read, or be refused.
     void damage(const GltfParts& good, int trials) {
@@ -60,7 +63,8 @@ class CompressedGltf : public testing::Test {
             Random random(static_cast<std::uint64_t>(trial));
             GltfParts parts = good;
             for (int i = random.integer(1, 4); i > 0; --i) {
-                parts.binary[static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.binary.size()) - 1))] = static_cast<char>(random.integer(0, 255));
+                parts.binary[static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.binary.size()) - 1))] =
+                    static_cast<char>(random.integer(0, 255));
             }
             try {
                 read(parts);
@@ -82,7 +86,8 @@ enum class Indices { triangles, sequence };
 /// is not there.
 struct MeshoptFile {
     GltfParts parts;
-    std::string extension[2] = {R"("count": 300, "byteStride": 12, "mode": "ATTRIBUTES")", R"("count": 1350, "byteStride": 4, "mode": "TRIANGLES")"};
+    std::string extension[2] = {R"("count": 300, "byteStride": 12, "mode": "ATTRIBUTES")",
+                                R"("count": 1350, "byteStride": 4, "mode": "TRIANGLES")"};
     std::string view[2] = {R"("byteLength": 3600, "byteStride": 12)", R"("byteOffset": 3600, "byteLength": 5400)"};
     std::string compressed[2];
 
@@ -108,16 +113,22 @@ struct MeshoptFile {
         parts.binary.clear();
         parts.buffer_views = "[";
         for (int i = 0; i < 2; ++i) {
-            parts.buffer_views += std::string(i > 0 ? ", " : "") + "{\"buffer\": 1, " + view[i] + R"(, "extensions": {"EXT_meshopt_compression": {"buffer": 0, "byteOffset": )" +
-                                  std::to_string(parts.binary.size()) + ", \"byteLength\": " + std::to_string(compressed[i].size()) + ", " + extension[i] + "}}}";
+            parts.buffer_views += std::string(i > 0 ? ", " : "") + "{\"buffer\": 1, " + view[i] +
+                                  R"(, "extensions": {"EXT_meshopt_compression": {"buffer": 0, "byteOffset": )" +
+                                  std::to_string(parts.binary.size()) +
+                                  ", \"byteLength\": " + std::to_string(compressed[i].size()) + ", " + extension[i] +
+                                  "}}}";
             parts.binary += compressed[i];
         }
         parts.buffer_views += "]";
-        parts.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 300, "type": "VEC3"}, {"bufferView": 1, "componentType": 5125, "count": 1350, "type": "SCALAR"}])";
+        parts.accessors =
+            R"([{"bufferView": 0, "componentType": 5126, "count": 300, "type": "VEC3"}, {"bufferView": 1, "componentType": 5125, "count": 1350, "type": "SCALAR"}])";
         parts.required = R"(["EXT_meshopt_compression"])";
         set_fallback("{\"byteLength\": 9000}");
     }
-    void set_fallback(const std::string& buffer) { parts.buffers = "[{\"byteLength\": " + std::to_string(parts.binary.size()) + "}, " + buffer + "]"; }
+    void set_fallback(const std::string& buffer) {
+        parts.buffers = "[{\"byteLength\": " + std::to_string(parts.binary.size()) + "}, " + buffer + "]";
+    }
 };
 
 TEST_F(CompressedGltf, ViewsThatMeshoptimizerCompressedAreRead) {
@@ -131,7 +142,8 @@ TEST_F(CompressedGltf, ViewsThatMeshoptimizerCompressedAreRead) {
             bool is_there = false;
             for (std::size_t turn = 0; turn < 3; ++turn) {
                 bool same = true;
-                for (std::size_t k = 0; k < 3; ++k) same = same && soup.corners[3 * t + k] == indices[3 * t + (k + turn) % 3];
+                for (std::size_t k = 0; k < 3; ++k)
+                    same = same && soup.corners[3 * t + k] == indices[3 * t + (k + turn) % 3];
                 is_there = is_there || same;
             }
             ASSERT_TRUE(is_there) << t;
@@ -144,7 +156,8 @@ TEST_F(CompressedGltf, ViewsThatMeshoptimizerCompressedAreRead) {
 
 TEST_F(CompressedGltf, FallbackBuffersNeedNotBeThere) {
     MeshoptFile file;
-    file.set_fallback(R"({"byteLength": 9000, "uri": "none.bin", "extensions": {"EXT_meshopt_compression": {"fallback": true}}})");
+    file.set_fallback(
+        R"({"byteLength": 9000, "uri": "none.bin", "extensions": {"EXT_meshopt_compression": {"fallback": true}}})");
     EXPECT_EQ(read(file.parts).meshes.at(0).corners.size(), 1350u);
     // If they are, what is compressed is read all the same.
     folder_.write("zeros.bin", std::string(9000, '\0'));
@@ -154,7 +167,8 @@ TEST_F(CompressedGltf, FallbackBuffersNeedNotBeThere) {
     file.parts.buffer_views = R"([{"buffer": 1, "byteLength": 3600}, {"buffer": 1, "byteLength": 5400}])";
     file.set_fallback(R"({"byteLength": 9000})");
     EXPECT_TRUE(refuses(file.parts, {"buffers[1]: the buffer has neither a URI nor a binary chunk"}));
-    file.set_fallback(R"({"byteLength": 9000, "uri": "zeros.bin", "extensions": {"EXT_meshopt_compression": {"fallback": true}}})");
+    file.set_fallback(
+        R"({"byteLength": 9000, "uri": "zeros.bin", "extensions": {"EXT_meshopt_compression": {"fallback": true}}})");
     EXPECT_TRUE(refuses(file.parts, {"buffers[1]: the buffer is a fallback"}));
 }
 
@@ -164,18 +178,27 @@ GltfParts filtered(const std::string& raw, std::size_t stride, const char* filte
     bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), raw.data(), 3, stride));
     GltfParts parts;
     parts.binary.assign(bytes.begin(), bytes.end());
-    parts.buffer_views = "[{\"buffer\": 1, \"byteLength\": " + std::to_string(3 * stride) + ", \"byteStride\": " + std::to_string(stride) +
-                         R"(, "extensions": {"EXT_meshopt_compression": {"buffer": 0, "byteLength": )" + std::to_string(bytes.size()) + R"(, "count": 3, "mode": "ATTRIBUTES", "byteStride": )" +
+    parts.buffer_views = "[{\"buffer\": 1, \"byteLength\": " + std::to_string(3 * stride) +
+                         ", \"byteStride\": " + std::to_string(stride) +
+                         R"(, "extensions": {"EXT_meshopt_compression": {"buffer": 0, "byteLength": )" +
+                         std::to_string(bytes.size()) + R"(, "count": 3, "mode": "ATTRIBUTES", "byteStride": )" +
                          std::to_string(stride) + ", \"filter\": \"" + filter + "\"}}}]";
-    parts.buffers = "[{\"byteLength\": " + std::to_string(bytes.size()) + "}, {\"byteLength\": " + std::to_string(3 * stride) + "}]";
+    parts.buffers = "[{\"byteLength\": " + std::to_string(bytes.size()) +
+                    "}, {\"byteLength\": " + std::to_string(3 * stride) + "}]";
     parts.accessors = "[{\"bufferView\": 0, \"count\": 3, " + accessor + "}]";
     parts.meshes = R"([{"primitives": [{"attributes": {"POSITION": 0}}]}])";
     return parts;
 }
 
 TEST_F(CompressedGltf, TheExponentialFilterGivesFloats) {
-    const auto code = [](int exponent, int mantissa) { return static_cast<std::uint32_t>(exponent) << 24 | (static_cast<std::uint32_t>(mantissa) & 0xFFFFFF); };
-    const std::string raw = ByteWriter().add<std::uint32_t>({code(-1, 3), code(0, -7), code(10, 1), code(-20, 1 << 20), code(2, 8388607), code(0, -8388608), code(0, 0), code(-100, 0), code(50, 3)}).bytes();
+    const auto code = [](int exponent, int mantissa) {
+        return static_cast<std::uint32_t>(exponent) << 24 | (static_cast<std::uint32_t>(mantissa) & 0xFFFFFF);
+    };
+    const std::string raw =
+        ByteWriter()
+            .add<std::uint32_t>({code(-1, 3), code(0, -7), code(10, 1), code(-20, 1 << 20), code(2, 8388607),
+                                 code(0, -8388608), code(0, 0), code(-100, 0), code(50, 3)})
+            .bytes();
     EXPECT_EQ(read(filtered(raw, 12, "EXPONENTIAL", R"("type": "VEC3", "componentType": 5126)")).meshes.at(0).positions,
               (std::vector<glm::dvec3>{{1.5, -7, 1024}, {1, 4 * 8388607.0, -8388608}, {0, 0, std::ldexp(3.0, 50)}}));
 }
@@ -186,12 +209,18 @@ TEST_F(CompressedGltf, TheOctahedralFilterGivesUnitVectors) {
     };
     // |x| + |y| is more than 1 where z is below 0.
     const std::string bytes = ByteWriter().add<std::int8_t>({0, 0, 127, 0, 63, -63, 126, 0, 127, 127, 127, 0}).bytes();
-    std::vector<glm::dvec3> p = read(filtered(bytes, 4, "OCTAHEDRAL", R"("type": "VEC3", "componentType": 5120, "normalized": true)")).meshes.at(0).positions;
+    std::vector<glm::dvec3> p =
+        read(filtered(bytes, 4, "OCTAHEDRAL", R"("type": "VEC3", "componentType": 5120, "normalized": true)"))
+            .meshes.at(0)
+            .positions;
     expect_unit(p[0], {0, 0, 1}, 0);
     expect_unit(p[1], {1, -1, 0}, 0.01);
     expect_unit(p[2], {0, 0, -1}, 0);
-    const std::string shorts = ByteWriter().add<std::int16_t>({511, 0, 511, 0, 0, -16000, 32767, 0, -24576, 16384, 32767, 0}).bytes();
-    p = read(filtered(shorts, 8, "OCTAHEDRAL", R"("type": "VEC3", "componentType": 5122, "normalized": true)")).meshes.at(0).positions;
+    const std::string shorts =
+        ByteWriter().add<std::int16_t>({511, 0, 511, 0, 0, -16000, 32767, 0, -24576, 16384, 32767, 0}).bytes();
+    p = read(filtered(shorts, 8, "OCTAHEDRAL", R"("type": "VEC3", "componentType": 5122, "normalized": true)"))
+            .meshes.at(0)
+            .positions;
     expect_unit(p[0], {1, 0, 0}, 0);
     expect_unit(p[1], {0, -16000, 16767}, 1e-4);
     expect_unit(p[2], {-0.5, 0.25, -0.25}, 1e-4);
@@ -201,17 +230,26 @@ TEST_F(CompressedGltf, TheQuaternionFilterGivesUnitQuaternions) {
     // As the rotations of instances: three small numbers, and which the largest one is.
     const auto rotation = [](std::array<double, 4> q, int largest, int bits) {
         const double one = (1 << (bits - 1)) - 1;
-        const auto code = [&](int k) { return static_cast<std::int16_t>(std::lround(q[static_cast<std::size_t>((largest + k) % 4)] * std::sqrt(2.0) * one)); };
-        return ByteWriter().add<std::int16_t>({code(1), code(2), code(3), static_cast<std::int16_t>((static_cast<int>(one) & ~3) | largest)}).bytes();
+        const auto code = [&](int k) {
+            return static_cast<std::int16_t>(
+                std::lround(q[static_cast<std::size_t>((largest + k) % 4)] * std::sqrt(2.0) * one));
+        };
+        return ByteWriter()
+            .add<std::int16_t>(
+                {code(1), code(2), code(3), static_cast<std::int16_t>((static_cast<int>(one) & ~3) | largest)})
+            .bytes();
     };
     const double s = std::sqrt(0.5);
-    GltfParts parts = filtered(rotation({0, 0, s, s}, 3, 16) + rotation({0.8, 0, 0.6, 0}, 0, 12) + rotation({0, 0, 0, 1}, 3, 8), 8, "QUATERNION",
-                               R"("type": "VEC4", "componentType": 5122, "normalized": true)");
+    GltfParts parts =
+        filtered(rotation({0, 0, s, s}, 3, 16) + rotation({0.8, 0, 0.6, 0}, 0, 12) + rotation({0, 0, 0, 1}, 3, 8), 8,
+                 "QUATERNION", R"("type": "VEC4", "componentType": 5122, "normalized": true)");
     parts.accessors = R"([{"type": "VEC3", "componentType": 5126, "count": 3}, )" + parts.accessors.substr(1);
     parts.nodes = R"([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"ROTATION": 1}}}}])";
     const GltfScene scene = read(parts);
     ASSERT_EQ(scene.objects.size(), 3u);
-    const auto turned = [&](std::size_t i, const glm::dvec3& p) { return glm::dvec3(scene.objects[i].to_world * glm::dvec4(p, 1.0)); };
+    const auto turned = [&](std::size_t i, const glm::dvec3& p) {
+        return glm::dvec3(scene.objects[i].to_world * glm::dvec4(p, 1.0));
+    };
     EXPECT_LT(glm::distance(turned(0, {1, 0, 0}), {0, 1, 0}), 1e-3);
     EXPECT_LT(glm::distance(turned(1, {1, 0, 0}), {0.28, 0, 0.96}), 1e-2);
     EXPECT_LT(glm::distance(turned(1, {0, 1, 0}), {0, -1, 0}), 1e-2);
@@ -227,21 +265,34 @@ TEST_F(CompressedGltf, BrokenMeshoptViewsAreRefused) {
         return file.parts;
     };
     const char* const place = "bufferViews[0].extensions.EXT_meshopt_compression";
-    EXPECT_TRUE(refuses(with(0, R"("count": 300, "byteStride": 12, "mode": "POINTS")"), {place, "unknown mode 'POINTS'"}));
-    EXPECT_TRUE(refuses(with(0, R"("count": 300, "byteStride": 12, "mode": "ATTRIBUTES", "filter": "BLUR")"), {place, "unknown filter 'BLUR'"}));
-    EXPECT_TRUE(refuses(with(0, R"("count": 300, "byteStride": 12, "mode": "ATTRIBUTES", "filter": "QUATERNION")"), {place, "byteStride: does not fit the mode and the filter"}));
-    EXPECT_TRUE(refuses(with(0, R"("count": 300, "byteStride": 12, "mode": "ATTRIBUTES", "filter": "OCTAHEDRAL")"), {"byteStride: does not fit"}));
+    EXPECT_TRUE(
+        refuses(with(0, R"("count": 300, "byteStride": 12, "mode": "POINTS")"), {place, "unknown mode 'POINTS'"}));
+    EXPECT_TRUE(refuses(with(0, R"("count": 300, "byteStride": 12, "mode": "ATTRIBUTES", "filter": "BLUR")"),
+                        {place, "unknown filter 'BLUR'"}));
+    EXPECT_TRUE(refuses(with(0, R"("count": 300, "byteStride": 12, "mode": "ATTRIBUTES", "filter": "QUATERNION")"),
+                        {place, "byteStride: does not fit the mode and the filter"}));
+    EXPECT_TRUE(refuses(with(0, R"("count": 300, "byteStride": 12, "mode": "ATTRIBUTES", "filter": "OCTAHEDRAL")"),
+                        {"byteStride: does not fit"}));
     for (const char* stride : {"0", "10", "260", "4294967296"}) {
-        EXPECT_TRUE(refuses(with(0, (R"("count": 300, "mode": "ATTRIBUTES", "byteStride": )" + std::string(stride)).c_str()), {"byteStride: does not fit"})) << stride;
+        EXPECT_TRUE(
+            refuses(with(0, (R"("count": 300, "mode": "ATTRIBUTES", "byteStride": )" + std::string(stride)).c_str()),
+                    {"byteStride: does not fit"}))
+            << stride;
     }
-    EXPECT_TRUE(refuses(with(0, R"("count": 299, "byteStride": 12, "mode": "ATTRIBUTES")"), {"count and byteStride do not fit those of the view"}));
-    EXPECT_TRUE(refuses(with(0, R"("count": 225, "byteStride": 16, "mode": "ATTRIBUTES")"), {"count and byteStride do not fit those of the view"}));
+    EXPECT_TRUE(refuses(with(0, R"("count": 299, "byteStride": 12, "mode": "ATTRIBUTES")"),
+                        {"count and byteStride do not fit those of the view"}));
+    EXPECT_TRUE(refuses(with(0, R"("count": 225, "byteStride": 16, "mode": "ATTRIBUTES")"),
+                        {"count and byteStride do not fit those of the view"}));
     EXPECT_TRUE(refuses(with(0, R"("byteStride": 12, "mode": "ATTRIBUTES")"), {"'count' is missing"}));
-    EXPECT_TRUE(refuses(with(1, R"("count": 1349, "byteStride": 4, "mode": "TRIANGLES")"), {"count: triangles have three numbers each"}));
+    EXPECT_TRUE(refuses(with(1, R"("count": 1349, "byteStride": 4, "mode": "TRIANGLES")"),
+                        {"count: triangles have three numbers each"}));
     EXPECT_TRUE(refuses(with(1, R"("count": 5400, "byteStride": 1, "mode": "INDICES")"), {"byteStride: does not fit"}));
-    EXPECT_TRUE(refuses(with(1, R"("count": 1350, "byteStride": 4, "mode": "INDICES", "filter": "EXPONENTIAL")"), {"byteStride: does not fit"}));
-    EXPECT_TRUE(refuses(with(1, R"("count": 1350, "byteStride": 4, "mode": "INDICES")"), {"bufferViews[1].extensions.EXT_meshopt_compression: the compressed data are broken"}));
-    EXPECT_TRUE(refuses(with(0, R"("count": 300000000000, "byteStride": 12, "mode": "ATTRIBUTES")", R"("byteLength": 3600000000000, "byteStride": 12)"),
+    EXPECT_TRUE(refuses(with(1, R"("count": 1350, "byteStride": 4, "mode": "INDICES", "filter": "EXPONENTIAL")"),
+                        {"byteStride: does not fit"}));
+    EXPECT_TRUE(refuses(with(1, R"("count": 1350, "byteStride": 4, "mode": "INDICES")"),
+                        {"bufferViews[1].extensions.EXT_meshopt_compression: the compressed data are broken"}));
+    EXPECT_TRUE(refuses(with(0, R"("count": 300000000000, "byteStride": 12, "mode": "ATTRIBUTES")",
+                             R"("byteLength": 3600000000000, "byteStride": 12)"),
                         {"what it has compressed needs about 3.3 TB", "--memory-model"}));
     MeshoptFile cut;
     for (std::string& bytes : cut.compressed) bytes.resize(bytes.size() / 2);
@@ -261,7 +312,10 @@ std::unique_ptr<draco::Mesh> strip_for_draco(std::vector<glm::dvec3>& places) {
     const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
     const int joints = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_UINT8);
     const int weights = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_FLOAT32);
-    const auto point = [](int i) { return std::array<float, 3>{static_cast<float>(i / 2), static_cast<float>(i % 2), static_cast<float>(i * i % 7)}; };
+    const auto point = [](int i) {
+        return std::array<float, 3>{static_cast<float>(i / 2), static_cast<float>(i % 2),
+                                    static_cast<float>(i * i % 7)};
+    };
     const std::array<std::uint8_t, 4> joint{1, 0, 0, 0};
     const std::array<float, 4> weight{1, 0, 0, 0};
     for (int f = 0; f < kFaces; ++f) {
@@ -294,8 +348,10 @@ struct DracoFile {
     }
     void set_counts(std::size_t points, std::size_t corners) {
         const std::string count = ", \"count\": " + std::to_string(points) + "}";
-        parts.accessors = R"([{"type": "VEC3", "componentType": 5126)" + count + R"(, {"type": "SCALAR", "componentType": 5123, "count": )" + std::to_string(corners) +
-                          R"(}, {"type": "VEC4", "componentType": 5121)" + count + R"(, {"type": "VEC4", "componentType": 5126)" + count + "]";
+        parts.accessors = R"([{"type": "VEC3", "componentType": 5126)" + count +
+                          R"(, {"type": "SCALAR", "componentType": 5123, "count": )" + std::to_string(corners) +
+                          R"(}, {"type": "VEC4", "componentType": 5121)" + count +
+                          R"(, {"type": "VEC4", "componentType": 5126)" + count + "]";
     }
     void finish() {
         parts.buffer_views = "[{\"buffer\": 0, \"byteLength\": " + std::to_string(parts.binary.size()) + "}]";
@@ -319,7 +375,8 @@ std::vector<std::array<std::array<double, 3>, 3>> sorted_triangles(const std::ve
 TEST_F(CompressedGltf, PrimitivesThatDracoCompressedAreRead) {
     for (const auto method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
         DracoFile file(method);
-        EXPECT_EQ(sorted_triangles(corner_places(read(file.parts).meshes.at(0))), sorted_triangles(file.places)) << method;
+        EXPECT_EQ(sorted_triangles(corner_places(read(file.parts).meshes.at(0))), sorted_triangles(file.places))
+            << method;
         // Joints and weights, too.
         file.parts.scenes = R"([{"nodes": [0, 1, 2]}])";
         file.parts.nodes = R"([{"mesh": 0, "skin": 0}, {}, {"translation": [0, 0, 100]}])";
@@ -359,9 +416,12 @@ TEST_F(CompressedGltf, BrokenDracoDataAreRefused) {
         changed.finish();
         return changed.parts;
     };
-    EXPECT_TRUE(refuses(with(R"("POSITION": 0, "JOINTS_0": 1)", R"("POSITION": 9, "JOINTS_0": 1)"), {place, "it has not all attributes"}));
-    EXPECT_TRUE(refuses(with(R"("POSITION": 0, "JOINTS_0": 1)", R"("POSITION": 1, "JOINTS_0": 1)"), {place, "an attribute is of another type"}));
-    EXPECT_TRUE(refuses(with(R"("bufferView": 0)", R"("bufferView": 1)"), {"bufferView: buffer view 1 does not exist"}));
+    EXPECT_TRUE(refuses(with(R"("POSITION": 0, "JOINTS_0": 1)", R"("POSITION": 9, "JOINTS_0": 1)"),
+                        {place, "it has not all attributes"}));
+    EXPECT_TRUE(refuses(with(R"("POSITION": 0, "JOINTS_0": 1)", R"("POSITION": 1, "JOINTS_0": 1)"),
+                        {place, "an attribute is of another type"}));
+    EXPECT_TRUE(
+        refuses(with(R"("bufferView": 0)", R"("bufferView": 1)"), {"bufferView: buffer view 1 does not exist"}));
     EXPECT_TRUE(refuses(with(R"("indices": 1,)", ""), {"meshes[0].primitives[0]: 'indices' is missing"}));
     EXPECT_TRUE(refuses(with(R"("indices": 1,)", R"("indices": 1, "mode": 5,)"), {place, "only triangles (mode 4)"}));
 }

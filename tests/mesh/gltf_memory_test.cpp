@@ -40,7 +40,8 @@ class GltfMemory : public testing::Test {
   protected:
     GltfScene read(const GltfParts& parts) { return read_gltf(folder_.write("part.gltf", parts.json())); }
     testing::AssertionResult refuses(const GltfParts& parts, std::initializer_list<std::string_view> texts) {
-        return test::refuses([](const std::string& p) { read_gltf(p); }, folder_.write("part.gltf", parts.json()), texts);
+        return test::refuses([](const std::string& p) { read_gltf(p); }, folder_.write("part.gltf", parts.json()),
+                             texts);
     }
     test::TemporaryFolder folder_;
 };
@@ -57,7 +58,8 @@ TEST_F(GltfMemory, PrimitivesThatDifferInWhatIsDrawnAreNotEqual) {
     a.add_indices({0, 1, 2});
     a.add_positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
     a.add(std::string(7500, '\0'), "SCALAR", 5121, 7500);
-    GltfParts parts = gltf_of(a, R"({"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 3}, "indices": 1},
+    GltfParts parts =
+        gltf_of(a, R"({"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 3}, "indices": 1},
         {"attributes": {"POSITION": 0}, "indices": 2}, {"attributes": {"POSITION": 0}, "indices": 1, "material": 0},
         {"attributes": {"POSITION": 0}, "indices": 1, "mode": 1},
         {"attributes": {"POSITION": 0}, "indices": 1, "extensions": {"EXT_mesh_primitive_edge_visibility": {"visibility": 4}}})");
@@ -69,7 +71,9 @@ TEST_F(GltfMemory, PrimitivesThatDifferInWhatIsDrawnAreNotEqual) {
 
 TEST_F(GltfMemory, EqualMeshesAreOne) {
     GltfParts parts;
-    parts.meshes = "[" + repeated(R"({"name": "m#", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]})", 3) + R"(, {"primitives": [{"attributes": {"POSITION": 0}}]}])";
+    parts.meshes = "[" +
+                   repeated(R"({"name": "m#", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]})", 3) +
+                   R"(, {"primitives": [{"attributes": {"POSITION": 0}}]}])";
     parts.scenes = R"([{"nodes": [0, 1, 2]}])";
     parts.nodes = R"([{"mesh": 2, "name": "c"}, {"mesh": 3, "name": "d"}, {"mesh": 0, "name": "a"}])";
     const GltfScene scene = read(parts);
@@ -81,14 +85,19 @@ TEST_F(GltfMemory, EqualMeshesAreOne) {
 }
 
 TEST_F(GltfMemory, AnAccessorThatIsUsedAgainAndAgainIsRefusedBeforeItIsExpanded) {
-    GltfParts parts = gltf_of(many_indices(), repeated(R"({"attributes": {"POSITION": 0}, "indices": 1, "material": #})", 20000));
+    GltfParts parts =
+        gltf_of(many_indices(), repeated(R"({"attributes": {"POSITION": 0}, "indices": 1, "material": #})", 20000));
     parts.materials = "[" + repeated("{}", 20000) + "]";
     EXPECT_TRUE(refuses(parts, {"what it makes of its accessors", " GB", "--memory-model"}));
     // The same by accessors that differ in where they begin.
     GltfAccessors a = many_indices();
-    for (int i = 0; i < 20000; ++i) a.add_object("{\"bufferView\": 1, \"byteOffset\": " + std::to_string(3 * (i % 1000)) + R"(, "type": "SCALAR", "componentType": 5121, "count": 27000})");
+    for (int i = 0; i < 20000; ++i)
+        a.add_object("{\"bufferView\": 1, \"byteOffset\": " + std::to_string(3 * (i % 1000)) +
+                     R"(, "type": "SCALAR", "componentType": 5121, "count": 27000})");
     std::string primitives;
-    for (int i = 0; i < 20000; ++i) primitives += (i > 0 ? ", " : "") + std::string(R"({"attributes": {"POSITION": 0}, "indices": )") + std::to_string(i + 2) + "}";
+    for (int i = 0; i < 20000; ++i)
+        primitives += (i > 0 ? ", " : "") + std::string(R"({"attributes": {"POSITION": 0}, "indices": )") +
+                      std::to_string(i + 2) + "}";
     EXPECT_TRUE(refuses(gltf_of(a, primitives), {"what it makes of its accessors", " GB", "--memory-model"}));
 }
 
@@ -100,7 +109,8 @@ TEST_F(GltfMemory, SoIsWhatPosesLinesMeshesAndInstancesMakeOfIt) {
     posed.nodes = "[" + repeated(R"({"mesh": 0, "weights": [#.5]})", 20000) + "]";
     EXPECT_TRUE(refuses(posed, {"--memory-model"}));
 
-    GltfParts lines = gltf_of(many_indices(), repeated(R"({"attributes": {"POSITION": 0}, "indices": 1, "mode": 3, "material": #})", 20000));
+    GltfParts lines = gltf_of(
+        many_indices(), repeated(R"({"attributes": {"POSITION": 0}, "indices": 1, "mode": 3, "material": #})", 20000));
     lines.materials = "[" + repeated("{}", 20000) + "]";
     EXPECT_TRUE(refuses(lines, {"--memory-model"}));
 
@@ -115,7 +125,11 @@ TEST_F(GltfMemory, SoIsWhatPosesLinesMeshesAndInstancesMakeOfIt) {
 
     GltfParts instances = gltf_of(points, R"({"attributes": {"POSITION": 0}})");
     instances.scene = instances.scenes = "";
-    instances.nodes = "[" + repeated(R"({"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}})", 2000) + "]";
+    instances.nodes =
+        "[" +
+        repeated(R"({"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}})",
+                 2000) +
+        "]";
     EXPECT_TRUE(refuses(instances, {"--memory-model"}));
 }
 
@@ -133,7 +147,9 @@ TEST_F(GltfMemory, TheBudgetIsForWhatIsUsedMoreThanOnce) {
     GltfAccessors a;
     std::string bytes, indices;
     for (std::uint32_t i = 0; i < 30000; ++i) {
-        bytes += ByteWriter().add<float>({static_cast<float>(i % 173), static_cast<float>(i % 211), static_cast<float>(i)}).bytes();
+        bytes += ByteWriter()
+                     .add<float>({static_cast<float>(i % 173), static_cast<float>(i % 211), static_cast<float>(i)})
+                     .bytes();
         indices += ByteWriter().add<std::uint32_t>({i}).bytes();
     }
     a.add(bytes, "VEC3", 5126, 30000);
@@ -155,14 +171,19 @@ TEST_F(GltfMemory, TheBudgetIsForWhatIsUsedMoreThanOnce) {
 TEST_F(GltfMemory, MeshesThatUseFewVerticesOfAnAccessorTakeFew) {
     GltfAccessors a;
     std::string bytes;
-    for (int i = 0; i < 10000; ++i) bytes += ByteWriter().add<float>({static_cast<float>(i), static_cast<float>(i * i), 0}).bytes();
+    for (int i = 0; i < 10000; ++i)
+        bytes += ByteWriter().add<float>({static_cast<float>(i), static_cast<float>(i * i), 0}).bytes();
     a.add(bytes, "VEC3", 5126, 10000);
-    for (std::uint16_t i = 0; i < 2000; ++i) a.add_indices({static_cast<std::uint16_t>(5 * i + 2), static_cast<std::uint16_t>(5 * i), static_cast<std::uint16_t>(9 * i % 7)});
+    for (std::uint16_t i = 0; i < 2000; ++i)
+        a.add_indices({static_cast<std::uint16_t>(5 * i + 2), static_cast<std::uint16_t>(5 * i),
+                       static_cast<std::uint16_t>(9 * i % 7)});
     GltfParts parts = gltf_of(a, "");
     parts.meshes = "[";
     for (int i = 1; i <= 2000; ++i) {
-        parts.meshes += (i > 1 ? ", " : "") + std::string(R"({"primitives": [{"attributes": {"POSITION": 0}, "indices": )") + std::to_string(i) + R"(}, {"attributes": {"POSITION": 0}, "indices": )" +
-                        std::to_string(i) + ", \"mode\": 2}]}";
+        parts.meshes += (i > 1 ? ", " : "") +
+                        std::string(R"({"primitives": [{"attributes": {"POSITION": 0}, "indices": )") +
+                        std::to_string(i) + R"(}, {"attributes": {"POSITION": 0}, "indices": )" + std::to_string(i) +
+                        ", \"mode\": 2}]}";
     }
     parts.meshes += "]";
     parts.scene = parts.scenes = "";

@@ -20,12 +20,15 @@ class GltfNodeExtensions : public testing::Test {
   protected:
     GltfScene read(const GltfParts& parts) { return read_gltf(folder_.write("part.gltf", parts.json())); }
     testing::AssertionResult refuses(const GltfParts& parts, std::initializer_list<std::string_view> texts) {
-        return test::refuses([](const std::string& p) { read_gltf(p); }, folder_.write("part.gltf", parts.json()), texts);
+        return test::refuses([](const std::string& p) { read_gltf(p); }, folder_.write("part.gltf", parts.json()),
+                             texts);
     }
     /// A node moved by (10, 0, 0) with EXT_mesh_gpu_instancing. Accessors from 1 on are the caller's.
     static GltfParts instanced(const GltfAccessors& a, const std::string& attributes) {
         GltfParts parts = gltf_of(a, R"({"attributes": {"POSITION": 0}})");
-        parts.nodes = R"([{"mesh": 0, "name": "tree", "translation": [10, 0, 0], "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {)" + attributes + "}}}}]";
+        parts.nodes =
+            R"([{"mesh": 0, "name": "tree", "translation": [10, 0, 0], "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {)" +
+            attributes + "}}}}]";
         return parts;
     }
     static GltfAccessors triangle() {
@@ -36,7 +39,9 @@ class GltfNodeExtensions : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-void expect_near(const glm::dvec4& a, const glm::dvec4& b) { EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; }
+void expect_near(const glm::dvec4& a, const glm::dvec4& b) {
+    EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z;
+}
 
 TEST_F(GltfNodeExtensions, InstancesAreObjectsAtTheNodesTransformTimesTheirs) {
     GltfAccessors a = triangle();
@@ -81,19 +86,24 @@ TEST_F(GltfNodeExtensions, ListsOfOtherNamesPlaceNothing) {
 
 TEST_F(GltfNodeExtensions, BrokenInstancesAreRefused) {
     GltfAccessors a = triangle();
-    a.add_vectors({0, 0, 0, 2, 0, 0});                                                                                                  // 1
-    a.add(ByteWriter().add<float>({0, 0, 0, 1}).bytes(), "VEC4", 5126, 1);                                                              // 2
-    a.add(ByteWriter().add<float>({0, 0, 0, 1, 0, 0, 0, 0}).bytes(), "VEC4", 5126, 2);                                                  // 3
-    a.add(ByteWriter().add<std::int8_t>({0, 0, 0, 1, 0, 0, 0, 1}).bytes(), "VEC4", 5120, 2);                                            // 4
-    a.add(ByteWriter().add<float>({0, 0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0}).bytes(), "VEC3", 5126, 2);                  // 5
-    a.add(ByteWriter().add<std::int16_t>({0, 0, 0, 0, 0, 0}).bytes(), "VEC3", 5122, 2);                                                 // 6
-    a.add(ByteWriter().add<std::uint8_t>({0, 0, 0, 1, 0, 0, 0, 1}).bytes(), "VEC4", 5121, 2, R"("normalized": true)");                  // 7
+    a.add_vectors({0, 0, 0, 2, 0, 0});                                                        // 1
+    a.add(ByteWriter().add<float>({0, 0, 0, 1}).bytes(), "VEC4", 5126, 1);                    // 2
+    a.add(ByteWriter().add<float>({0, 0, 0, 1, 0, 0, 0, 0}).bytes(), "VEC4", 5126, 2);        // 3
+    a.add(ByteWriter().add<std::int8_t>({0, 0, 0, 1, 0, 0, 0, 1}).bytes(), "VEC4", 5120, 2);  // 4
+    a.add(ByteWriter().add<float>({0, 0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0}).bytes(), "VEC3", 5126,
+          2);                                                                            // 5
+    a.add(ByteWriter().add<std::int16_t>({0, 0, 0, 0, 0, 0}).bytes(), "VEC3", 5122, 2);  // 6
+    a.add(ByteWriter().add<std::uint8_t>({0, 0, 0, 1, 0, 0, 0, 1}).bytes(), "VEC4", 5121, 2,
+          R"("normalized": true)");  // 7
     const std::string place = "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.";
-    EXPECT_TRUE(refuses(instanced(a, R"("TRANSLATION": 1, "ROTATION": 2)"), {place + "ROTATION: has 1 entries, and not 2"}));
+    EXPECT_TRUE(
+        refuses(instanced(a, R"("TRANSLATION": 1, "ROTATION": 2)"), {place + "ROTATION: has 1 entries, and not 2"}));
     EXPECT_TRUE(refuses(instanced(a, R"("TRANSLATION": 1, "SCALE": 0)"), {place + "SCALE: has 3 entries, and not 2"}));
     EXPECT_TRUE(refuses(instanced(a, R"("ROTATION": 3)"), {place + "ROTATION: entry 1 is no rotation"}));
-    EXPECT_TRUE(refuses(instanced(a, R"("ROTATION": 4)"), {place + "ROTATION: must be floats, or normalized bytes or shorts"}));
-    EXPECT_TRUE(refuses(instanced(a, R"("ROTATION": 7)"), {place + "ROTATION: must be floats, or normalized bytes or shorts"}));
+    EXPECT_TRUE(
+        refuses(instanced(a, R"("ROTATION": 4)"), {place + "ROTATION: must be floats, or normalized bytes or shorts"}));
+    EXPECT_TRUE(
+        refuses(instanced(a, R"("ROTATION": 7)"), {place + "ROTATION: must be floats, or normalized bytes or shorts"}));
     EXPECT_TRUE(refuses(instanced(a, R"("TRANSLATION": 5)"), {place + "TRANSLATION: entry 1 is not finite"}));
     EXPECT_TRUE(refuses(instanced(a, R"("SCALE": 6)"), {place + "SCALE: must be floats"}));
     EXPECT_TRUE(refuses(instanced(a, R"("SCALE": 2)"), {"accessors[2]: the type must be VEC3"}));
@@ -128,7 +138,8 @@ TEST_F(GltfNodeExtensions, MaterialsBelowTheirCutoffAreInvisible) {
     GltfParts parts;
     const auto polygons_with = [&](const std::string& material) {
         parts.materials = "[{" + material + "}]";
-        parts.meshes = R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}, {"attributes": {"POSITION": 0}}]}])";
+        parts.meshes =
+            R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}, {"attributes": {"POSITION": 0}}]}])";
         const GltfScene scene = read(parts);
         EXPECT_EQ(scene.materials.at(0).opacity, 1.0f) << material;
         const std::size_t polygons = scene.meshes.at(0).polygon_count();
@@ -137,7 +148,9 @@ TEST_F(GltfNodeExtensions, MaterialsBelowTheirCutoffAreInvisible) {
         EXPECT_EQ(scene.notes, notes);
         return polygons;
     };
-    const auto color = [](const char* alpha) { return R"("pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )" + std::string(alpha) + "]}"; };
+    const auto color = [](const char* alpha) {
+        return R"("pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )" + std::string(alpha) + "]}";
+    };
     EXPECT_EQ(polygons_with(R"("alphaMode": "MASK", )" + color("0.4")), 1u);
     EXPECT_EQ(polygons_with(R"("alphaMode": "MASK", )" + color("0.5")), 3u) << "not below";
     EXPECT_EQ(polygons_with(R"("alphaMode": "MASK", "alphaCutoff": 0.3, )" + color("0.4")), 3u);

@@ -22,7 +22,8 @@ using test::GltfParts;
 
 using Points = std::vector<glm::dvec3>;
 
-constexpr const char* kMorphing = R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}, {"NORMAL": 1}, {"POSITION": 2}]})";
+constexpr const char* kMorphing =
+    R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}, {"NORMAL": 1}, {"POSITION": 2}]})";
 
 /// A triangle with two targets that move it, and one that does not.
 GltfAccessors morphing_triangle() {
@@ -37,7 +38,8 @@ class GltfPose : public testing::Test {
   protected:
     GltfScene read(const GltfParts& parts) { return read_gltf(folder_.write("part.gltf", parts.json())); }
     testing::AssertionResult refuses(const GltfParts& parts, std::initializer_list<std::string_view> texts) {
-        return test::refuses([](const std::string& p) { read_gltf(p); }, folder_.write("part.gltf", parts.json()), texts);
+        return test::refuses([](const std::string& p) { read_gltf(p); }, folder_.write("part.gltf", parts.json()),
+                             texts);
     }
     test::TemporaryFolder folder_;
 };
@@ -55,7 +57,8 @@ TEST_F(GltfPose, WeightsOfANodeComeBeforeThoseOfTheMesh) {
     GltfParts parts = gltf_of(morphing_triangle(), kMorphing);
     parts.meshes.insert(parts.meshes.size() - 2, R"(, "weights": [1, 0, 0])");
     parts.scenes = R"([{"nodes": [0, 1, 2, 3]}])";
-    parts.nodes = R"([{"mesh": 0}, {"mesh": 0, "weights": [2, 0, 0], "translation": [9, 0, 0]}, {"mesh": 0, "weights": [0, 0, 0]},
+    parts.nodes =
+        R"([{"mesh": 0}, {"mesh": 0, "weights": [2, 0, 0], "translation": [9, 0, 0]}, {"mesh": 0, "weights": [0, 0, 0]},
                      {"mesh": 0, "weights": [2, 0, 0]}])";
     const GltfScene scene = read(parts);
     ASSERT_EQ(scene.meshes.size(), 3u) << "one per pose";
@@ -72,8 +75,10 @@ TEST_F(GltfPose, TargetsMayBeSparseWithoutAView) {
     a.add_positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
     const int indices = a.add_view(ByteWriter().add<std::uint8_t>({2}).bytes());
     const int values = a.add_view(ByteWriter().add<float>({0, 0, 3}).bytes());
-    a.add_object(R"({"type": "VEC3", "componentType": 5126, "count": 3, "sparse": {"count": 1, "indices": {"bufferView": )" + std::to_string(indices) +
-                 R"(, "componentType": 5121}, "values": {"bufferView": )" + std::to_string(values) + "}}}");
+    a.add_object(
+        R"({"type": "VEC3", "componentType": 5126, "count": 3, "sparse": {"count": 1, "indices": {"bufferView": )" +
+        std::to_string(indices) + R"(, "componentType": 5121}, "values": {"bufferView": )" + std::to_string(values) +
+        "}}}");
     GltfParts parts = gltf_of(a, R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]})");
     parts.nodes = R"([{"mesh": 0, "weights": [2]}])";
     EXPECT_EQ(read(parts).meshes.at(0).positions, (Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 6}}));
@@ -82,7 +87,8 @@ TEST_F(GltfPose, TargetsMayBeSparseWithoutAView) {
 TEST_F(GltfPose, TargetsMayBeQuantized) {
     GltfAccessors a;
     a.add(ByteWriter().add<std::int16_t>({0, 0, 0, 100, 0, 0, 0, 100, 0}).bytes(), "VEC3", 5122, 3);
-    a.add(ByteWriter().add<std::int8_t>({0, 0, 127, 0, 0, -127, 0, 0, -128}).bytes(), "VEC3", 5120, 3, R"("normalized": true)");
+    a.add(ByteWriter().add<std::int8_t>({0, 0, 127, 0, 0, -127, 0, 0, -128}).bytes(), "VEC3", 5120, 3,
+          R"("normalized": true)");
     GltfParts parts = gltf_of(a, R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]})");
     parts.nodes = R"([{"mesh": 0, "weights": [10]}])";
     EXPECT_EQ(read(parts).meshes.at(0).positions, (Points{{0, 0, 10}, {100, 0, -10}, {0, 100, -10}}));
@@ -98,8 +104,10 @@ GltfAccessors square_of_six(float last_delta) {
 
 TEST_F(GltfPose, VerticesAreWeldedWhereTheTargetsPutThem) {
     for (const bool is_torn : {false, true}) {
-        GltfParts parts = gltf_of(square_of_six(is_torn ? 3 : 1), R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]})");
-        EXPECT_EQ(read_model(folder_.write("part.gltf", parts.json()), {}).meshes.at(0).positions.size(), 4u) << "not moved";
+        GltfParts parts =
+            gltf_of(square_of_six(is_torn ? 3 : 1), R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]})");
+        EXPECT_EQ(read_model(folder_.write("part.gltf", parts.json()), {}).meshes.at(0).positions.size(), 4u)
+            << "not moved";
         parts.nodes = R"([{"mesh": 0, "weights": [1]}])";
         const Model model = read_model(folder_.write("part.gltf", parts.json()), {});
         EXPECT_EQ(model.meshes.at(0).positions.size(), is_torn ? 5u : 4u);
@@ -111,13 +119,16 @@ TEST_F(GltfPose, PrimitivesThatShareVerticesButNotTargetsMoveApart) {
     GltfParts parts = gltf_of(morphing_triangle(), R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]},
                                                      {"attributes": {"POSITION": 0}, "targets": [{"POSITION": 2}]})");
     parts.nodes = R"([{"mesh": 0, "weights": [1]}])";
-    EXPECT_EQ(read(parts).meshes.at(0).positions, (Points{{0, 0, 1}, {1, 0, 1}, {0, 1, 2}, {4, 0, 0}, {1, 0, 0}, {0, 9, 0}}));
+    EXPECT_EQ(read(parts).meshes.at(0).positions,
+              (Points{{0, 0, 1}, {1, 0, 1}, {0, 1, 2}, {4, 0, 0}, {1, 0, 0}, {0, 9, 0}}));
 }
 
 TEST_F(GltfPose, APrimitiveWithoutCornersHasNothingToMove) {
     GltfAccessors a = morphing_triangle();
     a.add_object(R"({"type": "SCALAR", "componentType": 5123, "count": 0})");
-    GltfParts parts = gltf_of(a, std::string(kMorphing) + R"(, {"attributes": {"POSITION": 2}, "indices": 3, "targets": [{"POSITION": 1}, {}, {}]})");
+    GltfParts parts =
+        gltf_of(a, std::string(kMorphing) +
+                       R"(, {"attributes": {"POSITION": 2}, "indices": 3, "targets": [{"POSITION": 1}, {}, {}]})");
     parts.nodes = R"([{"mesh": 0, "weights": [1, 0, 0]}])";
     EXPECT_EQ(read(parts).meshes.at(0).positions, (Points{{0, 0, 1}, {1, 0, 1}, {0, 1, 2}}));
 }
@@ -132,18 +143,24 @@ TEST_F(GltfPose, BrokenTargetsAreRefused) {
         parts.nodes = "[{\"mesh\": 0, \"weights\": " + std::string(weights) + "}]";
         return parts;
     };
-    const auto target = [](const char* targets) { return R"({"attributes": {"POSITION": 0}, "targets": )" + std::string(targets) + "}"; };
-    EXPECT_TRUE(refuses(with(kMorphing, "[1]"), {"meshes[0].primitives[0]: has 3 morph targets, but there are 1 weights"}));
+    const auto target = [](const char* targets) {
+        return R"({"attributes": {"POSITION": 0}, "targets": )" + std::string(targets) + "}";
+    };
+    EXPECT_TRUE(
+        refuses(with(kMorphing, "[1]"), {"meshes[0].primitives[0]: has 3 morph targets, but there are 1 weights"}));
     EXPECT_TRUE(refuses(with(target("[]"), "[1]"), {"meshes[0].primitives[0]: has 0 morph targets"}));
     EXPECT_TRUE(refuses(with(kMorphing, "[1, \"x\", 0]"), {"nodes[0].weights[1]: must be a number"}));
     EXPECT_TRUE(refuses(with(kMorphing, "[1, 1e31, 0]"), {"nodes[0].weights[1]: the number is not finite"}));
     EXPECT_TRUE(refuses(with(kMorphing, "{}"), {"nodes[0].weights: must be an array"}));
     EXPECT_TRUE(refuses(with(target("{}"), "[1]"), {"meshes[0].primitives[0].targets: must be an array"}));
-    EXPECT_TRUE(refuses(with(target(R"([{"POSITION": 9}])"), "[1]"), {"targets[0].POSITION: accessor 9 does not exist"}));
-    EXPECT_TRUE(refuses(with(target(R"([{"POSITION": 3}])"), "[1]"), {"targets[0].POSITION: has 2 elements, but there are 3 positions"}));
+    EXPECT_TRUE(
+        refuses(with(target(R"([{"POSITION": 9}])"), "[1]"), {"targets[0].POSITION: accessor 9 does not exist"}));
+    EXPECT_TRUE(refuses(with(target(R"([{"POSITION": 3}])"), "[1]"),
+                        {"targets[0].POSITION: has 2 elements, but there are 3 positions"}));
     EXPECT_TRUE(refuses(with(target(R"([{"POSITION": 4}])"), "[1]"), {"targets[0].POSITION: vertex 1 is not finite"}));
     EXPECT_TRUE(refuses(with(target(R"([{"POSITION": 5}])"), "[1]"), {"accessors[5]: the type must be VEC3"}));
-    EXPECT_TRUE(refuses(with(target(R"([{"POSITION": 1}])"), "[1e30]"), {"meshes[0].primitives[0]: morph targets or joints move vertex 2 beyond 1e30"}));
+    EXPECT_TRUE(refuses(with(target(R"([{"POSITION": 1}])"), "[1e30]"),
+                        {"meshes[0].primitives[0]: morph targets or joints move vertex 2 beyond 1e30"}));
 }
 
 // ---- skins ----
@@ -167,7 +184,8 @@ struct SkinnedTriangle {
     void finish(const std::string& primitives = kSkinned) {
         parts = gltf_of(accessors, primitives);
         parts.scenes = R"([{"nodes": [0, 1]}])";
-        parts.nodes = R"([{"mesh": 0, "skin": 0, "translation": [50, 0, 0]}, {"translation": [0, 2, 0], "children": [2]},
+        parts.nodes =
+            R"([{"mesh": 0, "skin": 0, "translation": [50, 0, 0]}, {"translation": [0, 2, 0], "children": [2]},
                          {"translation": [0, 0, 4], "scale": [1, 1, 3]}])";
         parts.skins = R"([{"joints": [1, 2]}])";
     }
@@ -191,8 +209,11 @@ TEST_F(GltfPose, JointsAndWeightsMayHaveAllTypes) {
     const auto bytes = ByteWriter().add<std::uint8_t>({255, 0, 0, 0, 255, 0, 0, 0, 99, 99, 0, 0}).bytes();
     const auto shorts = ByteWriter().add<std::uint16_t>({65535, 0, 0, 0, 65535, 0, 0, 0, 30000, 30000, 0, 0}).bytes();
     for (const auto& [joints, joint_type] : {std::pair(joints8, 5121), std::pair(joints16, 5123)}) {
-        for (const auto& [weights, weight_type] : {std::pair(floats, 5126), std::pair(bytes, 5121), std::pair(shorts, 5123)}) {
-            EXPECT_EQ(read(SkinnedTriangle(joints, joint_type, weights, weight_type).parts).meshes.at(0).positions, kPosed) << joint_type << ' ' << weight_type;
+        for (const auto& [weights, weight_type] :
+             {std::pair(floats, 5126), std::pair(bytes, 5121), std::pair(shorts, 5123)}) {
+            EXPECT_EQ(read(SkinnedTriangle(joints, joint_type, weights, weight_type).parts).meshes.at(0).positions,
+                      kPosed)
+                << joint_type << ' ' << weight_type;
         }
     }
 }
@@ -205,7 +226,11 @@ TEST_F(GltfPose, WeightsAreDividedByTheirSum) {
 
 TEST_F(GltfPose, InverseBindMatricesComeFirst) {
     SkinnedTriangle t;
-    t.accessors.add(ByteWriter().add<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5, 0, 1, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1}).bytes(), "MAT4", 5126, 2);
+    t.accessors.add(ByteWriter()
+                        .add<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5, 0, 1, 1,
+                                     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 1, 1})
+                        .bytes(),
+                    "MAT4", 5126, 2);
     t.finish();
     t.parts.skins = R"([{"joints": [1, 2], "inverseBindMatrices": 3}])";
     EXPECT_EQ(read(t.parts).meshes.at(0).positions, (Points{{-5, 2, 1}, {1, 2, 7}, {-2.5, 3, 4}}));
@@ -236,7 +261,8 @@ TEST_F(GltfPose, TargetsComeBeforeJoints) {
 TEST_F(GltfPose, OneMeshInTwoSkinsIsTwoMeshes) {
     SkinnedTriangle t;
     t.parts.scenes = R"([{"nodes": [0, 1, 3, 4, 5]}])";
-    t.parts.nodes.insert(t.parts.nodes.size() - 1, R"(, {"mesh": 0, "skin": 1}, {"mesh": 0, "translation": [1, 0, 0]}, {"mesh": 0, "skin": 0})");
+    t.parts.nodes.insert(t.parts.nodes.size() - 1,
+                         R"(, {"mesh": 0, "skin": 1}, {"mesh": 0, "translation": [1, 0, 0]}, {"mesh": 0, "skin": 0})");
     t.parts.skins = R"([{"joints": [1, 2]}, {"joints": [2, 1]}])";
     const GltfScene scene = read(t.parts);
     ASSERT_EQ(scene.meshes.size(), 3u);
@@ -255,7 +281,8 @@ TEST_F(GltfPose, EqualVerticesStayTogetherWhateverTheOrderOfTheirJoints) {
               .bytes(),
           "VEC4", 5121, 6);
     a.add(ByteWriter()
-              .add<std::uint8_t>({51, 102, 68, 0, 255, 0, 0, 0, 255, 0, 0, 0, 68, 51, 102, 0, 255, 0, 0, 0, 200, 55, 0, 0})
+              .add<std::uint8_t>(
+                  {51, 102, 68, 0, 255, 0, 0, 0, 255, 0, 0, 0, 68, 51, 102, 0, 255, 0, 0, 0, 200, 55, 0, 0})
               .bytes(),
           "VEC4", 5121, 6, R"("normalized": true)");
     GltfParts parts = gltf_of(a, kSkinned);
@@ -282,23 +309,34 @@ TEST_F(GltfPose, BrokenSkinsAreRefused) {
     const auto with_skin = [](const char* skin) {
         SkinnedTriangle t;
         t.accessors.add(std::string(64, '\0'), "MAT4", 5126, 1);
-        t.accessors.add(ByteWriter().add<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, std::numeric_limits<float>::infinity(), 0, 0, 0, 0, 1}).bytes() + std::string(64, '\0'), "MAT4", 5126, 2);
+        t.accessors.add(
+            ByteWriter()
+                    .add<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, std::numeric_limits<float>::infinity(), 0, 0, 0, 0, 1})
+                    .bytes() +
+                std::string(64, '\0'),
+            "MAT4", 5126, 2);
         t.finish();
         t.parts.skins = "[" + std::string(skin) + "]";
         return t.parts;
     };
     EXPECT_TRUE(refuses(with_skin(R"({"joints": []})"), {"skins[0].joints: a skin needs a joint"}));
     EXPECT_TRUE(refuses(with_skin("{}"), {"skins[0]: 'joints' is missing"}));
-    EXPECT_TRUE(refuses(with_skin(R"({"joints": [1, 3]})"), {"skins[0].joints[1]: node 3 does not exist (there are 3)"}));
-    EXPECT_TRUE(refuses(with_skin(R"({"joints": [1]})"), {"attributes.JOINTS_0: vertex 1 has joint 1, but its skin has 1"}));
-    EXPECT_TRUE(refuses(with_skin(R"({"joints": [1, 2], "inverseBindMatrices": 0})"), {"accessors[0]: the type must be MAT4"}));
-    EXPECT_TRUE(refuses(with_skin(R"({"joints": [1, 2], "inverseBindMatrices": 3})"), {"skins[0].inverseBindMatrices: has 1 matrices for 2 joints"}));
-    EXPECT_TRUE(refuses(with_skin(R"({"joints": [1, 2], "inverseBindMatrices": 4})"), {"skins[0].joints[0]: its matrix", "not finite"}));
+    EXPECT_TRUE(
+        refuses(with_skin(R"({"joints": [1, 3]})"), {"skins[0].joints[1]: node 3 does not exist (there are 3)"}));
+    EXPECT_TRUE(
+        refuses(with_skin(R"({"joints": [1]})"), {"attributes.JOINTS_0: vertex 1 has joint 1, but its skin has 1"}));
+    EXPECT_TRUE(
+        refuses(with_skin(R"({"joints": [1, 2], "inverseBindMatrices": 0})"), {"accessors[0]: the type must be MAT4"}));
+    EXPECT_TRUE(refuses(with_skin(R"({"joints": [1, 2], "inverseBindMatrices": 3})"),
+                        {"skins[0].inverseBindMatrices: has 1 matrices for 2 joints"}));
+    EXPECT_TRUE(refuses(with_skin(R"({"joints": [1, 2], "inverseBindMatrices": 4})"),
+                        {"skins[0].joints[0]: its matrix", "not finite"}));
     GltfParts parts = SkinnedTriangle().parts;
     parts.skins = "";
     EXPECT_TRUE(refuses(parts, {"nodes[0].skin: skin 0 does not exist (there are 0)"}));
     parts = SkinnedTriangle().parts;
-    parts.nodes.replace(parts.nodes.find("\"skin\""), 0, R"("extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}, )");
+    parts.nodes.replace(parts.nodes.find("\"skin\""), 0,
+                        R"("extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}, )");
     EXPECT_TRUE(refuses(parts, {"nodes[0]: a node with a skin cannot have instances"}));
     parts = SkinnedTriangle().parts;
     parts.scenes = R"([{"nodes": [0]}])";
@@ -308,12 +346,18 @@ TEST_F(GltfPose, BrokenSkinsAreRefused) {
 
 TEST_F(GltfPose, BrokenJointsAndWeightsAreRefused) {
     const auto joints = ByteWriter().add<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}).bytes();
-    const auto floats = [](float w) { return ByteWriter().add<float>({1, 0, 0, 0, 1, 0, 0, 0, 0.5f, w, 0, 0}).bytes(); };
+    const auto floats = [](float w) {
+        return ByteWriter().add<float>({1, 0, 0, 0, 1, 0, 0, 0, 0.5f, w, 0, 0}).bytes();
+    };
     for (const float bad : {-0.5f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-        EXPECT_TRUE(refuses(SkinnedTriangle(joints, 5121, floats(bad), 5126).parts, {"attributes.WEIGHTS_0: vertex 2 has a weight that is below 0 or not finite"})) << bad;
+        EXPECT_TRUE(refuses(SkinnedTriangle(joints, 5121, floats(bad), 5126).parts,
+                            {"attributes.WEIGHTS_0: vertex 2 has a weight that is below 0 or not finite"}))
+            << bad;
     }
-    EXPECT_TRUE(refuses(SkinnedTriangle(joints, 5120, floats(0.5f), 5126).parts, {"attributes.JOINTS_0: must be unsigned bytes or shorts"}));
-    EXPECT_TRUE(refuses(SkinnedTriangle(joints, 5121, joints, 5120).parts, {"attributes.WEIGHTS_0: must be floats, or normalized"}));
+    EXPECT_TRUE(refuses(SkinnedTriangle(joints, 5120, floats(0.5f), 5126).parts,
+                        {"attributes.JOINTS_0: must be unsigned bytes or shorts"}));
+    EXPECT_TRUE(refuses(SkinnedTriangle(joints, 5121, joints, 5120).parts,
+                        {"attributes.WEIGHTS_0: must be floats, or normalized"}));
     SkinnedTriangle t;
     t.accessors.add(joints.substr(0, 8), "VEC4", 5121, 2);
     t.finish(R"({"attributes": {"POSITION": 0, "JOINTS_0": 3, "WEIGHTS_0": 2}})");

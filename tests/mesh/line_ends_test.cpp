@@ -25,8 +25,7 @@ using test::Random;
 std::string with_line_ends(std::string_view text, Random& random, std::string_view ends) {
     std::string result;
     for (const char c : text) {
-        const char end =
-            ends[static_cast<std::size_t>(random.integer(0, static_cast<int>(ends.size()) - 1))];
+        const char end = ends[static_cast<std::size_t>(random.integer(0, static_cast<int>(ends.size()) - 1))];
         if (c != '\n') {
             result += c;
         } else if (result.ends_with('\r') && end == 'n') {
@@ -45,8 +44,7 @@ TEST(LineEnds, AreFoundWhereverTheyStand) {
                 std::string text(size, 'x');
                 if (place < size) text[place] = end;
                 const char* const begin = text.data();
-                ASSERT_EQ(find_line_end(begin, begin + size) - begin,
-                          static_cast<std::ptrdiff_t>(place));
+                ASSERT_EQ(find_line_end(begin, begin + size) - begin, static_cast<std::ptrdiff_t>(place));
             }
         }
     }
@@ -69,17 +67,14 @@ class LineEndsOfModels : public testing::Test {
         ASSERT_GT(expected.polygon_count(), 0u);
         for (std::uint64_t seed = 0; seed < 60; ++seed) {
             Random random(seed);
-            const std::string_view ends =
-                std::array{"r", "b", "rn", "rb", "nb", "rnb", "nnnnnnnnnnnr"}[seed % 7];
+            const std::string_view ends = std::array{"r", "b", "rn", "rb", "nb", "rnb", "nnnnnnnnnnnr"}[seed % 7];
             const PolygonSoup soup = read(folder_.write(name, with_line_ends(text, random, ends)));
             ASSERT_EQ(soup.positions, expected.positions) << name << ", seed " << seed;
             ASSERT_EQ(polygons_of(soup), polygons_of(expected)) << name << ", seed " << seed;
             ASSERT_EQ(soup.object_names, expected.object_names) << name << ", seed " << seed;
-            ASSERT_EQ(soup.polygon_material, expected.polygon_material)
-                << name << ", seed " << seed;
+            ASSERT_EQ(soup.polygon_material, expected.polygon_material) << name << ", seed " << seed;
             ASSERT_EQ(soup.marked_edges, expected.marked_edges) << name << ", seed " << seed;
-            ASSERT_TRUE(soup.notes.empty())
-                << name << ", seed " << seed << ": " << soup.notes.front();
+            ASSERT_TRUE(soup.notes.empty()) << name << ", seed " << seed << ": " << soup.notes.front();
         }
     }
     /// Expects the error that LF gives: on the same line.
@@ -88,8 +83,7 @@ class LineEndsOfModels : public testing::Test {
                            std::initializer_list<std::string_view> parts, const Read& read) {
         for (const std::string_view ends : {"n", "r", "b", "rnb"}) {
             Random random(7);
-            EXPECT_TRUE(
-                test::refuses(read, folder_.write(name, with_line_ends(text, random, ends)), parts))
+            EXPECT_TRUE(test::refuses(read, folder_.write(name, with_line_ends(text, random, ends)), parts))
                 << name << ' ' << ends;
         }
     }
@@ -98,8 +92,7 @@ class LineEndsOfModels : public testing::Test {
 
 std::string rows(int count) {
     std::string text;
-    for (int i = 0; i < count; ++i)
-        text += std::to_string(i) + ".5 " + std::to_string(i % 7) + ".25 -1.0\n";
+    for (int i = 0; i < count; ++i) text += std::to_string(i) + ".5 " + std::to_string(i % 7) + ".25 -1.0\n";
     return text;
 }
 std::string triangles(const std::string& head, int count, int first, int vertices) {
@@ -114,15 +107,11 @@ std::string triangles(const std::string& head, int count, int first, int vertice
 
 TEST_F(LineEndsOfModels, Obj) {
     std::string text = "# saved in C:\\\no left\n";
-    for (const char c : rows(100))
-        text += text.back() == '\n' ? std::string("v ") + c : std::string(1, c);
-    text += "usemtl red \nf 1 2 \\\n3 4\nl 1 2\n\no right\n" + triangles("f", 100, 1, 100) +
-            "f 3/1 4/1 5/1\n# end";
+    for (const char c : rows(100)) text += text.back() == '\n' ? std::string("v ") + c : std::string(1, c);
+    text += "usemtl red \nf 1 2 \\\n3 4\nl 1 2\n\no right\n" + triangles("f", 100, 1, 100) + "f 3/1 4/1 5/1\n# end";
     const auto read = [](const std::string& path) { return read_obj(path); };
     expect_same("a.obj", text, read);
-    const auto in_pieces = [](const std::string& path) {
-        return read_obj_text(path, test::read_file(path), 2, 200);
-    };
+    const auto in_pieces = [](const std::string& path) { return read_obj_text(path, test::read_file(path), 2, 200); };
     expect_same("a.obj", text, in_pieces);
     for (const auto& reader : {std::function<PolygonSoup(const std::string&)>(read),
                                std::function<PolygonSoup(const std::string&)>(in_pieces)}) {
@@ -134,14 +123,12 @@ TEST_F(LineEndsOfModels, Obj) {
 }
 
 TEST_F(LineEndsOfModels, MaterialFile) {
-    const std::string obj = folder_.write(
-        "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red wax\nf 1 2 3\n");
+    const std::string obj =
+        folder_.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red wax\nf 1 2 3\n");
     for (const std::string_view ends : {"n", "r", "b", "rnb"}) {
         Random random(3);
-        folder_.write("a.mtl",
-                      with_line_ends(
-                          "# colours\nnewmtl red wax\nKd 1 0.25 0\nd 0.5\nnewmtl other\nKd 0 0 0\n",
-                          random, ends));
+        folder_.write("a.mtl", with_line_ends("# colours\nnewmtl red wax\nKd 1 0.25 0\nd 0.5\nnewmtl other\nKd 0 0 0\n",
+                                              random, ends));
         const Material material = read_obj(obj).materials[1];
         EXPECT_EQ(material.color, glm::vec3(1, 0.25, 0)) << ends;
         EXPECT_EQ(material.opacity, 0.5f) << ends;
@@ -161,34 +148,29 @@ TEST_F(LineEndsOfModels, Stl) {
 }
 
 TEST_F(LineEndsOfModels, Off) {
-    const std::string text =
-        "# made by hand\nOFF\n100 50 0\n" + rows(100) + "\n" + triangles("3", 50, 0, 100);
+    const std::string text = "# made by hand\nOFF\n100 50 0\n" + rows(100) + "\n" + triangles("3", 50, 0, 100);
     expect_same("a.off", text, read_off);
-    expect_same_error("a.off", "OFF\n3 2 0\n" + rows(3) + "3 0 1 2\n\n3 0 1 9\n",
-                      {":8: vertex 9 does not exist"}, read_off);
+    expect_same_error("a.off", "OFF\n3 2 0\n" + rows(3) + "3 0 1 2\n\n3 0 1 9\n", {":8: vertex 9 does not exist"},
+                      read_off);
 }
 
 std::string ply_header(int vertices, int faces) {
     return "ply\nformat ascii 1.0\ncomment x\nelement vertex " + std::to_string(vertices) +
-           "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-           std::to_string(faces) + "\nproperty list uchar int vertex_indices\nend_header\n";
+           "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(faces) +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
 TEST_F(LineEndsOfModels, AsciiPly) {
     for (const int count : {20, 3000}) {  // the larger one is read in pieces
-        const std::string text =
-            ply_header(count, count) + rows(count) + triangles("3", count, 0, count);
+        const std::string text = ply_header(count, count) + rows(count) + triangles("3", count, 0, count);
         for (const int threads : {1, 3}) {
-            expect_same("a.ply", text,
-                        [threads](const std::string& path) { return read_ply(path, threads); });
+            expect_same("a.ply", text, [threads](const std::string& path) { return read_ply(path, threads); });
         }
     }
     const auto read = [](const std::string& path) { return read_ply(path); };
-    expect_same_error("a.ply",
-                      ply_header(20, 20) + rows(20) + triangles("3", 19, 0, 20) + "3 0 1 x\n",
+    expect_same_error("a.ply", ply_header(20, 20) + rows(20) + triangles("3", 19, 0, 20) + "3 0 1 x\n",
                       {":50: a value of element 'face'"}, read);
-    expect_same_error("a.ply",
-                      ply_header(20, 20) + rows(20) + triangles("3", 19, 0, 20) + "3 0 1 20\n",
+    expect_same_error("a.ply", ply_header(20, 20) + rows(20) + triangles("3", 19, 0, 20) + "3 0 1 20\n",
                       {":50: vertex 20 does not exist"}, read);
     expect_same_error("a.ply", "ply\nformat ascii 1.0\n\nelement vertex x\n",
                       {":4: an element needs a name and a count"}, read);
@@ -203,8 +185,7 @@ TEST_F(LineEndsOfModels, BinaryPlyMayBeginWithALineFeed) {
     const std::string body{10, 13, 10, 1, 0, 0, 0, 1, 0, 3, 0, 1, 2};
     for (const std::string_view ends : {"n", "r", "b"}) {
         Random random(0);
-        const PolygonSoup soup =
-            read_ply(folder_.write("a.ply", with_line_ends(header, random, ends) + body));
+        const PolygonSoup soup = read_ply(folder_.write("a.ply", with_line_ends(header, random, ends) + body));
         EXPECT_EQ(soup.positions[0], glm::dvec3(10, 13, 10)) << ends;
         EXPECT_EQ(polygons_of(soup), (Polygons{{0, 1, 2}})) << ends;
     }

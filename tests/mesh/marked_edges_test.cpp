@@ -24,21 +24,17 @@ const std::vector<glm::dvec3> kSquare{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}
 using Ends = std::pair<glm::vec3, glm::vec3>;
 std::vector<Ends> loose_lines(const Mesh& mesh) {
     std::vector<Ends> lines;
-    for (const auto& [a, b] : mesh.loose_edges)
-        lines.emplace_back(mesh.positions[a], mesh.positions[b]);
+    for (const auto& [a, b] : mesh.loose_edges) lines.emplace_back(mesh.positions[a], mesh.positions[b]);
     return lines;
 }
 bool has_line(const Mesh& mesh, glm::vec3 a, glm::vec3 b) {
     const std::vector<Ends> lines = loose_lines(mesh);
-    return std::any_of(lines.begin(), lines.end(),
-                       [&](const Ends& e) { return e == Ends(a, b) || e == Ends(b, a); });
+    return std::any_of(lines.begin(), lines.end(), [&](const Ends& e) { return e == Ends(a, b) || e == Ends(b, a); });
 }
 
 TEST(MarkedEdges, ThoseOfNoPolygonAreLoose) {
     std::vector<glm::dvec3> positions = kSquare;
-    positions.insert(
-        positions.end(),
-        {{5, 0, 0}, {5, 2, 0}, {1, 0, 0}, {5, 0, 0}});  // the last two are there already
+    positions.insert(positions.end(), {{5, 0, 0}, {5, 2, 0}, {1, 0, 0}, {5, 0, 0}});  // the last two are there already
     PolygonSoup soup = soup_of(positions, {{0, 1, 2, 3}});
     soup.marked_edges = {{1, 0}, {6, 4}, {4, 5}, {5, 7}, {4, 7}, {2, 3}};
     const std::vector<Mesh> meshes = build_meshes(soup, {});
@@ -59,9 +55,8 @@ TEST(MarkedEdges, ThoseOfNoPolygonAreLoose) {
 
 // A diagonal that does not cut its polygon, and edges of polygons that are dropped.
 TEST(MarkedEdges, BesidePolygonsAreLoose) {
-    PolygonSoup soup =
-        soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {4, 0, 0}, {7, 0, 0}},
-                {{0, 1, 2, 3}, {4, 5, 6}});
+    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {4, 0, 0}, {7, 0, 0}},
+                               {{0, 1, 2, 3}, {4, 5, 6}});
     soup.marked_edges = {{0, 2}, {1, 3}, {4, 5}};
     const Mesh mesh = build_meshes(soup, {})[0];
     EXPECT_EQ(mesh.loose_edges.size(), 2u);
@@ -73,15 +68,13 @@ TEST(MarkedEdges, AreLooseInTheirObject) {
     std::vector<glm::dvec3> positions = kSquare;
     positions.insert(positions.end(), {{5, 0, 0}, {5, 2, 0}, {9, 9, 9}});
     PolygonSoup soup = soup_of(positions, {{0, 1, 2}, {0, 2, 3}});
-    soup.object_names = {"nothing",       "lines first",   "polygon",
-                         "lines between", "other polygon", "lines last"};
+    soup.object_names = {"nothing", "lines first", "polygon", "lines between", "other polygon", "lines last"};
     soup.polygon_object = {2, 4};
     soup.marked_edges = {{4, 5}, {0, 4}, {5, 6}, {0, 1}, {4, 5}, {4, 6}};
     soup.marked_edge_object = {3, 2, 5, 1, 5, 1};
     const std::vector<Mesh> meshes = build_meshes(soup, {});
     ASSERT_EQ(meshes.size(), 5u);
-    const std::vector<std::string> names{"lines first", "polygon", "lines between", "other polygon",
-                                         "lines last"};
+    const std::vector<std::string> names{"lines first", "polygon", "lines between", "other polygon", "lines last"};
     const std::vector<std::size_t> counts{1, 1, 1, 0, 2};
     for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_EQ(meshes[i].name, names[i]);
@@ -93,8 +86,7 @@ TEST(MarkedEdges, AreLooseInTheirObject) {
 }
 
 TEST(MarkedEdges, SubdivisionLeavesLooseEdgesAsTheyAre) {
-    PolygonSoup soup =
-        soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 3, 3}}, {{0, 1, 2, 3}});
+    PolygonSoup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 3, 3}}, {{0, 1, 2, 3}});
     soup.marked_edges = {{0, 2}, {0, 4}, {0, 1}};
     MeshOptions options;
     options.subdivision_levels = 2;
@@ -146,28 +138,25 @@ TEST_F(MarkedEdgesOfFiles, LinesOfObjBelongToTheObjectOfTheirPlace) {
         EXPECT_EQ(soup.marked_edges.size(), 6u);
         EXPECT_EQ(soup.marked_edge_object, (std::vector<std::uint32_t>{0, 1, 1, 1, 2, 1}));
     }
-    const PolygonSoup groups =
-        read_obj_text("lines.obj", "v 0 0 0\nv 1 0 0\ng x\nl 1 2\ng y\nl 2 1\n", 1, 100);
+    const PolygonSoup groups = read_obj_text("lines.obj", "v 0 0 0\nv 1 0 0\ng x\nl 1 2\ng y\nl 2 1\n", 1, 100);
     EXPECT_EQ(groups.marked_edge_object, (std::vector<std::uint32_t>{1, 2}));
 }
 
 TEST_F(MarkedEdgesOfFiles, AFileMayHaveNothingElse) {
-    const Model obj =
-        read_model(folder_.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 7\nl 1 2 3\n"), {});
+    const Model obj = read_model(folder_.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 7\nl 1 2 3\n"), {});
     ASSERT_EQ(obj.objects.size(), 1u);
     EXPECT_EQ(obj.meshes[0].loose_edges.size(), 2u);
     EXPECT_TRUE(obj.meshes[0].triangles.empty());
-    const Model ply = read_model(
-        folder_.write("lines.ply",
-                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
-                      "y\nproperty float z\n"
-                      "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n"
-                      "0 0 0\n1 0 0\n1 1 7\n0 1\n1 2\n"),
-        {});
+    const Model ply =
+        read_model(folder_.write("lines.ply",
+                                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+                                 "y\nproperty float z\n"
+                                 "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+                                 "0 0 0\n1 0 0\n1 1 7\n0 1\n1 2\n"),
+                   {});
     ASSERT_EQ(ply.objects.size(), 1u);
     EXPECT_EQ(ply.meshes[0].loose_edges.size(), 2u);
-    EXPECT_THROW(read_model(folder_.write("dot.obj", "v 0 0 0\nv 0 0 0\nl 1 2\nl 1\n"), {}),
-                 InputError);
+    EXPECT_THROW(read_model(folder_.write("dot.obj", "v 0 0 0\nv 0 0 0\nl 1 2\nl 1\n"), {}), InputError);
 }
 
 }  // namespace

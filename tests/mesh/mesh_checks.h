@@ -16,8 +16,7 @@
 namespace burin::test {
 
 /// A soup of one object.
-inline PolygonSoup soup_of(std::vector<glm::dvec3> positions,
-                           const std::vector<std::vector<std::uint32_t>>& polygons) {
+inline PolygonSoup soup_of(std::vector<glm::dvec3> positions, const std::vector<std::vector<std::uint32_t>>& polygons) {
     PolygonSoup soup;
     soup.positions = std::move(positions);
     for (const auto& polygon : polygons) soup.add_polygon(polygon);
@@ -27,8 +26,7 @@ inline PolygonSoup soup_of(std::vector<glm::dvec3> positions,
 }
 
 /// The rings of half-edges on the same two vertices, made in the most obvious way.
-inline std::vector<HalfEdge> link_edges_by_map(
-    const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+inline std::vector<HalfEdge> link_edges_by_map(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<HalfEdge>> edges;
     for (HalfEdge h = 0; h < 3 * triangles.size(); ++h) {
         const std::uint32_t a = triangles[h / 3][h % 3], b = triangles[h / 3][(h + 1) % 3];
@@ -108,7 +106,9 @@ inline void expect_consistent(const Mesh& mesh, const std::string& what) {
     }
     ASSERT_TRUE(mesh.polygon_material.empty() || mesh.polygon_material.size() == mesh.polygon_count) << what;
     const MeshRepairs& r = mesh.repairs;
-    ASSERT_EQ(r.input_polygons - r.cut_polygons + r.cut_pieces - r.degenerate_polygons - r.duplicate_polygons, mesh.polygon_count) << what;
+    ASSERT_EQ(r.input_polygons - r.cut_polygons + r.cut_pieces - r.degenerate_polygons - r.duplicate_polygons,
+              mesh.polygon_count)
+        << what;
     std::vector<HalfEdge> borders;
     for (HalfEdge h = 0; h < half_edges; ++h) {
         if (mesh.next_on_edge[h] == h) borders.push_back(h);

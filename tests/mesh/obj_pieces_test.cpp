@@ -67,12 +67,18 @@ class ObjPieces : public testing::Test {
     }
 
     /// Good files must be read from their pieces, not all over again.
-    testing::AssertionResult is_same(std::string_view text, const Outcome& whole, std::size_t piece_size, int threads) const {
+    testing::AssertionResult is_same(std::string_view text, const Outcome& whole, std::size_t piece_size,
+                                     int threads) const {
         const Outcome cut = read(text, threads, piece_size);
-        const std::string what = whole.error == cut.error ? difference(whole.soup, cut.soup) : "error '" + cut.error + "', not '" + whole.error + "'";
-        const bool again = whole.error.empty() && !parse_obj_pieces(path_, cut_between_statements(without_byte_order_mark(text), piece_size), threads);
+        const std::string what = whole.error == cut.error ? difference(whole.soup, cut.soup)
+                                                          : "error '" + cut.error + "', not '" + whole.error + "'";
+        const bool again =
+            whole.error.empty() &&
+            !parse_obj_pieces(path_, cut_between_statements(without_byte_order_mark(text), piece_size), threads);
         if (what.empty() && !again) return testing::AssertionSuccess();
-        return testing::AssertionFailure() << "pieces of " << piece_size << " bytes on " << threads << " threads: " << (what.empty() ? "read again" : what) << "\n" << text;
+        return testing::AssertionFailure() << "pieces of " << piece_size << " bytes on " << threads
+                                           << " threads: " << (what.empty() ? "read again" : what) << "\n"
+                                           << text;
     }
     /// Every line end is the first cut of one of these sizes, and with a size of 1 all are cuts.
     testing::AssertionResult same_in_all_pieces(std::string_view text) const {
@@ -90,7 +96,8 @@ class ObjPieces : public testing::Test {
     }
     testing::AssertionResult is_refused(std::string_view text, std::string_view what) const {
         const std::string error = read(text, 1, kOnePiece).error;
-        if (error.find(what) == error.npos) return testing::AssertionFailure() << "'" << error << "', not '" << what << "'";
+        if (error.find(what) == error.npos)
+            return testing::AssertionFailure() << "'" << error << "', not '" << what << "'";
         return same_in_all_pieces(text);
     }
 
@@ -113,8 +120,10 @@ TEST_F(ObjPieces, StatementsAreNotCut) {
 TEST_F(ObjPieces, VerticesCountedBackwards) {
     EXPECT_TRUE(is_read(kSquare + "f -4 -3 -2\nv 5 5 5\nf -1/-1 1 -2//-1\nv 6 6 6\nf -6 6 -1\n"));
     EXPECT_TRUE(is_read(kSquare + "f -4 2 -2\nl 1 -1 2 -4\nv 5 5 5\nl -5 5 -1 \\\n -2 1\nf 1 2 3 -1 -5\n"));
-    EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\nv 5 5 5\n\nf 1 2 -6\nv 6 6 6\n", ":8: vertex -6 does not exist (there are 5 so far)"));
-    EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\nl 2 -5\nv 6 6 6\n", ":6: vertex -5 does not exist (there are 4 so far)"));
+    EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\nv 5 5 5\n\nf 1 2 -6\nv 6 6 6\n",
+                           ":8: vertex -6 does not exist (there are 5 so far)"));
+    EXPECT_TRUE(
+        is_refused(kSquare + "f 1 2 3\nl 2 -5\nv 6 6 6\n", ":6: vertex -5 does not exist (there are 4 so far)"));
     EXPECT_TRUE(is_refused("f -1 2 3\n" + kSquare, ":1: vertex -1 does not exist (there are 0 so far)"));
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 -9223372036854775808\n", "vertex -9223372036854775808 does not exist"));
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 -3221225472\nf 1 2 -1073741824\n", "vertex -3221225472 does not exist"));
@@ -122,21 +131,25 @@ TEST_F(ObjPieces, VerticesCountedBackwards) {
 
 TEST_F(ObjPieces, VerticesBehindTheirFirstUse) {
     EXPECT_TRUE(is_read("f 1 2 3\nl 4 1\n" + kSquare + "f 5 1 2\nv 1 2 3\n"));
-    EXPECT_TRUE(is_refused("f 1 2 3\nf 1 2 6\nf 6 2 1\n" + kSquare + "f 6 2 5\nf 5 1 2\n", ":2: vertex 6 does not exist (the file has 4)"));
-    EXPECT_TRUE(is_refused("f 1 2 5\nf 1 2 3\n" + kSquare + "f 6 2 5\nf 6 1 2\n", ":7: vertex 6 does not exist (the file has 4)"));
+    EXPECT_TRUE(is_refused("f 1 2 3\nf 1 2 6\nf 6 2 1\n" + kSquare + "f 6 2 5\nf 5 1 2\n",
+                           ":2: vertex 6 does not exist (the file has 4)"));
+    EXPECT_TRUE(is_refused("f 1 2 5\nf 1 2 3\n" + kSquare + "f 6 2 5\nf 6 1 2\n",
+                           ":7: vertex 6 does not exist (the file has 4)"));
     for (const char* number : {"2147483648", "2147483649", "3221225472", "3221225473", "4294967295"}) {
-        EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\nf 1 -1 " + number + "\n", std::string(":6: vertex ") + number + " does not exist (the file has 4)"));
+        EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\nf 1 -1 " + number + "\n",
+                               std::string(":6: vertex ") + number + " does not exist (the file has 4)"));
     }
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 4294967296\n", "vertex 4294967296 does not exist (there are 4 so far)"));
 }
 
 TEST_F(ObjPieces, NamesStayInForce) {
     const std::string faces = "f 1 2 3\nf 1 2 3 4\n";
-    EXPECT_TRUE(is_read(kSquare + faces + "usemtl green\n" + faces + "usemtl red\nusemtl blue\n" + faces + "mtllib a.mtl\n" + faces +
-                        "usemtl\n" + faces + "mtllib b.mtl\nusemtl red\n" + faces));
+    EXPECT_TRUE(is_read(kSquare + faces + "usemtl green\n" + faces + "usemtl red\nusemtl blue\n" + faces +
+                        "mtllib a.mtl\n" + faces + "usemtl\n" + faces + "mtllib b.mtl\nusemtl red\n" + faces));
     EXPECT_TRUE(is_read("mtllib b.mtl\nusemtl blue\n" + kSquare + "usemtl red\nmtllib a.mtl\n" + faces));
     EXPECT_TRUE(is_read(kSquare + "g z\n" + faces + "g a b\n" + faces + "g\n" + faces + "g a b\n" + faces + "g c\n"));
-    EXPECT_TRUE(is_read("g d\n" + kSquare + faces + "o z\ng a b\n" + faces + faces + "o y\n\n" + faces + "o\n" + faces + "o z\n" + faces + "o \\\nx\n" + faces));
+    EXPECT_TRUE(is_read("g d\n" + kSquare + faces + "o z\ng a b\n" + faces + faces + "o y\n\n" + faces + "o\n" + faces +
+                        "o z\n" + faces + "o \\\nx\n" + faces));
     EXPECT_TRUE(is_read("g a\n" + kSquare + faces + "g b\n" + faces + "o last\n"));
     EXPECT_TRUE(is_read("g a\n" + kSquare + faces + "o\n" + faces + "g b\n" + faces));
 }
@@ -155,7 +168,8 @@ TEST_F(ObjPieces, TheFirstErrorIsTheOneReported) {
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 9\nf 1 2 3\nv 1 2 nan\n", ":7: a coordinate is not finite"));
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 9\nf 1 2 3\nf 1 2 -5\nv x\n", ":7: vertex -5 does not exist"));
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 0\n\nf 1 2 -5\n", ":5: vertex 0 does not exist (there are 4 so far)"));
-    EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\r\nf 1 \\\r\n2\r\nf 1 2 3\nf 1 2", ":9: the file ends in the middle of a face"));
+    EXPECT_TRUE(
+        is_refused(kSquare + "f 1 2 3\r\nf 1 \\\r\n2\r\nf 1 2 3\nf 1 2", ":9: the file ends in the middle of a face"));
     EXPECT_TRUE(is_refused(kSquare + "f 1 2 3\nf 1", ":6: the file ends in the middle of a face"));
     EXPECT_TRUE(is_read(kSquare + "f 1 2 3\nf 1\nf\nl 1\nf 1 2\n"));
     EXPECT_TRUE(is_refused(kSquare + "l 1\n\n", "no polygons and no lines found"));
@@ -175,7 +189,8 @@ std::string random_text(Random& random) {
     int vertices = 0;
     std::string text;
     const auto vertex = [&] {
-        text += "v " + std::to_string(random.integer(-3, 3)) + (one_in(rarity) ? " x" : " .5e1") + " " + std::to_string(random.real(-1, 1));
+        text += "v " + std::to_string(random.integer(-3, 3)) + (one_in(rarity) ? " x" : " .5e1") + " " +
+                std::to_string(random.real(-1, 1));
         ++vertices;
     };
     const auto corner = [&] {
@@ -196,15 +211,30 @@ std::string random_text(Random& random) {
     for (int lines = random.integer(1, 30); lines > 0; --lines) {
         if (one_in(8)) text += one_in(2) ? " " : "\t";
         switch (random.integer(0, 11)) {
-            case 0: case 1: case 2: vertex(); break;
-            case 3: text += "l " + corner() + " " + corner() + (one_in(2) ? " " + corner() : ""); break;
-            case 4: text += "o" + name(); break;
-            case 5: text += "g" + name(); break;
-            case 6: text += "usemtl" + name(); break;
-            case 7: text += one_in(3) ? "mtllib a.mtl b.mtl" : one_in(2) ? "mtllib a.mtl" : "# \\"; break;
+            case 0:
+            case 1:
+            case 2:
+                vertex();
+                break;
+            case 3:
+                text += "l " + corner() + " " + corner() + (one_in(2) ? " " + corner() : "");
+                break;
+            case 4:
+                text += "o" + name();
+                break;
+            case 5:
+                text += "g" + name();
+                break;
+            case 6:
+                text += "usemtl" + name();
+                break;
+            case 7:
+                text += one_in(3) ? "mtllib a.mtl b.mtl" : one_in(2) ? "mtllib a.mtl" : "# \\";
+                break;
             default:
                 text += "f";
-                for (int corners = random.integer(one_in(8) ? 0 : 3, 5); corners > 0; --corners) text += (one_in(10) ? " \\\n" : " ") + corner();
+                for (int corners = random.integer(one_in(8) ? 0 : 3, 5); corners > 0; --corners)
+                    text += (one_in(10) ? " \\\n" : " ") + corner();
         }
         if (one_in(80)) text += "\\";
         text += line_end;
@@ -226,8 +256,10 @@ TEST_F(ObjPieces, AnyTextIsTheSameInPieces) {
         for (int damage = std::max(0, random.integer(-3, 2)); damage > 0; --damage) {
             const auto at = static_cast<std::size_t>(random.integer(0, static_cast<int>(text.size()) - 1));
             const char c = "\\\n\r vfl-/#0127"[random.integer(0, 13)];
-            if (random.integer(0, 1) == 0) text[at] = c;
-            else text.insert(at, 1, c);
+            if (random.integer(0, 1) == 0)
+                text[at] = c;
+            else
+                text.insert(at, 1, c);
         }
         const Outcome whole = read(text, 1, kOnePiece);
         refused += whole.error.empty() ? 0 : 1;

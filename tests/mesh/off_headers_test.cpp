@@ -23,61 +23,52 @@ class OffHeaders : public testing::Test {
         const std::string path = folder_.write("part.off", header + kRest);
         try {
             const PolygonSoup soup = read_off(path);
-            if (polygons_of(soup) != Polygons{{0, 1, 2}, {0, 1, 2, 3}} ||
-                soup.positions[3] != glm::dvec3(0, 1.5, 0))
+            if (polygons_of(soup) != Polygons{{0, 1, 2}, {0, 1, 2, 3}} || soup.positions[3] != glm::dvec3(0, 1.5, 0))
                 return testing::AssertionFailure() << "read wrongly";
         } catch (const InputError& error) {
             return testing::AssertionFailure() << error.what();
         }
         return testing::AssertionSuccess();
     }
-    testing::AssertionResult refuses(std::string_view text,
-                                     std::initializer_list<std::string_view> parts) {
+    testing::AssertionResult refuses(std::string_view text, std::initializer_list<std::string_view> parts) {
         return test::refuses(read_off, folder_.write("part.off", text), parts);
     }
     test::TemporaryFolder folder_;
 };
 
 TEST_F(OffHeaders, CountsMayBeGluedToTheWord) {
-    for (const char* header : {"OFF4 2 5\n", "OFF4 2\n", "OFF4\n2 5\n", "COFF4 2 5 # counts\n",
-                               "STCNOFF4 2 0\n", "off4 2 5\n", "OFF+4 2 0\n"}) {
+    for (const char* header : {"OFF4 2 5\n", "OFF4 2\n", "OFF4\n2 5\n", "COFF4 2 5 # counts\n", "STCNOFF4 2 0\n",
+                               "off4 2 5\n", "OFF+4 2 0\n"}) {
         EXPECT_TRUE(is_read(header)) << header;
     }
-    EXPECT_TRUE(
-        refuses("OFF-4 2 5\n" + kRest, {":1: the number of vertices must be a positive integer"}));
-    EXPECT_TRUE(
-        refuses("OFF4.5 2 5\n" + kRest, {":1: the number of vertices must be a positive integer"}));
+    EXPECT_TRUE(refuses("OFF-4 2 5\n" + kRest, {":1: the number of vertices must be a positive integer"}));
+    EXPECT_TRUE(refuses("OFF4.5 2 5\n" + kRest, {":1: the number of vertices must be a positive integer"}));
     EXPECT_TRUE(refuses("OFF40000 2 5\n" + kRest, {":1: 40000 vertices do not fit"}));
 }
 
 TEST_F(OffHeaders, CountsMayStandOnSeveralLines) {
     for (const char* header :
-         {"OFF\n4 2 5\n", "OFF\n4 2\n", "OFF\n4\n2\n5\n", "OFF 4\n2\n", "OFF\n4\n2 5\n",
-          "OFF\n4 2\n5\n", "OFF # a\n# b\n4 # vertices\n\n2 # polygons\n# edges\n5\n\n",
-          "OFF 4 2\n5\n", "\n \nOFF\n\n4\n\n2\n"}) {
+         {"OFF\n4 2 5\n", "OFF\n4 2\n", "OFF\n4\n2\n5\n", "OFF 4\n2\n", "OFF\n4\n2 5\n", "OFF\n4 2\n5\n",
+          "OFF # a\n# b\n4 # vertices\n\n2 # polygons\n# edges\n5\n\n", "OFF 4 2\n5\n", "\n \nOFF\n\n4\n\n2\n"}) {
         EXPECT_TRUE(is_read(header)) << header;
     }
     EXPECT_TRUE(refuses("OFF\n4\n" + kRest, {":2: the number of polygons is missing"}));
     EXPECT_TRUE(refuses("OFF\n4\n2\nx\n" + kRest, {":4: a vertex needs three numbers"}));
-    EXPECT_TRUE(refuses("OFF\n4 # and no more\n",
-                        {"the file ends where the number of polygons should be"}));
+    EXPECT_TRUE(refuses("OFF\n4 # and no more\n", {"the file ends where the number of polygons should be"}));
 }
 
 TEST_F(OffHeaders, TheWordMayBeInSmallLettersWhereThatIsClear) {
-    for (const char* word : {"off", "Off", "coff", "stoff", "COFF", "NOFF", "Noff", "CNOFF",
-                             "STOFF", "STCNOFF", "\xEF\xBB\xBFOFF"}) {
+    for (const char* word :
+         {"off", "Off", "coff", "stoff", "COFF", "NOFF", "Noff", "CNOFF", "STOFF", "STCNOFF", "\xEF\xBB\xBFOFF"}) {
         EXPECT_TRUE(is_read(std::string(word) + "\n4 2 0\n")) << word;
     }
-    EXPECT_TRUE(refuses("noff\n4 2 0\n" + kRest,
-                        {":1: 'noff' may mean normals (NOFF) or dimensions (nOFF)"}));
+    EXPECT_TRUE(refuses("noff\n4 2 0\n" + kRest, {":1: 'noff' may mean normals (NOFF) or dimensions (nOFF)"}));
     EXPECT_TRUE(refuses("cnoff\n4 2 0\n" + kRest, {":1: 'cnoff' may mean"}));
     for (const char* word : {"nOFF", "4OFF", "4nOFF", "C4OFF", "4off", "CnOFF"}) {
-        EXPECT_TRUE(refuses(std::string(word) + "\n4 2 0\n" + kRest, {":1: ", "three dimensions"}))
-            << word;
+        EXPECT_TRUE(refuses(std::string(word) + "\n4 2 0\n" + kRest, {":1: ", "three dimensions"})) << word;
     }
     for (const char* word : {"OF", "XOFF", "OFFS", "4", "4 OFF", "OFF_"}) {
-        EXPECT_TRUE(refuses(std::string(word) + "\n4 2 0\n" + kRest, {":1: this is no OFF file"}))
-            << word;
+        EXPECT_TRUE(refuses(std::string(word) + "\n4 2 0\n" + kRest, {":1: this is no OFF file"})) << word;
     }
     EXPECT_TRUE(refuses("OFF Binary\n4 2 0\n", {":1: binary OFF is not read"}));
 }

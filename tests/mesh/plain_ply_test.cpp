@@ -56,7 +56,8 @@ class PlainPly : public testing::TestWithParam<int> {
     PolygonSoup read(const std::vector<std::string>& rows) {
         return read_ply(folder_.write("part.ply", file_of(rows)), GetParam());
     }
-    testing::AssertionResult refuses(const std::vector<std::string>& rows, std::initializer_list<std::string_view> parts) {
+    testing::AssertionResult refuses(const std::vector<std::string>& rows,
+                                     std::initializer_list<std::string_view> parts) {
         const auto read_it = [](const std::string& path) { return read_ply(path, GetParam()); };
         return test::refuses(read_it, folder_.write("part.ply", file_of(rows)), parts);
     }
@@ -79,12 +80,23 @@ TEST_P(PlainPly, UnusualSpellingsMeanTheSame) {
         for (std::string& row : rows) {
             const std::size_t blank = row.find(' ');
             switch (random.integer(0, rarity)) {
-                case 0: row = "\t" + row.substr(0, blank) + "  \t" + row.substr(blank) + " \r"; break;
-                case 1: row = row[0] == '-' ? row : "+" + row; break;
-                case 2: row = row.substr(0, blank) + "\n\n" + row.substr(blank + 1); break;
-                case 4: row = row.find('.') < blank ? row.substr(0, blank) + "e0" + row.substr(blank) : row; break;
-                case 3: row.insert(row[0] == '-' ? 1 : 0, "00000000000000000000"); break;
-                default: break;
+                case 0:
+                    row = "\t" + row.substr(0, blank) + "  \t" + row.substr(blank) + " \r";
+                    break;
+                case 1:
+                    row = row[0] == '-' ? row : "+" + row;
+                    break;
+                case 2:
+                    row = row.substr(0, blank) + "\n\n" + row.substr(blank + 1);
+                    break;
+                case 4:
+                    row = row.find('.') < blank ? row.substr(0, blank) + "e0" + row.substr(blank) : row;
+                    break;
+                case 3:
+                    row.insert(row[0] == '-' ? 1 : 0, "00000000000000000000");
+                    break;
+                default:
+                    break;
             }
         }
         const PolygonSoup soup = read(rows);
@@ -100,7 +112,8 @@ TEST_P(PlainPly, OtherPolygonsMayFollowAnywhere) {
         rows[static_cast<std::size_t>(kVertices + at)] = "4 0 1 2 3";
         const PolygonSoup soup = read(rows);
         ASSERT_EQ(soup.polygon_count(), static_cast<std::size_t>(kFaces));
-        for (int i = 0; i < kFaces; ++i) ASSERT_EQ(soup.polygon(static_cast<std::size_t>(i)).size(), i == at ? 4u : 3u) << i;
+        for (int i = 0; i < kFaces; ++i)
+            ASSERT_EQ(soup.polygon(static_cast<std::size_t>(i)).size(), i == at ? 4u : 3u) << i;
     }
 }
 
@@ -142,9 +155,10 @@ TEST_P(PlainPly, AFileThatEndsTooEarlyIsRefused) {
 TEST_P(PlainPly, SkippedColumnsMayStandOnTheNextLine) {
     constexpr int kRows = 6000;
     Random random(2);
-    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kRows) +
-                       "\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\nelement face 1\n"
-                       "property list uchar int vertex_indices\nend_header\n";
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kRows) +
+        "\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n";
     std::vector<glm::dvec3> expected;
     for (int i = 0; i < kRows; ++i) {
         expected.emplace_back(0.5 * i, -0.25 * i, 0.125 * random.integer(0, 100));
@@ -178,7 +192,9 @@ TEST(PlyPieces, AllAreUsed) {
             ++pieces;
             return read_position_rows(piece, std::array{0, 1, 2}, rows);
         };
-        EXPECT_EQ(read_in_pieces(values, copy_of(text), text.size() / 10, threads, expected.size(), 1, positions, read_piece), expected.size());
+        EXPECT_EQ(
+            read_in_pieces(values, copy_of(text), text.size() / 10, threads, expected.size(), 1, positions, read_piece),
+            expected.size());
         EXPECT_TRUE(values.at_end());
         EXPECT_EQ(positions, expected);
         EXPECT_GE(pieces, 10);
@@ -194,18 +210,23 @@ TEST(PlyPieces, CutsDoNotShow) {
         std::string text;
         std::size_t rows = 0;
         for (; rows < 60; ++rows) {
-            static constexpr std::array<const char*, 8> kRows = {"1.5 2.5 -3.5\n", "1.5 2.5 -3.5 \n", "1.25 1e1 2\r\n", "\n4.0 5.0\n 6.0\n",
-                                                                 "1.0 2.0 0.1234567\n", "-1.0 -2.0 -0.0\n", "7 8 9 ", "1.0 x 2.0\n"};
-            text += kRows[static_cast<std::size_t>(random.integer(0, seed % 3 == 0 ? 7 : 1 + static_cast<int>(seed % 6)))];
+            static constexpr std::array<const char*, 8> kRows = {
+                "1.5 2.5 -3.5\n",      "1.5 2.5 -3.5 \n",  "1.25 1e1 2\r\n", "\n4.0 5.0\n 6.0\n",
+                "1.0 2.0 0.1234567\n", "-1.0 -2.0 -0.0\n", "7 8 9 ",         "1.0 x 2.0\n"};
+            text +=
+                kRows[static_cast<std::size_t>(random.integer(0, seed % 3 == 0 ? 7 : 1 + static_cast<int>(seed % 6)))];
         }
         if (random.integer(0, 1) == 0) text.pop_back();
         std::vector<glm::dvec3> expected(rows), positions;
         AsciiValues whole(text, 5);
         const std::size_t expected_count = read_position_rows(whole, axis_of, expected);
         AsciiValues values(text, 5);
-        const auto read_piece = [&](AsciiValues& piece, std::span<glm::dvec3> place) { return read_position_rows(piece, axis_of, place); };
+        const auto read_piece = [&](AsciiValues& piece, std::span<glm::dvec3> place) {
+            return read_position_rows(piece, axis_of, place);
+        };
         const std::size_t size = static_cast<std::size_t>(random.integer(1, 300));
-        std::size_t count = read_in_pieces(values, copy_of(text), size, random.integer(1, 3), rows, 1, positions, read_piece);
+        std::size_t count =
+            read_in_pieces(values, copy_of(text), size, random.integer(1, 3), rows, 1, positions, read_piece);
         EXPECT_LE(count, expected_count);
         ASSERT_EQ(count, positions.size());
         positions.resize(rows);
@@ -223,7 +244,8 @@ TEST(LineCutter, PiecesAreWholeLinesAndKnowThem) {
         SCOPED_TRACE(seed);
         Random random(seed);
         std::string text;
-        for (int i = random.integer(0, 400); i > 0; --i) text += random.integer(0, 1 + static_cast<int>(seed) % 9) == 0 ? '\n' : 'x';
+        for (int i = random.integer(0, 400); i > 0; --i)
+            text += random.integer(0, 1 + static_cast<int>(seed) % 9) == 0 ? '\n' : 'x';
         const std::size_t size = static_cast<std::size_t>(random.integer(1, 50));
         LineCutter cutter(text.size(), 7, size, copy_of(text));
         std::vector<char> buffer;

@@ -21,9 +21,8 @@ using test::Random;
 
 std::string header(int vertices, int faces, const std::string& more = "") {
     return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertices) +
-           "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-           std::to_string(faces) + "\nproperty list uchar int vertex_indices\n" + more +
-           "end_header\n";
+           "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(faces) +
+           "\nproperty list uchar int vertex_indices\n" + more + "end_header\n";
 }
 
 class PlyVariants : public testing::Test {
@@ -31,12 +30,10 @@ class PlyVariants : public testing::Test {
     PolygonSoup read(std::string_view text, int threads = 1) {
         return read_ply(folder_.write("part.ply", text), threads);
     }
-    testing::AssertionResult refuses(std::string_view text,
-                                     std::initializer_list<std::string_view> parts,
+    testing::AssertionResult refuses(std::string_view text, std::initializer_list<std::string_view> parts,
                                      bool strict = false) {
-        return test::refuses(
-            [strict](const std::string& path) { return read_ply(path, 1, strict); },
-            folder_.write("part.ply", text), parts);
+        return test::refuses([strict](const std::string& path) { return read_ply(path, 1, strict); },
+                             folder_.write("part.ply", text), parts);
     }
     test::TemporaryFolder folder_;
 };
@@ -48,7 +45,7 @@ TEST_F(PlyVariants, WhatFollowsTheDeclaredValuesOfALineIsNothing) {
     for (const std::string& faces :
          {std::string("3 0 1 2 9 1 1 1 1 1 1 1 1 1\n4 0 1 2 3 9 1 1 1 1 1 1 1 1 1\n3 3 2 1 9 1 1 1 "
                       "1 1 1 1 1 1\n"),
-          std::string("3 0 1 2 0\n4 0 1 2 3 0\n3 3 2 1 0\n"),  // empty polygons, if taken for some
+          std::string("3 0 1 2 0\n4 0 1 2 3 0\n3 3 2 1 0\n"),      // empty polygons, if taken for some
           std::string("3 0 1 2 3 0 1 2\n4 0 1 2 3 0\n3 3 2 1 0"),  // no line feed at the end
           std::string("3 0 1 2 # a comment\n4 0 1 2 3\n3 3 2 1\n"),
           std::string("3 0 1 2\n4 0\n1 2\n3 0.5 x\n\n3 3 2 1 \t\n"),  // values that go on behind a
@@ -57,10 +54,9 @@ TEST_F(PlyVariants, WhatFollowsTheDeclaredValuesOfALineIsNothing) {
         const PolygonSoup soup = read(header(4, 3) + kPositions + faces);
         EXPECT_EQ(polygons_of(soup), expected) << faces;
         ASSERT_EQ(soup.notes.size(), 1u) << faces;
-        EXPECT_NE(soup.notes[0].find(" more values than the header declares"), std::string::npos)
-            << soup.notes[0];
-        EXPECT_TRUE(refuses(header(4, 3) + kPositions + faces,
-                            {"the line has more values than the header declares"}, true))
+        EXPECT_NE(soup.notes[0].find(" more values than the header declares"), std::string::npos) << soup.notes[0];
+        EXPECT_TRUE(
+            refuses(header(4, 3) + kPositions + faces, {"the line has more values than the header declares"}, true))
             << faces;
     }
     EXPECT_EQ(read(header(4, 1) + kPositions + "3 0 1 2\n3 0 1 2\n").notes.size(), 0u)
@@ -89,8 +85,7 @@ TEST_F(PlyVariants, VerticesMayHaveMoreValuesToo) {
             ASSERT_EQ(soup.positions, expected.positions) << count;
             ASSERT_EQ(soup.corners, expected.corners) << count;
             ASSERT_EQ(soup.notes.size(), 1u);
-            EXPECT_EQ(
-                soup.notes[0].find(std::to_string(count) + " lines, the first one is line 10,"), 0u)
+            EXPECT_EQ(soup.notes[0].find(std::to_string(count) + " lines, the first one is line 10,"), 0u)
                 << soup.notes[0];
         }
     }
@@ -126,8 +121,7 @@ TEST_F(PlyVariants, ValuesMayStandOnAnyLines) {
         for (int i = 0; i < faces; ++i) {
             const int corners = random.integer(3, 5);
             add(std::to_string(corners), false);
-            for (int k = 0; k < corners; ++k)
-                add(std::to_string(random.integer(0, vertices - 1)), k == corners - 1);
+            for (int k = 0; k < corners; ++k) add(std::to_string(random.integer(0, vertices - 1)), k == corners - 1);
         }
         const PolygonSoup expected = read(lines), soup = read(any);
         ASSERT_EQ(soup.positions, expected.positions) << "seed " << seed;
@@ -140,10 +134,10 @@ TEST_F(PlyVariants, AnErrorIsToldWhereItIs) {
     const std::string surplus = "3 0 1 2 5 5\n";
     EXPECT_TRUE(refuses(header(4, 3) + kPositions + surplus + surplus + "3 0 1 x 5\n",
                         {":16: a value of element 'face' is no number of its type"}));
-    EXPECT_TRUE(refuses(header(4, 3) + kPositions + surplus + surplus + "3 0 1 4 5\n",
-                        {":16: vertex 4 does not exist"}));
-    EXPECT_TRUE(refuses(header(4, 3) + kPositions + surplus + surplus,
-                        {"the file ends in the middle of element 'face'"}));
+    EXPECT_TRUE(
+        refuses(header(4, 3) + kPositions + surplus + surplus + "3 0 1 4 5\n", {":16: vertex 4 does not exist"}));
+    EXPECT_TRUE(
+        refuses(header(4, 3) + kPositions + surplus + surplus, {"the file ends in the middle of element 'face'"}));
     EXPECT_TRUE(refuses(header(4, 3) + kPositions + "3 0 1 2\n3 0 x 2\n3 0 1 2\n",
                         {":15: a value of element 'face' is no number of its type"}));
     EXPECT_TRUE(refuses(header(4, 1) + "0 0 0 1 0 0 1 1 0 0 y 0 3 0 1 2\n",
@@ -156,34 +150,26 @@ std::string bytes_of(bool big_endian, std::initializer_list<T> values) {
 }
 
 TEST_F(PlyVariants, IntegersMayHave64Bits) {
-    for (const std::string name :
-         {"int64", "uint64", "longlong", "ulonglong", "int64_t", "uint64_t", "INT64"}) {
-        const std::string body = "element vertex 3\nproperty " + name + " x\nproperty " + name +
-                                 " y\nproperty " + name + " z\nelement face 1\nproperty list " +
-                                 name + " " + name + " vertex_indices\nend_header\n";
-        const PolygonSoup ascii =
-            read("ply\nformat ascii 1.0\n" + body + "0 0 0\n5000000000 0 0\n0 1 0\n3 2 1 0\n");
+    for (const std::string name : {"int64", "uint64", "longlong", "ulonglong", "int64_t", "uint64_t", "INT64"}) {
+        const std::string body = "element vertex 3\nproperty " + name + " x\nproperty " + name + " y\nproperty " +
+                                 name + " z\nelement face 1\nproperty list " + name + " " + name +
+                                 " vertex_indices\nend_header\n";
+        const PolygonSoup ascii = read("ply\nformat ascii 1.0\n" + body + "0 0 0\n5000000000 0 0\n0 1 0\n3 2 1 0\n");
         EXPECT_EQ(ascii.positions[1], glm::dvec3(5e9, 0, 0)) << name;
         for (const bool big_endian : {false, true}) {
-            const std::string start = std::string("ply\nformat binary_") +
-                                      (big_endian ? "big" : "little") + "_endian 1.0\n" + body;
-            const std::string positions =
-                bytes_of<std::int64_t>(big_endian, {0, 0, 0, 5000000000, 0, 0, 0, 1, 0});
-            const PolygonSoup soup =
-                read(start + positions + bytes_of<std::int64_t>(big_endian, {3, 2, 1, 0}));
+            const std::string start =
+                std::string("ply\nformat binary_") + (big_endian ? "big" : "little") + "_endian 1.0\n" + body;
+            const std::string positions = bytes_of<std::int64_t>(big_endian, {0, 0, 0, 5000000000, 0, 0, 0, 1, 0});
+            const PolygonSoup soup = read(start + positions + bytes_of<std::int64_t>(big_endian, {3, 2, 1, 0}));
             EXPECT_EQ(soup.positions, ascii.positions) << name;
             EXPECT_EQ(polygons_of(soup), (Polygons{{2, 1, 0}})) << name;
-            for (const std::int64_t bad :
-                 {std::int64_t{3}, std::int64_t{-1}, std::int64_t{1} << 32,
-                  std::numeric_limits<std::int64_t>::min(), (std::int64_t{1} << 53) + 1}) {
-                EXPECT_TRUE(
-                    refuses(start + positions + bytes_of<std::int64_t>(big_endian, {3, 2, 1, bad}),
-                            {"vertex ", " does not exist"}))
+            for (const std::int64_t bad : {std::int64_t{3}, std::int64_t{-1}, std::int64_t{1} << 32,
+                                           std::numeric_limits<std::int64_t>::min(), (std::int64_t{1} << 53) + 1}) {
+                EXPECT_TRUE(refuses(start + positions + bytes_of<std::int64_t>(big_endian, {3, 2, 1, bad}),
+                                    {"vertex ", " does not exist"}))
                     << name << bad;
                 EXPECT_TRUE(
-                    refuses(start + positions +
-                                bytes_of<std::int64_t>(big_endian, {bad == 3 ? 4 : bad, 2, 1, 0}),
-                            {}))
+                    refuses(start + positions + bytes_of<std::int64_t>(big_endian, {bad == 3 ? 4 : bad, 2, 1, 0}), {}))
                     << name << bad;
             }
         }
@@ -194,9 +180,8 @@ TEST_F(PlyVariants, LongIsClearInTextOnly) {
     const std::string body =
         "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
         "1\nproperty list uchar long vertex_indices\nend_header\n";
-    EXPECT_EQ(
-        polygons_of(read("ply\nformat ascii 1.0\n" + body + "0 0 0\n1 0 0\n0 1 0\n3 2 1 0\n")),
-        (Polygons{{2, 1, 0}}));
+    EXPECT_EQ(polygons_of(read("ply\nformat ascii 1.0\n" + body + "0 0 0\n1 0 0\n0 1 0\n3 2 1 0\n")),
+              (Polygons{{2, 1, 0}}));
     EXPECT_TRUE(refuses("ply\nformat binary_little_endian 1.0\n" + body,
                         {":8: the type 'long' has 4 bytes on some machines and 8 on others"}));
 }

@@ -24,9 +24,7 @@ const Polygons kSquareTriangles{{0, 1, 2}, {0, 2, 3}};
 class ReadGltf : public testing::Test {
   protected:
     GltfScene read(const GltfParts& parts) { return read_gltf(folder_.write("part.gltf", parts.json())); }
-    Model read_as_model(const GltfParts& parts) {
-        return read_model(folder_.write("part.gltf", parts.json()), {});
-    }
+    Model read_as_model(const GltfParts& parts) { return read_model(folder_.write("part.gltf", parts.json()), {}); }
     test::TemporaryFolder folder_;
 };
 
@@ -115,7 +113,8 @@ TEST_F(ReadGltf, OnlyTheDefaultSceneCounts) {
 TEST_F(ReadGltf, WithoutScenesAllNodesWithoutAParentAreShown) {
     GltfParts parts;
     parts.scene = parts.scenes = "";
-    parts.nodes = R"([{"mesh": 0, "name": "child", "translation": [0, 0, 1]}, {"children": [0], "translation": [1, 0, 0]},
+    parts.nodes =
+        R"([{"mesh": 0, "name": "child", "translation": [0, 0, 1]}, {"children": [0], "translation": [1, 0, 0]},
                      {"mesh": 0, "name": "root"}])";
     const GltfScene scene = read(parts);
     ASSERT_EQ(scene.objects.size(), 2u);
@@ -144,7 +143,8 @@ TEST_F(ReadGltf, CamerasStandWhereTheirNodesPutThem) {
 
 TEST_F(ReadGltf, MaterialsGiveColourAndOpacity) {
     GltfParts parts;
-    parts.materials = R"([{"name": "glass", "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 2, 0.5]}},
+    parts.materials =
+        R"([{"name": "glass", "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 2, 0.5]}},
                          {"pbrMetallicRoughness": {"baseColorFactor": [0, 1, 0, 0.5]}}, {"name": "plain"}])";
     parts.meshes = R"([{"primitives": [
         {"attributes": {"POSITION": 0}, "indices": 1, "material": 1}, {"attributes": {"POSITION": 0}, "indices": 1, "material": 0},
@@ -164,7 +164,8 @@ TEST_F(ReadGltf, MaterialsGiveColourAndOpacity) {
 
 TEST_F(ReadGltf, PrimitivesThatShareVerticesShareThemInTheMesh) {
     GltfParts parts;
-    parts.meshes = R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 0}}]}])";
+    parts.meshes =
+        R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 0}}]}])";
     const GltfScene scene = read(parts);
     EXPECT_EQ(scene.meshes[0].positions.size(), 4u);
     EXPECT_EQ(polygons_of(scene.meshes[0]), (Polygons{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
@@ -175,7 +176,8 @@ TEST_F(ReadGltf, PrimitivesWithOwnVerticesFollowEachOther) {
     parts.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
                          {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}])";
-    parts.meshes = R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 2}}]}])";
+    parts.meshes =
+        R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 2}}]}])";
     EXPECT_EQ(polygons_of(read(parts).meshes[0]), (Polygons{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}}));
 }
 
@@ -184,7 +186,8 @@ TEST_F(ReadGltf, BuffersMayBeFilesInTheFolderOrBelow) {
     folder_.write("sub/my data.bin", parts.binary);
     folder_.write("real.bin", parts.binary + "tail");
     std::filesystem::create_symlink("real.bin", folder_.file("link.bin"));
-    for (const char* uri : {"sub/my%20data.bin", "sub/my data.bin", "./real.bin", "real%2Ebin", "sub/../real.bin", "link.bin"}) {
+    for (const char* uri :
+         {"sub/my%20data.bin", "sub/my data.bin", "./real.bin", "real%2Ebin", "sub/../real.bin", "link.bin"}) {
         parts.buffers = R"([{"byteLength": 60, "uri": ")" + std::string(uri) + "\"}]";
         EXPECT_EQ(polygons_of(read(parts).meshes[0]), kSquareTriangles) << uri;
     }
@@ -196,10 +199,12 @@ TEST_F(ReadGltf, UrisThatLeaveTheFolderAreRefused) {
     folder_.write("inside/readme", "-");
     std::filesystem::create_symlink("../x.bin", folder_.file("inside/link.bin"));
     std::filesystem::create_directory_symlink("..", folder_.file("inside/up"));
-    for (const std::string& uri : {std::string("../x.bin"), outside, std::string("link.bin"), std::string("up/x.bin"), std::string("%2E%2E/x.bin"),
-                                   std::string("..%2Fx.bin"), std::string(""), std::string("."), std::string("x.bin%00")}) {
+    for (const std::string& uri : {std::string("../x.bin"), outside, std::string("link.bin"), std::string("up/x.bin"),
+                                   std::string("%2E%2E/x.bin"), std::string("..%2Fx.bin"), std::string(""),
+                                   std::string("."), std::string("x.bin%00")}) {
         parts.buffers = "[{\"byteLength\": 60, \"uri\": \"" + uri + "\"}]";
-        EXPECT_TRUE(test::refuses(read_file, folder_.write("inside/part.gltf", parts.json()), {"buffers[0].uri: ", "leads out of the model's folder"}))
+        EXPECT_TRUE(test::refuses(read_file, folder_.write("inside/part.gltf", parts.json()),
+                                  {"buffers[0].uri: ", "leads out of the model's folder"}))
             << uri;
     }
 }
@@ -219,12 +224,14 @@ TEST_F(ReadGltf, StripsAndFansBecomeTrianglesOfOneWinding) {
 
 TEST_F(ReadGltf, PointsAndWhatHasNoPositionsAreSkippedAndCounted) {
     GltfParts parts;
-    parts.meshes = R"([{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}, {"mode": 0, "attributes": {"POSITION": 0}},
+    parts.meshes =
+        R"([{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}, {"mode": 0, "attributes": {"POSITION": 0}},
                       {"attributes": {"NORMAL": 0}}, {"attributes": {"POSITION": 0}, "indices": 1}]}])";
     const Model model = read_as_model(parts);
     const std::string path = folder_.path() + "/part.gltf";
     EXPECT_EQ(model.skipped_primitives, 3u);
-    EXPECT_EQ(model.notes, (std::vector<std::string>{path + ": left out 2 primitives of points", path + ": left out 1 primitive without positions"}));
+    EXPECT_EQ(model.notes, (std::vector<std::string>{path + ": left out 2 primitives of points",
+                                                     path + ": left out 1 primitive without positions"}));
     EXPECT_EQ(model.meshes[0].triangles.size(), 2u);
 }
 
@@ -235,7 +242,8 @@ TEST_F(ReadGltf, IndicesMayHaveOneTwoOrFourBytes) {
         parts.buffer_views = R"([{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": )" +
                              std::to_string(bytes.size()) + "}]";
         parts.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-                             {"bufferView": 1, "normalized": true, "componentType": )" + std::string(type) + R"(, "count": 6, "type": "SCALAR"}])";
+                             {"bufferView": 1, "normalized": true, "componentType": )" +
+                          std::string(type) + R"(, "count": 6, "type": "SCALAR"}])";
         return polygons_of(read(parts).meshes[0]);
     };
     // "normalized" means nothing for indices.
@@ -260,10 +268,12 @@ TEST_F(ReadGltf, QuantizedPositionsAreScaledIfNormalized) {
     parts.buffer_views = R"([{"buffer": 0, "byteLength": 24, "byteStride": 8}])";
     parts.meshes = R"([{"primitives": [{"attributes": {"POSITION": 0}}]}])";
     const auto positions = [&](const char* normalized) {
-        parts.accessors = R"([{"bufferView": 0, "componentType": 5122, "count": 3, "type": "VEC3", "normalized": )" + std::string(normalized) + "}]";
+        parts.accessors = R"([{"bufferView": 0, "componentType": 5122, "count": 3, "type": "VEC3", "normalized": )" +
+                          std::string(normalized) + "}]";
         return read(parts).meshes[0].positions;
     };
-    EXPECT_EQ(positions("true"), (std::vector<glm::dvec3>{{0, 0, 0}, {1, -1, -1}, {0, 16384 / 32767.0, 100 / 32767.0}}));
+    EXPECT_EQ(positions("true"),
+              (std::vector<glm::dvec3>{{0, 0, 0}, {1, -1, -1}, {0, 16384 / 32767.0, 100 / 32767.0}}));
     EXPECT_EQ(positions("false"), (std::vector<glm::dvec3>{{0, 0, 0}, {32767, -32767, -32768}, {0, 16384, 100}}));
     parts.binary = ByteWriter().add<std::uint8_t>({0, 0, 0, 0, 255, 51, 0, 0, 0, 0, 255, 0}).bytes();
     parts.buffer_views = R"([{"buffer": 0, "byteLength": 12, "byteStride": 4}])";
@@ -288,8 +298,10 @@ TEST_F(ReadGltf, SparseAccessorsReplaceSomeValues) {
 TEST_F(ReadGltf, SurfacesThatHaveNothingToDrawAreRefusedByReadModel) {
     GltfParts parts;
     parts.meshes = R"([{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}]}])";
-    EXPECT_TRUE(test::refuses([](const std::string& p) { read_model(p, {}); }, folder_.write("part.gltf", parts.json()), {"no polygon with an area"}));
-    EXPECT_TRUE(test::refuses([](const std::string& p) { read_model(p, {}); }, folder_.write("part.xyz", "x"), {"unknown kind of model '.xyz'", ".gltf"}));
+    EXPECT_TRUE(test::refuses([](const std::string& p) { read_model(p, {}); }, folder_.write("part.gltf", parts.json()),
+                              {"no polygon with an area"}));
+    EXPECT_TRUE(test::refuses([](const std::string& p) { read_model(p, {}); }, folder_.write("part.xyz", "x"),
+                              {"unknown kind of model '.xyz'", ".gltf"}));
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace {
 class ReadMtl : public testing::Test {
   protected:
     float opacity(const std::string& statements) {
-        folder_.write("a.mtl", "newmtl before\nd 0.125\nTr 0.5\nnewmtl m\n" + statements +
-                                   "\nnewmtl behind\nd 0.25\nTr 0.5\n");
+        folder_.write("a.mtl",
+                      "newmtl before\nd 0.125\nTr 0.5\nnewmtl m\n" + statements + "\nnewmtl behind\nd 0.25\nTr 0.5\n");
         const auto library = read_material_files(folder_.file("a.obj"), {"a.mtl"});
         EXPECT_EQ(library.at("before").opacity, 0.125f) << statements;
         EXPECT_EQ(library.at("behind").opacity, 0.25f) << statements;
@@ -77,25 +77,20 @@ TEST_F(ReadMtl, EachFileIsReadOnceByWhateverName) {
     folder_.write("b.mtl", "newmtl m\nKd 0 1 0\n");
     std::filesystem::create_symlink("a.mtl", folder_.file("link.mtl"));
     std::filesystem::create_directory(folder_.file("sub"));
-    for (const char* again :
-         {"a.mtl", "./a.mtl", "sub/../a.mtl", "link.mtl", "b.mtl a.mtl", "missing.mtl a.mtl"}) {
+    for (const char* again : {"a.mtl", "./a.mtl", "sub/../a.mtl", "link.mtl", "b.mtl a.mtl", "missing.mtl a.mtl"}) {
         const auto library = read_material_files(folder_.file("a.obj"), {"a.mtl", "b.mtl", again});
         EXPECT_EQ(library.at("m").color, glm::vec3(0, 1, 0)) << again;
     }
-    EXPECT_EQ(read_material_files(folder_.file("a.obj"), {"b.mtl", "a.mtl"}).at("m").color,
-              glm::vec3(1, 0, 0));
-    EXPECT_EQ(read_material_files(folder_.file("a.obj"), {"a.mtl b.mtl a.mtl"}).at("m").color,
-              glm::vec3(0, 1, 0));
+    EXPECT_EQ(read_material_files(folder_.file("a.obj"), {"b.mtl", "a.mtl"}).at("m").color, glm::vec3(1, 0, 0));
+    EXPECT_EQ(read_material_files(folder_.file("a.obj"), {"a.mtl b.mtl a.mtl"}).at("m").color, glm::vec3(0, 1, 0));
 }
 
 TEST_F(ReadMtl, FilesAreFoundBehindVeryManyThatAreMissing) {
     std::vector<std::string> names;
     for (int i = 0; i < 1000; ++i)
-        names.push_back("missing" + std::to_string(i) + ".mtl sub/missing" + std::to_string(i) +
-                        ".mtl");
+        names.push_back("missing" + std::to_string(i) + ".mtl sub/missing" + std::to_string(i) + ".mtl");
     for (const char* name : {"a.mtl", "./a.mtl", "sub/a.mtl", "x a.mtl"}) {
-        for (const char* place : {"a.mtl", "sub/a.mtl"})
-            folder_.write(place, "newmtl m\nKd 1 0 0\n");
+        for (const char* place : {"a.mtl", "sub/a.mtl"}) folder_.write(place, "newmtl m\nKd 1 0 0\n");
         std::vector<std::string> with_name = names;
         with_name.push_back(name);
         const auto library = read_material_files(folder_.file("a.obj"), with_name);
@@ -107,8 +102,7 @@ TEST_F(ReadMtl, FilesAreFoundBehindVeryManyThatAreMissing) {
 TEST_F(ReadMtl, TheObjItselfIsNoMaterialFile) {
     const std::string text = "newmtl m\nKd 1 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
     for (const char* name : {"part.obj", "./part.obj", "link.obj", "x part.obj"}) {
-        const std::string path =
-            folder_.write("part.obj", "mtllib " + std::string(name) + "\n" + text);
+        const std::string path = folder_.write("part.obj", "mtllib " + std::string(name) + "\n" + text);
         std::error_code ignored;
         std::filesystem::create_symlink("part.obj", folder_.file("link.obj"), ignored);
         EXPECT_EQ(read_obj(path).materials[1].color, Material{}.color) << name;

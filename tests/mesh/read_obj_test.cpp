@@ -22,8 +22,7 @@ PolygonSoup read_file(const std::string& path) { return read_obj(path); }
 class ReadObj : public testing::Test {
   protected:
     PolygonSoup read(std::string_view text) { return read_obj(folder_.write("part.obj", text)); }
-    testing::AssertionResult refuses(std::string_view text,
-                                     std::initializer_list<std::string_view> parts) {
+    testing::AssertionResult refuses(std::string_view text, std::initializer_list<std::string_view> parts) {
         return test::refuses(read_file, folder_.write("part.obj", text), parts);
     }
     test::TemporaryFolder folder_;
@@ -40,8 +39,8 @@ TEST_F(ReadObj, PolygonsKeepAllTheirCorners) {
 
 TEST_F(ReadObj, CornersMayNameTexturesAndNormals) {
     const std::string head = kSquare + "vt 0 0\nvt 1 0\nvn 0 0 1\n";
-    for (const char* face : {"f 1 2 3", "f 1/1 2/2 3/1", "f 1//1 2//1 3//1", "f 1/1/1 2/2/1 3/1/1",
-                             "f 1/ 2/ 3/", "f 1/9/9 2 3//7", "fo 1 2 3", "  f\t1  2\t 3 \t"}) {
+    for (const char* face : {"f 1 2 3", "f 1/1 2/2 3/1", "f 1//1 2//1 3//1", "f 1/1/1 2/2/1 3/1/1", "f 1/ 2/ 3/",
+                             "f 1/9/9 2 3//7", "fo 1 2 3", "  f\t1  2\t 3 \t"}) {
         EXPECT_EQ(polygons_of(read(head + face + "\n")), (Polygons{{0, 1, 2}})) << face;
     }
 }
@@ -69,7 +68,8 @@ TEST_F(ReadObj, UnusualSpellingsMeanTheSame) {
                 for (int k = 0; k < 3; ++k) text += " " + std::to_string(random.real(-50.0, 50.0));
             } else {
                 text = "f";
-                for (int k = 0; k < 3; ++k) text += " " + std::to_string(random.integer(1, vertices + (line < 30 ? 2 : 0)));
+                for (int k = 0; k < 3; ++k)
+                    text += " " + std::to_string(random.integer(1, vertices + (line < 30 ? 2 : 0)));
             }
             plain += text + "\n";
             const std::string ends[] = {"\n", "\r\n", " \n", "\t\n", text[0] == 'f' ? " # a comment\n" : " 1.0\n"};
@@ -106,8 +106,9 @@ TEST_F(ReadObj, CoordinatesAreReadInDoublePrecision) {
 }
 
 TEST_F(ReadObj, ObjectsHaveTheNamesOfTheirOLines) {
-    const PolygonSoup soup = read(kSquare + "f 1 2 3\no left\nf 1 2 4\ng group\nf 2 3 4\no my right\nf 1 3 4\n"
-                                            "o left\nf 3 2 1\n");
+    const PolygonSoup soup = read(kSquare +
+                                  "f 1 2 3\no left\nf 1 2 4\ng group\nf 2 3 4\no my right\nf 1 3 4\n"
+                                  "o left\nf 3 2 1\n");
     EXPECT_EQ(soup.object_names, (std::vector<std::string>{"part", "left", "my right"}));
     EXPECT_EQ(soup.polygon_object, (std::vector<std::uint32_t>{0, 1, 1, 2, 1}));
 }
@@ -145,8 +146,8 @@ TEST_F(ReadObj, ABackslashAtTheEndOfACommentContinuesNothing) {
 }
 
 TEST_F(ReadObj, LineEndsCommentsAndUnknownWordsDoNotMatter) {
-    std::string text = "# a comment\n\n" + kSquare +
-                       "s off\nvp 1 2\ncurv 0 1 1 2\n   # another\nf 1 2 3 # rest\nf 1 3 4 #5 6 7";
+    std::string text =
+        "# a comment\n\n" + kSquare + "s off\nvp 1 2\ncurv 0 1 1 2\n   # another\nf 1 2 3 # rest\nf 1 3 4 #5 6 7";
     const Polygons expected{{0, 1, 2}, {0, 2, 3}};
     EXPECT_EQ(polygons_of(read(text)), expected);
     std::string crlf;
@@ -215,8 +216,8 @@ TEST_F(ReadObj, AMissingMtlFileIsNoError) {
 TEST_F(ReadObj, MtlFilesOutsideTheFolderAreNotRead) {
     const std::string outside = folder_.write("secret.mtl", "newmtl m\nKd 1 0 0\n");
     const auto color_with = [&](const std::string& name) {
-        const std::string path = folder_.write(
-            "inside/part.obj", "mtllib " + name + "\n" + kSquare + "usemtl m\nf 1 2 3\n");
+        const std::string path =
+            folder_.write("inside/part.obj", "mtllib " + name + "\n" + kSquare + "usemtl m\nf 1 2 3\n");
         return read_obj(path).materials[1].color;
     };
     folder_.write("inside/good.mtl", "newmtl m\nKd 0 1 0\n");
@@ -231,19 +232,18 @@ TEST_F(ReadObj, MtlFilesOutsideTheFolderAreNotRead) {
 
 TEST_F(ReadObj, CoordinatesMustBeFiniteNumbersWithinReason) {
     const std::string face = "f 1 2 3\n";
-    for (const char* bad : {"nan", "NaN", "inf", "-inf", "1e31", "-1e31", "1e400", "x", "1..2", "0x10", "1,5", "+-1",
-                            "1e", "--1"}) {
+    for (const char* bad :
+         {"nan", "NaN", "inf", "-inf", "1e31", "-1e31", "1e400", "x", "1..2", "0x10", "1,5", "+-1", "1e", "--1"}) {
         EXPECT_TRUE(refuses("v 0 0 0\nv 0 " + std::string(bad) + " 1\nv 0 1 0\n" + face, {":2: "})) << bad;
     }
     EXPECT_TRUE(refuses("v 0 0 0\nv 1 2\nv 0 1 0\n" + face, {":2: a vertex needs three numbers"}));
     EXPECT_TRUE(refuses("v 0 0 0\nv\nv 0 1 0\n" + face, {":2: a vertex needs three numbers"}));
-    EXPECT_EQ(read("v 0 0 0\nv 1e30 -1e30 1e-400\nv 0 1 0\n" + face).positions[1],
-              glm::dvec3(1e30, -1e30, 0));
+    EXPECT_EQ(read("v 0 0 0\nv 1e30 -1e30 1e-400\nv 0 1 0\n" + face).positions[1], glm::dvec3(1e30, -1e30, 0));
 }
 
 TEST_F(ReadObj, VertexNumbersMustExist) {
-    for (const char* bad : {"0", "5", "-5", "4294967296", "4294967297", "99999999999999999999",
-                            "-9223372036854775808", "-4294967296"}) {
+    for (const char* bad :
+         {"0", "5", "-5", "4294967296", "4294967297", "99999999999999999999", "-9223372036854775808", "-4294967296"}) {
         EXPECT_TRUE(refuses(kSquare + "f 1 2 3\nf 1 2 " + bad + "\n", {":6: ", bad})) << bad;
         EXPECT_TRUE(refuses(kSquare + "f 1 2 3\nl 1 " + bad + "\n", {":6: ", bad})) << bad;
     }

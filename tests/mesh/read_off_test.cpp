@@ -17,8 +17,7 @@ const std::string kPositions = "0 0 0\n1 0 0\n1 1 0\n0 1.5 0\n";
 class ReadOff : public testing::Test {
   protected:
     PolygonSoup read(std::string_view text) { return read_off(folder_.write("part.off", text)); }
-    testing::AssertionResult refuses(std::string_view text,
-                                     std::initializer_list<std::string_view> parts) {
+    testing::AssertionResult refuses(std::string_view text, std::initializer_list<std::string_view> parts) {
         return test::refuses(read_off, folder_.write("part.off", text), parts);
     }
     test::TemporaryFolder folder_;
@@ -38,21 +37,24 @@ TEST_F(ReadOff, ReadsPolygonsOfAnySize) {
 }
 
 TEST_F(ReadOff, CountsMayStandOnTheHeaderLine) {
-    for (const char* head : {"OFF 4 1 0\n", "OFF 4 1\n", "OFF\n4 1\n", " OFF\t4 1 # counts\n", "OFF # see below\n\n4 1 5\n"}) {
+    for (const char* head :
+         {"OFF 4 1 0\n", "OFF 4 1\n", "OFF\n4 1\n", " OFF\t4 1 # counts\n", "OFF # see below\n\n4 1 5\n"}) {
         EXPECT_EQ(polygons_of(read(head + kPositions + "3 0 1 2\n")), (Polygons{{0, 1, 2}})) << head;
     }
 }
 
 TEST_F(ReadOff, CommentsAndEmptyLinesAreSkipped) {
-    EXPECT_EQ(polygons_of(read("# made by hand\n\nOFF\n# counts\n4 1 0\n\n0 0 0 # first\n1 0 0\n#\n1 1 0\n0 1 0\n  \n3 0 1 2#end\n# tail\n")),
+    EXPECT_EQ(polygons_of(read("# made by hand\n\nOFF\n# counts\n4 1 0\n\n0 0 0 # first\n1 0 0\n#\n1 1 0\n0 1 0\n  \n3 "
+                               "0 1 2#end\n# tail\n")),
               (Polygons{{0, 1, 2}}));
 }
 
 TEST_F(ReadOff, ColoursNormalsAndTextureCoordinatesAreSkipped) {
     const Polygons expected{{0, 1, 2}, {0, 2, 1}};
     for (const char* word : {"OFF", "COFF", "NOFF", "STOFF", "CNOFF", "STCNOFF"}) {
-        const PolygonSoup soup = read(std::string(word) +
-                                      "\n3 2 0\n0 0 0 255 0 0 255\n2 0 0 0.5 0.5 1\n0 3 0 1 1\n3 0 1 2 255 0 0\n3 0 2 1 0.1 0.2 0.3 1.0\n");
+        const PolygonSoup soup =
+            read(std::string(word) +
+                 "\n3 2 0\n0 0 0 255 0 0 255\n2 0 0 0.5 0.5 1\n0 3 0 1 1\n3 0 1 2 255 0 0\n3 0 2 1 0.1 0.2 0.3 1.0\n");
         EXPECT_EQ(polygons_of(soup), expected) << word;
         EXPECT_EQ(soup.positions[1], glm::dvec3(2, 0, 0)) << word;
     }
@@ -71,12 +73,16 @@ TEST_F(ReadOff, OtherHeadersAreRefused) {
 
 TEST_F(ReadOff, CountsMustFitTheFile) {
     for (const char* count : {"4000000000", "400000000", "9223372036854775807"}) {
-        EXPECT_TRUE(refuses("OFF\n" + std::string(count) + " 1 0\n" + kPositions, {":2: ", count, " vertices do not fit"}));
-        EXPECT_TRUE(refuses("OFF\n4 " + std::string(count) + " 0\n" + kPositions, {":2: ", count, " polygons do not fit"}));
+        EXPECT_TRUE(
+            refuses("OFF\n" + std::string(count) + " 1 0\n" + kPositions, {":2: ", count, " vertices do not fit"}));
+        EXPECT_TRUE(
+            refuses("OFF\n4 " + std::string(count) + " 0\n" + kPositions, {":2: ", count, " polygons do not fit"}));
     }
     for (const char* count : {"0", "-1", "x", "1.5", "99999999999999999999"}) {
-        EXPECT_TRUE(refuses("OFF\n" + std::string(count) + " 1 0\n" + kPositions, {":2: the number of vertices must be a positive integer"}));
-        EXPECT_TRUE(refuses("OFF\n4 " + std::string(count) + " 0\n" + kPositions, {":2: the number of polygons must be a positive integer"}));
+        EXPECT_TRUE(refuses("OFF\n" + std::string(count) + " 1 0\n" + kPositions,
+                            {":2: the number of vertices must be a positive integer"}));
+        EXPECT_TRUE(refuses("OFF\n4 " + std::string(count) + " 0\n" + kPositions,
+                            {":2: the number of polygons must be a positive integer"}));
     }
     EXPECT_TRUE(refuses("OFF\n4\n" + kPositions, {":2: the number of polygons"}));
 }

@@ -16,8 +16,8 @@ using test::Polygons;
 using test::polygons_of;
 
 std::string facet(const std::string& a, const std::string& b, const std::string& c) {
-    return "  facet normal 0 0 1\n    outer loop\n      vertex " + a + "\n      vertex " + b +
-           "\n      vertex " + c + "\n    endloop\n  endfacet\n";
+    return "  facet normal 0 0 1\n    outer loop\n      vertex " + a + "\n      vertex " + b + "\n      vertex " + c +
+           "\n    endloop\n  endfacet\n";
 }
 
 /// Two triangles of a square.
@@ -33,10 +33,9 @@ std::string binary_square(std::string header, std::uint32_t count) {
 class ReadStl : public testing::Test {
   protected:
     PolygonSoup read(std::string_view text) { return read_stl(folder_.write("part.stl", text)); }
-    testing::AssertionResult refuses(std::string_view text,
-                                     std::initializer_list<std::string_view> parts) {
-        return test::refuses([](const std::string& path) { return read_stl(path); },
-                             folder_.write("part.stl", text), parts);
+    testing::AssertionResult refuses(std::string_view text, std::initializer_list<std::string_view> parts) {
+        return test::refuses([](const std::string& path) { return read_stl(path); }, folder_.write("part.stl", text),
+                             parts);
     }
     test::TemporaryFolder folder_;
 };
@@ -57,9 +56,9 @@ TEST_F(ReadStl, ReadsText) {
 }
 
 TEST_F(ReadStl, EachSolidIsAnObject) {
-    const PolygonSoup soup = read("solid left\n" + facet("0 0 0", "1 0 0", "1 1 0") + facet("0 0 1", "1 0 1", "1 1 1") +
-                                  "endsolid\nsolid empty\nendsolid empty\n\nsolid\n" + facet("0 0 2", "1 0 2", "1 1 2") +
-                                  "endsolid\n");
+    const PolygonSoup soup =
+        read("solid left\n" + facet("0 0 0", "1 0 0", "1 1 0") + facet("0 0 1", "1 0 1", "1 1 1") +
+             "endsolid\nsolid empty\nendsolid empty\n\nsolid\n" + facet("0 0 2", "1 0 2", "1 1 2") + "endsolid\n");
     EXPECT_EQ(soup.object_names, (std::vector<std::string>{"left", "empty", "part"}));
     EXPECT_EQ(soup.polygon_object, (std::vector<std::uint32_t>{0, 0, 2}));
     const std::vector<Mesh> meshes = build_meshes(soup, {});
@@ -74,8 +73,7 @@ TEST_F(ReadStl, ReadsBinary) {
     EXPECT_EQ(soup.positions[2], glm::dvec3(1, 1.5, 0));
     EXPECT_EQ(soup.positions[5], glm::dvec3(0, 1, 0));
     EXPECT_EQ(soup.object_names, std::vector<std::string>{"part"});
-    EXPECT_EQ(read(binary_square("", 1) + "x").polygon_count(), 1u)
-        << "what follows the triangles is ignored";
+    EXPECT_EQ(read(binary_square("", 1) + "x").polygon_count(), 1u) << "what follows the triangles is ignored";
     EXPECT_TRUE(soup.notes.empty());
 }
 
@@ -83,7 +81,8 @@ TEST_F(ReadStl, BinaryFilesMayStartWithSolid) {
     EXPECT_EQ(read(binary_square("solid and so on", 2)).polygon_count(), 2u);
     EXPECT_EQ(read(binary_square("solid", 1) + "x").polygon_count(), 1u)
         << "the size does not fit, but no text has zero bytes";
-    EXPECT_TRUE(refuses(binary_square("solid", 2).substr(0, 150), {"the header promises 2 triangles, the file has room for 1"}));
+    EXPECT_TRUE(refuses(binary_square("solid", 2).substr(0, 150),
+                        {"the header promises 2 triangles, the file has room for 1"}));
 }
 
 TEST_F(ReadStl, CornersWithEqualCoordinatesAreWelded) {
@@ -103,8 +102,7 @@ TEST_F(ReadStl, TruncatedBinaryFilesAreRefused) {
     }
     for (const std::uint32_t count : {3u, 4000000000u, 0xFFFFFFFFu}) {
         EXPECT_TRUE(refuses(binary_square("x", count) + "x",
-                            {"the header promises " + std::to_string(count) +
-                             " triangles, the file has room for 2"}));
+                            {"the header promises " + std::to_string(count) + " triangles, the file has room for 2"}));
     }
     EXPECT_TRUE(refuses(binary_square("x", 0).substr(0, 84), {"no triangles"}));
     EXPECT_TRUE(refuses("", {"empty"}));
@@ -122,7 +120,8 @@ TEST_F(ReadStl, TruncatedTextIsRefused) {
 TEST_F(ReadStl, BrokenTextIsRefused) {
     const std::string good = facet("0 0 0", "1 0 0", "1 1 0");
     for (const char* bad : {"1 2", "", "x 0 0", "0 0 1e"}) {
-        EXPECT_TRUE(refuses("solid a\n" + facet("0 0 0", bad, "1 1 0") + "endsolid\n", {":5: a vertex needs three numbers"}));
+        EXPECT_TRUE(
+            refuses("solid a\n" + facet("0 0 0", bad, "1 1 0") + "endsolid\n", {":5: a vertex needs three numbers"}));
     }
     EXPECT_TRUE(refuses("solid a\n" + good + "endsolid\n" + good, {":12: a vertex stands outside of any solid"}));
     EXPECT_TRUE(refuses("solid a\nvertices\nendsolid\n", {":2: unknown word 'vertices'"}));
@@ -137,7 +136,9 @@ TEST_F(ReadStl, BrokenTextIsRefused) {
 
 TEST_F(ReadStl, NobodyReadsNormals) {
     ByteWriter w;
-    w.add<std::uint32_t>({1}).add<float>({std::numeric_limits<float>::quiet_NaN(), 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0}).add<std::uint16_t>({0});
+    w.add<std::uint32_t>({1})
+        .add<float>({std::numeric_limits<float>::quiet_NaN(), 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0})
+        .add<std::uint16_t>({0});
     EXPECT_EQ(read(std::string(80, 'x') + w.bytes()).polygon_count(), 1u);
     EXPECT_EQ(read(std::string(80, 'x') + w.bytes()).non_finite_polygons, 0u);
 }

@@ -39,23 +39,18 @@ Polygons pieces_of(const std::vector<std::uint32_t>& polygon) {
 
 TEST(RepeatedEdges, APolygonIsCutWhereItPassesAnEdgeAgain) {
     EXPECT_EQ(pieces_of({0, 1, 2, 0, 1, 3, 0, 1, 4}), (Polygons{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}));
-    EXPECT_EQ(pieces_of({0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}),
-              (Polygons{{0, 1, 2, 3}, {0, 1, 2, 3}, {0, 1, 2, 3}}));
+    EXPECT_EQ(pieces_of({0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}), (Polygons{{0, 1, 2, 3}, {0, 1, 2, 3}, {0, 1, 2, 3}}));
     EXPECT_EQ(pieces_of({5, 0, 1, 2, 0, 1, 3}), (Polygons{{0, 1, 2}, {5, 0, 1, 3}}));
-    EXPECT_EQ(pieces_of({1, 2, 0, 1, 3, 0}), (Polygons{{0, 1, 3}, {1, 2, 0}}))
-        << "the edge from its end to its start";
+    EXPECT_EQ(pieces_of({1, 2, 0, 1, 3, 0}), (Polygons{{0, 1, 3}, {1, 2, 0}})) << "the edge from its end to its start";
 }
 
 TEST(RepeatedEdges, WhatPassesEachEdgeOnceInEitherDirectionStays) {
     for (const std::vector<std::uint32_t>& polygon :
-         {std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6},  // nothing twice
-          std::vector<std::uint32_t>{0, 1, 2, 3, 0, 4, 5, 6,
-                                     4},                 // a hole, joined by the bridge 0 4
-          std::vector<std::uint32_t>{0, 1, 2, 0, 3, 4},  // a figure of eight
-          std::vector<std::uint32_t>{0, 1, 2, 3, 0, 4, 5, 4, 6, 7,
-                                     4},  // with a spike, which is for others to remove
-          std::vector<std::uint32_t>{0, 1, 0, 1, 2, 3},
-          std::vector<std::uint32_t>{0, 1, 1, 2, 3, 3, 4}}) {
+         {std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6},              // nothing twice
+          std::vector<std::uint32_t>{0, 1, 2, 3, 0, 4, 5, 6, 4},        // a hole, joined by the bridge 0 4
+          std::vector<std::uint32_t>{0, 1, 2, 0, 3, 4},                 // a figure of eight
+          std::vector<std::uint32_t>{0, 1, 2, 3, 0, 4, 5, 4, 6, 7, 4},  // with a spike, which is for others to remove
+          std::vector<std::uint32_t>{0, 1, 0, 1, 2, 3}, std::vector<std::uint32_t>{0, 1, 1, 2, 3, 3, 4}}) {
         EXPECT_EQ(pieces_of(polygon), Polygons{polygon});
     }
 }
@@ -83,8 +78,7 @@ TEST(RepeatedEdges, PiecesHaveTheEdgesOfThePolygon) {
         const int vertices = random.integer(3, 8);
         std::vector<std::uint32_t> polygon(static_cast<std::size_t>(random.integer(3, 40)));
         for (auto& v : polygon) v = static_cast<std::uint32_t>(random.integer(0, vertices - 1));
-        std::map<std::pair<std::uint32_t, std::uint32_t>, int>
-            net;  // how often in one direction, less the other
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> net;  // how often in one direction, less the other
         const auto count = [&](const std::vector<std::uint32_t>& corners, int sign) {
             for (std::size_t i = 0; i < corners.size(); ++i) {
                 const std::uint32_t a = corners[i], b = corners[(i + 1) % corners.size()];
@@ -97,8 +91,7 @@ TEST(RepeatedEdges, PiecesHaveTheEdgesOfThePolygon) {
             count(piece, -1);
             std::map<std::pair<std::uint32_t, std::uint32_t>, int> passes;
             if (pieces.size() == 1) break;
-            for (std::size_t i = 0; i < piece.size(); ++i)
-                ++passes[{piece[i], piece[(i + 1) % piece.size()]}];
+            for (std::size_t i = 0; i < piece.size(); ++i) ++passes[{piece[i], piece[(i + 1) % piece.size()]}];
             for (const auto& [edge, times] : passes) ASSERT_EQ(times, 1) << "seed " << seed;
         }
         for (const auto& [edge, times] : net) ASSERT_EQ(times, 0) << "seed " << seed;
@@ -111,8 +104,7 @@ TEST(RepeatedEdges, AreFoundAmongWeldedVerticesAndCountedPerObject) {
     std::vector<glm::dvec3> positions = places(5);
     const std::vector<glm::dvec3> again = positions;
     positions.insert(positions.end(), again.begin(), again.end());  // vertex 5 + i is vertex i
-    PolygonSoup soup =
-        soup_of(positions, {{0, 1, 2}, {0, 1, 2, 5, 6, 3}, {2, 3, 4}, {0, 2, 3, 5, 7, 8}});
+    PolygonSoup soup = soup_of(positions, {{0, 1, 2}, {0, 1, 2, 5, 6, 3}, {2, 3, 4}, {0, 2, 3, 5, 7, 8}});
     soup.polygon_object = {0, 0, 1, 1};
     soup.polygon_material = {0, 1, 0, 2};
     soup.object_names = {"a", "b"};
@@ -135,8 +127,7 @@ TEST(RepeatedEdges, AreFoundAmongWeldedVerticesAndCountedPerObject) {
 /// Nothing in a mesh passes an edge twice but edges between polygons; inside of one polygon, no
 /// more than two triangles meet.
 TEST(RepeatedEdges, NoMoreThanTwoTrianglesOfAPolygonMeet) {
-    const Mesh mesh =
-        build_meshes(soup_of(places(30), {{0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1, 5, 0, 1, 6}}), {})[0];
+    const Mesh mesh = build_meshes(soup_of(places(30), {{0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1, 5, 0, 1, 6}}), {})[0];
     EXPECT_EQ(mesh.polygon_count, 5u);
     for (HalfEdge h = 0; h < mesh.next_on_edge.size(); ++h) {
         std::map<std::uint32_t, int> triangles;

@@ -87,8 +87,7 @@ TEST(RoundPositions, ATiltedGroundPassesUnderTheThingOnIt) {
     EXPECT_LT(largest_error(soup, mesh), 1e-6);
     const glm::dvec3 normal = glm::cross(u, v);
     double error = 0;
-    for (std::uint32_t i = 0; i < 4; ++i)
-        error = std::max(error, std::abs(glm::dot(mesh.position(i), normal)));
+    for (std::uint32_t i = 0; i < 4; ++i) error = std::max(error, std::abs(glm::dot(mesh.position(i), normal)));
     EXPECT_LT(error, 1e-6);
 }
 
@@ -100,8 +99,7 @@ TEST(RoundPositions, FlatStaysFlat) {
     soup.add_polygon(std::vector<std::uint32_t>{0, 1, 2, 3});
     add(soup, make_box({1, 1, 1}), {3.3, 0.6, 7.7});
     const Mesh mesh = one_mesh(soup);
-    for (std::uint32_t v = 1; v < 4; ++v)
-        EXPECT_EQ(mesh.local_position(v).y, mesh.local_position(0).y);
+    for (std::uint32_t v = 1; v < 4; ++v) EXPECT_EQ(mesh.local_position(v).y, mesh.local_position(0).y);
 }
 
 TEST(RoundPositions, WeldWhatDiffersByTheNoiseOfDoubles) {
@@ -128,12 +126,10 @@ TEST(RoundPositions, SubdivisionKeepsThem) {
     add(soup, make_box({1, 1, 1}), kFar);
     MeshOptions options;
     options.subdivision_levels = 2;
-    const Mesh mesh = build_meshes(soup, options).front(),
-               near = build_meshes(make_box({1, 1, 1}), options).front();
+    const Mesh mesh = build_meshes(soup, options).front(), near = build_meshes(make_box({1, 1, 1}), options).front();
     ASSERT_EQ(mesh.positions.size(), 2 * near.positions.size());
     PolygonSoup expected;
-    for (std::uint32_t v = 0; v < near.positions.size(); ++v)
-        expected.positions.push_back(near.position(v) + kFar);
+    for (std::uint32_t v = 0; v < near.positions.size(); ++v) expected.positions.push_back(near.position(v) + kFar);
     EXPECT_LT(largest_error(expected, mesh), 5e-7);
 }
 
@@ -150,8 +146,8 @@ TEST(RoundPositions, EachObjectIsKept) {
 }
 
 TEST(RoundPositions, UsualModelsNeedNoResiduals) {
-    for (const PolygonSoup& soup : {make_box({1, 1, 1}), make_sphere(0.5, 256, 128),
-                                    make_cylinder(0.01, 0.01, 30, 64), make_teapot(10)}) {
+    for (const PolygonSoup& soup :
+         {make_box({1, 1, 1}), make_sphere(0.5, 256, 128), make_cylinder(0.01, 0.01, 30, 64), make_teapot(10)}) {
         EXPECT_FALSE(one_mesh(soup).has_residuals());
         PolygonSoup far;
         add(far, soup, kFar);

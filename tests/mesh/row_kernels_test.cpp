@@ -55,8 +55,8 @@ std::string rows_of(Random& random, const std::string& head, const Number& numbe
 
 /// What the kernels are to read from `p` on; values behind the others.
 template <typename Value>
-std::size_t read_one_by_one(const char*& p, const char* limit, std::size_t max_rows, std::string_view head, std::vector<Value>& values,
-                            const char* (*scan)(const char*, Value&)) {
+std::size_t read_one_by_one(const char*& p, const char* limit, std::size_t max_rows, std::string_view head,
+                            std::vector<Value>& values, const char* (*scan)(const char*, Value&)) {
     const char* row = p;
     for (std::size_t count = 0; count < max_rows; ++count) {
         if (row >= limit || std::string_view(row, head.size()) != head) return count;
@@ -77,13 +77,15 @@ std::size_t read_one_by_one(const char*& p, const char* limit, std::size_t max_r
 }
 
 template <typename Value>
-void compare(std::uint64_t seed, const std::string& rows, std::string_view head, std::size_t (*RowKernels::*member)(const char*&, const char*, std::size_t, Value*),
+void compare(std::uint64_t seed, const std::string& rows, std::string_view head,
+             std::size_t (*RowKernels::*member)(const char*&, const char*, std::size_t, Value*),
              const char* (*scan)(const char*, Value&), std::size_t& read) {
     Random random(~seed);
     const char around = "7 \n-."[random.integer(0, 4)];
     const std::string text = std::string(kRowReachBack, around) + rows + std::string(kRowReach, around);
     const char* const begin = text.data() + kRowReachBack;
-    const char* const limit = begin + (random.integer(0, 3) > 0 ? static_cast<int>(rows.size()) : random.integer(0, static_cast<int>(rows.size())));
+    const char* const limit = begin + (random.integer(0, 3) > 0 ? static_cast<int>(rows.size())
+                                                                : random.integer(0, static_cast<int>(rows.size())));
     const auto max_rows = static_cast<std::size_t>(random.integer(0, 3) > 0 ? 12 : random.integer(0, 12));
     const char* expected_end = begin;
     std::vector<Value> expected;
@@ -100,7 +102,8 @@ void compare(std::uint64_t seed, const std::string& rows, std::string_view head,
         ASSERT_EQ(end - begin, expected_end - begin) << "seed " << seed << ": " << rows;
         for (std::size_t i = 0; i < expected.size(); ++i) {
             ASSERT_EQ(values[i], expected[i]) << "seed " << seed << ": " << rows;
-            ASSERT_EQ(std::signbit(static_cast<double>(values[i])), std::signbit(static_cast<double>(expected[i]))) << "seed " << seed << ": " << rows;
+            ASSERT_EQ(std::signbit(static_cast<double>(values[i])), std::signbit(static_cast<double>(expected[i])))
+                << "seed " << seed << ": " << rows;
         }
         ASSERT_EQ(values[3 * max_rows], kUntouched);
         read += count;

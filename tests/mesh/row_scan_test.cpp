@@ -21,7 +21,8 @@ struct Row {
     const char* begin;
     const char* end;
     Row(const std::string& row, char around)
-        : text(std::string(kRowReachBack, around) + row + std::string(kRowReach, around)), begin(text.data() + kRowReachBack),
+        : text(std::string(kRowReachBack, around) + row + std::string(kRowReach, around)),
+          begin(text.data() + kRowReachBack),
           end(begin + row.size()) {}
 };
 
@@ -71,7 +72,8 @@ TEST(RowScan, ReadsThreeIntegersLikeOneAfterTheOther) {
             ASSERT_EQ(next, end) << "seed " << seed << ": " << text;
 #endif
             if (next == nullptr) continue;
-            ASSERT_TRUE(std::equal(expected.begin(), expected.end(), values.begin())) << "seed " << seed << ": " << text;
+            ASSERT_TRUE(std::equal(expected.begin(), expected.end(), values.begin()))
+                << "seed " << seed << ": " << text;
             ++taken;
         }
     }
@@ -87,7 +89,8 @@ TEST(RowScan, ReadsThreeDecimalsLikeOneAfterTheOther) {
         const bool is_short = random.integer(0, 1) == 0;
         const std::string text = row_of(random, [&] {
             const std::string sign = random.integer(0, 1) == 0 ? "-" : "";
-            return sign + (is_short ? digits(random, 1, 2) : digits(random, 1, 8)) + "." + digits(random, 1, is_short ? 6 : 12);
+            return sign + (is_short ? digits(random, 1, 2) : digits(random, 1, 8)) + "." +
+                   digits(random, 1, is_short ? 6 : 12);
         });
         for (const char around : {' ', '7', '\n', '-'}) {
             const Row row(text, around);
@@ -98,7 +101,8 @@ TEST(RowScan, ReadsThreeDecimalsLikeOneAfterTheOther) {
             if (next == nullptr) continue;
             ASSERT_EQ(next, end) << "seed " << seed << ": " << text;
             for (std::size_t k = 0; k < 3; ++k) {
-                ASSERT_EQ(std::bit_cast<std::uint64_t>(values[k]), std::bit_cast<std::uint64_t>(expected[k])) << "seed " << seed << ": " << text;
+                ASSERT_EQ(std::bit_cast<std::uint64_t>(values[k]), std::bit_cast<std::uint64_t>(expected[k]))
+                    << "seed " << seed << ": " << text;
             }
             ++taken;
         }
@@ -112,8 +116,9 @@ TEST(RowScan, ReadsThreeDecimalsLikeOneAfterTheOther) {
 #ifdef __SSE2__
 TEST(RowScan, TakesTheRowsThatFilesHave) {
     std::array<double, 3> v{};
-    for (const std::string text : {"0.0 0.0 0.0", "-0.0323963 0.056575 -0.0503375", "1234567.12345678 -1234567.12345678 -1234567.12345678",
-                                   "-0.00123456 -12.345678 9.9"}) {
+    for (const std::string text :
+         {"0.0 0.0 0.0", "-0.0323963 0.056575 -0.0503375", "1234567.12345678 -1234567.12345678 -1234567.12345678",
+          "-0.00123456 -12.345678 9.9"}) {
         for (const char behind : {' ', '\n'}) {
             const Row row(text, behind);
             ASSERT_EQ(scan_three_decimals(row.begin, v.data()), row.end) << text;

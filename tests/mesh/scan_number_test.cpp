@@ -41,8 +41,10 @@ TEST(ScanNumber, AgreesWithStrtodToTheBit) {
             std::snprintf(text, sizeof text, format, value);
             const std::string printed = text;
             const Scanned scanned = scan(printed);
-            ASSERT_EQ(scanned.length, static_cast<std::ptrdiff_t>(printed.size())) << "seed " << seed << ": " << printed;
-            ASSERT_EQ(std::bit_cast<std::uint64_t>(scanned.value), std::bit_cast<std::uint64_t>(std::strtod(text, nullptr)))
+            ASSERT_EQ(scanned.length, static_cast<std::ptrdiff_t>(printed.size()))
+                << "seed " << seed << ": " << printed;
+            ASSERT_EQ(std::bit_cast<std::uint64_t>(scanned.value),
+                      std::bit_cast<std::uint64_t>(std::strtod(text, nullptr)))
                 << "seed " << seed << ": " << printed;
         }
     }
@@ -61,7 +63,8 @@ TEST(ScanNumber, AgreesWithStrtodOnRandomDigits) {
         if (random.integer(0, 1) == 1) text += "e" + std::to_string(random.integer(-30, 30));
         const Scanned scanned = scan(text);
         ASSERT_EQ(scanned.length, static_cast<std::ptrdiff_t>(text.size())) << "seed " << seed << ": " << text;
-        ASSERT_EQ(std::bit_cast<std::uint64_t>(scanned.value), std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr)))
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(scanned.value),
+                  std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr)))
             << "seed " << seed << ": " << text;
     }
 }
@@ -121,7 +124,8 @@ TEST(ScanNumber, StopsBehindTheNumber) {
 }
 
 TEST(ScanNumber, RefusesWhatIsNoNumber) {
-    for (const char* text : {"", "abc", "+", "-", ".", "+.", "-.", "e5", ".e5", "+-1", "-+1", "++1", "--1", " 1", "\t1"}) {
+    for (const char* text :
+         {"", "abc", "+", "-", ".", "+.", "-.", "e5", ".e5", "+-1", "-+1", "++1", "--1", " 1", "\t1"}) {
         EXPECT_EQ(scan(text).length, -1) << text;
     }
 }

@@ -36,7 +36,9 @@ void expect_closed(const PolygonSoup& soup, std::size_t polygons, double volume,
 }
 
 /// Area of the regular polygon that `segments` corners on a circle make.
-double polygon_area(double radius, int segments) { return 0.5 * segments * radius * radius * std::sin(2 * kPi / segments); }
+double polygon_area(double radius, int segments) {
+    return 0.5 * segments * radius * radius * std::sin(2 * kPi / segments);
+}
 
 TEST(Shapes, ABoxIsClosed) {
     for (const glm::dvec3 size : {glm::dvec3(1, 1, 1), glm::dvec3(0.01, 3, 200)}) {
@@ -54,7 +56,8 @@ TEST(Shapes, ASphereIsClosed) {
         double volume = 0;
         for (int r = 0; r < rings; ++r) {
             const double top = kPi * r / rings, bottom = kPi * (r + 1) / rings;
-            const double a = polygon_area(2.5 * std::sin(top), segments), b = polygon_area(2.5 * std::sin(bottom), segments);
+            const double a = polygon_area(2.5 * std::sin(top), segments),
+                         b = polygon_area(2.5 * std::sin(bottom), segments);
             volume += 2.5 * (std::cos(top) - std::cos(bottom)) / 3 * (a + b + std::sqrt(a * b));
         }
         expect_closed(sphere, static_cast<std::size_t>(segments * rings), volume, "sphere " + std::to_string(segments));
@@ -66,7 +69,8 @@ TEST(Shapes, ACylinderIsClosed) {
     for (const int segments : {3, 4, 5, 32, 1000}) {
         for (const auto& [bottom, top] : {std::pair{1.0, 1.0}, {2.0, 0.5}, {0.5, 2.0}}) {
             const double a = polygon_area(bottom, segments), b = polygon_area(top, segments);
-            expect_closed(make_cylinder(bottom, top, 3, segments), static_cast<std::size_t>(segments) + 2, (a + b + std::sqrt(a * b)), "cylinder");
+            expect_closed(make_cylinder(bottom, top, 3, segments), static_cast<std::size_t>(segments) + 2,
+                          (a + b + std::sqrt(a * b)), "cylinder");
         }
     }
     const Mesh mesh = build(make_cylinder(1, 1, 2, 16));
@@ -76,7 +80,8 @@ TEST(Shapes, ACylinderIsClosed) {
 
 TEST(Shapes, AConeIsClosed) {
     for (const int segments : {3, 4, 5, 32, 1000}) {
-        expect_closed(make_cylinder(1.5, 0, 2, segments), static_cast<std::size_t>(segments) + 1, polygon_area(1.5, segments) * 2 / 3, "cone");
+        expect_closed(make_cylinder(1.5, 0, 2, segments), static_cast<std::size_t>(segments) + 1,
+                      polygon_area(1.5, segments) * 2 / 3, "cone");
     }
     EXPECT_EQ(build(make_cylinder(1, 0, 2, 16)).name, "cone");
 }
@@ -85,8 +90,10 @@ TEST(Shapes, ATorusIsClosed) {
     for (const auto& [segments, tube_segments] : {std::pair{3, 3}, {4, 8}, {5, 3}, {48, 24}}) {
         // Between two sections, a point at radius r goes 2 r sin(pi/n), over a section that is
         // foreshortened by cos(pi/n).
-        const double volume = polygon_area(0.5, tube_segments) * 2 * segments * std::sin(kPi / segments) * 2 * std::cos(kPi / segments);
-        expect_closed(make_torus(2, 0.5, segments, tube_segments), static_cast<std::size_t>(segments * tube_segments), volume, "torus");
+        const double volume =
+            polygon_area(0.5, tube_segments) * 2 * segments * std::sin(kPi / segments) * 2 * std::cos(kPi / segments);
+        expect_closed(make_torus(2, 0.5, segments, tube_segments), static_cast<std::size_t>(segments * tube_segments),
+                      volume, "torus");
     }
 }
 
@@ -172,7 +179,8 @@ TEST(Teapot, IsWoundToBeSeenFromOutside) {
         const glm::dvec3 middle = (p + q + r) / 3.0, normal = glm::cross(q - p, r - p);
         // On the round belly, outwards is away from the axis; on the bottom, down.
         const double radius = std::hypot(middle.x, middle.z);
-        const bool belly = middle.y > 0.3 && middle.y < 2.2 && radius > 1.45 && radius < 2.01 && std::abs(middle.z) > 0.7;
+        const bool belly =
+            middle.y > 0.3 && middle.y < 2.2 && radius > 1.45 && radius < 2.01 && std::abs(middle.z) > 0.7;
         if (belly) {
             ASSERT_GT(normal.x * middle.x + normal.z * middle.z, 0);
         }

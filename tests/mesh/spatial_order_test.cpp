@@ -18,7 +18,8 @@ namespace {
 
 using test::Random;
 
-std::vector<std::uint32_t> order_of(const std::vector<std::uint32_t>& corners, const std::vector<glm::vec3>& positions) {
+std::vector<std::uint32_t> order_of(const std::vector<std::uint32_t>& corners,
+                                    const std::vector<glm::vec3>& positions) {
     const auto order = SpatialOrder(positions, corners).of_triangles(corners);
     return {order.begin(), order.end()};
 }
@@ -36,7 +37,8 @@ PolygonSoup shuffled_sheet(int n, bool apart, Random& random) {
     soup.materials = {Material{}};
     const auto number = [n](int x, int y) { return static_cast<std::uint32_t>(y * (n + 1) + x); };
     for (int y = 0; y <= n; ++y) {
-        for (int x = 0; x <= n; ++x) soup.positions.push_back({0.01 * x, 0.01 * y, 0.2 * std::sin(0.05 * x) * std::cos(0.03 * y)});
+        for (int x = 0; x <= n; ++x)
+            soup.positions.push_back({0.01 * x, 0.01 * y, 0.2 * std::sin(0.05 * x) * std::cos(0.03 * y)});
     }
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (int y = 0; y < n; ++y) {
@@ -47,9 +49,11 @@ PolygonSoup shuffled_sheet(int n, bool apart, Random& random) {
     }
     for (int i = 0; i < 50; ++i) {
         auto& t = triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(triangles.size()) - 1))];
-        triangles.push_back(i % 2 == 0 ? std::array{t[1], t[2], t[0]} : std::array{t[0], t[1], t[1]});  // twice, or without area
+        triangles.push_back(i % 2 == 0 ? std::array{t[1], t[2], t[0]}
+                                       : std::array{t[0], t[1], t[1]});  // twice, or without area
     }
-    for (std::size_t i = triangles.size() - 1; i > 0; --i) std::swap(triangles[i], triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
+    for (std::size_t i = triangles.size() - 1; i > 0; --i)
+        std::swap(triangles[i], triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
     const std::vector<glm::dvec3> places = soup.positions;
     if (apart) soup.positions.clear();
     for (const auto& t : triangles) {
@@ -68,7 +72,8 @@ TEST(SpatialOrder, HasEachTriangleOnceAndThoseOfOnePlaceInOrder) {
         std::vector<glm::vec3> positions(static_cast<std::size_t>(random.integer(1, 50)));
         for (glm::vec3& p : positions) p = size * glm::vec3(random.real(-3, 3), random.real(-3, 3), random.real(-3, 3));
         std::vector<std::uint32_t> corners(static_cast<std::size_t>(3 * random.integer(0, 200)));
-        for (std::uint32_t& v : corners) v = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(positions.size()) - 1));
+        for (std::uint32_t& v : corners)
+            v = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(positions.size()) - 1));
         const std::vector<std::uint32_t> order = order_of(corners, positions);
         expect_each_once(order, corners.size() / 3);
         std::vector<std::size_t> place(order.size());
@@ -99,7 +104,8 @@ TEST(SpatialOrder, Has16CellsAlongTheLargestSide) {
             positions.push_back(p);
         }
         std::vector<std::uint32_t> expected;
-        for (std::uint32_t first = 61; first > 1; first -= 4) expected.insert(expected.end(), {first, first + 1, first + 2, first + 3});
+        for (std::uint32_t first = 61; first > 1; first -= 4)
+            expected.insert(expected.end(), {first, first + 1, first + 2, first + 3});
         expected.insert(expected.end(), {0, 1, 2, 3, 4});
         EXPECT_EQ(order_of(corners, positions), expected) << "axis " << axis;
     }
@@ -112,7 +118,8 @@ TEST(SpatialOrder, PutsNeighboursTogether) {
     const auto mean_step = [&](const std::vector<std::uint32_t>& order) {
         double sum = 0;
         for (std::size_t i = 1; i < order.size(); ++i) {
-            sum += double{glm::distance(positions[soup.corners[3 * order[i]]], positions[soup.corners[3 * order[i - 1]]])};
+            sum +=
+                double{glm::distance(positions[soup.corners[3 * order[i]]], positions[soup.corners[3 * order[i - 1]]])};
         }
         return sum / static_cast<double>(order.size() - 1);
     };
@@ -125,8 +132,8 @@ TEST(SpatialOrder, PutsNeighboursTogether) {
 
 enum class Kind { triangles, polygons, two_objects };
 
-/// With ends of polygons listed the general way is taken, which keeps the input's order where there are two materials: that
-/// says what there is to be.
+/// With ends of polygons listed the general way is taken, which keeps the input's order where there are two materials:
+/// that says what there is to be.
 TEST(SpatialOrder, ChangesNothingButTheOrderOfLargeMeshes) {
     for (const Kind kind : {Kind::triangles, Kind::polygons, Kind::two_objects}) {
         for (const bool apart : {false, true}) {
@@ -134,16 +141,19 @@ TEST(SpatialOrder, ChangesNothingButTheOrderOfLargeMeshes) {
             PolygonSoup soup = shuffled_sheet(190, apart, random);
             ASSERT_GE(soup.polygon_count(), kWorthSpatialOrder);
             std::vector<std::uint32_t> ends;
-            for (std::size_t end = 3; end <= soup.corners.size(); end += 3) ends.push_back(static_cast<std::uint32_t>(end));
+            for (std::size_t end = 3; end <= soup.corners.size(); end += 3)
+                ends.push_back(static_cast<std::uint32_t>(end));
             if (kind != Kind::triangles) soup.polygon_ends = ends;
             if (kind == Kind::two_objects) {
                 soup.object_names = {"small", "large"};
-                for (std::size_t i = 0; i < soup.polygon_count(); ++i) soup.polygon_object.push_back(i % 100 == 1 ? 0 : 1);
+                for (std::size_t i = 0; i < soup.polygon_count(); ++i)
+                    soup.polygon_object.push_back(i % 100 == 1 ? 0 : 1);
             }
             PolygonSoup in_input_order = soup;
             in_input_order.polygon_ends = ends;
             in_input_order.materials.resize(2);
-            for (std::uint32_t i = 0; i < soup.polygon_count(); ++i) in_input_order.polygon_material.push_back(i / 100 % 2);
+            for (std::uint32_t i = 0; i < soup.polygon_count(); ++i)
+                in_input_order.polygon_material.push_back(i / 100 % 2);
             const std::vector<Mesh> meshes = build_meshes(soup, {}), expected_meshes = build_meshes(in_input_order, {});
             ASSERT_EQ(meshes.size(), kind == Kind::two_objects ? 2u : 1u);
             const Mesh &mesh = meshes.back(), &expected = expected_meshes.back();
@@ -162,7 +172,8 @@ TEST(SpatialOrder, ChangesNothingButTheOrderOfLargeMeshes) {
                 moved += place != t ? 1 : 0;
                 ASSERT_LT(place, expected.triangles.size());
                 for (std::size_t k = 0; k < 3; ++k) {
-                    ASSERT_EQ(mesh.positions[mesh.triangles[t][k]], expected.positions[expected.triangles[place][k]]) << "triangle " << t;
+                    ASSERT_EQ(mesh.positions[mesh.triangles[t][k]], expected.positions[expected.triangles[place][k]])
+                        << "triangle " << t;
                 }
                 ASSERT_EQ(expected.input_place_of(t), t);
             }

@@ -22,12 +22,14 @@ using Polygon = std::vector<glm::dvec3>;
 using Surface = std::function<glm::dvec3(double, double)>;
 
 /// A strip or grid of quadrilaterals.
-void add_patch(std::vector<Polygon>& polygons, const Surface& at, glm::dvec2 low, glm::dvec2 high, int columns, int rows) {
+void add_patch(std::vector<Polygon>& polygons, const Surface& at, glm::dvec2 low, glm::dvec2 high, int columns,
+               int rows) {
     const auto corner = [&](int i, int j) {
         return at(glm::mix(low.x, high.x, double(i) / columns), glm::mix(low.y, high.y, double(j) / rows));
     };
     for (int i = 0; i < columns; ++i) {
-        for (int j = 0; j < rows; ++j) polygons.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+        for (int j = 0; j < rows; ++j)
+            polygons.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
     }
 }
 
@@ -57,7 +59,8 @@ CrackReach everywhere(double reach) {
 
 double length_of_borders(const Mesh& mesh) {
     double sum = 0;
-    for (const BorderIndex::Segment& s : mesh.borders.segments()) sum += glm::distance(glm::dvec3(s.a), glm::dvec3(s.b));
+    for (const BorderIndex::Segment& s : mesh.borders.segments())
+        sum += glm::distance(glm::dvec3(s.a), glm::dvec3(s.b));
     return sum;
 }
 
@@ -66,7 +69,9 @@ std::vector<std::array<float, 9>> sorted_triangles(const Mesh& mesh) {
     std::vector<std::array<float, 9>> all;
     for (const auto& t : mesh.triangles) {
         std::array<glm::vec3, 3> c{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
-        std::sort(c.begin(), c.end(), [](const glm::vec3& p, const glm::vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); });
+        std::sort(c.begin(), c.end(), [](const glm::vec3& p, const glm::vec3& q) {
+            return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+        });
         all.push_back({c[0].x, c[0].y, c[0].z, c[1].x, c[1].y, c[1].z, c[2].x, c[2].y, c[2].z});
     }
     std::sort(all.begin(), all.end());
@@ -78,7 +83,8 @@ TEST(StitchCracks, PolygonsThatFellApartAreOneSurface) {
         Random random(seed);
         std::vector<Polygon> polygons;
         add_patch(polygons, torus, {0, 0}, {1, 1}, random.integer(12, 40), random.integer(8, 20));
-        const double by = random.real(0.0001, 0.008);  // corners of one place are no farther apart than a third of any edge
+        const double by =
+            random.real(0.0001, 0.008);  // corners of one place are no farther apart than a third of any edge
         const Mesh cracked = shaken(polygons, by, seed);
         const auto whole = stitch_cracks(cracked, everywhere(14 * by));
         ASSERT_TRUE(whole) << seed;
@@ -90,7 +96,8 @@ TEST(StitchCracks, PolygonsThatFellApartAreOneSurface) {
         EXPECT_EQ(whole->triangles.size(), cracked.triangles.size());
         for (std::size_t t = 0; t < whole->triangles.size(); ++t) {
             for (std::size_t k = 0; k < 3; ++k) {
-                const glm::vec3 before = cracked.positions[cracked.triangles[t][k]], after = whole->positions[whole->triangles[t][k]];
+                const glm::vec3 before = cracked.positions[cracked.triangles[t][k]],
+                                after = whole->positions[whole->triangles[t][k]];
                 EXPECT_LT(glm::distance(before, after), 2 * std::sqrt(3.0) * by) << seed;
             }
         }
@@ -102,7 +109,8 @@ TEST(StitchCracks, BordersWithDifferentCornersBecomeOne) {
         Random random(seed);
         std::vector<Polygon> polygons;
         const int strips = random.integer(6, 12);
-        for (int i = 0; i < strips; ++i) add_patch(polygons, torus, {0, double(i) / strips}, {1, (i + 1.0) / strips}, random.integer(40, 90), 1);
+        for (int i = 0; i < strips; ++i)
+            add_patch(polygons, torus, {0, double(i) / strips}, {1, (i + 1.0) / strips}, random.integer(40, 90), 1);
         const Mesh cracked = shaken(polygons, 0.001, seed);
         const auto whole = stitch_cracks(cracked, everywhere(0.02));
         ASSERT_TRUE(whole) << seed;
@@ -138,7 +146,9 @@ TEST(StitchCracks, DoNotDependOnTheOrderOfPolygons) {
         for (Polygon& polygon : polygons) {
             for (glm::dvec3& p : polygon) p += random.in_box(0.004);
         }
-        const auto stitched = [&] { return sorted_triangles(stitch_cracks(shaken(polygons, 0, 0), everywhere(0.03)).value()); };
+        const auto stitched = [&] {
+            return sorted_triangles(stitch_cracks(shaken(polygons, 0, 0), everywhere(0.03)).value());
+        };
         const auto first = stitched();
         for (std::size_t i = polygons.size(); i > 1; --i) {
             std::swap(polygons[i - 1], polygons[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
@@ -161,8 +171,8 @@ TEST(StitchCracks, WhatIsNoCrackStays) {
     EXPECT_FALSE(is_stitched({square, moved({1.01, 0, 0})}, 0.009));  // too wide to reach over
     EXPECT_FALSE(is_stitched({square, moved({1.01, 0, 0})}, 0));
     EXPECT_FALSE(is_stitched({square, moved({1.01, 0, 0})}, -1));
-    EXPECT_FALSE(is_stitched({square, moved({1.4, 0, 0})}, 10));      // too wide for its length
-    EXPECT_FALSE(is_stitched({square, moved({0, 0, 0.01})}, 0.02));   // a stack
+    EXPECT_FALSE(is_stitched({square, moved({1.4, 0, 0})}, 10));        // too wide for its length
+    EXPECT_FALSE(is_stitched({square, moved({0, 0, 0.01})}, 0.02));     // a stack
     EXPECT_FALSE(is_stitched({square, moved({1.01, 1.01, 0})}, 0.02));  // corner to corner
     EXPECT_FALSE(is_stitched({square}, 10));
     EXPECT_FALSE(stitch_cracks(Mesh{}, everywhere(1)));
@@ -173,8 +183,11 @@ TEST(StitchCracks, NoTriangleCollapsesOrTurnsOver) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         Random random(seed);
         std::vector<Polygon> polygons;
-        const Surface hills = [&](double x, double y) { return glm::dvec3(x, y, 0.3 * std::sin(5 * x) * std::cos(4 * y)); };
-        for (int i = 0; i < 4; ++i) add_patch(polygons, hills, {i, 0}, {i + 1, 4}, random.integer(1, 5), random.integer(1, 9));
+        const Surface hills = [&](double x, double y) {
+            return glm::dvec3(x, y, 0.3 * std::sin(5 * x) * std::cos(4 * y));
+        };
+        for (int i = 0; i < 4; ++i)
+            add_patch(polygons, hills, {i, 0}, {i + 1, 4}, random.integer(1, 5), random.integer(1, 9));
         const Mesh cracked = shaken(polygons, random.real(0, 0.2), seed);
         const auto whole = stitch_cracks(cracked, everywhere(std::pow(10.0, random.real(-3, 1))));
         if (!whole) continue;
@@ -204,7 +217,9 @@ TEST(StitchCracks, PolesHaveNoHoles) {
         // Two short edges may have been joined before they could be taken out.
         EXPECT_LT(length_of_borders(*whole), 0.01) << seed;
         EXPECT_EQ(whole->polygon_count, cracked.polygon_count);
-        EXPECT_NEAR(static_cast<double>(whole->triangles.size()), static_cast<double>(cracked.triangles.size()) - 2 * 12, 4) << seed;
+        EXPECT_NEAR(static_cast<double>(whole->triangles.size()),
+                    static_cast<double>(cracked.triangles.size()) - 2 * 12, 4)
+            << seed;
         EXPECT_EQ(whole->triangle_polygon.size(), whole->triangles.size());
     }
 }
@@ -216,7 +231,8 @@ TEST(StitchCracks, ThinStripsAndSlatsStay) {
         hairs.push_back({at, at + glm::dvec3(20, 0.3, 0), at + glm::dvec3(20, 0.4, 0), at + glm::dvec3(0, 0.1, 0)});
         hairs.push_back({at + glm::dvec3(0, 0, 5), at + glm::dvec3(20, 0.1, 5), at + glm::dvec3(0, 0.1, 5)});
         // As far apart as they are high.
-        slats.push_back({slat, slat + glm::dvec3(30, 0, 0), slat + glm::dvec3(30, 0.35, 0.5), slat + glm::dvec3(0, 0.35, 0.5)});
+        slats.push_back(
+            {slat, slat + glm::dvec3(30, 0, 0), slat + glm::dvec3(30, 0.35, 0.5), slat + glm::dvec3(0, 0.35, 0.5)});
     }
     EXPECT_FALSE(stitch_cracks(shaken(hairs, 0, 0), everywhere(1)));
     EXPECT_FALSE(stitch_cracks(shaken(slats, 0, 0), everywhere(1)));
@@ -265,14 +281,26 @@ TEST(StitchCracks, SmallPolygonsAreNoNeedles) {
     std::vector<Polygon> specks;
     for (int i = 0; i < 50; ++i) {
         const glm::dvec3 at(i, 0, 0);
-        specks.push_back({at, at + glm::dvec3(0.01, 0, 0), at + glm::dvec3(0.01, 0.01, 0), at + glm::dvec3(0, 0.01, 0)});
+        specks.push_back(
+            {at, at + glm::dvec3(0.01, 0, 0), at + glm::dvec3(0.01, 0.01, 0), at + glm::dvec3(0, 0.01, 0)});
         specks.push_back({at + glm::dvec3(0, 0.5, 0), at + glm::dvec3(0.01, 0.5, 0), at + glm::dvec3(0.005, 0.51, 0)});
     }
     EXPECT_FALSE(stitch_cracks(shaken(specks, 0, 0), everywhere(1)));
 }
 
 TEST(StitchCracks, MarksGoOnOverBothSides) {
-    PolygonSoup soup = soup_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, -1, 0}, {1, -1, 0}, {1, -0.01, 0}, {0, -0.01, 0}, {1, -0.01, 0}, {1, -1, 0}, {2, -1, 0}, {2, -0.01, 0}},
+    PolygonSoup soup = soup_of({{0, 0, 0},
+                                {2, 0, 0},
+                                {2, 1, 0},
+                                {0, 1, 0},
+                                {0, -1, 0},
+                                {1, -1, 0},
+                                {1, -0.01, 0},
+                                {0, -0.01, 0},
+                                {1, -0.01, 0},
+                                {1, -1, 0},
+                                {2, -1, 0},
+                                {2, -0.01, 0}},
                                {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}});
     soup.marked_edges = {{0, 1}};
     const auto whole = stitch_cracks(build_meshes(soup, {}).at(0), everywhere(0.02));

@@ -37,9 +37,21 @@ PolygonMesh tetrahedron() {
 
 PolygonMesh icosahedron() {
     const float g = static_cast<float>(std::numbers::phi);
-    return cage_of({{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-                   {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                    {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}});
+    return cage_of({{-1, g, 0},
+                    {1, g, 0},
+                    {-1, -g, 0},
+                    {1, -g, 0},
+                    {0, -1, g},
+                    {0, 1, g},
+                    {0, -1, -g},
+                    {0, 1, -g},
+                    {g, 0, -1},
+                    {g, 0, 1},
+                    {-g, 0, -1},
+                    {-g, 0, 1}},
+                   {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}});
 }
 
 PolygonMesh unit_cube() {
@@ -62,8 +74,11 @@ glm::dvec3 centroid(const PolygonMesh& mesh, std::size_t polygon) {
     return sum / static_cast<double>(mesh.polygon(polygon).size());
 }
 
-testing::AssertionResult refuses(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels, std::initializer_list<std::string_view> parts) {
-    return test::refuses([&](const std::string& name) { subdivide(mesh, scheme, levels, name.substr(8, name.size() - 9)); }, "object 'cage'", parts);
+testing::AssertionResult refuses(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels,
+                                 std::initializer_list<std::string_view> parts) {
+    return test::refuses(
+        [&](const std::string& name) { subdivide(mesh, scheme, levels, name.substr(8, name.size() - 9)); },
+        "object 'cage'", parts);
 }
 
 TEST(LoopSubdivision, MakesFourTrianglesOfOne) {
@@ -106,7 +121,8 @@ TEST(LoopSubdivision, ChildrenHaveTheMaterialOfTheirParent) {
         // By symmetry a child stays in the cone of its parent: that with the nearest centre.
         std::size_t parent = 0;
         for (std::size_t k = 1; k < 20; ++k) {
-            if (glm::dot(centroid(mesh, i), centroid(cage, k)) > glm::dot(centroid(mesh, i), centroid(cage, parent))) parent = k;
+            if (glm::dot(centroid(mesh, i), centroid(cage, k)) > glm::dot(centroid(mesh, i), centroid(cage, parent)))
+                parent = k;
         }
         ASSERT_EQ(mesh.polygon_material[i], cage.polygon_material[parent]) << i;
     }
@@ -136,13 +152,16 @@ TEST(LoopSubdivision, VerticesMayHaveManyNeighbours) {
 TEST(LoopSubdivision, TheBorderDependsOnTheBorderAlone) {
     // Two patches with one border and different insides stay joined.
     const auto patch = [](float height) {
-        return subdivide(cage_of({{0, 0, 0}, {4, 0, 0}, {4, 4, 1}, {0, 4, 0}, {2, 2, height}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}), SubdivisionScheme::loop, 3, "p");
+        return subdivide(cage_of({{0, 0, 0}, {4, 0, 0}, {4, 4, 1}, {0, 4, 0}, {2, 2, height}},
+                                 {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}),
+                         SubdivisionScheme::loop, 3, "p");
     };
     const PolygonMesh low = patch(0), high = patch(9);
     const auto border_positions = [](const PolygonMesh& mesh) {
         Mesh m;
         m.positions = mesh.positions;
-        for (std::size_t i = 0; i < mesh.polygon_count(); ++i) m.triangles.push_back({mesh.polygon(i)[0], mesh.polygon(i)[1], mesh.polygon(i)[2]});
+        for (std::size_t i = 0; i < mesh.polygon_count(); ++i)
+            m.triangles.push_back({mesh.polygon(i)[0], mesh.polygon(i)[1], mesh.polygon(i)[2]});
         const auto next = test::link_edges_by_map(m.triangles);
         std::vector<std::array<float, 3>> result;
         for (HalfEdge h = 0; h < next.size(); ++h) {
@@ -196,13 +215,17 @@ TEST(CatmullClark, APolygonOfNCornersGivesN) {
     const PolygonMesh mesh = subdivide(cage, SubdivisionScheme::automatic, 1, "prism");
     EXPECT_EQ(mesh.polygon_count(), 40u);
     for (std::uint32_t i = 0; i < 11; ++i) {
-        EXPECT_EQ(std::count(mesh.polygon_material.begin(), mesh.polygon_material.end(), i), i == 0 ? 5 : (i % 2 == 1 ? 4 : 3)) << i;
+        EXPECT_EQ(std::count(mesh.polygon_material.begin(), mesh.polygon_material.end(), i),
+                  i == 0 ? 5 : (i % 2 == 1 ? 4 : 3))
+            << i;
     }
     for (std::size_t i = 0; i < 40; ++i) {
         // A child has its parent's middle as a corner.
         const glm::dvec3 middle = centroid(cage, mesh.polygon_material[i]);
         const auto corners = mesh.polygon(i);
-        EXPECT_TRUE(std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return glm::distance(glm::dvec3(mesh.positions[v]), middle) < 1e-6; }));
+        EXPECT_TRUE(std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+            return glm::distance(glm::dvec3(mesh.positions[v]), middle) < 1e-6;
+        }));
     }
 }
 
@@ -260,19 +283,27 @@ TEST(CatmullClark, StraightBordersOfAFlatGridStayStraight) {
 TEST(Subdivide, SurfacesThatAreNotTwoManifoldAreRefused) {
     const std::vector<glm::vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {1, 1, 1}};
     for (const auto scheme : {SubdivisionScheme::loop, SubdivisionScheme::catmull_clark}) {
-        EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), scheme, 1, {"polygon 2 ", "two-manifold"})) << "three at an edge";
-        EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2}, {0, 1, 3}}), scheme, 1, {"polygon 1 ", "wound against"})) << "inconsistent winding";
-        EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2}, {0, 3, 4}}), scheme, 1, {"only at a vertex"})) << "two fans at a vertex";
-        EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 4, 5}}), scheme, 1, {"polygon 3 "})) << "a fan at a closed vertex";
+        EXPECT_TRUE(
+            refuses(cage_of(points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), scheme, 1, {"polygon 2 ", "two-manifold"}))
+            << "three at an edge";
+        EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2}, {0, 1, 3}}), scheme, 1, {"polygon 1 ", "wound against"}))
+            << "inconsistent winding";
+        EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2}, {0, 3, 4}}), scheme, 1, {"only at a vertex"}))
+            << "two fans at a vertex";
+        EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 4, 5}}), scheme, 1, {"polygon 3 "}))
+            << "a fan at a closed vertex";
     }
-    EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2, 0, 3}}), SubdivisionScheme::catmull_clark, 1, {"polygon 0 has a corner twice"}));
-    EXPECT_TRUE(refuses(cage_of(points, {{1, 2, 4}, {0, 1, 2, 5, 1, 3}}), SubdivisionScheme::catmull_clark, 1, {"polygon 1 has a corner twice"}));
+    EXPECT_TRUE(refuses(cage_of(points, {{0, 1, 2, 0, 3}}), SubdivisionScheme::catmull_clark, 1,
+                        {"polygon 0 has a corner twice"}));
+    EXPECT_TRUE(refuses(cage_of(points, {{1, 2, 4}, {0, 1, 2, 5, 1, 3}}), SubdivisionScheme::catmull_clark, 1,
+                        {"polygon 1 has a corner twice"}));
     EXPECT_NO_THROW(subdivide(cage_of(points, {{0, 1, 2}, {1, 0, 3}}), SubdivisionScheme::loop, 1, "good"));
 }
 
 TEST(Subdivide, TwoClosedSurfacesMayNotTouchAtAVertex) {
     // Two tetrahedra with a common apex, in any order of their faces.
-    const std::vector<glm::vec3> points{{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}};
+    const std::vector<glm::vec3> points{{0, 0, 0},  {1, 0, 1},   {-1, 1, 1},  {-1, -1, 1},
+                                        {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}};
     const test::Polygons a{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}, b{{0, 5, 4}, {0, 6, 5}, {0, 4, 6}, {4, 5, 6}};
     test::Polygons mixed, in_turn = a;
     in_turn.insert(in_turn.end(), b.begin(), b.end());
@@ -293,10 +324,12 @@ TEST(Subdivide, LoopNeedsTriangles) {
 }
 
 TEST(Subdivide, TooManyPolygonsAreRefusedBeforeTheWork) {
-    EXPECT_TRUE(refuses(tetrahedron(), SubdivisionScheme::loop, 14, {"14 subdivisions give more than 268 million polygons"}));
+    EXPECT_TRUE(
+        refuses(tetrahedron(), SubdivisionScheme::loop, 14, {"14 subdivisions give more than 268 million polygons"}));
     EXPECT_TRUE(refuses(unit_cube(), SubdivisionScheme::catmull_clark, 1000000000, {"more than 268 million"}));
     // 4 * 4^13 = 2^28 is the most: one polygon more is too many.
-    PolygonMesh five = cage_of(std::vector<glm::vec3>(15), {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}, {12, 13, 14}});
+    PolygonMesh five =
+        cage_of(std::vector<glm::vec3>(15), {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}, {12, 13, 14}});
     EXPECT_TRUE(refuses(five, SubdivisionScheme::loop, 13, {"more than 268 million"}));
 }
 
@@ -312,19 +345,22 @@ TEST(Subdivide, AnySurfaceIsSubdividedOrRefused) {
         }
         for (int i = seed % 4 == 3 ? random.integer(1, 4) : 0; i > 0; --i) {
             polygons.emplace_back(static_cast<std::size_t>(random.integer(3, 6)));
-            for (auto& v : polygons.back()) v = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(whole.positions.size()) - 1));
+            for (auto& v : polygons.back())
+                v = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(whole.positions.size()) - 1));
         }
         const PolygonMesh cage = cage_of(whole.positions, polygons);
         std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
         for (const auto& polygon : polygons) {
-            for (std::size_t k = 0; k < polygon.size(); ++k) edges.insert(std::minmax(polygon[k], polygon[(k + 1) % polygon.size()]));
+            for (std::size_t k = 0; k < polygon.size(); ++k)
+                edges.insert(std::minmax(polygon[k], polygon[(k + 1) % polygon.size()]));
         }
         const bool loop = cage.ends.empty() && seed % 2 == 0;
         const auto scheme = loop ? SubdivisionScheme::loop : SubdivisionScheme::catmull_clark;
         try {
             const PolygonMesh mesh = subdivide(cage, scheme, 1, "any");
             ASSERT_EQ(mesh.polygon_count(), loop ? 4 * polygons.size() : cage.corners.size()) << "seed " << seed;
-            ASSERT_EQ(mesh.positions.size(), cage.positions.size() + edges.size() + (loop ? 0 : polygons.size())) << "seed " << seed;
+            ASSERT_EQ(mesh.positions.size(), cage.positions.size() + edges.size() + (loop ? 0 : polygons.size()))
+                << "seed " << seed;
             for (const glm::vec3& p : mesh.positions) ASSERT_LE(glm::length(p), 2) << "seed " << seed;
             ASSERT_NO_THROW(subdivide(mesh, scheme, 1, "again")) << "seed " << seed;
             ++done;
@@ -340,8 +376,10 @@ TEST(Subdivide, ReadModelNamesTheFileOfASurfaceItCannotSubdivide) {
     const test::TemporaryFolder folder;
     MeshOptions options;
     options.subdivision_levels = 1;
-    EXPECT_TRUE(test::refuses([&](const std::string& path) { read_model(path, options); },
-                              folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no thing\nf 1 2 3\nf 1 2 4\n"), {"object 'thing': polygon 1 "}));
+    EXPECT_TRUE(
+        test::refuses([&](const std::string& path) { read_model(path, options); },
+                      folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no thing\nf 1 2 3\nf 1 2 4\n"),
+                      {"object 'thing': polygon 1 "}));
 }
 
 TEST(Subdivide, MeshesAreBuiltOfTheSmallPolygons) {

@@ -81,7 +81,8 @@ TEST(TriangleSoup, FindsTheDuplicatesThatASetFinds) {
         std::vector<std::uint32_t> expected;
         for (int i = 0; i < 100; ++i) {
             std::array<std::uint32_t, 3> t{0, 1, 0};
-            for (std::size_t k = is_crowded ? 2 : 0; k < 3; ++k) t[k] = static_cast<std::uint32_t>(random.integer(0, last));
+            for (std::size_t k = is_crowded ? 2 : 0; k < 3; ++k)
+                t[k] = static_cast<std::uint32_t>(random.integer(0, last));
             const std::set<std::uint32_t> corners(t.begin(), t.end());
             if (corners.size() < 3) continue;
             std::rotate(t.begin(), t.begin() + random.integer(0, 2), t.end());

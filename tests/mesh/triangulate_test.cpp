@@ -175,7 +175,8 @@ void expect_covers_anyhow(const Outline& outline, std::uint64_t seed) {
     ASSERT_NO_FATAL_FAILURE(expect_covers(in_space(outline, axes, random.in_box(10)), area, axes[2]));
     for (int i = 0; i < 3; ++i) {
         Outline turned = outline;
-        std::rotate(turned.begin(), turned.begin() + random.integer(0, static_cast<int>(outline.size()) - 1), turned.end());
+        std::rotate(turned.begin(), turned.begin() + random.integer(0, static_cast<int>(outline.size()) - 1),
+                    turned.end());
         ASSERT_NO_FATAL_FAILURE(expect_covers(in_space(turned, glm::dmat3(1.0), {}), area, {0, 0, 1}));
     }
 }
@@ -201,7 +202,8 @@ TEST(TriangulatePolygon, CoversSpiralsAndCombsOnce) {
             if (corners < 20 * turns) continue;  // the sides would cross
             const Outline outline = spiral(corners, turns);
             const Outline reverse(outline.rbegin(), outline.rend());
-            ASSERT_NO_FATAL_FAILURE(expect_covers_anyhow(area_of(outline) > 0 ? outline : reverse, 1)) << corners << ' ' << turns;
+            ASSERT_NO_FATAL_FAILURE(expect_covers_anyhow(area_of(outline) > 0 ? outline : reverse, 1))
+                << corners << ' ' << turns;
         }
     }
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -220,7 +222,9 @@ TEST(TriangulatePolygon, CornersOnStraightLinesAreNoTrouble) {
         Outline outline;
         const glm::dvec2 corners[3] = {{0, 0}, {60, 0}, {0, 60}};
         for (std::size_t k = 0; k < 3; ++k) {
-            for (int i = 0; i < per_side; ++i) outline.push_back(corners[k] + (corners[(k + 1) % 3] - corners[k]) * static_cast<double>(i) / static_cast<double>(per_side));
+            for (int i = 0; i < per_side; ++i)
+                outline.push_back(corners[k] + (corners[(k + 1) % 3] - corners[k]) * static_cast<double>(i) /
+                                                   static_cast<double>(per_side));
         }
         for (std::size_t first = 0; first < outline.size(); ++first) {
             Outline turned = outline;
@@ -281,7 +285,9 @@ TEST(TriangulatePolygon, WhatIsALineButForRoundingMakesNoNeedles) {
         Triangles triangles;
         triangulate_polygon(corners, triangles);
         for (const auto& [a, b, c] : triangles) {
-            const double longest = std::max({glm::distance(corners[a], corners[b]), glm::distance(corners[b], corners[c]), glm::distance(corners[c], corners[a])});
+            const double longest =
+                std::max({glm::distance(corners[a], corners[b]), glm::distance(corners[b], corners[c]),
+                          glm::distance(corners[c], corners[a])});
             const double height = glm::length(glm::cross(corners[b] - corners[a], corners[c] - corners[a])) / longest;
             ASSERT_GT(height, 0.05) << "seed " << seed << ": " << a << ' ' << b << ' ' << c;
         }
@@ -355,7 +361,8 @@ TEST(TriangulatePolygon, AnythingGivesTwoTrianglesLessThanCorners) {
         }
     };
     expect_count({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, "a figure of eight of four corners");
-    expect_count({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {2, 0, 0}, {1, 1, 0}, {0, 2, 0}}, "a figure of eight of six corners");
+    expect_count({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {2, 0, 0}, {1, 1, 0}, {0, 2, 0}},
+                 "a figure of eight of six corners");
     expect_count(std::vector<glm::dvec3>(10, glm::dvec3(1, 2, 3)), "one point");
     expect_count({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {1, 1, 1}}, "a line");
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {
@@ -372,8 +379,9 @@ TEST(TriangulatePolygon, AnythingGivesTwoTrianglesLessThanCorners) {
 
 TEST(TriangulatePolygon, LargePolygonsComeToAnEnd) {
     Random random(1);
-    for (const Outline& outline : {star(random, 20000, 0.5, 1), spiral(20000, 100), spiral(20000, 3), comb(random, 10000), ring(random, 10000, 10000),
-                                   perforated(random, 2000), stairs(random, 4000)}) {
+    for (const Outline& outline :
+         {star(random, 20000, 0.5, 1), spiral(20000, 100), spiral(20000, 3), comb(random, 10000),
+          ring(random, 10000, 10000), perforated(random, 2000), stairs(random, 4000)}) {
         Triangles triangles;
         triangulate_polygon(in_space(outline, glm::dmat3(1.0), {}), triangles);
         EXPECT_EQ(triangles.size(), outline.size() - 2);

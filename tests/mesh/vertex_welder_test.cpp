@@ -18,7 +18,8 @@ TEST(WeldVertices, AgreesWithAMap) {
         const int places = seed % 2 == 0 ? 2 : 20;
         std::vector<glm::vec3> positions(static_cast<std::size_t>(random.integer(0, seed % 25 == 0 ? 20000 : 300)));
         for (glm::vec3& p : positions) {
-            for (int axis = 0; axis < 3; ++axis) p[axis] = 0.1f * static_cast<float>(random.integer(-places, places)) + 0.0f;
+            for (int axis = 0; axis < 3; ++axis)
+                p[axis] = 0.1f * static_cast<float>(random.integer(-places, places)) + 0.0f;
         }
         std::map<std::array<float, 3>, std::uint32_t> first;
         std::vector<std::uint32_t> expected;

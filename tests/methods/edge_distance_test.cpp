@@ -22,17 +22,14 @@ View view_of(const glm::dvec3 (&corners)[3]) {
     View v;
     for (int k = 0; k < 3; ++k) {
         v.w[k] = -corners[k].z;
-        v.homogeneous[k] = {320 * v.w[k] + 400 * corners[k].x, 240 * v.w[k] - 400 * corners[k].y,
-                            v.w[k]};
+        v.homogeneous[k] = {320 * v.w[k] + 400 * corners[k].x, 240 * v.w[k] - 400 * corners[k].y, v.w[k]};
         v.p[k] = glm::dvec2(v.homogeneous[k]) / v.w[k];
         v.behind[k] = v.w[k] < 0;
     }
     return v;
 }
 
-double area(const glm::dvec2 (&p)[3]) {
-    return std::abs(cross(p[1] - p[0], p[2] - p[0]));
-}
+double area(const glm::dvec2 (&p)[3]) { return std::abs(cross(p[1] - p[0], p[2] - p[0])); }
 
 double line_distance(glm::dvec2 a, glm::dvec2 b, glm::dvec2 at) {
     return std::abs(cross(b - a, at - a)) / glm::distance(a, b);
@@ -41,8 +38,7 @@ double line_distance(glm::dvec2 a, glm::dvec2 b, glm::dvec2 at) {
 View random_view(test::Random& random) {
     for (;;) {
         glm::dvec3 corners[3];
-        for (glm::dvec3& c : corners)
-            c = {random.real(-2, 2), random.real(-1.5, 1.5), -random.real(2, 12)};
+        for (glm::dvec3& c : corners) c = {random.real(-2, 2), random.real(-1.5, 1.5), -random.real(2, 12)};
         const View v = view_of(corners);
         if (area(v.p) > 2000) return v;
     }
@@ -50,8 +46,7 @@ View random_view(test::Random& random) {
 
 /// Neither of the tricks: an interpolator that is correct in perspective, as texture coordinates
 /// have.
-double perspective_distance(const EdgeChannel& channel, const glm::dvec3& w,
-                            const glm::dvec3& lambda) {
+double perspective_distance(const EdgeChannel& channel, const glm::dvec3& w, const glm::dvec3& lambda) {
     const glm::dvec3 weight = lambda / w;
     return glm::dot(weight, channel) / (weight.x + weight.y + weight.z);
 }
@@ -73,8 +68,7 @@ TEST(EdgeDistance, LinearAndPremultipliedPathsAgree) {
                 const double truth = line_distance(v.p[(k + 1) % 3], v.p[(k + 2) % 3], at);
                 EXPECT_NEAR(linear_distance(channel, lambda), truth, 1e-4) << trial;
                 EXPECT_NEAR(premultiplied_distance(channel, v.w, lambda), truth, 1e-4) << trial;
-                worst_without = std::max(
-                    worst_without, std::abs(perspective_distance(channel, v.w, lambda) - truth));
+                worst_without = std::max(worst_without, std::abs(perspective_distance(channel, v.w, lambda) - truth));
             }
         }
     }
@@ -90,8 +84,7 @@ TEST(EdgeDistance, WithoutATrickLinesBendTowardsTheNearCorner) {
     const glm::dvec2 at = 0.5 * v.p[2] + 0.25 * (v.p[0] + v.p[1]);
     const glm::dvec3 lambda = barycentric(v.p, at);
     EXPECT_NEAR(linear_distance(to_near_edge, lambda), 0.5 * altitudes(v.p)[2], 1e-9);
-    EXPECT_LT(perspective_distance(to_near_edge, v.w, lambda),
-              0.1 * linear_distance(to_near_edge, lambda));
+    EXPECT_LT(perspective_distance(to_near_edge, v.w, lambda), 0.1 * linear_distance(to_near_edge, lambda));
 }
 
 TEST(EdgeDistance, ScalingByTheWholeViewportDoublesDistances) {
@@ -112,8 +105,7 @@ TEST(EdgeDistance, PolygonsOfAnySizeAreExact) {
         std::vector<glm::dvec2> polygon;
         for (int i = 0; i < count; ++i) {
             const double angle = 2 * 3.14159265358979 * (i + random.real(0, 0.6)) / count;
-            polygon.push_back(glm::dvec2(300, 200) +
-                              glm::dvec2(180 * std::cos(angle), 120 * std::sin(angle)));
+            polygon.push_back(glm::dvec2(300, 200) + glm::dvec2(180 * std::cos(angle), 120 * std::sin(angle)));
         }
         const auto corner = [&](int i) { return polygon[static_cast<std::size_t>(i % count)]; };
         // A fan of triangles, each with a signed distance per edge of the polygon at its corners.
@@ -162,10 +154,8 @@ TEST(EdgeDistance, CasesLinesAndHeightsAgree) {
                     EXPECT_EQ(d[k], kNoEdge) << "an edge behind the eye";
                     continue;
                 }
-                const double truth =
-                    std::abs(signed_distance(line_through(v.homogeneous[a], v.homogeneous[b]), at));
-                EXPECT_NEAR(std::abs(d[k]), truth,
-                            1e-6 * (1 + glm::length(v.p[a]) + glm::length(v.p[b])))
+                const double truth = std::abs(signed_distance(line_through(v.homogeneous[a], v.homogeneous[b]), at));
+                EXPECT_NEAR(std::abs(d[k]), truth, 1e-6 * (1 + glm::length(v.p[a]) + glm::length(v.p[b])))
                     << trial << " case " << number;
                 ++seen[number];
             }
@@ -181,11 +171,9 @@ TEST(EdgeDistance, NearClippingAgreesWithLines) {
         const glm::dvec3 front(random.real(-2, 2), random.real(-1.5, 1.5), -random.real(1, 6));
         const glm::dvec3 back(random.real(-2, 2), random.real(-1.5, 1.5), random.real(0.2, 6));
         const double part = (-0.1 - front.z) / (back.z - front.z);
-        const View whole = view_of({front, back, front}),
-                   cut = view_of({front, front + part * (back - front), front});
+        const View whole = view_of({front, back, front}), cut = view_of({front, front + part * (back - front), front});
         const glm::dvec2 at(random.real(0, 640), random.real(0, 480));
-        const double by_line =
-            std::abs(signed_distance(line_through(whole.homogeneous[0], whole.homogeneous[1]), at));
+        const double by_line = std::abs(signed_distance(line_through(whole.homogeneous[0], whole.homogeneous[1]), at));
         EXPECT_NEAR(line_distance(cut.p[0], cut.p[1], at), by_line, 1e-6) << trial;
     }
 }
@@ -195,8 +183,8 @@ TEST(EdgeDistance, ACornerInTheEyesPlaneNeedsLines) {
     EXPECT_FALSE(std::isfinite(v.p[1].x));
     // The line towards a point at infinity: from the corner in its direction.
     const glm::dvec3 line = line_through(v.homogeneous[0], v.homogeneous[1]);
-    const glm::dvec2 at = v.p[0] + 50.0 * glm::normalize(glm::dvec2(0.7, -0.9)) +
-                          7.0 * glm::normalize(glm::dvec2(0.9, 0.7));
+    const glm::dvec2 at =
+        v.p[0] + 50.0 * glm::normalize(glm::dvec2(0.7, -0.9)) + 7.0 * glm::normalize(glm::dvec2(0.9, 0.7));
     EXPECT_NEAR(std::abs(signed_distance(line, at)), 7, 1e-9);
     const glm::dvec3 by_cases = solid_wireframe_distances(v.p, {false, true, false}, at);
     EXPECT_FALSE(by_cases[2] < 1e9) << "the table of cases has no answer";
@@ -230,8 +218,7 @@ TEST(EdgeDistance, BarycentricThresholdsGiveWidthsInProportionToSize) {
     const auto distance_above_edge = [](const glm::dvec2(&p)[3]) {
         EdgeChannel channel(0.0);
         channel[2] = altitudes(p)[2];
-        return linear_distance(channel,
-                               barycentric(p, 0.6 * p[0] + 0.4 * p[1] + glm::dvec2(0, 1.5)));
+        return linear_distance(channel, barycentric(p, 0.6 * p[0] + 0.4 * p[1] + glm::dvec2(0, 1.5)));
     };
     EXPECT_NEAR(distance_above_edge(small), 1.5, 1e-12);
     EXPECT_NEAR(distance_above_edge(large), 1.5, 1e-12);

@@ -49,24 +49,33 @@ TEST(Explain, SaysWhyThereIsNoLine) {
 
 /// A quadrilateral on the left and a triangle on the right, which came the other way round.
 TEST(Explain, NumbersTrianglesAsTheyStoodInTheFile) {
-    Scene scene = scene_of({soup_of({{10, 10, 0}, {40, 10, 0}, {40, 40, 0}, {10, 40, 0}, {60, 10, 0}, {90, 10, 0}, {90, 40, 0}}, {{0, 1, 2, 3}, {4, 5, 6}})});
+    Scene scene =
+        scene_of({soup_of({{10, 10, 0}, {40, 10, 0}, {40, 40, 0}, {10, 40, 0}, {60, 10, 0}, {90, 10, 0}, {90, 40, 0}},
+                          {{0, 1, 2, 3}, {4, 5, 6}})});
     const auto left_and_right = [&] {
-        return explain(scene, pixel_camera(100, 100), 100, 12, 85) + explain(scene, pixel_camera(100, 100), 100, 38, 65) +
+        return explain(scene, pixel_camera(100, 100), 100, 12, 85) +
+               explain(scene, pixel_camera(100, 100), 100, 38, 65) +
                explain(scene, pixel_camera(100, 100), 100, 85, 85);
     };
     const std::string as_read = left_and_right();
-    EXPECT_TRUE(contains(as_read, "polygon 1, triangle 0") && contains(as_read, "polygon 1, triangle 1") && contains(as_read, "polygon 2, triangle 2")) << as_read;
+    EXPECT_TRUE(contains(as_read, "polygon 1, triangle 0") && contains(as_read, "polygon 1, triangle 1") &&
+                contains(as_read, "polygon 2, triangle 2"))
+        << as_read;
     scene.meshes[0].input_order = InputOrder({1, 0}, {});
     const std::string sorted = left_and_right();
-    EXPECT_TRUE(contains(sorted, "polygon 2, triangle 1") && contains(sorted, "polygon 2, triangle 2") && contains(sorted, "polygon 1, triangle 0")) << sorted;
+    EXPECT_TRUE(contains(sorted, "polygon 2, triangle 1") && contains(sorted, "polygon 2, triangle 2") &&
+                contains(sorted, "polygon 1, triangle 0"))
+        << sorted;
 }
 
 /// A strip between the samples.
 TEST(Explain, TellsOfLinesThatItsSamplesMiss) {
-    const Scene scene = scene_of({soup_of({{50.51, 10, 5}, {50.53, 10, 5}, {50.53, 90, 5}, {50.51, 90, 5}}, {{0, 1, 2, 3}})});
+    const Scene scene =
+        scene_of({soup_of({{50.51, 10, 5}, {50.53, 10, 5}, {50.53, 90, 5}, {50.51, 90, 5}}, {{0, 1, 2, 3}})});
     EXPECT_TRUE(contains(explain(scene, pixel_camera(100, 100), 100, 50, 50), "0 fragments"));
     const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100});
-    EXPECT_TRUE(contains(drawn_by_abuffer(frame, 50, 50), "covers of the pixel: border 0.9")) << drawn_by_abuffer(frame, 50, 50);
+    EXPECT_TRUE(contains(drawn_by_abuffer(frame, 50, 50), "covers of the pixel: border 0.9"))
+        << drawn_by_abuffer(frame, 50, 50);
     EXPECT_TRUE(contains(drawn_by_abuffer(frame, 20, 50), "covers of the pixel: nothing"));
 }
 

@@ -71,14 +71,12 @@ TEST(FeatureEdges, OnlyRequestedOnesCount) {
 TEST(FeatureEdges, ContoursOfClosedMeshesAreClosed) {
     // At every vertex an even number of contour edges meet; also with polygons that are not flat,
     // seen along their planes, and wound the other way.
-    for (const PolygonSoup& soup :
-         {make_sphere(0.5, 24, 13), make_torus(0.5, 0.2, 24, 11), make_box({1, 1, 1})}) {
+    for (const PolygonSoup& soup : {make_sphere(0.5, 24, 13), make_torus(0.5, 0.2, 24, 11), make_box({1, 1, 1})}) {
         PolygonSoup turned = soup;
         std::reverse(turned.corners.begin(), turned.corners.begin() + turned.polygon_ends[0]);
         for (const PolygonSoup& s : {soup, turned}) {
             const Scene scene = with_all_classes({s});
-            for (const glm::dvec3 eye :
-                 {glm::dvec3(2, 1.5, 3), glm::dvec3(0, 0, 4), glm::dvec3(0, 3, 0.001)}) {
+            for (const glm::dvec3 eye : {glm::dvec3(2, 1.5, 3), glm::dvec3(0, 0, 4), glm::dvec3(0, 3, 0.001)}) {
                 const Edges e(scene, perspective_camera(eye, {0, 0, 0}));
                 const Mesh& mesh = e.mesh();
                 std::set<std::pair<std::uint32_t, std::uint32_t>> contour;
@@ -117,12 +115,11 @@ TEST(FeatureEdges, BordersAndSeams) {
 
 TEST(FeatureEdges, SliversMakeNoContours) {
     // A flat sheet with a triangle in it that is turned over by rounding.
-    const Scene scene = with_all_classes({soup_of(
-        {{20, 20, 0}, {80, 20, 0}, {80, 80, 0}, {20, 80, 0}, {50, 20.0001, 0}, {50, 50, 0}},
-        {{0, 1, 4}, {4, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 0, 5}, {0, 4, 5}})});
-    PolygonSoup folded =
-        soup_of({{20, 20, 0}, {80, 20, 0}, {50, 19.9999, 0}, {50, 50, 0}, {50, -10, 0}},
-                {{0, 1, 3}, {0, 2, 1}, {0, 4, 2}, {4, 1, 2}});
+    const Scene scene =
+        with_all_classes({soup_of({{20, 20, 0}, {80, 20, 0}, {80, 80, 0}, {20, 80, 0}, {50, 20.0001, 0}, {50, 50, 0}},
+                                  {{0, 1, 4}, {4, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 0, 5}, {0, 4, 5}})});
+    PolygonSoup folded = soup_of({{20, 20, 0}, {80, 20, 0}, {50, 19.9999, 0}, {50, 50, 0}, {50, -10, 0}},
+                                 {{0, 1, 3}, {0, 2, 1}, {0, 4, 2}, {4, 1, 2}});
     EXPECT_EQ(Edges(scene, pixel_camera(100, 100)).count(LineClass::silhouette), 0);
     // Wound as if the sliver lay the other way round.
     std::swap(folded.corners[4], folded.corners[5]);
@@ -142,15 +139,9 @@ TEST(FeatureEdges, DoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(PolygonOutline, RunsAroundConcavePolygons) {
-    const Scene scene = scene_of({soup_of({{20, 20, 0},
-                                           {80, 20, 0},
-                                           {80, 45, 0},
-                                           {45, 45, 0},
-                                           {45, 80, 0},
-                                           {20, 80, 0},
-                                           {90, 20, 0},
-                                           {90, 45, 0}},
-                                          {{0, 1, 2, 3, 4, 5}, {1, 6, 7, 2}})});
+    const Scene scene = scene_of({soup_of(
+        {{20, 20, 0}, {80, 20, 0}, {80, 45, 0}, {45, 45, 0}, {45, 80, 0}, {20, 80, 0}, {90, 20, 0}, {90, 45, 0}},
+        {{0, 1, 2, 3, 4, 5}, {1, 6, 7, 2}})});
     const Mesh& mesh = scene.meshes[0];
     const PolygonOutlines outlines(mesh);
     ASSERT_EQ(outlines.polygon_count(), 2u);

@@ -25,8 +25,7 @@ constexpr GBufferOperator kFirst = GBufferOperator::first, kProfile = GBufferOpe
                           kInternal = GBufferOperator::internal, kId = GBufferOperator::id,
                           kSobel = GBufferOperator::sobel, kRoberts = GBufferOperator::roberts,
                           kSecond = GBufferOperator::second, kNormal = GBufferOperator::normal,
-                          kDecaudin = GBufferOperator::decaudin,
-                          kHertzmann = GBufferOperator::hertzmann;
+                          kDecaudin = GBufferOperator::decaudin, kHertzmann = GBufferOperator::hertzmann;
 
 /// A minimal scene's scene, to be drawn with these operators.
 Scene with(MinimalScene minimal, std::initializer_list<GBufferOperator> operators,
@@ -44,20 +43,16 @@ Scene with(std::vector<PolygonSoup> objects, std::initializer_list<GBufferOperat
 }
 
 Drawing draw(const Scene& scene, int threads = 2) {
-    return Drawing(scene, pixel_camera(kSize, kSize), kSize, kSize, {0, 0, kSize, kSize}, threads,
-                   render_gbuffer);
+    return Drawing(scene, pixel_camera(kSize, kSize), kSize, kSize, {0, 0, kSize, kSize}, threads, render_gbuffer);
 }
 
 /// Line coverage of pixels [x0, x1) of row 128, with nothing else drawn.
 std::vector<double> row(const Scene& scene, int x0, int x1) {
-    const Drawing d(scene, pixel_camera(kSize, kSize), kSize, kSize, {x0, 128, x1, 129}, 1,
-                    render_gbuffer);
+    const Drawing d(scene, pixel_camera(kSize, kSize), kSize, kSize, {x0, 128, x1, 129}, 1, render_gbuffer);
     return d.coverage();
 }
 
-double sum_of(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
+double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 /// All line coverage within a rectangle.
 double sum_within(const Drawing& d, PixelRect rect) {
@@ -73,9 +68,7 @@ std::set<double> levels(const Drawing& d) {
     return {all.begin(), all.end()};
 }
 
-glm::dvec3 at(double x, double y, double z = 0) {
-    return {x, kSize - y, z};
-}
+glm::dvec3 at(double x, double y, double z = 0) { return {x, kSize - y, z}; }
 
 /// A polygon from corners in pixels, y down.
 PolygonSoup polygon(const std::vector<glm::dvec3>& corners) {
@@ -102,8 +95,7 @@ TEST(Step, IsALineTwoPixelsWideAndAliased) {
         EXPECT_EQ(row(scene, 97, 104), (std::vector<double>{0, 0, 1, 1, 0, 0, 0}));
         EXPECT_EQ(levels(draw(scene)), (std::set<double>{0, 1}));
     }
-    EXPECT_EQ(row(with(scene_step(), {kRoberts}), 97, 104),
-              (std::vector<double>{0, 0, 1, 0, 0, 0, 0}));
+    EXPECT_EQ(row(with(scene_step(), {kRoberts}), 97, 104), (std::vector<double>{0, 0, 1, 0, 0, 0, 0}));
 }
 
 TEST(Step, IsFourPixelsWideWithoutTheGate) {
@@ -119,8 +111,7 @@ TEST(Step, IsOneOfTheClassItsOperatorStandsFor) {
     const Drawing ids = draw(with(scene_step(), {kId}, LineClassSet::all()));
     EXPECT_EQ(ids.sum(LineClass::object),
               ids.sum("lines.A"));  // numbers do not tell a step from a contact
-    EXPECT_EQ(draw(with(scene_step(), {kId}, LineClass::polygon)).sum(LineClass::polygon),
-              ids.sum(LineClass::object));
+    EXPECT_EQ(draw(with(scene_step(), {kId}, LineClass::polygon)).sum(LineClass::polygon), ids.sum(LineClass::object));
     EXPECT_EQ(draw(with(scene_step(), {kProfile}, LineClass::crease)).sum("lines.A"), 0);
 }
 
@@ -132,8 +123,7 @@ TEST(Step, SupersampledHasTheWidthAskedFor) {
             scene.lines.style.width_px = width_px;
             const std::vector<double> values = row(scene, 90, 110);
             double moment = 0;
-            for (std::size_t i = 0; i < values.size(); ++i)
-                moment += values[i] * (90.5 + static_cast<double>(i));
+            for (std::size_t i = 0; i < values.size(); ++i) moment += values[i] * (90.5 + static_cast<double>(i));
             EXPECT_NEAR(sum_of(values), width_px, 1e-3) << s;
             EXPECT_NEAR(moment / width_px, 100.37, 0.51 / s) << s;  // the step between two samples
             scene.gbuffer.dilate = false;
@@ -147,8 +137,7 @@ TEST(Silhouettes, HaveTheirFullWidthAndTwoLevels) {
     const Drawing d = draw(with(sil, {kProfile}));
     EXPECT_EQ(levels(d), (std::set<double>{0, 1}));
     double columns = 0;  // or rows, whichever a side crosses more of; two samples in each
-    for (const ScreenSegment& s : sil.lines)
-        columns += std::max(std::abs(s.a.x - s.b.x), std::abs(s.a.y - s.b.y));
+    for (const ScreenSegment& s : sil.lines) columns += std::max(std::abs(s.a.x - s.b.x), std::abs(s.a.y - s.b.y));
     EXPECT_NEAR(d.sum("lines.A"), 2 * columns, 6);
 }
 
@@ -157,8 +146,7 @@ TEST(Silhouettes, HaveTheirFullWidthAndTwoLevels) {
 TEST(Flat, StepsBelowTheLimitsFade) {
     // The profile varies by half of the gap. The second-order differential, though, answers with
     // the whole gap over k_e.
-    EXPECT_NEAR(row(with(scene_flat(), {kProfile}, LineClass::silhouette), 79, 80)[0], 0.064,
-                0.001);
+    EXPECT_NEAR(row(with(scene_flat(), {kProfile}, LineClass::silhouette), 79, 80)[0], 0.064, 0.001);
     EXPECT_NEAR(row(with(scene_flat(), {kInternal}, LineClass::crease), 79, 80)[0], 0.512, 0.001);
     for (const GBufferOperator o : {kSobel, kRoberts, kNormal, kHertzmann}) {
         const LineClassSet classes = LineClass::silhouette | LineClass::crease;
@@ -170,8 +158,7 @@ TEST(Flat, StepsBelowTheLimitsFade) {
 
 TEST(Flat, IsLostInAnEightBitDepthBuffer) {
     // From the nearest point to the background 256.256 px in 255 codes: both squares get code 0.
-    Scene scene = with(scene_flat(), {kProfile, kInternal, kSecond, kFirst},
-                       LineClass::silhouette | LineClass::crease);
+    Scene scene = with(scene_flat(), {kProfile, kInternal, kSecond, kFirst}, LineClass::silhouette | LineClass::crease);
     scene.gbuffer.depth_bits = 8;
     EXPECT_EQ(sum_of(row(scene, 70, 90)), 0);
     scene.gbuffer.depth_bits = 24;
@@ -194,8 +181,7 @@ TEST(Grazing, FloorFillsWithFalseLinesOnlyByAbsoluteDepth) {
     const PixelRect inside{32, 32, 224, 224};
     const auto black = [&](GBufferOperator o) {
         const Scene scene = with(scene_graze(), {o});
-        const Drawing d(scene, scene_graze().camera, kSize, kSize, {0, 0, kSize, kSize}, 2,
-                        render_gbuffer);
+        const Drawing d(scene, scene_graze().camera, kSize, kSize, {0, 0, kSize, kSize}, 2, render_gbuffer);
         return sum_within(d, inside);
     };
     for (const GBufferOperator o : {kFirst, kSobel, kHertzmann}) EXPECT_EQ(black(o), 192 * 192);
@@ -226,9 +212,8 @@ TEST(Curvature, OfSmallBallsIsTakenForCreases) {
     };
     const auto large = [](GBufferOperator o, double crease_angle_deg) {
         const glm::dvec2 middle(128.2, 128.3);
-        Scene scene = with({transformed(make_sphere(60, 64, 32),
-                                        [&](glm::dvec3 p) { return p + at(middle.x, middle.y); })},
-                           {o});
+        Scene scene =
+            with({transformed(make_sphere(60, 64, 32), [&](glm::dvec3 p) { return p + at(middle.x, middle.y); })}, {o});
         scene.lines.crease_angle_deg = crease_angle_deg;
         return blackened(scene, middle, 60);
     };
@@ -258,8 +243,7 @@ TEST(ThinBar, AppearsAndVanishesAsItMoves) {
 
 TEST(Cut, OfALineByAnEdgeInFrontIsAliased) {
     for (const double angle_deg : {5.0, 17.0, 40.0}) {
-        EXPECT_EQ(levels(draw(with(scene_cut(angle_deg), {kId}, LineClassSet::all()))),
-                  (std::set<double>{0, 1}));
+        EXPECT_EQ(levels(draw(with(scene_cut(angle_deg), {kId}, LineClassSet::all()))), (std::set<double>{0, 1}));
     }
 }
 
@@ -270,16 +254,14 @@ TEST(Width, DependsOnTheAngleOfTheLine) {
         const auto corner = [&](double u, double v) {
             return glm::dvec3(glm::dvec2(128.3, 128.1) + u * along + v * across, 0);
         };
-        Scene scene = with(
-            {polygon({corner(-400, 0), corner(400, 0), corner(400, 400), corner(-400, 400)})}, {o});
+        Scene scene = with({polygon({corner(-400, 0), corner(400, 0), corner(400, 400), corner(-400, 400)})}, {o});
         scene.gbuffer.id_neighbours = neighbours;
         const Drawing d = draw(scene);
         const double length = 200 / std::max(std::abs(along.x), std::abs(along.y));
         return sum_within(d, {28, 28, 228, 228}) / length;
     };
     for (const double angle_deg : {0.0, 10.0, 26.0, 45.0, 90.0}) {
-        const double c = std::cos(angle_deg * std::numbers::pi / 180),
-                     s = std::sin(angle_deg * std::numbers::pi / 180);
+        const double c = std::cos(angle_deg * std::numbers::pi / 180), s = std::sin(angle_deg * std::numbers::pi / 180);
         EXPECT_NEAR(width_at(angle_deg, kId, 8), 2 * (c + s), 0.03) << angle_deg;
         EXPECT_NEAR(width_at(angle_deg, kId, 4), 2 * std::max(c, s), 0.03) << angle_deg;
         EXPECT_NEAR(width_at(angle_deg, kProfile, 8), 2 * std::max(c, s), 0.03) << angle_deg;
@@ -299,10 +281,7 @@ TEST(SteepFaces, HaveLinesWithoutGaps) {
 
 TEST(HiddenLines, DoNotLeakThroughSurfacesHoweverClose) {
     for (const double gap : {1e-6, 1e-4, 1e-2, 1e-1}) {
-        EXPECT_EQ(draw(with(scene_gap(gap), {kId, kProfile, kInternal}, LineClassSet::all()))
-                      .sum("lines.A"),
-                  0)
-            << gap;
+        EXPECT_EQ(draw(with(scene_gap(gap), {kId, kProfile, kInternal}, LineClassSet::all())).sum("lines.A"), 0) << gap;
     }
     // One ball within another, and the back of a wedge: their numbers are never seen.
     EXPECT_EQ(draw(with(scene_sphere(), {kId}, LineClass::object)).sum("lines.A"), 0);
@@ -312,8 +291,7 @@ TEST(HiddenLines, DoNotLeakThroughSurfacesHoweverClose) {
 TEST(Intersections, AreBendsOfDepthOrBordersOfNumbers) {
     const MinimalScene crossing = scene_intersect();
     const glm::dvec2 a = crossing.lines[0].a, b = crossing.lines[0].b;
-    const Drawing bend =
-        draw(with(crossing, {kInternal}, LineClass::crease | LineClass::intersection));
+    const Drawing bend = draw(with(crossing, {kInternal}, LineClass::crease | LineClass::intersection));
     EXPECT_GT(bend.drawn_share(a, b), 0.99);
     EXPECT_EQ(bend.sum(LineClass::intersection), 0);  // what it is called is another matter
     EXPECT_GT(draw(with(crossing, {kId}, LineClass::object)).drawn_share(a, b), 0.99);
@@ -338,15 +316,13 @@ std::vector<PolygonSoup> busy_scene() {
             return glm::dvec3(0.8 * v.x - 0.6 * v.z, v.y, 0.6 * v.x + 0.8 * v.z) + p;
         });
     };
-    return {placed(make_box({90, 70, 80}), at(90, 100)),
-            placed(make_torus(50, 20, 40, 20), at(150, 150)),
+    return {placed(make_box({90, 70, 80}), at(90, 100)), placed(make_torus(50, 20, 40, 20), at(150, 150)),
             placed(make_sphere(40, 24, 12), at(180, 90, -20))};
 }
 
 Scene busy_with_everything() {
     Scene scene = scene_of(busy_scene());
-    for (int o = 0; o < kGBufferOperatorCount; ++o)
-        scene.gbuffer.operators.add(static_cast<GBufferOperator>(o));
+    for (int o = 0; o < kGBufferOperatorCount; ++o) scene.gbuffer.operators.add(static_cast<GBufferOperator>(o));
     scene.lines.classes = LineClassSet::all();
     scene.lines.style.width_px = 1.7;
     scene.surfaces.shading = SurfaceShading::lambert;
@@ -388,8 +364,7 @@ TEST(Layers, CoveragesAddUpAndLinesLieOverSurfaces) {
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
             double sum = 0;
-            for (int c = 0; c < kLineClassCount; ++c)
-                sum += d.line(static_cast<LineClass>(c), x, y);
+            for (int c = 0; c < kLineClassCount; ++c) sum += d.line(static_cast<LineClass>(c), x, y);
             ASSERT_NEAR(sum, d.line(x, y), 0.004);
             ASSERT_GE(d.line(x, y), 0);
             ASSERT_LE(d.line(x, y), 1);
@@ -417,8 +392,7 @@ TEST(Layers, DepthNormalsAndNumbersAreThoseOfMethodPatel) {
                 ASSERT_NEAR(z, patels.at("Z", x, y), 0.1);
             }
             for (const char* channel : {"N.X", "N.Y", "N.Z", "id.object", "id.material"}) {
-                ASSERT_EQ(ours.at(channel, x, y), patels.at(channel, x, y))
-                    << channel << " " << x << "," << y;
+                ASSERT_EQ(ours.at(channel, x, y), patels.at(channel, x, y)) << channel << " " << x << "," << y;
             }
         }
     }
@@ -429,21 +403,19 @@ TEST(Perspective, SlopesAreTangentsAtTheReferenceDistance) {
     // Two planes that meet in a vertical ridge at the reference distance, each turned by 20
     // degrees: depth bends by 2 tan 20 px in one column, or by half in two.
     const double t = std::tan(20 * std::numbers::pi / 180);
-    const PolygonSoup roof =
-        soup_of({{0, -1, 0}, {0, 1, 0}, {1, 1, -t}, {1, -1, -t}, {-1, 1, -t}, {-1, -1, -t}},
-                {{0, 1, 2, 3}, {0, 1, 4, 5}});
+    const PolygonSoup roof = soup_of({{0, -1, 0}, {0, 1, 0}, {1, 1, -t}, {1, -1, -t}, {-1, 1, -t}, {-1, -1, -t}},
+                                     {{0, 1, 2, 3}, {0, 1, 4, 5}});
     Scene scene = with({roof}, {kSecond}, LineClass::crease);
     scene.gbuffer.reference_distance = 5;
     scene.gbuffer.crease_limit = 4 * t;
     scene.gbuffer.dilate = false;
-    const Drawing d(scene, perspective_camera({0, 0, 5}, {0, 0, 0}, 15), kSize, kSize,
-                    {0, 0, kSize, kSize}, 2, render_gbuffer);
+    const Drawing d(scene, perspective_camera({0, 0, 5}, {0, 0, 0}, 15), kSize, kSize, {0, 0, kSize, kSize}, 2,
+                    render_gbuffer);
     EXPECT_NEAR(sum_within(d, {120, 128, 136, 129}), 2 * t / (4 * t), 0.02);
 }
 
 TEST(Hatching, IsDarkerWhereTheSurfaceTurnsAway) {
-    const PolygonSoup ball =
-        transformed(make_sphere(100, 128, 64), [](glm::dvec3 p) { return p + at(128, 128); });
+    const PolygonSoup ball = transformed(make_sphere(100, 128, 64), [](glm::dvec3 p) { return p + at(128, 128); });
     Scene scene = with({ball}, {kProfile});
     scene.gbuffer.contours = ContourField::y;
     scene.gbuffer.contour_step = 5;
@@ -456,9 +428,8 @@ TEST(Hatching, IsDarkerWhereTheSurfaceTurnsAway) {
         }
         return sum / (56 * (x1 - x0));
     };
-    EXPECT_NEAR(ink(120, 136), 0.8, 0.03);  // contours: 4 of 5 px
-    EXPECT_EQ(draw(scene).sum("lines.A"),
-              draw(with({ball}, {kProfile})).sum("lines.A"));  // no lines
+    EXPECT_NEAR(ink(120, 136), 0.8, 0.03);                                                 // contours: 4 of 5 px
+    EXPECT_EQ(draw(scene).sum("lines.A"), draw(with({ball}, {kProfile})).sum("lines.A"));  // no lines
     scene.gbuffer.hatching = true;
     EXPECT_LT(ink(120, 136), 0.1);
     EXPECT_GT(ink(210, 216), 0.25);

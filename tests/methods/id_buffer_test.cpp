@@ -34,14 +34,12 @@ void expect_strokes(const MinimalScene& s, const WireProfile& profile) {
 TEST(IdBuffer, SilhouettesHaveTheirWholeWidth) {
     const MinimalScene sil = as_published(scene_sil());
     const Drawing d = draw(sil, render_id_buffer);
-    for (const ScreenSegment& line : sil.lines)
-        EXPECT_NEAR(integrated_width(d, line.a, line.b), 1.5013, 0.01);
+    for (const ScreenSegment& line : sil.lines) EXPECT_NEAR(integrated_width(d, line.a, line.b), 1.5013, 0.01);
     for (const double width : {0.5, 1.0, 3.0}) {
         MinimalScene s = scene_sil();
         s.scene.lines.style.width_px = width;
         const Drawing m = draw(s, render_id_buffer);
-        for (const ScreenSegment& line : s.lines)
-            EXPECT_NEAR(integrated_width(m, line.a, line.b), width, 0.01 * width);
+        for (const ScreenSegment& line : s.lines) EXPECT_NEAR(integrated_width(m, line.a, line.b), width, 0.01 * width);
     }
 }
 
@@ -56,9 +54,9 @@ TEST(IdBuffer, WidthAtSilhouettesHardlyDependsOnPhase) {
     double lowest = 1e9, highest = 0;
     for (int phase = 0; phase < 256; phase += 17) {
         const double x = 100.5 + phase / 256.0;
-        const PolygonSoup soup = soup_of({at_pixel(x, 20, 0.5), at_pixel(230, 20, 0.5),
-                                          at_pixel(230, 230, 0.5), at_pixel(x, 230, 0.5)},
-                                         {{3, 2, 1, 0}});
+        const PolygonSoup soup =
+            soup_of({at_pixel(x, 20, 0.5), at_pixel(230, 20, 0.5), at_pixel(230, 230, 0.5), at_pixel(x, 230, 0.5)},
+                    {{3, 2, 1, 0}});
         const Drawing d = draw(as_published(scene_from({soup})), render_id_buffer);
         double sum = 0;
         for (int i = 90; i < 112; ++i) sum += d.line(i, 128);
@@ -92,8 +90,7 @@ TEST(IdBuffer, SharedEdgesAreWholeAtEverySlope) {
                 if (d.at("id.object", x, y) == 0) continue;
                 const double distance = distance_to(s.lines, {x + 0.5, y + 0.5});
                 if (std::abs(distance - profile.reach_px()) < 0.01) continue;
-                ASSERT_NEAR(d.line(x, y), profile.intensity(distance), 0.02)
-                    << b << ": " << x << "," << y;
+                ASSERT_NEAR(d.line(x, y), profile.intensity(distance), 0.02) << b << ": " << x << "," << y;
             }
         }
     }
@@ -101,24 +98,19 @@ TEST(IdBuffer, SharedEdgesAreWholeAtEverySlope) {
 
 TEST(IdBuffer, NothingLeaksThroughAnyGapBetweenSurfacesThatFaceTheEye) {
     for (const double gap : {1e-6, 1e-4, 1e-2, 1e-1}) {
-        EXPECT_EQ(draw(with_classes(scene_gap(gap), LineClass::polygon | LineClass::border),
-                       render_id_buffer)
-                      .sum("lines.A"),
-                  0)
+        EXPECT_EQ(
+            draw(with_classes(scene_gap(gap), LineClass::polygon | LineClass::border), render_id_buffer).sum("lines.A"),
+            0)
             << gap;
     }
 }
 
 /// A marked edge behind a parallel cover whose depth changes by b per pixel; all else is unmarked.
 MinimalScene covered_edge(double b, double gap) {
-    const auto p = [b](double x, double y, double z) {
-        return at_pixel(x, y, 0.5 + b * (y - 128) + z);
-    };
-    PolygonSoup hidden =
-        soup_of({p(100, 110.3, gap), p(180, 120.8, gap), p(150, 150, gap)}, {{0, 2, 1}});
+    const auto p = [b](double x, double y, double z) { return at_pixel(x, y, 0.5 + b * (y - 128) + z); };
+    PolygonSoup hidden = soup_of({p(100, 110.3, gap), p(180, 120.8, gap), p(150, 150, gap)}, {{0, 2, 1}});
     hidden.marked_edges = {{0, 1}};
-    const PolygonSoup cover =
-        soup_of({p(80, 90, 0), p(200, 90, 0), p(200, 165, 0), p(80, 165, 0)}, {{3, 2, 1, 0}});
+    const PolygonSoup cover = soup_of({p(80, 90, 0), p(200, 90, 0), p(200, 165, 0), p(80, 165, 0)}, {{3, 2, 1, 0}});
     return with_classes(scene_from({hidden, cover}), LineClass::mark);
 }
 
@@ -127,11 +119,8 @@ TEST(IdBuffer, SteepSurfacesLeakWhatTheyDescendWithinAStroke) {
     // on one side it comes out if the gap is less than slope times reach.
     const double reach = matched_profile(WireProfileKind::gauss, 1, kCut).reach_px();
     for (const double b : {1e-3, 1e-2, -1e-2, 2e-2}) {
-        EXPECT_EQ(
-            draw(covered_edge(b, 1.02 * reach * std::abs(b)), render_id_buffer).sum("lines.A"), 0)
-            << b;
-        const double leak =
-            draw(covered_edge(b, 0.1 * reach * std::abs(b)), render_id_buffer).sum("lines.A");
+        EXPECT_EQ(draw(covered_edge(b, 1.02 * reach * std::abs(b)), render_id_buffer).sum("lines.A"), 0) << b;
+        const double leak = draw(covered_edge(b, 0.1 * reach * std::abs(b)), render_id_buffer).sum("lines.A");
         EXPECT_GT(leak, 20) << b;
         EXPECT_LT(leak, 0.5 * 81) << b << ": half the stroke";
     }
@@ -168,16 +157,14 @@ TEST(IdBuffer, TheOrderOfPolygonsDoesNotMatter) {
         for (std::uint32_t i = 0; i < 40; ++i) {
             const glm::dvec2 middle(random.real(40, 216), random.real(40, 216));
             for (int k = 0; k < 3; ++k) {
-                positions.push_back(at_pixel(middle.x + random.real(-40, 40),
-                                             middle.y + random.real(-40, 40),
-                                             random.real(0.1, 0.9)));
+                positions.push_back(
+                    at_pixel(middle.x + random.real(-40, 40), middle.y + random.real(-40, 40), random.real(0.1, 0.9)));
             }
             polygons.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         }
         std::vector<std::vector<std::uint32_t>> shuffled = polygons;
         for (std::size_t i = shuffled.size() - 1; i > 0; --i) {
-            std::swap(shuffled[i],
-                      shuffled[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
+            std::swap(shuffled[i], shuffled[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
         }
         const Drawing a = draw(scene_from({soup_of(positions, polygons)}), render_id_buffer);
         const Drawing b = draw(scene_from({soup_of(positions, shuffled)}), render_id_buffer);
@@ -206,12 +193,11 @@ TEST(IdBuffer, LinesEndWithTheOccludersPixels) {
 
 /// A sheet without visible edges, and behind it a marked edge `inset_px` within its right border.
 MinimalScene hidden_edge(double inset_px) {
-    const PolygonSoup cover = soup_of({at_pixel(60, 60, 0.3), at_pixel(160, 60, 0.3),
-                                       at_pixel(160, 200, 0.3), at_pixel(60, 200, 0.3)},
-                                      {{3, 2, 1, 0}});
-    PolygonSoup hidden = soup_of({at_pixel(160 - inset_px, 80, 0.6),
-                                  at_pixel(160 - inset_px, 180, 0.6), at_pixel(100, 130, 0.6)},
-                                 {{0, 2, 1}});
+    const PolygonSoup cover =
+        soup_of({at_pixel(60, 60, 0.3), at_pixel(160, 60, 0.3), at_pixel(160, 200, 0.3), at_pixel(60, 200, 0.3)},
+                {{3, 2, 1, 0}});
+    PolygonSoup hidden = soup_of(
+        {at_pixel(160 - inset_px, 80, 0.6), at_pixel(160 - inset_px, 180, 0.6), at_pixel(100, 130, 0.6)}, {{0, 2, 1}});
     hidden.marked_edges = {{0, 1}};
     return as_published(with_classes(scene_from({cover, hidden}), LineClass::mark));
 }
@@ -220,8 +206,7 @@ TEST(IdBuffer, HiddenEdgesLeakOverTheBackgroundByAtMostTheirReach) {
     for (const double inset : {0.1, 0.9, 1.25}) {
         const Drawing d = draw(hidden_edge(inset), render_id_buffer);
         EXPECT_GT(d.sum("lines.A"), 0.5) << "the leak";
-        EXPECT_EQ(darkest(d, [&](glm::dvec2 p) { return p.x < 160 || p.x > 160 - inset + 1.8; }),
-                  0);
+        EXPECT_EQ(darkest(d, [&](glm::dvec2 p) { return p.x < 160 || p.x > 160 - inset + 1.8; }), 0);
     }
     EXPECT_EQ(draw(hidden_edge(1.9), render_id_buffer).sum("lines.A"), 0);
     // Usually the silhouette's own stroke covers it.
@@ -235,10 +220,9 @@ TEST(IdBuffer, WhereEdgesEndInTheMiddleOfOthers) {
     // All three polygons draw their own side of the line through the T.
     const MinimalScene s = scene_tjunc();
     const Drawing d = draw(s, render_id_buffer);
-    const std::vector<ScreenSegment> lines = {
-        {{40.3, 60.6}, {210.7, 60.6}},   {{210.7, 60.6}, {210.7, 200.2}},
-        {{210.7, 200.2}, {40.3, 200.2}}, {{40.3, 200.2}, {40.3, 60.6}},
-        {{128.4, 60.6}, {128.4, 200.2}}, {{128.4, 130.7}, {210.7, 130.7}}};
+    const std::vector<ScreenSegment> lines = {{{40.3, 60.6}, {210.7, 60.6}},   {{210.7, 60.6}, {210.7, 200.2}},
+                                              {{210.7, 200.2}, {40.3, 200.2}}, {{40.3, 200.2}, {40.3, 60.6}},
+                                              {{128.4, 60.6}, {128.4, 200.2}}, {{128.4, 130.7}, {210.7, 130.7}}};
     const WireProfile profile = matched_profile(WireProfileKind::gauss, 1, kCut);
     for (int y = 0; y < 256; ++y) {
         for (int x = 0; x < 256; ++x) {
@@ -256,8 +240,7 @@ TEST(IdBuffer, WhereEdgesEndInTheMiddleOfOthers) {
 /// without lines: half of the stroke lies on a polygon that the edge does not belong to.
 MinimalScene foreign_neighbour(double b) {
     const auto p = [b](double x, double y) { return at_pixel(x, y, 0.5 + b * (y - 128)); };
-    PolygonSoup sheet =
-        soup_of({p(40.3, 60.2), p(210.4, 100.7), p(210.4, 190.3), p(40.3, 190.3)}, {{3, 2, 1, 0}});
+    PolygonSoup sheet = soup_of({p(40.3, 60.2), p(210.4, 100.7), p(210.4, 190.3), p(40.3, 190.3)}, {{3, 2, 1, 0}});
     sheet.marked_edges = {{0, 1}};
     const PolygonSoup foreign =
         soup_of({p(-0.8, 50.413), p(251.5, 110.487), p(251.5, 20), p(-0.8, 20)}, {{0, 1, 2, 3}});
@@ -270,11 +253,9 @@ TEST(IdBuffer, OnForeignPolygonsStrokesAreComparedInDepth) {
     const glm::dvec2 a(40.3, 60.2), b(210.4, 100.7);
     for (const bool comes_nearer : {true, false}) {
         MinimalScene s = foreign_neighbour(comes_nearer ? 3e-3 : -3e-3);
-        EXPECT_NEAR(integrated_width(draw(s, render_id_buffer), a, b), comes_nearer ? 0.51 : 1,
-                    0.02);
+        EXPECT_NEAR(integrated_width(draw(s, render_id_buffer), a, b), comes_nearer ? 0.51 : 1, 0.02);
         s.scene.wire.slope = true;
-        EXPECT_NEAR(integrated_width(draw(s, render_id_buffer), a, b), comes_nearer ? 0.905 : 1,
-                    0.02);
+        EXPECT_NEAR(integrated_width(draw(s, render_id_buffer), a, b), comes_nearer ? 0.905 : 1, 0.02);
     }
 }
 
@@ -290,9 +271,7 @@ TEST(IdBuffer, MorePolygonsThan24BitsCanNumberAreRefused) {
 
 TEST(IdBuffer, IntersectionsHaveNoLine) {
     const Drawing d = draw(scene_intersect(), render_id_buffer);
-    EXPECT_EQ(
-        darkest(d, [](glm::dvec2 p) { return std::abs(p.x - 128) < 2 && p.y > 110 && p.y < 160; }),
-        0);
+    EXPECT_EQ(darkest(d, [](glm::dvec2 p) { return std::abs(p.x - 128) < 2 && p.y > 110 && p.y < 160; }), 0);
 }
 
 TEST(IdBuffer, DenseMeshesTurnSolid) {
@@ -330,8 +309,7 @@ TEST(IdBuffer, CornersBehindTheEyeAreNoTrouble) {
         for (int y = 0; y < 256; ++y) {
             for (int x = 0; x < 256; ++x) {
                 if (truth.at("id.object", x, y) == 0) continue;
-                EXPECT_NEAR(strokes.line(x, y), truth.line(x, y), 0.03)
-                    << behind << ": " << x << "," << y;
+                EXPECT_NEAR(strokes.line(x, y), truth.line(x, y), 0.03) << behind << ": " << x << "," << y;
                 drawn += truth.line(x, y) > 0.5;
             }
         }

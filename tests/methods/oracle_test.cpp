@@ -21,8 +21,10 @@ void expect_agreement(const Scene& scene, const Camera& camera, int width, int h
     const auto truth = oracle.line_points(0, 0, width, height, 8, scene.lines.crease_angle_deg);
     const LineAgreement agreement = compare_lines(truth, drawing.coverage(), 0, 0, width, height);
     EXPECT_GT(agreement.certain, 500) << what << ": the scene must have lines";
-    EXPECT_EQ(agreement.missing, 0) << what << ", first at " << agreement.missing_points[0].x << "," << agreement.missing_points[0].y;
-    EXPECT_EQ(agreement.false_mass, 0) << what << ", first at " << agreement.false_pixels[0].x << "," << agreement.false_pixels[0].y;
+    EXPECT_EQ(agreement.missing, 0) << what << ", first at " << agreement.missing_points[0].x << ","
+                                    << agreement.missing_points[0].y;
+    EXPECT_EQ(agreement.false_mass, 0) << what << ", first at " << agreement.false_pixels[0].x << ","
+                                       << agreement.false_pixels[0].y;
 }
 
 Camera fitted(const Scene& scene, glm::dvec3 direction, double aspect) {
@@ -42,9 +44,11 @@ TEST(Oracle, CreasedPart) {
     // A flange: chamfered cone on a disc, a box through it, a torus as a bead.
     std::vector<PolygonSoup> parts;
     parts.push_back(make_cylinder(1, 1, 0.3, 48));
-    parts.push_back(transformed(make_cylinder(0.6, 0.45, 0.8, 48), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.5, 0); }));
+    parts.push_back(
+        transformed(make_cylinder(0.6, 0.45, 0.8, 48), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.5, 0); }));
     parts.push_back(transformed(make_box({2.4, 0.2, 0.3}), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.45, 0); }));
-    parts.push_back(transformed(make_torus(0.6, 0.08, 48, 16), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.15, 0); }));
+    parts.push_back(
+        transformed(make_torus(0.6, 0.08, 48, 16), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.15, 0); }));
     const Scene scene = scene_of(parts);
     for (const glm::dvec3& d : kDirections) expect_agreement(scene, fitted(scene, d, 1.6), 240, 150, "part");
 }
@@ -77,7 +81,8 @@ TEST(Oracle, CrossingSheets) {
 
 TEST(Oracle, Engine) {
     // The CAD assembly that scripts/demo draws: thousands of unstitched patches.
-    ASSERT_TRUE(std::filesystem::exists(BURIN_ENGINE)) << "install assimp-testmodels (scripts/install-dependencies does)";
+    ASSERT_TRUE(std::filesystem::exists(BURIN_ENGINE))
+        << "install assimp-testmodels (scripts/install-dependencies does)";
     const Scene scene = load_scene(bare_model_scene(BURIN_ENGINE, {}));
     for (const glm::dvec3& d : kDirections) expect_agreement(scene, fitted(scene, d, 1.6), 256, 160, "engine");
     const Camera own = resolve_camera(scene.cameras.front(), scene_points(scene), 1.6);

@@ -17,10 +17,13 @@ PolygonSoup half_plane(double angle_deg, double offset) {
     const double a = glm::radians(angle_deg);
     const glm::dvec3 along(std::cos(a), std::sin(a), 0), inwards(-along.y, along.x, 0);
     const glm::dvec3 p = glm::dvec3(64, 64, 0) + offset * inwards;
-    return soup_of({p - 400.0 * along, p + 400.0 * along, p + 400.0 * along + 400.0 * inwards, p - 400.0 * along + 400.0 * inwards}, {{0, 1, 2, 3}});
+    return soup_of({p - 400.0 * along, p + 400.0 * along, p + 400.0 * along + 400.0 * inwards,
+                    p - 400.0 * along + 400.0 * inwards},
+                   {{0, 1, 2, 3}});
 }
 
-Drawing draw(double angle_deg, double offset, int bits, double width = 1, HaloShape shape = HaloShape::four, StrokeSide side = StrokeSide::both) {
+Drawing draw(double angle_deg, double offset, int bits, double width = 1, HaloShape shape = HaloShape::four,
+             StrokeSide side = StrokeSide::both) {
     Scene scene = scene_of({half_plane(angle_deg, offset)});
     scene.patel.mask_bits = bits;
     scene.patel.halo = shape;

@@ -109,7 +109,8 @@ TEST(Reference, PixelsHaveTheExactAreaOfTheStroke) {
                     const double offset = -0.5 * 36.7;
                     // signed distance = dot(p - middle, n), n = (sin, cos) in pixels
                     const auto y_at = [&](double d) { return middle.y + (d - (px - middle.x) * normal.x) / normal.y; };
-                    const double low = std::max<double>(y, y_at(offset - width / 2)), high = std::min<double>(y + 1, y_at(offset + width / 2));
+                    const double low = std::max<double>(y, y_at(offset - width / 2)),
+                                 high = std::min<double>(y + 1, y_at(offset + width / 2));
                     inside += std::max(0.0, high - low) / kFine;
                 }
                 EXPECT_NEAR(truth.line(x, y), inside, 0.002) << x << "," << y << " width " << width;
@@ -161,7 +162,8 @@ TEST(Reference, NothingIsDrawnOverANearerSurface) {
 }
 
 TEST(Reference, SilhouetteOfASphere) {
-    Scene scene = scene_of({transformed(make_sphere(20, 128, 64), [](glm::dvec3 p) { return p + glm::dvec3(32, 32, 0); })});
+    Scene scene =
+        scene_of({transformed(make_sphere(20, 128, 64), [](glm::dvec3 p) { return p + glm::dvec3(32, 32, 0); })});
     for (const double width : {0.3, 1.0, 3.0}) {
         scene.lines.style.width_px = width;
         const Truth truth(scene, pixel_camera(64, 64), 64, 64);
@@ -173,8 +175,9 @@ TEST(Reference, SilhouetteOfASphere) {
 
 TEST(Reference, CrossingSheetsMeetInALine) {
     // Two sheets through each other at 45 degrees, along x = 32.4 from y = 12 to 52.
-    Scene scene = scene_of({soup_of({{12.4, 12, -20}, {52.4, 12, 20}, {52.4, 52, 20}, {12.4, 52, -20}}, {{0, 1, 2, 3}}),
-                            soup_of({{52.4, 12, -20}, {12.4, 12, 20}, {12.4, 52, 20}, {52.4, 52, -20}}, {{0, 1, 2, 3}})});
+    Scene scene =
+        scene_of({soup_of({{12.4, 12, -20}, {52.4, 12, 20}, {52.4, 52, 20}, {12.4, 52, -20}}, {{0, 1, 2, 3}}),
+                  soup_of({{52.4, 12, -20}, {12.4, 12, 20}, {12.4, 52, 20}, {52.4, 52, -20}}, {{0, 1, 2, 3}})});
     scene.lines.classes = LineClass::intersection;
     for (const double width : {0.05, 0.3, 1.0, 3.0}) {
         scene.lines.style.width_px = width;
@@ -200,7 +203,9 @@ TEST(Reference, ACubeHasNineVisibleEdges) {
             q[axis] = 0.5;
             p[(axis + 1) % 3] = q[(axis + 1) % 3] = side & 1 ? 0.5 : -0.5;
             p[(axis + 2) % 3] = q[(axis + 2) % 3] = side & 2 ? 0.5 : -0.5;
-            const auto pixel = [&](glm::dvec3 v) { return projection.to_pixel(glm::dvec3(camera.to_view() * glm::dvec4(v, 1))); };
+            const auto pixel = [&](glm::dvec3 v) {
+                return projection.to_pixel(glm::dvec3(camera.to_view() * glm::dvec4(v, 1)));
+            };
             const double length = glm::distance(pixel(p), pixel(q));
             // The eye sees the three faces at +0.5: edges of two are creases, of one silhouettes.
             if (side == 3) crease += length;
@@ -238,8 +243,10 @@ void expect_agreement(Scene scene, const Camera& camera, int width, int height, 
     const auto truth = oracle.line_points(0, 0, width, height, 8, scene.lines.crease_angle_deg);
     const LineAgreement agreement = compare_lines(truth, coverage, 0, 0, width, height);
     EXPECT_GT(agreement.certain, 500) << what << ": the scene must have lines";
-    EXPECT_EQ(agreement.missing, 0) << what << ", first at " << agreement.missing_points[0].x << "," << agreement.missing_points[0].y;
-    EXPECT_EQ(agreement.false_mass, 0) << what << ", first at " << agreement.false_pixels[0].x << "," << agreement.false_pixels[0].y;
+    EXPECT_EQ(agreement.missing, 0) << what << ", first at " << agreement.missing_points[0].x << ","
+                                    << agreement.missing_points[0].y;
+    EXPECT_EQ(agreement.false_mass, 0) << what << ", first at " << agreement.false_pixels[0].x << ","
+                                       << agreement.false_pixels[0].y;
     const std::vector<double> patel = Drawing(scene, camera, width, height).coverage();
     EXPECT_EQ(stray_mass(patel, coverage, width, height), 0) << what << ": patel alone";
     // What is thinner than patel's samples, a quarter of a pixel apart, it may miss.
@@ -264,9 +271,11 @@ TEST(ReferenceAgrees, Teapot) {
 TEST(ReferenceAgrees, CreasedPart) {
     std::vector<PolygonSoup> parts;
     parts.push_back(make_cylinder(1, 1, 0.3, 48));
-    parts.push_back(transformed(make_cylinder(0.6, 0.45, 0.8, 48), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.5, 0); }));
+    parts.push_back(
+        transformed(make_cylinder(0.6, 0.45, 0.8, 48), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.5, 0); }));
     parts.push_back(transformed(make_box({2.4, 0.2, 0.3}), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.45, 0); }));
-    parts.push_back(transformed(make_torus(0.6, 0.08, 48, 16), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.15, 0); }));
+    parts.push_back(
+        transformed(make_torus(0.6, 0.08, 48, 16), [](glm::dvec3 p) { return p + glm::dvec3(0, 0.15, 0); }));
     const Scene scene = scene_of(parts);
     for (int i : {1, 2}) expect_agreement(scene, fitted(scene, kDirections[i], 1.6), 160, 100, "part");
 }
@@ -286,7 +295,8 @@ TEST(ReferenceAgrees, CrossingSheets) {
 }
 
 TEST(ReferenceAgrees, Engine) {
-    ASSERT_TRUE(std::filesystem::exists(BURIN_ENGINE)) << "install assimp-testmodels (scripts/install-dependencies does)";
+    ASSERT_TRUE(std::filesystem::exists(BURIN_ENGINE))
+        << "install assimp-testmodels (scripts/install-dependencies does)";
     const Scene scene = load_scene(bare_model_scene(BURIN_ENGINE, {}));
     expect_agreement(scene, fitted(scene, kDirections[0], 1.6), 200, 125, "engine");
 }
@@ -335,9 +345,17 @@ TEST(Reference, SixteenSamplesAreAsGoodAsSixtyFour) {
 
 TEST(Reference, ACrackSeenAtASmallAngleIsNoLine) {
     const auto ink = [](double crack) {
-        const PolygonSoup sheet = soup_of({{0, -2.5, 0.5}, {1, -2.5, 0.5}, {1, -0.5, 0.5}, {0, -0.5, 0.5}, {1 + crack, -2.5, 0.5}, {2, -2.5, 0.5}, {2, -0.5, 0.5}, {1 + crack, -0.5, 0.5}},
+        const PolygonSoup sheet = soup_of({{0, -2.5, 0.5},
+                                           {1, -2.5, 0.5},
+                                           {1, -0.5, 0.5},
+                                           {0, -0.5, 0.5},
+                                           {1 + crack, -2.5, 0.5},
+                                           {2, -2.5, 0.5},
+                                           {2, -0.5, 0.5},
+                                           {1 + crack, -0.5, 0.5}},
                                           {{0, 1, 2, 3}, {4, 5, 6, 7}});
-        return Truth(scene_of({sheet}), perspective_camera({3.56, -5.65, 0.22}, {0.17, 0.16, -0.12}), 160, 160).sum("lines.A");
+        return Truth(scene_of({sheet}), perspective_camera({3.56, -5.65, 0.22}, {0.17, 0.16, -0.12}), 160, 160)
+            .sum("lines.A");
     };
     EXPECT_NEAR(ink(0.0034), ink(0), 2);
 }

@@ -16,8 +16,8 @@ using namespace test;
 constexpr double kGaussPx = 1.50538;  // integrated width of exp2(-2 d^2)
 
 PolygonSoup two_rectangles(double x) {
-    return soup_of({at_pixel(20, 20, 0.5), at_pixel(x, 20, 0.5), at_pixel(230, 20, 0.5),
-                    at_pixel(230, 230, 0.5), at_pixel(x, 230, 0.5), at_pixel(20, 230, 0.5)},
+    return soup_of({at_pixel(20, 20, 0.5), at_pixel(x, 20, 0.5), at_pixel(230, 20, 0.5), at_pixel(230, 230, 0.5),
+                    at_pixel(x, 230, 0.5), at_pixel(20, 230, 0.5)},
                    {{5, 4, 1, 0}, {4, 3, 2, 1}});
 }
 
@@ -29,10 +29,8 @@ double row_sum(const Drawing& d, int y, int x0, int x1) {
 
 TEST(SinglePass, SilhouettesHaveHalfTheWidthOfInnerLines) {
     const MinimalScene sil = scene_sil(), slope = scene_slope(0);
-    const Drawing s = draw(as_published(sil), render_single_pass),
-                  i = draw(as_published(slope), render_single_pass);
-    for (const ScreenSegment& line : sil.lines)
-        EXPECT_NEAR(integrated_width(s, line.a, line.b), 0.7527, 0.01);
+    const Drawing s = draw(as_published(sil), render_single_pass), i = draw(as_published(slope), render_single_pass);
+    for (const ScreenSegment& line : sil.lines) EXPECT_NEAR(integrated_width(s, line.a, line.b), 0.7527, 0.01);
     EXPECT_NEAR(integrated_width(i, slope.lines[0].a, slope.lines[0].b), kGaussPx, 0.005);
     for (const double width : {0.5, 1.0, 3.0}) {
         MinimalScene narrow = sil, inner = slope;
@@ -49,8 +47,7 @@ TEST(SinglePass, WidthAtSilhouettesDependsOnPhase) {
     for (int phase = 0; phase < 256; phase += 17) {
         const double x = 100.5 + phase / 256.0;
         const MinimalScene s = scene_from({two_rectangles(x)});
-        const Drawing d =
-            draw(as_published(with_classes(s, LineClass::polygon)), render_single_pass);
+        const Drawing d = draw(as_published(with_classes(s, LineClass::polygon)), render_single_pass);
         const double inner = row_sum(d, 128, 90, 112);
         inner_low = std::min(inner_low, inner);
         inner_high = std::max(inner_high, inner);
@@ -59,9 +56,9 @@ TEST(SinglePass, WidthAtSilhouettesDependsOnPhase) {
     EXPECT_LT(inner_high, 1.5079 + 2e-3);
     for (const int phase : {0, 1, 64, 128, 255}) {
         const double x = 100.5 + phase / 256.0;
-        PolygonSoup soup = soup_of({at_pixel(x, 20, 0.5), at_pixel(230, 20, 0.5),
-                                    at_pixel(230, 230, 0.5), at_pixel(x, 230, 0.5)},
-                                   {{3, 2, 1, 0}});
+        PolygonSoup soup =
+            soup_of({at_pixel(x, 20, 0.5), at_pixel(230, 20, 0.5), at_pixel(230, 230, 0.5), at_pixel(x, 230, 0.5)},
+                    {{3, 2, 1, 0}});
         const Drawing d = draw(as_published(scene_from({soup})), render_single_pass);
         const double sum = row_sum(d, 128, 90, 112);
         lowest = std::min(lowest, sum);
@@ -101,12 +98,10 @@ TEST(SinglePass, PixelsDependOnTheirDistanceAlone) {
             for (int y = 0; y < 256; ++y) {
                 for (int x = 0; x < 256; ++x) {
                     if (d.at("id.object", x, y) == 0) continue;
-                    const double along =
-                        std::abs(cross(glm::normalize(s.lines[0].b - s.lines[0].a),
-                                       glm::dvec2(x + 0.5, y + 0.5) - s.lines[0].a));
+                    const double along = std::abs(cross(glm::normalize(s.lines[0].b - s.lines[0].a),
+                                                        glm::dvec2(x + 0.5, y + 0.5) - s.lines[0].a));
                     // Corners are snapped to 1/256 pixel.
-                    ASSERT_NEAR(d.line(x, y), profile.intensity(along), 0.02)
-                        << b << " at " << x << "," << y;
+                    ASSERT_NEAR(d.line(x, y), profile.intensity(along), 0.02) << b << " at " << x << "," << y;
                 }
             }
         }
@@ -115,8 +110,7 @@ TEST(SinglePass, PixelsDependOnTheirDistanceAlone) {
 
 TEST(SinglePass, NothingLeaksThroughAnyGap) {
     for (const double gap : {1e-6, 1e-4, 1e-2, 1e-1}) {
-        EXPECT_EQ(draw(with_classes(scene_gap(gap), LineClass::polygon | LineClass::border),
-                       render_single_pass)
+        EXPECT_EQ(draw(with_classes(scene_gap(gap), LineClass::polygon | LineClass::border), render_single_pass)
                       .sum("lines.A"),
                   0)
             << gap;
@@ -149,9 +143,7 @@ TEST(SinglePass, DenseMeshesTurnSolid) {
 TEST(SinglePass, IntersectionsHaveNoLine) {
     const MinimalScene s = scene_intersect();
     const Drawing d = draw(s, render_single_pass);
-    EXPECT_EQ(
-        darkest(d, [&](glm::dvec2 p) { return std::abs(p.x - 128) < 2 && p.y > 110 && p.y < 160; }),
-        0);
+    EXPECT_EQ(darkest(d, [&](glm::dvec2 p) { return std::abs(p.x - 128) < 2 && p.y > 110 && p.y < 160; }), 0);
     const Method* const method = find_method("single-pass");
     ASSERT_NE(method, nullptr);
     EXPECT_FALSE(method->draws.has(LineClass::intersection));
@@ -162,9 +154,7 @@ TEST(SinglePass, IntersectionsHaveNoLine) {
 TEST(SinglePass, ConcavePolygonsNeedFlags) {
     const MinimalScene s = scene_concave();
     // Below the inner corner (120.7, 130.2), where an edge's line runs on.
-    const auto runs_on = [](glm::dvec2 p) {
-        return std::abs(p.x - 120.7) < 1 && p.y > 140 && p.y < 200;
-    };
+    const auto runs_on = [](glm::dvec2 p) { return std::abs(p.x - 120.7) < 1 && p.y > 140 && p.y < 200; };
     EXPECT_NEAR(darkest(draw(s, render_single_pass), runs_on),
                 matched_profile(WireProfileKind::gauss, 1).intensity(0.2), 0.02);
     for (const WireExclude exclude : {WireExclude::flags, WireExclude::q}) {
@@ -181,8 +171,7 @@ TEST(SinglePass, FlagsLeaveAGapAtAReflexVertex) {
     int gap = 0;
     for (int y = 120; y < 140; ++y) {
         for (int x = 110; x < 132; ++x) {
-            const bool is_core =
-                glm::distance(glm::dvec2(x + 0.5, y + 0.5), glm::dvec2(120.7, 130.2)) < 3.9;
+            const bool is_core = glm::distance(glm::dvec2(x + 0.5, y + 0.5), glm::dvec2(120.7, 130.2)) < 3.9;
             gap += is_core && flags.at("id.object", x, y) > 0 && flags.line(x, y) < 0.5;
         }
     }
@@ -224,11 +213,7 @@ TEST(SinglePass, QLeavesSpotsOnSlivers) {
     s.scene.wire.q_px = 4;
     const Drawing spots = draw(s, render_single_pass);
     EXPECT_GT(spots.sum("lines.A"), 20);
-    EXPECT_GT(darkest(spots,
-                      [](glm::dvec2 p) {
-                          return glm::distance(p, {128.3, 127.6}) > 95;
-                      }),
-              0.2);
+    EXPECT_GT(darkest(spots, [](glm::dvec2 p) { return glm::distance(p, {128.3, 127.6}) > 95; }), 0.2);
     for (const WireExclude cure : {WireExclude::flags, WireExclude::polygon}) {
         s.scene.wire.exclude = cure;
         EXPECT_EQ(draw(s, render_single_pass).sum("lines.A"), 0);
@@ -273,31 +258,26 @@ TEST(SinglePass, AlphaTestSeesThroughSurfaces) {
 }
 
 TEST(SinglePass, ThreadsAndCropsChangeNothing) {
-    for (const RenderFunction render :
-         {render_single_pass, render_solid_wireframe, render_id_buffer}) {
+    for (const RenderFunction render : {render_single_pass, render_solid_wireframe, render_id_buffer}) {
         const MinimalScene s = with_classes(scene_sphere(), LineClassSet::all());
         const Drawing one = draw(s, render, 1), three = draw(s, render, 3);
         EXPECT_TRUE(same_bits(one.image(), three.image()));
         const Drawing part(s.scene, s.camera, 256, 256, {70, 41, 171, 190}, 2, render);
         for (int y = 41; y < 190; y += 3) {
-            for (int x = 70; x < 171; x += 3)
-                EXPECT_EQ(part.at("lines.A", x - 70, y - 41), one.line(x, y));
+            for (int x = 70; x < 171; x += 3) EXPECT_EQ(part.at("lines.A", x - 70, y - 41), one.line(x, y));
         }
     }
 }
 
 TEST(SinglePass, LayersFitTogether) {
-    for (const RenderFunction render :
-         {render_single_pass, render_solid_wireframe, render_id_buffer}) {
+    for (const RenderFunction render : {render_single_pass, render_solid_wireframe, render_id_buffer}) {
         const Drawing d = draw(with_classes(scene_sphere(), LineClassSet::all()), render);
         for (int y = 0; y < 256; y += 5) {
             for (int x = 0; x < 256; x += 5) {
                 double sum = 0;
-                for (int c = 0; c < kLineClassCount; ++c)
-                    sum += d.line(static_cast<LineClass>(c), x, y);
+                for (int c = 0; c < kLineClassCount; ++c) sum += d.line(static_cast<LineClass>(c), x, y);
                 EXPECT_NEAR(sum, d.line(x, y), 1e-3);
-                EXPECT_NEAR(d.at("A", x, y),
-                            d.line(x, y) + (1 - d.line(x, y)) * d.at("surface.A", x, y), 2e-3);
+                EXPECT_NEAR(d.at("A", x, y), d.line(x, y) + (1 - d.line(x, y)) * d.at("surface.A", x, y), 2e-3);
                 EXPECT_EQ(d.at("id.object", x, y) == 0, std::isinf(d.at("Z", x, y)));
             }
         }

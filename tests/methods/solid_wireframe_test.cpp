@@ -35,8 +35,7 @@ TEST(SolidWireframe, CornersBehindTheEyeAreNoTrouble) {
         const WireProfile profile = matched_profile(WireProfileKind::nv, 1);
         MinimalScene lines = s;
         lines.scene.wire.path = WirePath::homogeneous;
-        const Drawing cases = draw(s, render_solid_wireframe),
-                      homogeneous = draw(lines, render_solid_wireframe);
+        const Drawing cases = draw(s, render_solid_wireframe), homogeneous = draw(lines, render_solid_wireframe);
         int drawn = 0;
         for (int y = 0; y < 256; ++y) {
             for (int x = 0; x < 256; ++x) {
@@ -74,23 +73,20 @@ TEST(SolidWireframe, ACornerInTheEyesPlaneNeedsHomogeneousLines) {
 
 TEST(SolidWireframe, PublishedLinesAreOnePixelWideAndLeaveAStepAtSilhouettes) {
     const MinimalScene slope = as_published(scene_slope(0));
-    EXPECT_NEAR(
-        integrated_width(draw(slope, render_solid_wireframe), slope.lines[0].a, slope.lines[0].b),
-        1.0182, 0.005);
+    EXPECT_NEAR(integrated_width(draw(slope, render_solid_wireframe), slope.lines[0].a, slope.lines[0].b), 1.0182,
+                0.005);
     const MinimalScene sil = as_published(scene_sil());
     const Drawing d = draw(sil, render_solid_wireframe);
-    for (const ScreenSegment& line : sil.lines)
-        EXPECT_NEAR(integrated_width(d, line.a, line.b), 1.0182 / 2, 0.01);
+    for (const ScreenSegment& line : sil.lines) EXPECT_NEAR(integrated_width(d, line.a, line.b), 1.0182 / 2, 0.01);
     // W = 1.5 is not black anywhere: the fill shows through by .083.
-    EXPECT_NEAR(darkest(draw(slope, render_solid_wireframe), [](glm::dvec2) { return true; }),
-                1 - 0.083, 5e-3);
+    EXPECT_NEAR(darkest(draw(slope, render_solid_wireframe), [](glm::dvec2) { return true; }), 1 - 0.083, 5e-3);
 }
 
 TEST(SolidWireframe, DiagonalsAreHiddenOrDotted) {
     // A square, mirrored in both of its diagonals to the bit.
-    MinimalScene s = scene_from({soup_of({at_pixel(64, 64, 0.5), at_pixel(192, 64, 0.5),
-                                          at_pixel(192, 192, 0.5), at_pixel(64, 192, 0.5)},
-                                         {{3, 2, 1, 0}})});
+    MinimalScene s = scene_from(
+        {soup_of({at_pixel(64, 64, 0.5), at_pixel(192, 64, 0.5), at_pixel(192, 192, 0.5), at_pixel(64, 192, 0.5)},
+                 {{3, 2, 1, 0}})});
     s.scene.lines.style.width_px = 2;
     const auto inner = [](glm::dvec2 p) { return p.x > 72 && p.x < 184 && p.y > 72 && p.y < 184; };
     EXPECT_EQ(darkest(draw(s, render_solid_wireframe), inner), 0);
@@ -104,8 +100,7 @@ TEST(SolidWireframe, DiagonalsAreHiddenOrDotted) {
     int dark = 0, light = 0;
     for (int y = 72; y < 184; ++y) {
         for (int x = 72; x < 184; ++x) {
-            jump = std::max(
-                jump, std::abs(d.line(x, y) - (is_main ? d.line(y, x) : d.line(255 - y, 255 - x))));
+            jump = std::max(jump, std::abs(d.line(x, y) - (is_main ? d.line(y, x) : d.line(255 - y, 255 - x))));
         }
         const double on_diagonal = is_main ? d.line(y, y) : d.line(255 - y, y);
         dark += on_diagonal > 0.5;
@@ -117,8 +112,7 @@ TEST(SolidWireframe, DiagonalsAreHiddenOrDotted) {
     // Diagonals are lines of class polygon, for those who ask for it.
     EXPECT_EQ(darkest(draw(with_classes(s, LineClass::border), render_solid_wireframe), inner), 0);
     // Near the square's corners its own edges win.
-    EXPECT_NEAR(d.line(is_main ? 65 : 190, 65),
-                matched_profile(WireProfileKind::nv, 2).intensity(1.5), 0.01);
+    EXPECT_NEAR(d.line(is_main ? 65 : 190, 65), matched_profile(WireProfileKind::nv, 2).intensity(1.5), 0.01);
 }
 
 }  // namespace

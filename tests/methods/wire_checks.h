@@ -9,8 +9,7 @@
 namespace burin::test {
 
 inline Drawing draw(const MinimalScene& s, RenderFunction render, int threads = 2) {
-    return Drawing(s.scene, s.camera, s.size_px, s.size_px, {0, 0, s.size_px, s.size_px}, threads,
-                   render);
+    return Drawing(s.scene, s.camera, s.size_px, s.size_px, {0, 0, s.size_px, s.size_px}, threads, render);
 }
 
 /// With the profile and size of the method's paper.
@@ -26,9 +25,7 @@ inline MinimalScene with_classes(MinimalScene s, LineClassSet classes) {
 }
 
 /// Seen as minimal scenes are: positions in pixels, y down, and z from 0 (near) to 1.
-inline glm::dvec3 at_pixel(double x, double y, double z) {
-    return {x, 256 - y, (0.5 - z) * 256};
-}
+inline glm::dvec3 at_pixel(double x, double y, double z) { return {x, 256 - y, (0.5 - z) * 256}; }
 
 inline MinimalScene scene_from(std::vector<PolygonSoup> objects) {
     MinimalScene s;
@@ -56,8 +53,7 @@ inline double integrated_width(const Drawing& d, glm::dvec2 a, glm::dvec2 b) {
 
 inline double distance_to(const std::vector<ScreenSegment>& lines, glm::dvec2 at) {
     double least = kNoEdge;
-    for (const ScreenSegment& s : lines)
-        least = std::min(least, segment_distance(s.a, s.b, at).distance);
+    for (const ScreenSegment& s : lines) least = std::min(least, segment_distance(s.a, s.b, at).distance);
     return least;
 }
 

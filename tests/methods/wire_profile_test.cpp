@@ -11,8 +11,7 @@ namespace burin {
 namespace {
 
 using Kind = WireProfileKind;
-constexpr Kind kKinds[] = {Kind::gauss,  Kind::nv,     Kind::step,
-                           Kind::linear, Kind::smooth, Kind::box};
+constexpr Kind kKinds[] = {Kind::gauss, Kind::nv, Kind::step, Kind::linear, Kind::smooth, Kind::box};
 
 /// Across a line that runs along an axis, both sides.
 double measured_width(const WireProfile& p) {
@@ -72,8 +71,7 @@ TEST(WireProfile, GaussWithACoreAndACut) {
 }
 
 TEST(WireProfile, NvidiasIsNarrowerThanItsName) {
-    const std::pair<double, double> widths[] = {
-        {1, 0.6085}, {1.5, 1.0182}, {2, 1.5041}, {2.5, 2.0041}, {3, 2.5041}};
+    const std::pair<double, double> widths[] = {{1, 0.6085}, {1.5, 1.0182}, {2, 1.5041}, {2.5, 2.0041}, {3, 2.5041}};
     for (const auto& [w, full] : widths) {
         const WireProfile p{Kind::nv, w};
         EXPECT_NEAR(p.integrated_width_px(), full, 1e-4);
@@ -97,8 +95,7 @@ TEST(WireProfile, IntegratedWidthIsTheIntegral) {
     for (const Kind kind : kKinds) {
         for (const double core : {0.2, 0.7, 1.6, 3.0}) {
             const WireProfile p{kind, core};
-            EXPECT_NEAR(p.integrated_width_px(), measured_width(p), 1e-4)
-                << static_cast<int>(kind) << " " << core;
+            EXPECT_NEAR(p.integrated_width_px(), measured_width(p), 1e-4) << static_cast<int>(kind) << " " << core;
         }
     }
 }
@@ -108,10 +105,8 @@ TEST(WireProfile, MatchedIsAsWideAsAsked) {
         for (const double width : {0.1, 0.5, 1.0, 1.3, 1.6, 2.0, 5.0, 40.0}) {
             for (const double cut : {1.8, WireProfile::kNoCut}) {
                 const WireProfile p = matched_profile(kind, width, cut);
-                EXPECT_NEAR(p.integrated_width_px(), width, 1e-9)
-                    << static_cast<int>(kind) << " " << width;
-                EXPECT_NEAR(measured_width(p), width, 1e-3 + 1e-4 * width)
-                    << static_cast<int>(kind) << " " << width;
+                EXPECT_NEAR(p.integrated_width_px(), width, 1e-9) << static_cast<int>(kind) << " " << width;
+                EXPECT_NEAR(measured_width(p), width, 1e-3 + 1e-4 * width) << static_cast<int>(kind) << " " << width;
             }
         }
     }
@@ -139,8 +134,7 @@ TEST(WireProfile, AMatchedGaussOfOnePixelIsABoxFilteredStroke) {
 TEST(WireProfile, BoxIsTheAreaOfTheStrokeInThePixel) {
     for (std::uint64_t trial = 0; trial < 40; ++trial) {
         test::Random random(trial);
-        const double angle = random.real(0, 6.3), width = random.real(0.1, 3),
-                     d = random.real(0, 2);
+        const double angle = random.real(0, 6.3), width = random.real(0.1, 3), d = random.real(0, 2);
         const glm::dvec2 normal(std::cos(angle), std::sin(angle));
         const WireProfile p{Kind::box, width};
         constexpr int kSide = 400;
@@ -149,8 +143,7 @@ TEST(WireProfile, BoxIsTheAreaOfTheStrokeInThePixel) {
             const glm::dvec2 at((i % kSide + 0.5) / kSide - 0.5, (i / kSide + 0.5) / kSide - 0.5);
             inside += std::abs(glm::dot(at, normal) + d) <= width / 2;
         }
-        EXPECT_NEAR(p.intensity(d, normal), static_cast<double>(inside) / (kSide * kSide), 4e-3)
-            << trial;
+        EXPECT_NEAR(p.intensity(d, normal), static_cast<double>(inside) / (kSide * kSide), 4e-3) << trial;
     }
     // Level and upright lines, where the trapezoid is a box; and no ripple for them at all.
     const Ripple r = ripple({Kind::box, 0.7});

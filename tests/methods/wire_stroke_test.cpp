@@ -11,8 +11,7 @@ namespace {
 
 using namespace test;
 
-constexpr RenderFunction kMethods[] = {render_single_pass, render_solid_wireframe,
-                                       render_id_buffer};
+constexpr RenderFunction kMethods[] = {render_single_pass, render_solid_wireframe, render_id_buffer};
 
 WireEdge level_edge(double length) {
     WireEdge e;
@@ -81,10 +80,8 @@ TEST(WireStroke, DashesHaveNoJumpAcrossASharedEdge) {
                 const auto [distance, along] = segment_distance(a, b, {x + 0.5, y + 0.5});
                 if (along < 2 || along > length - 2 || distance > 1.5) continue;
                 for (const int from_b : {0, 1}) {
-                    const double dash =
-                        dash_coverage((from_b ? length - along : along) / 12, 1.0 / 12, 0.5);
-                    jump[from_b] = std::max(
-                        jump[from_b], std::abs(d.line(x, y) - dash * profile.intensity(distance)));
+                    const double dash = dash_coverage((from_b ? length - along : along) / 12, 1.0 / 12, 0.5);
+                    jump[from_b] = std::max(jump[from_b], std::abs(d.line(x, y) - dash * profile.intensity(distance)));
                 }
             }
         }
@@ -117,8 +114,7 @@ TEST(WireStroke, DualStrokesAreHollow) {
         const auto between = [&](double low, double high) {
             return darkest(d, [&](glm::dvec2 p) {
                 const auto [distance, along] = segment_distance(line.a, line.b, p);
-                return along > 20 && along < glm::distance(line.a, line.b) - 20 &&
-                       distance >= low && distance <= high;
+                return along > 20 && along < glm::distance(line.a, line.b) - 20 && distance >= low && distance <= high;
             });
         };
         EXPECT_EQ(between(0, 0.5), 0);
@@ -148,10 +144,8 @@ TEST(WireStroke, LinesGetThinnerWithDepth) {
         // z runs over the square from top to bottom; the line from (1 - .37) / 2 to (1 + .37) / 2
         // of it.
         const glm::dvec2 a = s.lines[0].a, b = s.lines[0].b;
-        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.0), glm::mix(a, b, 0.2)), 6 * (1 - 0.352),
-                    0.15);
-        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.8), glm::mix(a, b, 1.0)), 6 * (1 - 0.648),
-                    0.15);
+        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.0), glm::mix(a, b, 0.2)), 6 * (1 - 0.352), 0.15);
+        EXPECT_NEAR(integrated_width(d, glm::mix(a, b, 0.8), glm::mix(a, b, 1.0)), 6 * (1 - 0.648), 0.15);
     }
 }
 

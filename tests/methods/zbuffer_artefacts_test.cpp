@@ -8,9 +8,7 @@ namespace {
 
 using namespace test;
 
-bool is_plane_method(std::string_view m) {
-    return m == "edging-plane" || m == "virgin-plane" || m == "stencil";
-}
+bool is_plane_method(std::string_view m) { return m == "edging-plane" || m == "virgin-plane" || m == "stencil"; }
 
 TEST(ZBufferLines, AreOnePixelWideEverywhere) {
     // A single triangle, level: the whole stroke, within the silhouette and without; two levels.
@@ -41,12 +39,10 @@ TEST(ZBufferLines, WidthVariesWithTheAngle) {
         const glm::dvec2 middle = 0.5 * (s.lines[i].a + s.lines[i].b);
         double pixels = 0;
         for (int y = static_cast<int>(middle.y) - 8; y <= middle.y + 8; ++y) {
-            for (int x = static_cast<int>(middle.x) - 8; x <= middle.x + 8; ++x)
-                pixels += d.has_line(x, y);
+            for (int x = static_cast<int>(middle.x) - 8; x <= middle.x + 8; ++x) pixels += d.has_line(x, y);
         }
         const double angle = glm::radians(static_cast<double>(i));
-        EXPECT_NEAR(pixels, 14 * std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle))), 1)
-            << i;
+        EXPECT_NEAR(pixels, 14 * std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle))), 1) << i;
     }
 }
 
@@ -55,8 +51,7 @@ TEST(ZBufferLines, WideOnesAreRepeatedAcrossTheMajorAxis) {
     const double one = MethodDrawing("edging-plane", s).sum("lines.A");
     for (const int width : {2, 3, 5}) {
         s.scene.lines.style.width_px = width;
-        EXPECT_NEAR(MethodDrawing("edging-plane", s).sum("lines.A"), width * one, 4 * width * width)
-            << width;
+        EXPECT_NEAR(MethodDrawing("edging-plane", s).sum("lines.A"), width * one, 4 * width * width) << width;
     }
     s.scene.lines.style.width_px = 1.5;
     EXPECT_EQ(MethodDrawing("edging-plane", s).sum("lines.A"), one);
@@ -114,8 +109,7 @@ TEST(ZBufferLines, GrazingFloorsHaveNoFalseLines) {
         const MethodDrawing d(method, floor);
         EXPECT_GT(d.sum("coverage.border"), 100) << method;
         for (int y = 33; y < 224; ++y) {
-            for (int x = 32; x < 224; ++x)
-                ASSERT_EQ(d.at("lines.A", x, y), 0) << method << x << " " << y;
+            for (int x = 32; x < 224; ++x) ASSERT_EQ(d.at("lines.A", x, y), 0) << method << x << " " << y;
         }
     }
 }
@@ -157,8 +151,7 @@ TEST(SharedEdge, DrawnInOneDirectionIsClean) {
                 const MethodDrawing d(method, s);
                 // Ties go to the row ahead, which is the one that pixels_along() names.
                 EXPECT_EQ(missing_share(d, s.lines[0]), 0) << method << same << b;
-                EXPECT_EQ(
-                    share_along(s.lines[0], [&](int x, int y) { return d.has_line(x, y - 1); }), 0);
+                EXPECT_EQ(share_along(s.lines[0], [&](int x, int y) { return d.has_line(x, y - 1); }), 0);
             }
         }
     }
@@ -167,8 +160,7 @@ TEST(SharedEdge, DrawnInOneDirectionIsClean) {
 TEST(SharedEdge, DrawnInBothDirectionsTakesOtherPixelsAtTies) {
     for (const std::string_view method : {"decal", "edging-plane", "virgin-plane", "stencil"}) {
         const auto above = [&](const MethodDrawing& d) {
-            return share_along(scene_pair(true).lines[0],
-                               [&](int x, int y) { return d.has_line(x, y - 1); });
+            return share_along(scene_pair(true).lines[0], [&](int x, int y) { return d.has_line(x, y - 1); });
         };
         const auto drawn = [&](bool same_direction, double b) {
             MinimalScene s = scene_pair(same_direction, b);
@@ -211,9 +203,8 @@ TEST(NarrowPolygonAtTheContour, LosesItsLineToTheNextOne) {
     // the stroke.
     const auto missing = [](std::string_view method, int segments) {
         MinimalScene s;
-        s.scene = scene_of({transformed(make_cylinder(60, 60, 200, segments), [](glm::dvec3 p) {
-            return p + glm::dvec3(128.3, 128.2, 0);
-        })});
+        s.scene = scene_of({transformed(make_cylinder(60, 60, 200, segments),
+                                        [](glm::dvec3 p) { return p + glm::dvec3(128.3, 128.2, 0); })});
         s.scene.lines.classes = LineClass::silhouette;
         s.camera = pixel_camera(256, 256);
         s.camera.to_world[3].y += 1;  // the caps are seen edge-on
@@ -291,8 +282,7 @@ TEST(Highlight, SelectsByClassAndByObject) {
     const MethodDrawing d("stencil", s);
     EXPECT_GT(count_blue(d), 300);
     EXPECT_EQ(share_along(s.lines[0], [&](int x, int y) { return d.at("lines.B", x, y) > 0; }), 0);
-    EXPECT_EQ(d.sum("lines.A"), MethodDrawing("stencil", scene_hilite()).sum("lines.A"))
-        << "a highlight is a line";
+    EXPECT_EQ(d.sum("lines.A"), MethodDrawing("stencil", scene_hilite()).sum("lines.A")) << "a highlight is a line";
 
     s = scene_three_layers();
     s.scene.objects[1].name = "middle";

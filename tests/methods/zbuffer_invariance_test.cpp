@@ -18,17 +18,15 @@ struct LoadedScene {
 LoadedScene loaded(const std::string& name, int width, int height) {
     LoadedScene result;
     result.scene = load_scene(read_scene_file(BURIN_SOURCE_FOLDER "/scenes/" + name + ".toml", {}));
-    result.camera = resolve_camera(result.scene.cameras[0], scene_points(result.scene),
-                                   static_cast<double>(width) / height);
+    result.camera =
+        resolve_camera(result.scene.cameras[0], scene_points(result.scene), static_cast<double>(width) / height);
     return result;
 }
 
 TEST(ZBufferMethods, StencilIsTheEdgingPlane) {
-    for (const char* const name :
-         {"cage", "cube", "crossing", "flange", "star", "still_life", "teapot", "wireframe"}) {
+    for (const char* const name : {"cage", "cube", "crossing", "flange", "star", "still_life", "teapot", "wireframe"}) {
         const LoadedScene s = loaded(name, 200, 140);
-        const MethodDrawing a("edging-plane", s.scene, s.camera, 200, 140),
-            b("stencil", s.scene, s.camera, 200, 140);
+        const MethodDrawing a("edging-plane", s.scene, s.camera, 200, 140), b("stencil", s.scene, s.camera, 200, 140);
         EXPECT_TRUE(same_bits(a.image(), b.image())) << name;
         EXPECT_GT(a.sum("lines.A"), 50) << name;
     }
@@ -38,8 +36,7 @@ TEST(ZBufferMethods, ThreadsTilesAndCropsChangeNothing) {
     const LoadedScene s = loaded("teapot", 300, 200);
     const PixelRect crop{37, 29, 211, 168};
     for (const std::string_view method : kZBufferMethods) {
-        const MethodDrawing one(method, s.scene, s.camera, 300, 200, 1),
-            four(method, s.scene, s.camera, 300, 200, 4);
+        const MethodDrawing one(method, s.scene, s.camera, 300, 200, 1), four(method, s.scene, s.camera, 300, 200, 4);
         EXPECT_TRUE(same_bits(one.image(), four.image())) << method;
         const MethodDrawing part(method, s.scene, s.camera, 300, 200, crop, 3);
         for (const char* const channel : {"R", "lines.A", "surface.G", "Z", "N.X", "id.polygon"}) {
@@ -75,8 +72,7 @@ TEST(ZBufferMethods, AgreeOnWhatSurfacesAre) {
         const MethodDrawing d(method, s.scene, s.camera, 160, 120);
         for (int y = 0; y < 120; ++y) {
             for (int x = 0; x < 160; ++x) {
-                for (const char* const channel :
-                     {"Z", "N.X", "N.Y", "N.Z", "id.object", "id.polygon", "surface.R"}) {
+                for (const char* const channel : {"Z", "N.X", "N.Y", "N.Z", "id.object", "id.polygon", "surface.R"}) {
                     ASSERT_EQ(d.at(channel, x, y), first.at(channel, x, y)) << method;
                 }
             }
@@ -90,8 +86,7 @@ TEST(ZBufferMethods, AgreeOnWhatSurfacesAre) {
             const double z = first.at("Z", x, y);
             hits += hit.triangle != Oracle::Hit::kNone;
             if ((hit.triangle == Oracle::Hit::kNone) != std::isinf(z)) ++different;
-            if (hit.triangle != Oracle::Hit::kNone && !(std::abs(z / hit.distance - 1) < 1e-5))
-                ++different;
+            if (hit.triangle != Oracle::Hit::kNone && !(std::abs(z / hit.distance - 1) < 1e-5)) ++different;
         }
     }
     EXPECT_GT(hits, 2000);
@@ -122,11 +117,10 @@ TEST(ZBufferMethods, FarEyesCloseEyesAndEyesWithinTheModel) {
         bool sees_edges;
     };
     // Within the sphere; before the middle of a face, so near that only the face is seen; far away.
-    for (const View& view : {View{{0.1, 0.2, 0.05}, 60, true}, View{{0.501, 0.1, 0.1}, 60, false},
-                             View{{3e4, 2e4, 1e4}, 0.004, true}}) {
+    for (const View& view :
+         {View{{0.1, 0.2, 0.05}, 60, true}, View{{0.501, 0.1, 0.1}, 60, false}, View{{3e4, 2e4, 1e4}, 0.004, true}}) {
         for (const std::string_view method : kZBufferMethods) {
-            const MethodDrawing d(method, scene,
-                                  perspective_camera(view.eye, {0, 0, 0}, view.fov_deg), 80, 60);
+            const MethodDrawing d(method, scene, perspective_camera(view.eye, {0, 0, 0}, view.fov_deg), 80, 60);
             EXPECT_EQ(d.sum("lines.A") > 20, view.sees_edges) << method << view.eye.x;
             EXPECT_GT(d.sum("A"), 80 * 60 / 8) << method << view.eye.x;
         }

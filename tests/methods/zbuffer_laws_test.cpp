@@ -45,8 +45,8 @@ TEST(Stippling, WithFillOnOneSideDependsOnItsDirection) {
         for (const double b : {1e-3, -1e-3}) {
             SCOPED_TRACE(testing::Message() << "b " << b << " below " << below);
             const bool nearer_inwards = below == (b < 0);
-            EXPECT_NEAR(measured_missing("simple", exact(scene_half_slope(b, below))),
-                        nearer_inwards ? 0.5 : 0, kShareError);
+            EXPECT_NEAR(measured_missing("simple", exact(scene_half_slope(b, below))), nearer_inwards ? 0.5 : 0,
+                        kShareError);
         }
     }
 }
@@ -107,8 +107,7 @@ TEST(Leak, NeverBehindALevelCoverWithoutAnOffset) {
     for (const std::string_view method : kZBufferMethods) {
         if (method == "offset") continue;
         for (const double gap : {1e-6, 1e-4, 1e-2}) {
-            EXPECT_EQ(MethodDrawing(method, scene_gap(gap)).sum("lines.A"), 0)
-                << method << " " << gap;
+            EXPECT_EQ(MethodDrawing(method, scene_gap(gap)).sum("lines.A"), 0) << method << " " << gap;
         }
     }
 }
@@ -124,15 +123,12 @@ TEST(Leak, OfASlantedCoverNeedsNoOffset) {
         const MethodDrawing d("offset", s);
         const double missing = missing_share(d, s.lines[0]), leak = drawn_share(d, s.lines[1]);
         EXPECT_NEAR(missing, 0.5 - std::min(0.5, eps / b), kShareErrorOf31Pixels) << eps;
-        EXPECT_NEAR(leak, std::clamp(0.5 + (eps - gap) / b, 0.0, 1.0), kShareErrorOf31Pixels)
-            << eps;
+        EXPECT_NEAR(leak, std::clamp(0.5 + (eps - gap) / b, 0.0, 1.0), kShareErrorOf31Pixels) << eps;
         EXPECT_GT(missing + leak, 0.2) << "no offset does it: " << eps;
     }
     // Without any offset the line shows as well: fills and vectors disagree about z by up to |b|/2.
-    for (const std::string_view method :
-         {"simple", "decal", "edging-plane", "virgin-plane", "stencil"}) {
-        EXPECT_NEAR(drawn_share(MethodDrawing(method, s), s.lines[1]), 0.25, kShareErrorOf31Pixels)
-            << method;
+    for (const std::string_view method : {"simple", "decal", "edging-plane", "virgin-plane", "stencil"}) {
+        EXPECT_NEAR(drawn_share(MethodDrawing(method, s), s.lines[1]), 0.25, kShareErrorOf31Pixels) << method;
     }
     // The slope's worth of an offset lets it through everywhere.
     EXPECT_EQ(drawn_share(MethodDrawing("slope-offset", s), s.lines[1]), 1);
@@ -144,15 +140,13 @@ TEST(Leak, OfSlopeOffsetsIsWorstAtTheLimb) {
     const MethodDrawing d("slope-offset", s);
     for (int y = 0; y < s.size_px; ++y) {
         for (int x = 0; x < s.size_px; ++x) {
-            const double radius =
-                glm::distance(glm::dvec2(x + 0.5, y + 0.5), glm::dvec2(128.2, 127.9));
+            const double radius = glm::distance(glm::dvec2(x + 0.5, y + 0.5), glm::dvec2(128.2, 127.9));
             (radius < 60 ? inner : outer) += d.at("lines.A", x, y);
         }
     }
     EXPECT_EQ(inner, 0);
     EXPECT_GT(outer, 100);
-    for (const std::string_view method :
-         {"simple", "offset", "decal", "edging-plane", "virgin-plane", "stencil"}) {
+    for (const std::string_view method : {"simple", "offset", "decal", "edging-plane", "virgin-plane", "stencil"}) {
         EXPECT_LE(MethodDrawing(method, s).sum("lines.A"), 0.02 * outer) << method;
     }
     // A clamp confines it, and brings stippling back where faces are steep.

@@ -15,8 +15,7 @@ using namespace test;
 constexpr PixelRect kRect{0, 0, 40, 30};
 
 ProjectedTriangle triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-    return {{ProjectedCorner{a, 0.1, 1}, ProjectedCorner{b, 0.5, 1}, ProjectedCorner{c, 0.9, 1}},
-            {0, 0}};
+    return {{ProjectedCorner{a, 0.1, 1}, ProjectedCorner{b, 0.5, 1}, ProjectedCorner{c, 0.9, 1}}, {0, 0}};
 }
 
 TEST(Fill, CoversEachPixelOnceWhereTrianglesMeet) {
@@ -42,11 +41,10 @@ TEST(Fill, CoversEachPixelOnceWhereTrianglesMeet) {
         };
         for (int i = 0; i < 4; ++i) {
             for (int j = 0; j < 3; ++j) {
-                const glm::dvec2 a = points[{i, j}], b = points[{i + 1, j}],
-                                 c = points[{i + 1, j + 1}], d = points[{i, j + 1}];
+                const glm::dvec2 a = points[{i, j}], b = points[{i + 1, j}], c = points[{i + 1, j + 1}],
+                                 d = points[{i, j + 1}];
                 for_each_fragment(triangle(a, b, c), kRect, count);
-                for_each_fragment(random.integer(0, 1) ? triangle(a, c, d) : triangle(d, c, a),
-                                  kRect, count);
+                for_each_fragment(random.integer(0, 1) ? triangle(a, c, d) : triangle(d, c, a), kRect, count);
             }
         }
         for (const int n : covered) ASSERT_EQ(n, 1) << trial;
@@ -54,10 +52,9 @@ TEST(Fill, CoversEachPixelOnceWhereTrianglesMeet) {
 }
 
 TEST(Fill, ZIsThatOfThePlaneAtTheCentre) {
-    const ProjectedTriangle t{
-        {ProjectedCorner{{1.3, 2.1}, 0.2, 1}, ProjectedCorner{{37.4, 5.2}, 0.7, 1},
-         ProjectedCorner{{12.6, 28.3}, 0.4, 1}},
-        {0, 0}};
+    const ProjectedTriangle t{{ProjectedCorner{{1.3, 2.1}, 0.2, 1}, ProjectedCorner{{37.4, 5.2}, 0.7, 1},
+                               ProjectedCorner{{12.6, 28.3}, 0.4, 1}},
+                              {0, 0}};
     const ZPlane plane(t);
     for (const ProjectedCorner& c : t.corners) EXPECT_NEAR(plane.at(c.pixel), c.z, 1e-15);
     int fragments = 0;
@@ -84,11 +81,8 @@ TEST(Vector, HasOnePixelPerStepOfTheMajorAxis) {
             const double minor = a.pixel[1 - major] + t * d[1 - major];
             EXPECT_NEAR(minor, pixel[1 - major] + 0.5, 0.5);
         });
-        const double low = std::min(a.pixel[major], b.pixel[major]),
-                     high = std::max(a.pixel[major], b.pixel[major]);
-        EXPECT_EQ(by_step.size(),
-                  static_cast<std::size_t>(std::ceil(high - 0.5) - std::ceil(low - 0.5)))
-            << trial;
+        const double low = std::min(a.pixel[major], b.pixel[major]), high = std::max(a.pixel[major], b.pixel[major]);
+        EXPECT_EQ(by_step.size(), static_cast<std::size_t>(std::ceil(high - 0.5) - std::ceil(low - 0.5))) << trial;
     }
 }
 
@@ -109,8 +103,7 @@ TEST(Vector, IsTheSameInAnyRectangle) {
             }
             return pixels;
         };
-        EXPECT_EQ(pixels_in({kRect}),
-                  pixels_in({{0, 0, 13, 11}, {13, 0, 40, 11}, {0, 11, 13, 30}, {13, 11, 40, 30}}));
+        EXPECT_EQ(pixels_in({kRect}), pixels_in({{0, 0, 13, 11}, {13, 0, 40, 11}, {0, 11, 13, 30}, {13, 11, 40, 30}}));
     }
 }
 
@@ -126,8 +119,7 @@ TEST(Vector, TiesDependOnTheDirection) {
         differ += tie;
     }
     EXPECT_EQ(differ, 9);
-    EXPECT_TRUE(there.contains(2) && !there.contains(22))
-        << "the first end belongs to it, the last does not";
+    EXPECT_TRUE(there.contains(2) && !there.contains(22)) << "the first end belongs to it, the last does not";
     EXPECT_TRUE(back.contains(22) && !back.contains(2));
 }
 
@@ -146,8 +138,7 @@ struct Machine {
         zbuffer.clear(frame.crop, method.initial_bit);
         for (const auto& sweep : method.sweeps) {
             for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
-                for (std::uint32_t p = 0; p < frame.surfaces.instances[i].mesh->polygon_count;
-                     ++p) {
+                for (std::uint32_t p = 0; p < frame.surfaces.instances[i].mesh->polygon_count; ++p) {
                     ProjectedPolygon polygon;
                     project_polygon(frame, features, depth, i, p, polygon);
                     sweep(zbuffer, polygon);
@@ -166,8 +157,7 @@ void for_all_pixels(const Visit& visit) {
 
 TEST(EdgingPlane, IsZeroBetweenPolygonsAndZIsThatOfTheLine) {
     const MinimalScene s = scene_hilite();
-    for (const auto& method :
-         {edging_plane_method(s.scene.zbuffer), stencil_method(s.scene.zbuffer)}) {
+    for (const auto& method : {edging_plane_method(s.scene.zbuffer), stencil_method(s.scene.zbuffer)}) {
         const Machine m(s, method);
         for_all_pixels([&](int x, int y) { ASSERT_FALSE(m.zbuffer.bit(x, y)); });
         const ScreenSegment& line = s.lines[0];
@@ -205,24 +195,18 @@ TEST(VirginPlane, IsClearExactlyWhereSomethingWasDrawn) {
 TEST(VirginPlane, DiffersFromTheEdgingPlaneOnlyInZWhereTwoEdgesMeet) {
     for (const double b : {1e-3, -3e-3}) {
         const MinimalScene s = scene_half_slope(b, true);
-        const Machine virgin(s, virgin_plane_method(s.scene.zbuffer)),
-            plane(s, edging_plane_method(s.scene.zbuffer));
+        const Machine virgin(s, virgin_plane_method(s.scene.zbuffer)), plane(s, edging_plane_method(s.scene.zbuffer));
         // How many of the polygon's edges have a pixel in common.
         ProjectedPolygon polygon;
         const auto range = *s.scene.zbuffer.depth_range;
-        project_polygon(plane.frame, plane.features, DepthRange::between(range[0], range[1], true),
-                        0, 0, polygon);
+        project_polygon(plane.frame, plane.features, DepthRange::between(range[0], range[1], true), 0, 0, polygon);
         std::map<std::pair<int, int>, int> hits;
         for (const ProjectedEdge& e : polygon.edges) {
-            for_each_vector_pixel(e.from, e.to, 1, {0, 0, 256, 256}, [&](int x, int y, double) {
-                ++hits[{x, y}];
-            });
+            for_each_vector_pixel(e.from, e.to, 1, {0, 0, 256, 256}, [&](int x, int y, double) { ++hits[{x, y}]; });
         }
         for_all_pixels([&](int x, int y) {
-            ASSERT_EQ(virgin.zbuffer.frame(x, y).line != 0, plane.zbuffer.frame(x, y).line != 0)
-                << x << "," << y;
-            ASSERT_EQ(virgin.zbuffer.frame(x, y).surface, plane.zbuffer.frame(x, y).surface)
-                << x << "," << y;
+            ASSERT_EQ(virgin.zbuffer.frame(x, y).line != 0, plane.zbuffer.frame(x, y).line != 0) << x << "," << y;
+            ASSERT_EQ(virgin.zbuffer.frame(x, y).surface, plane.zbuffer.frame(x, y).surface) << x << "," << y;
             const auto hit = hits.find({x, y});
             if (hit != hits.end() && hit->second > 1) return;
             ASSERT_EQ(virgin.zbuffer.depth(x, y), plane.zbuffer.depth(x, y)) << x << "," << y;
@@ -244,8 +228,7 @@ TEST(DepthFormats, HaveTheirSteps) {
                 ASSERT_EQ(z, static_cast<double>(static_cast<float>(z)));
             }
         });
-        EXPECT_EQ(m.zbuffer.depth(2, 2), bits <= 24 ? std::exp2(bits) - 1 : 1)
-            << "cleared to the far end";
+        EXPECT_EQ(m.zbuffer.depth(2, 2), bits <= 24 ? std::exp2(bits) - 1 : 1) << "cleared to the far end";
     }
 }
 
@@ -254,13 +237,11 @@ TEST(DepthRange, IsAffineOnTheScreenAndItsOwnInverse) {
         const DepthRange range = DepthRange::between(2, 50, orthographic);
         EXPECT_NEAR(range.z(2), 0, 1e-15);
         EXPECT_NEAR(range.z(50), 1, 1e-15);
-        for (const double d : {2.0, 3.7, 20.0, 49.0})
-            EXPECT_NEAR(range.distance(range.z(d)), d, 1e-12 * d * d);
+        for (const double d : {2.0, 3.7, 20.0, 49.0}) EXPECT_NEAR(range.distance(range.z(d)), d, 1e-12 * d * d);
     }
     // A fitted range holds all vertices.
     const Scene scene = scene_of({soup_of({{-1, 0, 0}, {1, 0, 0}, {0, 1, -3}}, {{0, 1, 2}})});
-    const Frame frame =
-        make_frame(scene, perspective_camera({0, 0, 5}, {0, 0, 0}), 64, 64, {0, 0, 64, 64});
+    const Frame frame = make_frame(scene, perspective_camera({0, 0, 5}, {0, 0, 0}), 64, 64, {0, 0, 64, 64});
     const DepthRange fitted = DepthRange::fitted(frame);
     EXPECT_NEAR(fitted.z(5), 0, 0.01);
     EXPECT_GT(fitted.z(5), 0);

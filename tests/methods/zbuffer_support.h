@@ -16,23 +16,21 @@
 
 namespace burin::test {
 
-inline const std::vector<std::string_view> kZBufferMethods = {
-    "simple", "offset", "slope-offset", "decal", "edging-plane", "virgin-plane", "stencil"};
+inline const std::vector<std::string_view> kZBufferMethods = {"simple",       "offset",       "slope-offset", "decal",
+                                                              "edging-plane", "virgin-plane", "stencil"};
 /// Those that protect an edge against its own polygon by a bit.
-inline const std::vector<std::string_view> kPlaneMethods = {"edging-plane", "virgin-plane",
-                                                            "stencil"};
+inline const std::vector<std::string_view> kPlaneMethods = {"edging-plane", "virgin-plane", "stencil"};
 
 /// A picture with all layers, drawn by a method of the table.
 class MethodDrawing {
   public:
-    MethodDrawing(std::string_view method, const Scene& scene, const Camera& camera, int width,
-                  int height, int threads = 1)
+    MethodDrawing(std::string_view method, const Scene& scene, const Camera& camera, int width, int height,
+                  int threads = 1)
         : MethodDrawing(method, scene, camera, width, height, {0, 0, width, height}, threads) {}
-    MethodDrawing(std::string_view method, const Scene& scene, const Camera& camera, int width,
-                  int height, PixelRect crop, int threads) {
+    MethodDrawing(std::string_view method, const Scene& scene, const Camera& camera, int width, int height,
+                  PixelRect crop, int threads) {
         const Frame frame = make_frame(scene, camera, width, height, crop);
-        Film film({0, 0, width, height}, crop, {true, true, true, true, true, true, true},
-                  frame.criteria.classes);
+        Film film({0, 0, width, height}, crop, {true, true, true, true, true, true, true}, frame.criteria.classes);
         RunOptions options;
         options.threads = threads;
         find_method(method)->render(frame, options, film);
@@ -42,9 +40,7 @@ class MethodDrawing {
         : MethodDrawing(method, s.scene, s.camera, s.size_px, s.size_px) {}
 
     const Image& image() const { return image_; }
-    double at(const std::string& channel, int x, int y) const {
-        return image_.value(*image_.find(channel), x, y);
-    }
+    double at(const std::string& channel, int x, int y) const { return image_.value(*image_.find(channel), x, y); }
     bool has_line(int x, int y) const { return at("lines.A", x, y) > 0; }
     bool is_red(int x, int y) const { return at("lines.R", x, y) == 1 && at("lines.G", x, y) == 0; }
     double sum(const std::string& channel) const {
@@ -66,13 +62,11 @@ inline std::vector<glm::ivec2> pixels_along(const ScreenSegment& s, double trim_
     const int major = std::abs(b.x - a.x) >= std::abs(b.y - a.y) ? 0 : 1;
     if (b[major] < a[major]) std::swap(a, b);
     std::vector<glm::ivec2> pixels;
-    for (int i = static_cast<int>(std::ceil(a[major] + trim_px)); i + 1 <= b[major] - trim_px;
-         ++i) {
+    for (int i = static_cast<int>(std::ceil(a[major] + trim_px)); i + 1 <= b[major] - trim_px; ++i) {
         const double t = (i + 0.5 - a[major]) / (b[major] - a[major]);
         glm::ivec2 pixel;
         pixel[major] = i;
-        pixel[1 - major] =
-            static_cast<int>(std::floor(a[1 - major] + t * (b[1 - major] - a[1 - major])));
+        pixel[1 - major] = static_cast<int>(std::floor(a[1 - major] + t * (b[1 - major] - a[1 - major])));
         pixels.push_back(pixel);
     }
     return pixels;
@@ -89,9 +83,7 @@ double share_along(const ScreenSegment& s, const Condition& condition) {
 inline double drawn_share(const MethodDrawing& d, const ScreenSegment& s) {
     return share_along(s, [&](int x, int y) { return d.has_line(x, y); });
 }
-inline double missing_share(const MethodDrawing& d, const ScreenSegment& s) {
-    return 1 - drawn_share(d, s);
-}
+inline double missing_share(const MethodDrawing& d, const ScreenSegment& s) { return 1 - drawn_share(d, s); }
 
 inline double measured_missing(std::string_view method, const MinimalScene& s) {
     return missing_share(MethodDrawing(method, s), s.lines[0]);

@@ -11,9 +11,7 @@
 namespace burin::test {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error("OpenGL: " + what);
-}
+[[noreturn]] void fail(const std::string& what) { throw std::runtime_error("OpenGL: " + what); }
 
 /// Window row 0 is the top of the picture: y is turned here, so that OpenGL's rules for ties see
 /// the picture as the rasterizers under test do.
@@ -90,9 +88,7 @@ struct Batches {
     struct Range {
         GLsizei count;
         std::size_t first;
-        const void* offset() const {
-            return reinterpret_cast<const void*>(first * sizeof(std::uint32_t));
-        }
+        const void* offset() const { return reinterpret_cast<const void*>(first * sizeof(std::uint32_t)); }
     };
     std::vector<std::uint32_t> indices;
     std::vector<Range> triangles, lines;  // per polygon
@@ -100,8 +96,7 @@ struct Batches {
     explicit Batches(const GlMesh& mesh) {
         for (const auto& p : mesh.polygons) {
             const std::size_t first = indices.size();
-            for (std::size_t k = 2; k < p.size(); ++k)
-                indices.insert(indices.end(), {p[0], p[k - 1], p[k]});
+            for (std::size_t k = 2; k < p.size(); ++k) indices.insert(indices.end(), {p[0], p[k - 1], p[k]});
             triangles.push_back({static_cast<GLsizei>(indices.size() - first), first});
         }
         for (const auto& p : mesh.polygons) {
@@ -123,21 +118,17 @@ struct GlRenderer::Context {
     GLuint flat_program = 0, distance_program = 0;
 
     Context() {
-        const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
-            eglGetProcAddress("eglGetPlatformDisplayEXT"));
+        const auto get_display =
+            reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
         if (get_display == nullptr) fail("EGL has no eglGetPlatformDisplayEXT");
         display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
         if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
             fail("no surfaceless display; install libgl1-mesa-dri and libegl-mesa0");
         }
         eglBindAPI(EGL_OPENGL_API);
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                     4,
-                                     EGL_CONTEXT_MINOR_VERSION,
-                                     5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     EGL_NONE};
+        const EGLint attributes[] = {
+            EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
         context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
         if (context == EGL_NO_CONTEXT ||
             eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
@@ -145,8 +136,8 @@ struct GlRenderer::Context {
         }
         const auto vertex = [] { return compile(GL_VERTEX_SHADER, kVertexShader); };
         flat_program = link({vertex(), compile(GL_FRAGMENT_SHADER, kFlatShader)});
-        distance_program = link({vertex(), compile(GL_GEOMETRY_SHADER, kHeightsShader),
-                                 compile(GL_FRAGMENT_SHADER, kDistanceShader)});
+        distance_program =
+            link({vertex(), compile(GL_GEOMETRY_SHADER, kHeightsShader), compile(GL_FRAGMENT_SHADER, kDistanceShader)});
     }
     ~Context() {
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -205,14 +196,12 @@ GlRenderer::GlRenderer() : context_(std::make_unique<Context>()) {}
 GlRenderer::~GlRenderer() = default;
 
 std::string GlRenderer::description() const {
-    const auto text = [](GLenum name) {
-        return std::string(reinterpret_cast<const char*>(glGetString(name)));
-    };
+    const auto text = [](GLenum name) { return std::string(reinterpret_cast<const char*>(glGetString(name))); };
     return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
-std::vector<float> GlRenderer::line_alpha(const GlMesh& mesh, const glm::mat4& to_clip, int width,
-                                          int height, GlMethod method) {
+std::vector<float> GlRenderer::line_alpha(const GlMesh& mesh, const glm::mat4& to_clip, int width, int height,
+                                          GlMethod method) {
     const Batches batches(mesh);
     GLuint frame_buffer = 0, images[2] = {}, array = 0, buffers[2] = {};
     glGenFramebuffers(1, &frame_buffer);
@@ -223,23 +212,19 @@ std::vector<float> GlRenderer::line_alpha(const GlMesh& mesh, const glm::mat4& t
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, images[0]);
     glBindRenderbuffer(GL_RENDERBUFFER, images[1]);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                              images[1]);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        fail("the frame buffer is incomplete");
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, images[1]);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) fail("the frame buffer is incomplete");
 
     glGenVertexArrays(1, &array);
     glBindVertexArray(array);
     glGenBuffers(2, buffers);
     glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
-    glBufferData(GL_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(mesh.positions.size() * sizeof(glm::vec3)),
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.positions.size() * sizeof(glm::vec3)),
                  mesh.positions.data(), GL_STATIC_DRAW);
     glEnableVertexAttribArray(0);
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(batches.indices.size() * sizeof(std::uint32_t)),
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(batches.indices.size() * sizeof(std::uint32_t)),
                  batches.indices.data(), GL_STATIC_DRAW);
 
     glViewport(0, 0, width, height);
@@ -250,8 +235,8 @@ std::vector<float> GlRenderer::line_alpha(const GlMesh& mesh, const glm::mat4& t
     if (method == GlMethod::single_pass) {
         const GLuint program = context_->distance_program;
         context_->use(program, to_clip);
-        glUniform2f(glGetUniformLocation(program, "half_viewport"),
-                    0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height));
+        glUniform2f(glGetUniformLocation(program, "half_viewport"), 0.5f * static_cast<float>(width),
+                    0.5f * static_cast<float>(height));
         for (const auto& range : batches.triangles) {
             glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, range.offset());
         }

@@ -33,8 +33,7 @@ class GlRenderer {
     std::string description() const;
 
     /// How much line each pixel has, row by row. `to_clip` takes view space to clip space.
-    std::vector<float> line_alpha(const GlMesh& mesh, const glm::mat4& to_clip, int width,
-                                  int height, GlMethod method);
+    std::vector<float> line_alpha(const GlMesh& mesh, const glm::mat4& to_clip, int width, int height, GlMethod method);
 
   private:
     struct Context;

@@ -25,9 +25,9 @@ struct View {
 
     glm::mat4 to_clip() const {
         const double h = 0.5 * camera.height;
-        return glm::mat4(camera.orthographic ? glm::ortho(-h, h, -h, h, near_distance, far_distance)
-                                             : glm::perspective(glm::radians(camera.fov_deg), 1.0,
-                                                                near_distance, far_distance));
+        return glm::mat4(camera.orthographic
+                             ? glm::ortho(-h, h, -h, h, near_distance, far_distance)
+                             : glm::perspective(glm::radians(camera.fov_deg), 1.0, near_distance, far_distance));
     }
 };
 
@@ -43,10 +43,8 @@ PolygonSoup in_triangles(const PolygonSoup& soup) {
     for (std::size_t i = 0; i < soup.polygon_count(); ++i) {
         const auto p = soup.polygon(i);
         for (std::size_t k = 2; k < p.size(); ++k) {
-            const glm::dvec3 a = soup.positions[p[0]], b = soup.positions[p[k - 1]],
-                             c = soup.positions[p[k]];
-            if (glm::length(glm::cross(b - a, c - a)) > 1e-9)
-                triangles.push_back({p[0], p[k - 1], p[k]});
+            const glm::dvec3 a = soup.positions[p[0]], b = soup.positions[p[k - 1]], c = soup.positions[p[k]];
+            if (glm::length(glm::cross(b - a, c - a)) > 1e-9) triangles.push_back({p[0], p[k - 1], p[k]});
         }
     }
     return soup_of(soup.positions, triangles);
@@ -56,12 +54,8 @@ View seen_from(glm::dvec3 eye, glm::dvec3 target, double near_distance, double f
     return {perspective_camera(eye, target), near_distance, far_distance};
 }
 
-Model cube() {
-    return {make_box({1, 1, 1}), seen_from({2, 1.5, 3}, {0, 0, 0}, 2, 6)};
-}
-Model teapot() {
-    return {in_triangles(make_teapot(3)), seen_from({4, 5, 9}, {0, 1.4, 0}, 5, 18)};
-}
+Model cube() { return {make_box({1, 1, 1}), seen_from({2, 1.5, 3}, {0, 0, 0}, 2, 6)}; }
+Model teapot() { return {in_triangles(make_teapot(3)), seen_from({4, 5, 9}, {0, 1.4, 0}, 5, 18)}; }
 
 /// Three by three tilted squares, turned on the screen; z falls by `b` of the depth range per
 /// pixel.
@@ -80,8 +74,7 @@ std::vector<double> by_burin(const Model& model, std::string_view method) {
     scene.lines.classes = LineClassSet::all();
     scene.wire.width = WireWidth::published;
     scene.zbuffer.depth_range = {model.view.near_distance, model.view.far_distance};
-    return Drawing(scene, model.view.camera, kSize, kSize, {0, 0, kSize, kSize}, 2,
-                   find_method(method)->render)
+    return Drawing(scene, model.view.camera, kSize, kSize, {0, 0, kSize, kSize}, 2, find_method(method)->render)
         .coverage();
 }
 
@@ -95,8 +88,7 @@ std::vector<double> by_opengl(const Model& model, GlMethod method) {
         const auto p = model.soup.polygon(i);
         mesh.polygons.emplace_back(p.begin(), p.end());
     }
-    const std::vector<float> alpha =
-        renderer.line_alpha(mesh, model.view.to_clip(), kSize, kSize, method);
+    const std::vector<float> alpha = renderer.line_alpha(mesh, model.view.to_clip(), kSize, kSize, method);
     return {alpha.begin(), alpha.end()};
 }
 
@@ -128,8 +120,7 @@ Difference difference(const std::vector<double>& a, const std::vector<double>& b
             d.mean += gap;
             d.differing += gap > 2.0 / 255;
             d.largest = std::max(d.largest, gap);
-            d.astray +=
-                (a[i] > 0.5 && !has_line_near(b, x, y)) || (b[i] > 0.5 && !has_line_near(a, x, y));
+            d.astray += (a[i] > 0.5 && !has_line_near(b, x, y)) || (b[i] > 0.5 && !has_line_near(a, x, y));
         }
     }
     d.mean /= pixels;
@@ -137,16 +128,13 @@ Difference difference(const std::vector<double>& a, const std::vector<double>& b
     return d;
 }
 
-double sum(const std::vector<double>& picture) {
-    return std::accumulate(picture.begin(), picture.end(), 0.0);
-}
+double sum(const std::vector<double>& picture) { return std::accumulate(picture.begin(), picture.end(), 0.0); }
 
 TEST(OpenGl, SinglePassHasTheSameDarknessInEveryPixel) {
     for (const Model& model : {cube(), teapot(), tilted(1e-3)}) {
         // A triangle's heights know its own three edges only.
         const Model triangles{in_triangles(model.soup), model.view};
-        const auto ours = by_burin(triangles, "single-pass"),
-                   theirs = by_opengl(triangles, GlMethod::single_pass);
+        const auto ours = by_burin(triangles, "single-pass"), theirs = by_opengl(triangles, GlMethod::single_pass);
         EXPECT_GT(sum(ours), 1000);
         const Difference d = difference(ours, theirs);
         EXPECT_LT(d.mean, 1e-3);  // corners are snapped to 1/256 pixel here
@@ -158,8 +146,8 @@ struct Pair {
     const char* name;
     GlMethod method;
 };
-constexpr Pair kSimple{"simple", GlMethod::simple},
-    kSlopeOffset{"slope-offset", GlMethod::slope_offset}, kStencil{"stencil", GlMethod::stencil};
+constexpr Pair kSimple{"simple", GlMethod::simple}, kSlopeOffset{"slope-offset", GlMethod::slope_offset},
+    kStencil{"stencil", GlMethod::stencil};
 
 TEST(OpenGl, ZBufferMethodsDrawTheSamePixels) {
     // OpenGL leaves open which pixel a line takes between two, and whether it has its last one.
@@ -179,19 +167,15 @@ TEST(OpenGl, SimpleEdgingLosesAsManyPixels) {
     // On tilted faces, about half of each line within the surface is lost.
     for (const double b : {1e-3, -3e-3}) {
         const Model model = tilted(b);
-        const auto missing = [](const std::vector<double>& simple,
-                                const std::vector<double>& whole) {
+        const auto missing = [](const std::vector<double>& simple, const std::vector<double>& whole) {
             return 1 - sum(simple) / sum(whole);
         };
         const double ours = missing(by_burin(model, kSimple.name), by_burin(model, kStencil.name));
-        const double theirs =
-            missing(by_opengl(model, kSimple.method), by_opengl(model, kStencil.method));
+        const double theirs = missing(by_opengl(model, kSimple.method), by_opengl(model, kStencil.method));
         EXPECT_GT(theirs, 0.3);
         EXPECT_NEAR(ours, theirs, 0.01);
         // So the comparison does tell methods apart.
-        EXPECT_GT(
-            difference(by_burin(model, kStencil.name), by_opengl(model, kSimple.method)).differing,
-            0.3);
+        EXPECT_GT(difference(by_burin(model, kStencil.name), by_opengl(model, kSimple.method)).differing, 0.3);
     }
 }
 

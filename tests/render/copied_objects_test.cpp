@@ -18,15 +18,14 @@ constexpr int kSize = 96;
 Drawing draw(const Scene& scene, bool hidden = false) {
     Scene styled = scene;
     if (hidden) styled.lines.style.hidden.style = HiddenStyle::solid;
-    return Drawing(styled, perspective_camera({3, 2, 5}, {0, 0, 0}), kSize, kSize,
-                   {0, 0, kSize, kSize}, 2, render_abuffer);
+    return Drawing(styled, perspective_camera({3, 2, 5}, {0, 0, 0}), kSize, kSize, {0, 0, kSize, kSize}, 2,
+                   render_abuffer);
 }
 
 /// A box and a plate that cuts it, and so many copies of both.
 Scene with_copies(int count) {
     const PolygonSoup box = make_box({1, 1, 1}),
-                      plate = soup_of({{-1, 0.1, -1}, {1, 0.2, -1}, {1, 0.3, 1}, {-1, 0.2, 1}},
-                                      {{0, 1, 2, 3}});
+                      plate = soup_of({{-1, 0.1, -1}, {1, 0.2, -1}, {1, 0.3, 1}, {-1, 0.2, 1}}, {{0, 1, 2, 3}});
     std::vector<PolygonSoup> objects;
     for (int i = 0; i <= count; ++i) {
         objects.push_back(box);
@@ -43,8 +42,7 @@ TEST(CopiedObjects, AreNotDrawnAgain) {
     EXPECT_EQ(empty_copied_objects(many), 100u);
     EXPECT_EQ(many.objects.size(), 102u);
     std::size_t triangles = 0;
-    for (const SceneObject& object : many.objects)
-        triangles += many.meshes[object.mesh].triangles.size();
+    for (const SceneObject& object : many.objects) triangles += many.meshes[object.mesh].triangles.size();
     EXPECT_EQ(triangles, one.meshes[0].triangles.size() + one.meshes[1].triangles.size());
     for (const bool hidden : {false, true})
         EXPECT_TRUE(same_bits(draw(many, hidden).image(), draw(one, hidden).image())) << hidden;
@@ -84,15 +82,12 @@ TEST(CopiedObjects, OthersAreKept) {
     };
     EXPECT_EQ(left([](Scene&) {}), 2u);
     EXPECT_EQ(left([](Scene& s) { s.meshes[2].positions[0].x += 1e-3f; }), 1u) << "another shape";
-    EXPECT_EQ(
-        left([](Scene& s) { s.meshes[2].marked.assign(3 * s.meshes[2].triangles.size(), true); }),
-        1u)
+    EXPECT_EQ(left([](Scene& s) { s.meshes[2].marked.assign(3 * s.meshes[2].triangles.size(), true); }), 1u)
         << "other marks";
     EXPECT_EQ(left([](Scene& s) { s.objects[2].to_world[3].y = 1e-9; }), 1u) << "another place";
     EXPECT_EQ(left([](Scene& s) {
                   s.materials.push_back(s.materials[0]);
-                  s.objects[2].materials =
-                      MaterialList{static_cast<std::uint32_t>(s.materials.size() - 1)};
+                  s.objects[2].materials = MaterialList{static_cast<std::uint32_t>(s.materials.size() - 1)};
               }),
               1u)
         << "another material";

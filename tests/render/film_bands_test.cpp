@@ -91,7 +91,9 @@ TEST(FilmBands, AreRowsOfTheWholeFilm) {
         Scene scene = styled_scene(random);
         prepare_for_abuffer(scene, 1);
         PixelRect crop{0, 0, kWidth, kHeight};
-        if (seed % 3 == 0) crop = {random.integer(0, 20), random.integer(0, 150), random.integer(40, kWidth), random.integer(151, kHeight)};
+        if (seed % 3 == 0)
+            crop = {random.integer(0, 20), random.integer(0, 150), random.integer(40, kWidth),
+                    random.integer(151, kHeight)};
         const Frame frame = make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kWidth, kHeight, crop);
         RunOptions options;
         options.threads = random.integer(1, 4);
@@ -111,7 +113,8 @@ TEST(FilmBands, AreRowsOfTheWholeFilm) {
                 const Channel& same = *whole.find(channel.name);
                 const std::size_t row_bytes = size_of(channel.type) * static_cast<std::size_t>(crop.width());
                 const auto* const first = same.bytes.data() + static_cast<std::size_t>(y - crop.y0) * row_bytes;
-                ASSERT_TRUE(std::equal(channel.bytes.begin(), channel.bytes.end(), first)) << channel.name << ", band at " << y;
+                ASSERT_TRUE(std::equal(channel.bytes.begin(), channel.bytes.end(), first))
+                    << channel.name << ", band at " << y;
             }
             y = band.data().y1;
         }
@@ -126,7 +129,9 @@ TEST(Film, TakesOnePictureAfterTheOther) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const PixelRect display{0, 0, kWidth, kPictureHeight};
-        const PixelRect crop = seed % 3 == 0 ? PixelRect{random.integer(0, 20), random.integer(0, 30), random.integer(40, kWidth), kPictureHeight - 1} : display;
+        const PixelRect crop = seed % 3 == 0 ? PixelRect{random.integer(0, 20), random.integer(0, 30),
+                                                         random.integer(40, kWidth), kPictureHeight - 1}
+                                             : display;
         LayerSet layers = kAllLayers;
         if (seed % 4 == 1) layers.depth = layers.lines = layers.lines_hidden = false;
         Film film(display, crop, layers, LineClassSet::all());
@@ -134,7 +139,8 @@ TEST(Film, TakesOnePictureAfterTheOther) {
             Scene scene = styled_scene(random);
             prepare_for_abuffer(scene, 1);
             // Near, far away, and beside the picture.
-            const Camera camera = perspective_camera({random.real(-3, 3), random.real(-3, 3), random.real(3, 25)}, random.in_box(2));
+            const Camera camera =
+                perspective_camera({random.real(-3, 3), random.real(-3, 3), random.real(3, 25)}, random.in_box(2));
             const Frame frame = make_frame(scene, camera, kWidth, kPictureHeight, crop);
             RunOptions options;
             options.threads = random.integer(1, 3);
@@ -214,8 +220,11 @@ TEST(FilmBands, BackgroundIsNotThere) {
         }
         const Image band = filled(strip, film.channels());
         for (const Channel& channel : band.channels()) {
-            const std::size_t before = static_cast<std::size_t>(strip.data.y0 - crop.y0) * static_cast<std::size_t>(crop.width()) * size_of(channel.type);
-            EXPECT_TRUE(std::equal(channel.bytes.begin(), channel.bytes.end(), whole.image().find(channel.name)->bytes.data() + before)) << channel.name;
+            const std::size_t before = static_cast<std::size_t>(strip.data.y0 - crop.y0) *
+                                       static_cast<std::size_t>(crop.width()) * size_of(channel.type);
+            EXPECT_TRUE(std::equal(channel.bytes.begin(), channel.bytes.end(),
+                                   whole.image().find(channel.name)->bytes.data() + before))
+                << channel.name;
         }
         film.close(number);
     };
@@ -227,7 +236,8 @@ TEST(FilmBands, BackgroundIsNotThere) {
 TEST(FilmBands, WhatStopsTheirWriterStopsTheRender) {
     Random random(1);
     const Scene scene = styled_scene(random);
-    const Frame frame = make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+    const Frame frame =
+        make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
     for (const int threads : {1, 3}) {
         Film film = Film::in_bands({0, 0, kWidth, kHeight}, frame.crop, kAllLayers, frame.criteria.classes);
         RunOptions options;

@@ -71,16 +71,14 @@ TEST(CameraFit, PerspectiveFillsThePictureCentred) {
         const auto corners = random_box(random);
         const CameraSettings settings = random_settings(random, false);
         const int height = random.integer(300, 3000);
-        const Camera camera =
-            resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
+        const Camera camera = resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
         const Extent e = extent_of(camera, corners, height);
         ASSERT_GT(e.nearest, 0) << trial;
         // The tighter axis is filled and centred, unless the eye had to keep its distance.
         if (e.nearest < 0.0501 * 0.5 * glm::distance(corners[0], corners[7])) {
             ++kept_away;
         } else {
-            ASSERT_NEAR(std::max(e.high.x - e.low.x, e.high.y - e.low.y), 2 * settings.fit, 1e-6)
-                << trial;
+            ASSERT_NEAR(std::max(e.high.x - e.low.x, e.high.y - e.low.y), 2 * settings.fit, 1e-6) << trial;
             const bool x_is_tighter = e.high.x - e.low.x > e.high.y - e.low.y;
             ASSERT_NEAR(x_is_tighter ? e.high.x + e.low.x : e.high.y + e.low.y, 0, 1e-6) << trial;
         }
@@ -98,13 +96,11 @@ TEST(CameraFit, OrthographicFillsThePictureCentred) {
         const auto corners = random_box(random);
         const CameraSettings settings = random_settings(random, true);
         const int height = random.integer(300, 3000);
-        const Camera camera =
-            resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
+        const Camera camera = resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
         const Extent e = extent_of(camera, corners, height);
         ASSERT_TRUE(camera.orthographic);
         ASSERT_GT(e.nearest, 0) << trial;
-        ASSERT_NEAR(std::max(e.high.x - e.low.x, e.high.y - e.low.y), 2 * settings.fit, 1e-6)
-            << trial;
+        ASSERT_NEAR(std::max(e.high.x - e.low.x, e.high.y - e.low.y), 2 * settings.fit, 1e-6) << trial;
         ASSERT_NEAR(e.high.x + e.low.x, 0, 1e-6) << trial;
         ASSERT_NEAR(e.high.y + e.low.y, 0, 1e-6) << trial;
     }
@@ -118,8 +114,7 @@ TEST(CameraFit, ATargetStaysInTheMiddle) {
         CameraSettings settings = random_settings(random, trial % 2 == 1);
         settings.target = corners[0] + random.in_box(3);
         const int height = random.integer(300, 3000);
-        const Camera camera =
-            resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
+        const Camera camera = resolve_camera(settings, source(corners), static_cast<double>(kWidth) / height);
         const Extent e = extent_of(camera, corners, height);
         ASSERT_GT(e.nearest, 0) << trial;
         const double farthest = std::max({e.high.x, -e.low.x, e.high.y, -e.low.y});
@@ -227,7 +222,8 @@ TEST(CameraFit, TheBoxesOfAMeshTellWhatItsPointsDo) {
         };
         CameraSettings settings = random_settings(random, seed % 5 == 0);
         const double aspect = random.real(0.3, 3);
-        const Camera camera = resolve_camera(settings, scene_points(scene), aspect), same = resolve_camera(settings, all, aspect);
+        const Camera camera = resolve_camera(settings, scene_points(scene), aspect),
+                     same = resolve_camera(settings, all, aspect);
         EXPECT_EQ(camera.to_world, same.to_world);
         EXPECT_EQ(camera.height, same.height);
     }
@@ -259,7 +255,9 @@ TEST(CameraFit, TheBoxesOfInstancesTellWhatTheirPointsDo) {
             scene.objects.push_back(object);
         }
         const PointSource some = scene_points(scene);
-        const PointSource all = [&](const PointVisitor& visit) { for_each_point(some, [&](const glm::dvec3& p) { visit({&p, 1}); }); };
+        const PointSource all = [&](const PointVisitor& visit) {
+            for_each_point(some, [&](const glm::dvec3& p) { visit({&p, 1}); });
+        };
         CameraSettings settings = random_settings(random, seed % 5 == 0);
         if (seed % 7 == 0) settings.target = random.in_box(10);
         const double aspect = random.real(0.3, 3);

@@ -58,8 +58,7 @@ TEST(Camera, AnEyeAloneLooksAtTheMiddle) {
             visit(std::span(corners));
         },
         1);
-    expect_near(glm::normalize(glm::dvec3(camera.to_world[2])),
-                glm::normalize(*settings.eye - glm::dvec3(1, 2, 3)));
+    expect_near(glm::normalize(glm::dvec3(camera.to_world[2])), glm::normalize(*settings.eye - glm::dvec3(1, 2, 3)));
 }
 
 TEST(Camera, PixelsFollowTheFieldOfView) {
@@ -80,23 +79,19 @@ TEST(Camera, PixelsFollowTheFieldOfView) {
     settings.height = 8;
     const Camera flat = resolve_camera(settings, kNothing, 2);
     const Projection q = flat.projection(800, 400, 0);
-    expect_near({q.to_pixel(glm::dvec3(flat.to_view() * glm::dvec4(8, 4, -77, 1))), 0}, {800, 0, 0},
-                1e-9);
+    expect_near({q.to_pixel(glm::dvec3(flat.to_view() * glm::dvec4(8, 4, -77, 1))), 0}, {800, 0, 0}, 1e-9);
 }
 
 TEST(Camera, AMatrixLosesItsScale) {
     for (int trial = 0; trial < 100; ++trial) {
         Random random(static_cast<std::uint64_t>(trial));
-        const glm::dmat4 rigid =
-            glm::inverse(glm::lookAt(random.in_box(10), random.in_box(10), random.direction()));
+        const glm::dmat4 rigid = glm::inverse(glm::lookAt(random.in_box(10), random.in_box(10), random.direction()));
         CameraSettings settings;
-        const glm::dvec3 scale(random.real(0.01, 100), random.real(0.01, 100),
-                               random.real(0.01, 100));
+        const glm::dvec3 scale(random.real(0.01, 100), random.real(0.01, 100), random.real(0.01, 100));
         settings.to_world = glm::scale(rigid, scale);
         settings.fov_deg = 60;
         const Camera camera = resolve_camera(settings, kNothing, 1.5);
-        for (int c = 0; c < 4; ++c)
-            expect_near(glm::dvec3(camera.to_world[c]), glm::dvec3(rigid[c]), 1e-9);
+        for (int c = 0; c < 4; ++c) expect_near(glm::dvec3(camera.to_world[c]), glm::dvec3(rigid[c]), 1e-9);
         ASSERT_EQ(camera.fov_deg, 60);
     }
     // Extreme scales, as a chain of nodes can give them.
@@ -104,8 +99,7 @@ TEST(Camera, AMatrixLosesItsScale) {
         CameraSettings settings;
         settings.to_world = glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
         const Camera camera = resolve_camera(settings, kNothing, 1);
-        for (int c = 0; c < 4; ++c)
-            expect_near(glm::dvec3(camera.to_world[c]), glm::dvec3(glm::dmat4(1.0)[c]), 1e-12);
+        for (int c = 0; c < 4; ++c) expect_near(glm::dvec3(camera.to_world[c]), glm::dvec3(glm::dmat4(1.0)[c]), 1e-12);
     }
 }
 
@@ -140,12 +134,9 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(BadCamera, EyeAndTargetAreTheSame) {
-    EXPECT_NE(error_of(changed([](auto& s) {
-                  s.eye = s.target = glm::dvec3(1, 2, 3);
-              })).find("same place"),
+    EXPECT_NE(error_of(changed([](auto& s) { s.eye = s.target = glm::dvec3(1, 2, 3); })).find("same place"),
               std::string::npos);
-    EXPECT_NE(error_of(changed([](auto& s) { s.eye = glm::dvec3(0); })).find("same place"),
-              std::string::npos);
+    EXPECT_NE(error_of(changed([](auto& s) { s.eye = glm::dvec3(0); })).find("same place"), std::string::npos);
     EXPECT_NE(error_of(changed([](auto& s) {
                   s.eye = glm::dvec3(1e-200, 0, 0);
                   s.target = glm::dvec3(0);
@@ -156,9 +147,8 @@ TEST(BadCamera, EyeAndTargetAreTheSame) {
 TEST(BadCamera, UpPointsAlongTheView) {
     const auto look_down = [](auto& s) { s.eye = glm::dvec3(0, 5, 0); };
     EXPECT_NE(error_of(changed(look_down)).find("up vector"), std::string::npos);
-    EXPECT_NE(
-        error_of(changed([](auto& s) { s.direction = glm::dvec3(0, -2, 0); })).find("up vector"),
-        std::string::npos);
+    EXPECT_NE(error_of(changed([](auto& s) { s.direction = glm::dvec3(0, -2, 0); })).find("up vector"),
+              std::string::npos);
     EXPECT_NE(error_of(changed([](auto& s) {
                   s.eye = glm::dvec3(1, 1, 1);
                   s.up = glm::dvec3(-3, -3, -3);
@@ -173,9 +163,7 @@ TEST(BadCamera, UpPointsAlongTheView) {
 
 TEST(BadCamera, FieldsOfView) {
     for (const double fov : {0.0, -10.0, 180.0, 200.0, kNan, kInfinity}) {
-        EXPECT_NE(error_of(changed([&](auto& s) { s.fov_deg = fov; })).find("field of view"),
-                  std::string::npos)
-            << fov;
+        EXPECT_NE(error_of(changed([&](auto& s) { s.fov_deg = fov; })).find("field of view"), std::string::npos) << fov;
     }
     // Not looked at in an orthographic view.
     EXPECT_EQ(error_of(changed([](auto& s) {
@@ -197,36 +185,26 @@ TEST(BadCamera, HeightsAndFits) {
             << value;
     }
     for (const double value : {0.0, -1.0, 1.1, kNan}) {
-        EXPECT_NE(error_of(changed([&](auto& s) { s.fit = value; })).find("fit"), std::string::npos)
-            << value;
+        EXPECT_NE(error_of(changed([&](auto& s) { s.fit = value; })).find("fit"), std::string::npos) << value;
     }
 }
 
 TEST(BadCamera, CoordinatesThatAreNotFiniteOrTooLarge) {
     for (const double value : {kNan, kInfinity, -kInfinity, 1e31, 1e300}) {
         const glm::dvec3 bad(1, value, 2);
-        EXPECT_NE(error_of(changed([&](auto& s) { s.eye = bad; })).find("1e30"), std::string::npos)
-            << value;
-        EXPECT_NE(error_of(changed([&](auto& s) { s.target = bad; })).find("1e30"),
-                  std::string::npos)
-            << value;
-        EXPECT_NE(error_of(changed([&](auto& s) { s.up = bad; })).find("1e30"), std::string::npos)
-            << value;
-        EXPECT_NE(error_of(changed([&](auto& s) { s.direction = bad; })).find("1e30"),
-                  std::string::npos)
-            << value;
+        EXPECT_NE(error_of(changed([&](auto& s) { s.eye = bad; })).find("1e30"), std::string::npos) << value;
+        EXPECT_NE(error_of(changed([&](auto& s) { s.target = bad; })).find("1e30"), std::string::npos) << value;
+        EXPECT_NE(error_of(changed([&](auto& s) { s.up = bad; })).find("1e30"), std::string::npos) << value;
+        EXPECT_NE(error_of(changed([&](auto& s) { s.direction = bad; })).find("1e30"), std::string::npos) << value;
     }
-    EXPECT_NE(error_of(changed([](auto& s) { s.up = glm::dvec3(0); })).find("zero"),
-              std::string::npos);
-    EXPECT_NE(error_of(changed([](auto& s) { s.direction = glm::dvec3(0); })).find("zero"),
-              std::string::npos);
+    EXPECT_NE(error_of(changed([](auto& s) { s.up = glm::dvec3(0); })).find("zero"), std::string::npos);
+    EXPECT_NE(error_of(changed([](auto& s) { s.direction = glm::dvec3(0); })).find("zero"), std::string::npos);
 }
 
 TEST(BadCamera, Matrices) {
     for (const double value : {0.0, kNan, kInfinity, 1e200}) {
         EXPECT_NE(error_of(changed([&](auto& s) {
-                      s.to_world =
-                          glm::scale(glm::dmat4(1.0), glm::dvec3(1, 1, value == 1e200 ? 0 : value));
+                      s.to_world = glm::scale(glm::dmat4(1.0), glm::dvec3(1, 1, value == 1e200 ? 0 : value));
                   })).find("matrix"),
                   std::string::npos)
             << value;
@@ -252,8 +230,7 @@ TEST(BadCamera, NothingToFitTo) {
     };
     for (const PointSource& source : {point, kNothing}) {
         for (const bool orthographic : {false, true}) {
-            const CameraSettings settings =
-                changed([&](auto& s) { s.orthographic = orthographic; });
+            const CameraSettings settings = changed([&](auto& s) { s.orthographic = orthographic; });
             EXPECT_NE(error_of(settings, source).find("no extent"), std::string::npos);
         }
     }

@@ -14,18 +14,15 @@ GBufferSettings read(const std::string& keys) {
 TEST(GBufferKeys, EveryValueIsRead) {
     const GBufferSettings empty = read("");
     EXPECT_EQ(empty.operators,
-              GBufferOperatorSet::of(
-                  {GBufferOperator::profile, GBufferOperator::internal, GBufferOperator::id}));
+              GBufferOperatorSet::of({GBufferOperator::profile, GBufferOperator::internal, GBufferOperator::id}));
     EXPECT_EQ(empty.supersample, 1);
     for (int o = 0; o < kGBufferOperatorCount; ++o) {
         const std::string name(kGBufferOperatorNames[static_cast<std::size_t>(o)]);
         EXPECT_EQ(read("operators=['" + name + "']").operators,
                   GBufferOperatorSet::of({static_cast<GBufferOperator>(o)}));
     }
-    for (const int s : {1, 2, 4, 8})
-        EXPECT_EQ(read("supersample=" + std::to_string(s)).supersample, s);
-    for (const int bits : {0, 8, 16, 24})
-        EXPECT_EQ(read("depth_bits=" + std::to_string(bits)).depth_bits, bits);
+    for (const int s : {1, 2, 4, 8}) EXPECT_EQ(read("supersample=" + std::to_string(s)).supersample, s);
+    for (const int bits : {0, 8, 16, 24}) EXPECT_EQ(read("depth_bits=" + std::to_string(bits)).depth_bits, bits);
     const GBufferSettings s = read(
         "dilate=false\nsmooth=true\ncomposition='maximum'\ndepth_scale=2\nreference_distance="
         "3\njump_limit=5\n"

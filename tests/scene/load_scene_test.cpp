@@ -42,8 +42,7 @@ std::string triangle_bytes() {
 }
 
 TEST(LoadScene, FilesAreRelativeToTheScene) {
-    const SceneText text(
-        "[[object]]\nfile='models/tri.obj'\n[[object]]\nfile='./models/../models/tri.obj'\n");
+    const SceneText text("[[object]]\nfile='models/tri.obj'\n[[object]]\nfile='./models/../models/tri.obj'\n");
     text.folder().write("models/tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_EQ(text.load().objects.size(), 2u);
     const SceneText absolute("[[object]]\nfile='" + text.folder().file("models/tri.obj") + "'\n");
@@ -201,8 +200,8 @@ TEST(Color, HexTexts) {
     EXPECT_EQ(color_from_hex("#f00"), color_from_hex("#FF0000"));
     EXPECT_NEAR(static_cast<double>(color_from_hex("#bc0000")->r), 0.502886, 1e-5);
     EXPECT_EQ(color_from_hex("#123"), color_from_hex("#112233"));
-    for (const char* text : {"", "#", "fff", "ffffff", "#ff", "#ffff", "#fffff", "#fffffff", "#ggg",
-                             "#-1-1-1", "#+1+1+1", "# 1 2 3", "#0x1122", "#12345g"}) {
+    for (const char* text : {"", "#", "fff", "ffffff", "#ff", "#ffff", "#fffff", "#fffffff", "#ggg", "#-1-1-1",
+                             "#+1+1+1", "# 1 2 3", "#0x1122", "#12345g"}) {
         EXPECT_FALSE(color_from_hex(text)) << text;
     }
 }

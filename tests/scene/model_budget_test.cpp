@@ -20,9 +20,7 @@ std::string refusal(const SceneText& text, std::uint64_t limit_bytes = ModelBudg
     }
     return "";
 }
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(ModelBudgetOfScenes, LargeShapesAreRefusedBeforeTheyAreMade) {
     for (const auto& [keys, size] : std::vector<std::pair<std::string, std::string>>{
@@ -31,12 +29,10 @@ TEST(ModelBudgetOfScenes, LargeShapesAreRefusedBeforeTheyAreMade) {
              {"shape='plane'\ncolumns=4096\nrows=4095",
               "16.8 million polygons (columns 4096, rows 4095) needs about 3.7 GB"},
              {"shape='torus'\nsegments=4096\ntube_segments=4096", "16.8 million"},
-             {"shape='teapot'\ntessellation=256\nsubdivide=2",
-              "33.6 million polygons (tessellation 256, subdivide 2)"},
+             {"shape='teapot'\ntessellation=256\nsubdivide=2", "33.6 million polygons (tessellation 256, subdivide 2)"},
              {"shape='sphere'\nsegments=64\nrings=64\nsubdivide=8",
               "266.3 million polygons (segments 64, rings 64, subdivide 8)"},
-             {"shape='box'\nsubdivide=8\n[[object]]\nshape='cone'\nsegments=4096\nsubdivide=7\n",
-              "cone"}}) {
+             {"shape='box'\nsubdivide=8\n[[object]]\nshape='cone'\nsegments=4096\nsubdivide=7\n", "cone"}}) {
         const std::string message = refusal(SceneText("[[object]]\n" + keys + "\n"));
         EXPECT_TRUE(has(message, size)) << keys << ": " << message;
         EXPECT_TRUE(has(message, "--memory-model")) << message;
@@ -47,8 +43,7 @@ TEST(ModelBudgetOfScenes, LargeShapesAreRefusedBeforeTheyAreMade) {
 TEST(ModelBudgetOfScenes, ShapesCountTogetherAndBeforeAnyFileIsRead) {
     std::string text = "[[object]]\nfile='missing.obj'\n";
     for (int i = 0; i < 40; ++i)
-        text += "[[object]]\nshape='plane'\nname='p" + std::to_string(i) +
-                "'\ncolumns=1024\nrows=1024\n";
+        text += "[[object]]\nshape='plane'\nname='p" + std::to_string(i) + "'\ncolumns=1024\nrows=1024\n";
     const std::string message = refusal(SceneText(text));
     EXPECT_TRUE(has(message, "object 'p8'")) << message;  // each takes 240 MB
     EXPECT_TRUE(has(message, "with what was counted before")) << message;
@@ -57,10 +52,9 @@ TEST(ModelBudgetOfScenes, ShapesCountTogetherAndBeforeAnyFileIsRead) {
 TEST(ModelBudgetOfScenes, TheSizeOfAShapeIsKnown) {
     for (const char* keys :
          {"shape='box'", "shape='plane'", "shape='plane'\ncolumns=3\nrows=5", "shape='sphere'",
-          "shape='sphere'\nsegments=3\nrings=2", "shape='sphere'\nsegments=5\nrings=3",
-          "shape='cylinder'", "shape='cylinder'\nsegments=3", "shape='cone'",
-          "shape='cone'\nsegments=3", "shape='torus'", "shape='torus'\nsegments=4\ntube_segments=7",
-          "shape='teapot'", "shape='teapot'\ntessellation=1"}) {
+          "shape='sphere'\nsegments=3\nrings=2", "shape='sphere'\nsegments=5\nrings=3", "shape='cylinder'",
+          "shape='cylinder'\nsegments=3", "shape='cone'", "shape='cone'\nsegments=3", "shape='torus'",
+          "shape='torus'\nsegments=4\ntube_segments=7", "shape='teapot'", "shape='teapot'\ntessellation=1"}) {
         SceneDescription scene = SceneText("[[object]]\n" + std::string(keys)).read();
         const Shape& shape = scene.objects[0].shape;
         const PolygonSoup soup = shape.make();
@@ -68,8 +62,8 @@ TEST(ModelBudgetOfScenes, TheSizeOfAShapeIsKnown) {
         EXPECT_EQ(shape.corners, soup.corners.size()) << keys;
         EXPECT_EQ(shape.name, soup.object_names[0]) << keys;
         scene.objects[0].subdivide = 2;
-        const PolygonCounts counts = count_subdivided({shape.polygons, shape.corners},
-                                                      SubdivisionScheme::automatic, 2, "shape");
+        const PolygonCounts counts =
+            count_subdivided({shape.polygons, shape.corners}, SubdivisionScheme::automatic, 2, "shape");
         if (shape.name == "teapot") continue;  // some of its polygons have no area
         EXPECT_EQ(load_scene(scene).meshes[0].polygon_count, counts.polygons) << keys;
     }
@@ -98,10 +92,9 @@ TEST(ModelBudgetOfScenes, SubdividedObjectsCountTogether) {
 TEST(ModelBudgetOfScenes, WhatAFileSpellsOutIsNotCounted) {
     std::string obj;
     for (int i = 0; i < 1000; ++i) {
-        const std::string n = std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2) + " " +
-                              std::to_string(3 * i + 3);
-        obj += "v 0 0 " + std::to_string(i) + "\nv 1 0 0\nv 0 1 0\no " + std::to_string(i) +
-               "\nf " + n + "\n";
+        const std::string n =
+            std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2) + " " + std::to_string(3 * i + 3);
+        obj += "v 0 0 " + std::to_string(i) + "\nv 1 0 0\nv 0 1 0\no " + std::to_string(i) + "\nf " + n + "\n";
     }
     const SceneText text("[[object]]\nfile='many.obj'\n");
     text.folder().write("many.obj", obj);
@@ -117,27 +110,21 @@ TEST(ModelBudgetOfScenes, InstancesTimesPartsAreCounted) {
     for (int i = 0; i < 5000; ++i) instances += "{},";
     std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 1000; ++i) obj += "o " + std::to_string(i) + "\nf 1 2 3\n";
-    const SceneText text("[[object]]\nfile='parts.obj'\nname='crowd'\ninstance=[" + instances +
-                         "]\n");
+    const SceneText text("[[object]]\nfile='parts.obj'\nname='crowd'\ninstance=[" + instances + "]\n");
     text.folder().write("parts.obj", obj);
     const std::string message = refusal(text);
-    EXPECT_TRUE(
-        has(message, "object 'crowd' of 5000 instances with 1000 parts each needs about 2.8 GB"))
-        << message;
+    EXPECT_TRUE(has(message, "object 'crowd' of 5000 instances with 1000 parts each needs about 2.8 GB")) << message;
 }
 
 TEST(ModelBudgetOfScenes, PolygonsOfAllInstancesAreCountedBeforeTheyArePlaced) {
     std::string instances;
     for (int i = 0; i < 3000; ++i) instances += "{},";
-    const SceneText shapes("[[object]]\nshape='teapot'\ntessellation=256\ninstance=[" + instances +
-                           "]\n");
+    const SceneText shapes("[[object]]\nshape='teapot'\ntessellation=256\ninstance=[" + instances + "]\n");
     EXPECT_TRUE(has(refusal(shapes), "more than 4 billion polygons"));
-    const SceneText files("[[object]]\nfile='two.obj'\nsubdivide=8\ninstance=[" + instances +
-                          instances + instances + instances + "]\n" +
-                          "[[object]]\nfile='two.obj'\nsubdivide=8\ninstance=[" + instances +
-                          instances + instances + instances + "]\n" +
-                          "[[object]]\nfile='two.obj'\nsubdivide=8\ninstance=[" + instances +
-                          instances + instances + "]\n");
+    const SceneText files(
+        "[[object]]\nfile='two.obj'\nsubdivide=8\ninstance=[" + instances + instances + instances + instances + "]\n" +
+        "[[object]]\nfile='two.obj'\nsubdivide=8\ninstance=[" + instances + instances + instances + instances + "]\n" +
+        "[[object]]\nfile='two.obj'\nsubdivide=8\ninstance=[" + instances + instances + instances + "]\n");
     files.folder().write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
     EXPECT_TRUE(has(refusal(files), "more than 4 billion polygons"));
 }
@@ -148,8 +135,7 @@ TEST(ModelBudgetOfScenes, MaterialListsAreShared) {
         "[[material]]\nname='clay'\n[[object]]\nfile='parts.obj'\ninstance=[{},{},{}]\n[[object]]"
         "\nfile='parts.obj'\n"
         "[[object]]\nfile='parts.obj'\nmaterial='clay'\n");
-    text.folder().write(
-        "parts.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no a\nusemtl x\nf 1 2 3\no b\nusemtl y\nf 1 2 3\n");
+    text.folder().write("parts.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no a\nusemtl x\nf 1 2 3\no b\nusemtl y\nf 1 2 3\n");
     const Scene scene = text.load();
     ASSERT_EQ(scene.objects.size(), 10u);
     for (std::size_t i = 1; i < 8; ++i)

@@ -9,12 +9,11 @@ namespace {
 
 TEST(ObjectNames, MeanPartsAndInstances) {
     const ObjectNames names({"engine", "tree", "a/b"});
-    for (const char* object : {"engine", "engine/piston", "engine#2", "engine/piston#2", "tree",
-                               "a/b", "a/b/c", "a/b#1"}) {
+    for (const char* object :
+         {"engine", "engine/piston", "engine#2", "engine/piston#2", "tree", "a/b", "a/b/c", "a/b#1"}) {
         EXPECT_TRUE(names.mean(object)) << object;
     }
-    for (const char* object :
-         {"", "engines", "engin", "a", "a/c", "a/", "piston/engine", "/engine"})
+    for (const char* object : {"", "engines", "engin", "a", "a/c", "a/", "piston/engine", "/engine"})
         EXPECT_FALSE(names.mean(object)) << object;
     EXPECT_FALSE(ObjectNames({}).mean("engine"));
     EXPECT_TRUE(ObjectNames({""}).mean(""));
@@ -33,10 +32,8 @@ TEST(ObjectNames, AreWhatComparingEachWithEachFinds) {
         const std::string object = name();
         bool expected = false;
         for (const std::string& n : names) {
-            expected =
-                expected ||
-                (object.starts_with(n) &&
-                 (object.size() == n.size() || object[n.size()] == '/' || object[n.size()] == '#'));
+            expected = expected || (object.starts_with(n) &&
+                                    (object.size() == n.size() || object[n.size()] == '/' || object[n.size()] == '#'));
         }
         EXPECT_EQ(ObjectNames(names).mean(object), expected) << object;
     }

@@ -23,18 +23,15 @@ TEST(Overrides, ReplaceAndAddValues) {
     EXPECT_EQ(text.read({{"lines.width", "2.5"}}).lines.style.width_px, 2.5);
     EXPECT_EQ(text.read({{"lines.crease_angle", "10"}}).lines.crease_angle_deg, 10);
     EXPECT_EQ(text.read({{"lines.crease_angle", "10"}}).lines.style.width_px, 4);  // the rest stays
-    EXPECT_EQ(text.read({{"patel.mask", "16"}}).patel.mask_bits, 16);  // a table that was not there
+    EXPECT_EQ(text.read({{"patel.mask", "16"}}).patel.mask_bits, 16);              // a table that was not there
     EXPECT_EQ(text.read({{"picture.size", "[30, 20]"}}).picture.width, 30);
-    EXPECT_EQ(
-        text.read({{"lines.colors.crease", "'#f00'"}}).lines.style.color_of(LineClass::crease),
-        glm::vec3(1, 0, 0));
+    EXPECT_EQ(text.read({{"lines.colors.crease", "'#f00'"}}).lines.style.color_of(LineClass::crease),
+              glm::vec3(1, 0, 0));
     EXPECT_EQ(text.read({{"lines", "{width = 7}"}}).lines.style.width_px, 7);
 }
 
 TEST(Overrides, TheLastOneWins) {
-    EXPECT_EQ(
-        SceneText(kScene).read({{"lines.width", "2"}, {"lines.width", "3"}}).lines.style.width_px,
-        3);
+    EXPECT_EQ(SceneText(kScene).read({{"lines.width", "2"}, {"lines.width", "3"}}).lines.style.width_px, 3);
 }
 
 TEST(Overrides, NumbersCountIntoLists) {
@@ -49,9 +46,7 @@ TEST(Overrides, NumbersCountIntoLists) {
 
 TEST(Overrides, TextsNeedNoQuotes) {
     const SceneText text(kScene);
-    const auto name = [&](const std::string& value) {
-        return text.read({{"object.0.name", value}}).objects[0].name;
-    };
+    const auto name = [&](const std::string& value) { return text.read({{"object.0.name", value}}).objects[0].name; };
     EXPECT_EQ(name("hello"), "hello");
     EXPECT_EQ(name("'hello'"), "hello");
     EXPECT_EQ(name("\"hello\""), "hello");
@@ -61,10 +56,8 @@ TEST(Overrides, TextsNeedNoQuotes) {
     EXPECT_EQ(name("Würfel"), "Würfel");
     EXPECT_EQ(name(""), "");
     EXPECT_EQ(name("x\nshape = 'cone'"), "x\nshape = 'cone'");  // no way to smuggle in keys
-    EXPECT_EQ(text.read({{"surfaces.shading", "lambert"}}).surfaces.shading,
-              SurfaceShading::lambert);
-    EXPECT_EQ(text.read({{"picture.background", "#ff0000"}}).picture.background,
-              glm::vec3(1, 0, 0));
+    EXPECT_EQ(text.read({{"surfaces.shading", "lambert"}}).surfaces.shading, SurfaceShading::lambert);
+    EXPECT_EQ(text.read({{"picture.background", "#ff0000"}}).picture.background, glm::vec3(1, 0, 0));
     EXPECT_TRUE(text.read({{"picture.background", "transparent"}}).picture.transparent);
 }
 
@@ -77,8 +70,10 @@ TEST(Overrides, NumbersAreWrittenAsInOptions) {
     const PictureSettings picture = text.read({{"picture.size", "400x300"}}).picture;
     EXPECT_EQ(picture.width, 400);
     EXPECT_EQ(picture.height, 300);
-    EXPECT_EQ(text.read({{"lines.draw", "silhouette,crease"}}).lines.classes, LineClassSet(LineClass::silhouette) | LineClass::crease);
-    EXPECT_EQ(text.read({{"lines.draw", "silhouette, crease"}}).lines.classes, LineClassSet(LineClass::silhouette) | LineClass::crease);
+    EXPECT_EQ(text.read({{"lines.draw", "silhouette,crease"}}).lines.classes,
+              LineClassSet(LineClass::silhouette) | LineClass::crease);
+    EXPECT_EQ(text.read({{"lines.draw", "silhouette, crease"}}).lines.classes,
+              LineClassSet(LineClass::silhouette) | LineClass::crease);
     EXPECT_EQ(text.read({{"camera.0.eye", "+.5,1,2"}}).cameras[0].eye, glm::dvec3(0.5, 1, 2));
     EXPECT_EQ(text.read({{"zbuffer.highlight", "01"}}).zbuffer.highlight_objects, std::vector<std::string>{"01"});
     EXPECT_EQ(text.read({{"object.0.name", "2x4"}}).objects[0].name, "2x4");
@@ -118,8 +113,7 @@ TEST(Overrides, MistakesAreWrongUsage) {
     };
     for (const auto& m : mistakes) {
         const std::string error = text.usage_error(m.key, m.value);
-        EXPECT_EQ(error.find("--set " + std::string(m.key)), 0u)
-            << m.key << '=' << m.value << ": " << error;
+        EXPECT_EQ(error.find("--set " + std::string(m.key)), 0u) << m.key << '=' << m.value << ": " << error;
         EXPECT_NE(error.find(m.words), std::string::npos) << error;
         EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
@@ -135,8 +129,8 @@ TEST(Overrides, WhatTheFileSaysStaysAnInputError) {
 TEST(Overrides, BareModelsTakeThemToo) {
     const test::TemporaryFolder folder;
     const std::string path = folder.write("tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const SceneDescription scene = bare_model_scene(
-        path, {{"object.0.scale", "2"}, {"lines.width", "3"}, {"camera.fov", "50"}});
+    const SceneDescription scene =
+        bare_model_scene(path, {{"object.0.scale", "2"}, {"lines.width", "3"}, {"camera.fov", "50"}});
     EXPECT_EQ(scene.lines.style.width_px, 3);
     EXPECT_EQ(scene.cameras.at(0).fov_deg, 50);
     EXPECT_EQ(test::bounds_of(load_scene(scene)).high.x, 2);

@@ -19,8 +19,7 @@ struct Mistake {
 void expect_mistakes(std::initializer_list<Mistake> mistakes) {
     for (const Mistake& m : mistakes) {
         const std::string error = SceneText(std::string(kBox) + m.text).error();
-        EXPECT_EQ(error.find("scene.toml:" + std::string(m.place) + ": "), 0u)
-            << m.text << "\n-> " << error;
+        EXPECT_EQ(error.find("scene.toml:" + std::string(m.place) + ": "), 0u) << m.text << "\n-> " << error;
         EXPECT_NE(error.find(m.words), std::string::npos) << m.text << "\n-> " << error;
         EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
@@ -74,12 +73,9 @@ TEST(SceneErrors, WrongTypes) {
         {"[[camera]]\neye=[1,2,3,4]", "4:5", "must be a list of 3 numbers"},
         {"[[camera]]\nprojection='ortho'", "4:12", "must be one of"},
     });
-    EXPECT_NE(SceneText("lines=3\n[[object]]\nshape='box'")
-                  .error()
-                  .find("scene.toml:1:7: lines: must be a table"),
+    EXPECT_NE(SceneText("lines=3\n[[object]]\nshape='box'").error().find("scene.toml:1:7: lines: must be a table"),
               std::string::npos);
-    EXPECT_EQ(
-        SceneText("object=3").error().find("scene.toml:1:8: object: must be a list of tables"), 0u);
+    EXPECT_EQ(SceneText("object=3").error().find("scene.toml:1:8: object: must be a list of tables"), 0u);
     EXPECT_EQ(SceneText("[[object]]\nshape='cube'").error().find("scene.toml:2:7: "), 0u);
     EXPECT_EQ(SceneText("[[object]]\nfile=1").error().find("scene.toml:2:6: "), 0u);
 }
@@ -157,8 +153,7 @@ TEST(SceneErrors, ThingsThatDoNotGoTogether) {
         {"matrix=[1,0,0,0, 0,0,0,0, 0,0,1,0, 0,0,0,1]", "3:8", "makes everything flat"},
         {"[lines.hidden]\nstyle='dash'", "4:7", "[lines.hidden] style: must be one of"},
         {"[[object]]\nshpe='box'", "4:6", "shpe: unknown key; did you mean 'shape'?"},
-        {"matrix=[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\nscale=2", "4:7",
-         "cannot stand beside a matrix"},
+        {"matrix=[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\nscale=2", "4:7", "cannot stand beside a matrix"},
         {"material='m'", "3:10", "no [[material]] named 'm'"},
         {"[[material]]\nname='m'\n[[material]]\nname='m'", "6:6", "two materials have this name"},
         {"[[material]]\ncolor='#fff'", "3:1", "needs a name"},
@@ -168,10 +163,8 @@ TEST(SceneErrors, ThingsThatDoNotGoTogether) {
         {"[[camera]]\neye=[1,2,3]\ndirection=[1,0,0]", "5:11", "cannot stand beside an eye"},
         {"[[camera]]\nprojection='perspective'\nheight=2", "5:8", "a perspective camera has none"},
     });
-    EXPECT_NE(SceneText("[lines]\nwidth=1\n").error().find("the scene has no [[object]]"),
-              std::string::npos);
-    EXPECT_NE(SceneText("# nothing\n").error().find("the scene has no [[object]]"),
-              std::string::npos);
+    EXPECT_NE(SceneText("[lines]\nwidth=1\n").error().find("the scene has no [[object]]"), std::string::npos);
+    EXPECT_NE(SceneText("# nothing\n").error().find("the scene has no [[object]]"), std::string::npos);
 }
 
 TEST(SceneErrors, Syntax) {
@@ -192,9 +185,8 @@ TEST(SceneErrors, DeepNestingDoesNotCrash) {
     std::string dots = "a";
     for (int i = 0; i < 200000; ++i) dots += ".a";
     for (const std::string& text :
-         {"a=" + std::string(100000, '['),
-          "a=" + std::string(100000, '[') + std::string(100000, ']'), "[" + dots + "]", dots + "=1",
-          std::string("[[object]]\n") + dots + "=1"}) {
+         {"a=" + std::string(100000, '['), "a=" + std::string(100000, '[') + std::string(100000, ']'), "[" + dots + "]",
+          dots + "=1", std::string("[[object]]\n") + dots + "=1"}) {
         const std::string error = SceneText(text).error();
         EXPECT_EQ(error.find("scene.toml:"), 0u) << error.substr(0, 100);
     }
@@ -208,14 +200,12 @@ TEST(SceneErrors, FilesThatCannotBeRead) {
 }
 
 TEST(SceneErrors, ATransformThatIsTooLargeNamesItsObject) {
-    const SceneText text(
-        "[[object]]\nshape='box'\nname='big'\nmatrix=[1e200,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n");
+    const SceneText text("[[object]]\nshape='box'\nname='big'\nmatrix=[1e200,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n");
     try {
         text.load();
         FAIL() << "no error";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("scene.toml:1:1: object 'big'"), std::string::npos)
-            << error.what();
+        EXPECT_NE(std::string(error.what()).find("scene.toml:1:1: object 'big'"), std::string::npos) << error.what();
     }
 }
 

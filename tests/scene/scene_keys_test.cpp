@@ -58,9 +58,8 @@ TEST(SceneKeys, EmptyTablesChangeNothing) {
     EXPECT_EQ(scene.cameras[0].fov_deg, 35);
     EXPECT_EQ(scene.cameras[0].fit, 0.95);
     EXPECT_FALSE(scene.cameras[0].orthographic);
-    EXPECT_FALSE(scene.cameras[0].eye || scene.cameras[0].target || scene.cameras[0].up ||
-                 scene.cameras[0].direction || scene.cameras[0].height ||
-                 scene.cameras[0].to_world);
+    EXPECT_FALSE(scene.cameras[0].eye || scene.cameras[0].target || scene.cameras[0].up || scene.cameras[0].direction ||
+                 scene.cameras[0].height || scene.cameras[0].to_world);
 }
 
 struct Shape {
@@ -83,10 +82,7 @@ TEST(SceneKeys, Shapes) {
         {"shape='cone'", 65, {-.5, -.5, -.5}, {.5, .5, .5}},
         {"shape='cone'\nradius=3\nheight=2\nsegments=4", 5, {-3, -1, -3}, {3, 1, 3}},
         {"shape='torus'", 64 * 32, {-.7, -.2, -.7}, {.7, .2, .7}},
-        {"shape='torus'\nradius=2\ntube_radius=1\nsegments=8\ntube_segments=4",
-         32,
-         {-3, -1, -3},
-         {3, 1, 3}},
+        {"shape='torus'\nradius=2\ntube_radius=1\nsegments=8\ntube_segments=4", 32, {-3, -1, -3}, {3, 1, 3}},
     };
     for (const Shape& shape : shapes) {
         SCOPED_TRACE(shape.keys);
@@ -95,9 +91,7 @@ TEST(SceneKeys, Shapes) {
         expect_near(bounds_of(scene).low, shape.low);
         expect_near(bounds_of(scene).high, shape.high);
     }
-    const auto teapot = [](const std::string& keys) {
-        return loaded("[[object]]\nshape='teapot'\n" + keys);
-    };
+    const auto teapot = [](const std::string& keys) { return loaded("[[object]]\nshape='teapot'\n" + keys); };
     EXPECT_EQ(teapot("tessellation=2").meshes[0].repairs.input_polygons, 32u * 4);
     EXPECT_EQ(teapot("").meshes[0].repairs.input_polygons, 32u * 100);
 }
@@ -106,19 +100,16 @@ TEST(SceneKeys, NameAndSubdivision) {
     EXPECT_EQ(loaded("[[object]]\nshape='box'\nname='die'").objects[0].name, "die");
     EXPECT_EQ(loaded("[[object]]\nshape='cone'").objects[0].name, "cone");
     EXPECT_EQ(loaded("[[object]]\nshape='box'\nsubdivide=2").meshes[0].polygon_count, 6u * 16);
-    EXPECT_EQ(described("[[object]]\nshape='box'\nscheme='loop'").objects[0].scheme,
-              SubdivisionScheme::loop);
+    EXPECT_EQ(described("[[object]]\nshape='box'\nscheme='loop'").objects[0].scheme, SubdivisionScheme::loop);
     EXPECT_EQ(described("[[object]]\nshape='box'\nscheme='catmull-clark'").objects[0].scheme,
               SubdivisionScheme::catmull_clark);
-    EXPECT_EQ(described("[[object]]\nshape='box'\nscheme='automatic'").objects[0].scheme,
-              SubdivisionScheme::automatic);
+    EXPECT_EQ(described("[[object]]\nshape='box'\nscheme='automatic'").objects[0].scheme, SubdivisionScheme::automatic);
     EXPECT_THROW(loaded("[[object]]\nshape='box'\nscheme='loop'\nsubdivide=1"), InputError);
 }
 
 glm::dvec3 image_of(const std::string& keys, const glm::dvec3& p) {
     const SceneDescription scene = described("[[object]]\nshape='box'\n" + keys);
-    return glm::dvec3(scene.objects[0].to_world * scene.objects[0].instances.back() *
-                      glm::dvec4(p, 1));
+    return glm::dvec3(scene.objects[0].to_world * scene.objects[0].instances.back() * glm::dvec4(p, 1));
 }
 
 TEST(SceneKeys, Transforms) {
@@ -133,8 +124,7 @@ TEST(SceneKeys, Transforms) {
     expect_near(image_of("rotate=[90,0,90]", {0, 1, 0}), {0, 0, 1});
     expect_near(image_of("rotate=[0,90,90]", {0, 0, 1}), {0, 1, 0});
     // Scale first, translation last.
-    expect_near(image_of("translate=[5,0,0]\nrotate=[0,0,90]\nscale=[2,1,1]", {1, 0, 0}),
-                {5, 2, 0});
+    expect_near(image_of("translate=[5,0,0]\nrotate=[0,0,90]\nscale=[2,1,1]", {1, 0, 0}), {5, 2, 0});
     expect_near(image_of("rotate=[0,0,360]", {1, 2, 3}), {1, 2, 3}, 1e-12);
 }
 
@@ -206,7 +196,8 @@ width = 2
 [lines.hidden]
 style = 'dashed'
 color = '#804020'
-)").lines.style;
+)")
+                                .lines.style;
     EXPECT_EQ(style.hidden.style, HiddenStyle::dashed);
     EXPECT_EQ(style.hidden_width_px(), 2) << "as visible lines";
     EXPECT_EQ(style.hidden_dash_px(), (std::array<double, 2>{8, 6}));
@@ -254,9 +245,7 @@ projection = 'perspective'
 }
 
 TEST(SceneKeys, Lines) {
-    const auto lines = [](const std::string& keys) {
-        return described(kBox + ("[lines]\n" + keys)).lines;
-    };
+    const auto lines = [](const std::string& keys) { return described(kBox + ("[lines]\n" + keys)).lines; };
     EXPECT_EQ(lines("draw=['crease','mark']").classes, LineClass::crease | LineClass::mark);
     EXPECT_EQ(lines("draw=['all']").classes, LineClassSet::all());
     EXPECT_EQ(lines("draw='all'").classes, LineClassSet::all());
@@ -264,8 +253,7 @@ TEST(SceneKeys, Lines) {
     EXPECT_TRUE(lines("draw=[]").classes.empty());
     for (int c = 0; c < kLineClassCount; ++c) {
         const auto line_class = static_cast<LineClass>(c);
-        EXPECT_EQ(lines("draw=['" + std::string(name_of(line_class)) + "']").classes,
-                  LineClassSet(line_class));
+        EXPECT_EQ(lines("draw=['" + std::string(name_of(line_class)) + "']").classes, LineClassSet(line_class));
     }
     EXPECT_EQ(lines("width=2.5").style.width_px, 2.5);
     EXPECT_EQ(lines("width=1024").style.width_px, 1024);
@@ -286,8 +274,7 @@ TEST(SceneKeys, Lines) {
     EXPECT_EQ(lines("filter='box'").style.filter, PixelFilter::box);
     EXPECT_EQ(lines("filter='gaussian'").style.filter, PixelFilter::gaussian);
     EXPECT_EQ(lines("filter='mitchell'").style.filter, PixelFilter::mitchell);
-    for (const glm::vec3& color : lines("color='#ff0000'").style.colors)
-        EXPECT_EQ(color, glm::vec3(1, 0, 0));
+    for (const glm::vec3& color : lines("color='#ff0000'").style.colors) EXPECT_EQ(color, glm::vec3(1, 0, 0));
 }
 
 TEST(SceneKeys, ColorsPerLineClass) {
@@ -304,9 +291,9 @@ mark = '#0000ff'
     EXPECT_EQ(style.color_of(LineClass::mark), glm::vec3(0, 0, 1));
     for (int c = 0; c < kLineClassCount; ++c) {
         const std::string name(kLineClassNames[static_cast<std::size_t>(c)]);
-        EXPECT_EQ(described(kBox + ("[lines.colors]\n" + name + "='#f00'"))
-                      .lines.style.colors[static_cast<std::size_t>(c)],
-                  glm::vec3(1, 0, 0));
+        EXPECT_EQ(
+            described(kBox + ("[lines.colors]\n" + name + "='#f00'")).lines.style.colors[static_cast<std::size_t>(c)],
+            glm::vec3(1, 0, 0));
     }
 }
 
@@ -362,17 +349,14 @@ TEST(SceneKeys, ZBuffer) {
 }
 
 TEST(SceneKeys, ASingleTableCountsAsAListOfOne) {
-    const SceneDescription scene =
-        described("[object]\nshape='box'\n[camera]\nname='a'\n[material]\nname='m'\n");
+    const SceneDescription scene = described("[object]\nshape='box'\n[camera]\nname='a'\n[material]\nname='m'\n");
     EXPECT_EQ(scene.objects.size(), 1u);
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.materials.size(), 1u);
 }
 
 TEST(SceneKeys, ByteOrderMarksAndLineEndingsOfWindows) {
-    EXPECT_EQ(described("\xEF\xBB\xBF[[object]]\r\nshape='box'\r\n[lines]\r\nwidth=3\r\n")
-                  .lines.style.width_px,
-              3);
+    EXPECT_EQ(described("\xEF\xBB\xBF[[object]]\r\nshape='box'\r\n[lines]\r\nwidth=3\r\n").lines.style.width_px, 3);
 }
 
 }  // namespace

@@ -19,9 +19,7 @@ class SceneText {
     SceneDescription read(const std::vector<Override>& overrides = {}) const {
         return read_scene_file(path_, overrides);
     }
-    Scene load(const std::vector<Override>& overrides = {}) const {
-        return load_scene(read(overrides));
-    }
+    Scene load(const std::vector<Override>& overrides = {}) const { return load_scene(read(overrides)); }
 
     /// The message of the InputError that reading gives, with the file called "scene.toml"; empty
     /// if there is none.
@@ -50,12 +48,8 @@ class SceneText {
     std::string path_;
 };
 
-inline SceneDescription described(std::string_view text) {
-    return SceneText(text).read();
-}
-inline Scene loaded(std::string_view text) {
-    return SceneText(text).load();
-}
+inline SceneDescription described(std::string_view text) { return SceneText(text).read(); }
+inline Scene loaded(std::string_view text) { return SceneText(text).load(); }
 
 constexpr const char* kBox = "[[object]]\nshape = \"box\"\n";
 

@@ -24,23 +24,18 @@ std::string repeated(const std::string& text, int count) {
 TEST(TomlDepth, CountsWhateverMakesATreeDeep) {
     const std::string dots = "a" + repeated(".a", 100);
     for (const std::string& deep :
-         {dots + " = 1", "[" + dots + "]", "[[" + dots + "]]",
-          "\"=\"" + repeated(".\"=\"", 100) + " = 1", "'['" + repeated(" . '#'", 100) + " = 1",
-          "\"\\\"\"" + repeated(".\"\\\\\"", 100) + " = 1",
-          "x = " + repeated("[", 100) + repeated("]", 100),
-          "x = " + repeated("{ a = ", 100) + "1" + repeated("}", 100),
+         {dots + " = 1", "[" + dots + "]", "[[" + dots + "]]", "\"=\"" + repeated(".\"=\"", 100) + " = 1",
+          "'['" + repeated(" . '#'", 100) + " = 1", "\"\\\"\"" + repeated(".\"\\\\\"", 100) + " = 1",
+          "x = " + repeated("[", 100) + repeated("]", 100), "x = " + repeated("{ a = ", 100) + "1" + repeated("}", 100),
           "x = [\n" + repeated("[ # [\n", 100),
-          "[a.b.c.d.e.f.g.h]\n" + std::string("a") + repeated(".b", 30) + " = {" +
-              repeated("c.", 20) + "d = [[[1]]]}",
+          "[a.b.c.d.e.f.g.h]\n" + std::string("a") + repeated(".b", 30) + " = {" + repeated("c.", 20) + "d = [[[1]]]}",
           "[[" + std::string("a") + repeated(".b", 20) + "]]\nx" + repeated(".y", 30) + " = 1",
           "x = \"\"\"\" a \"\"\"\"\ny" + repeated(".y", 100) + " = 1",
           "x = '''' a ''''' \ny" + repeated(".y", 100) + " = 1", "x = {" + dots + " = 1}",
           "x = [1, {a = 1, " + dots + " = 1}]"}) {
-        EXPECT_TRUE(line_nested_too_deep("a = 1\n" + deep + "\n").has_value())
-            << deep.substr(0, 60);
+        EXPECT_TRUE(line_nested_too_deep("a = 1\n" + deep + "\n").has_value()) << deep.substr(0, 60);
         const std::string error = SceneText(std::string(test::kBox) + deep + "\n").error();
-        EXPECT_TRUE(error.starts_with("scene.toml:") &&
-                    error.find("nested more than 64 deep") != std::string::npos)
+        EXPECT_TRUE(error.starts_with("scene.toml:") && error.find("nested more than 64 deep") != std::string::npos)
             << error;
     }
     EXPECT_EQ(line_nested_too_deep("a = 1\n\n" + dots + " = 1\n"), 3u);
@@ -49,12 +44,11 @@ TEST(TomlDepth, CountsWhateverMakesATreeDeep) {
 
 TEST(TomlDepth, LeavesFlatTextsAlone) {
     for (const std::string& flat :
-         {"a = \"" + repeated(".", 1000) + "\"", "# " + repeated("[.", 1000),
-          "a = '" + repeated("[", 1000) + "'", "a = \"\"\"\n" + repeated("[{.\n", 1000) + "\"\"\"",
-          "a = '''\n" + repeated("[{.\\\n", 1000) + "'''", "a = [" + repeated("1.5, ", 1000) + "]",
-          "a = [" + repeated("[1.5, 2.5], ", 1000) + "]", repeated("[[a.b]]\nc.d = 1.5\n", 1000),
-          "\"" + repeated(".", 1000) + "\" = 1", repeated("a = \"\\\\\" # \"\n", 100),
-          "x = {" + repeated("a.b = 1, ", 1000) + "}"}) {
+         {"a = \"" + repeated(".", 1000) + "\"", "# " + repeated("[.", 1000), "a = '" + repeated("[", 1000) + "'",
+          "a = \"\"\"\n" + repeated("[{.\n", 1000) + "\"\"\"", "a = '''\n" + repeated("[{.\\\n", 1000) + "'''",
+          "a = [" + repeated("1.5, ", 1000) + "]", "a = [" + repeated("[1.5, 2.5], ", 1000) + "]",
+          repeated("[[a.b]]\nc.d = 1.5\n", 1000), "\"" + repeated(".", 1000) + "\" = 1",
+          repeated("a = \"\\\\\" # \"\n", 100), "x = {" + repeated("a.b = 1, ", 1000) + "}"}) {
         EXPECT_FALSE(line_nested_too_deep(flat).has_value()) << flat.substr(0, 60);
     }
 }
@@ -87,24 +81,19 @@ TEST(TomlDepth, NoTreeIsDeeperThanItsTextSays) {
             return text;
         };
         const std::function<std::string(int)> value = [&](int depth) -> std::string {
-            static const char* const kValues[] = {"1.5",       "\"]\"",
-                                                  "'}'",       "\"\"\"\n\"\\\"\"\"\"",
-                                                  "''''[''''", "1979-05-27T00:32:00.999",
-                                                  "\"\\\\\"",  "true"};
+            static const char* const kValues[] = {
+                "1.5",      "\"]\"", "'}'", "\"\"\"\n\"\\\"\"\"\"", "''''[''''", "1979-05-27T00:32:00.999",
+                "\"\\\\\"", "true"};
             if (depth <= 0) return kValues[random.integer(0, 7)];
             if (random.integer(0, 1) == 0)
-                return "[" + value(depth - 1) + (random.integer(0, 1) == 0 ? ",# ]\n" : "\n,") +
-                       value(0) + "]";
-            return "{" + key() + " = " + value(depth - 1) + ", z" + std::to_string(depth) + " = " +
-                   value(0) + "}";
+                return "[" + value(depth - 1) + (random.integer(0, 1) == 0 ? ",# ]\n" : "\n,") + value(0) + "]";
+            return "{" + key() + " = " + value(depth - 1) + ", z" + std::to_string(depth) + " = " + value(0) + "}";
         };
         std::string text;
         for (int i = random.integer(1, 3); i > 0; --i) {
             if (random.integer(0, 1) == 0)
-                text +=
-                    random.integer(0, 1) == 0 ? "[" + key() + "] # [\n" : "[[" + key() + "]]\r\n";
-            text +=
-                key() + " = " + value(random.integer(0, random.integer(0, 3) == 0 ? 60 : 5)) + "\n";
+                text += random.integer(0, 1) == 0 ? "[" + key() + "] # [\n" : "[[" + key() + "]]\r\n";
+            text += key() + " = " + value(random.integer(0, random.integer(0, 3) == 0 ? 60 : 5)) + "\n";
         }
         const bool is_refused = line_nested_too_deep(text).has_value();
         try {
@@ -121,11 +110,9 @@ TEST(TomlDepth, NoTreeIsDeeperThanItsTextSays) {
 
 TEST(TomlDepth, OverridesToo) {
     const SceneText text(test::kBox);
-    for (const std::string& value :
-         {repeated("[", 1000) + repeated("]", 1000), "{a" + repeated(".a", 60000) + " = 1}",
-          "{" + std::string("\"=\"") + repeated(".\"=\"", 40000) + " = 1}"}) {
-        EXPECT_NE(text.usage_error("object.0.size", value).find("nested more than 64 deep"),
-                  std::string::npos);
+    for (const std::string& value : {repeated("[", 1000) + repeated("]", 1000), "{a" + repeated(".a", 60000) + " = 1}",
+                                     "{" + std::string("\"=\"") + repeated(".\"=\"", 40000) + " = 1}"}) {
+        EXPECT_NE(text.usage_error("object.0.size", value).find("nested more than 64 deep"), std::string::npos);
     }
 }
 

@@ -9,12 +9,8 @@ namespace {
 
 using namespace test;
 
-WireSettings wire(const std::string& text) {
-    return described(std::string(kBox) + "[wire]\n" + text).wire;
-}
-std::string error(const std::string& text) {
-    return SceneText(std::string(kBox) + "[wire]\n" + text).error();
-}
+WireSettings wire(const std::string& text) { return described(std::string(kBox) + "[wire]\n" + text).wire; }
+std::string error(const std::string& text) { return SceneText(std::string(kBox) + "[wire]\n" + text).error(); }
 
 TEST(WireSettings, EmptyIsTheDefault) {
     const WireSettings s = wire("");
@@ -28,17 +24,14 @@ TEST(WireSettings, EmptyIsTheDefault) {
 
 TEST(WireSettings, WordsAndNumbers) {
     const std::pair<const char*, WireProfileKind> profiles[] = {
-        {"gauss", WireProfileKind::gauss},   {"nv", WireProfileKind::nv},
-        {"step", WireProfileKind::step},     {"linear", WireProfileKind::linear},
-        {"smooth", WireProfileKind::smooth}, {"box", WireProfileKind::box}};
-    for (const auto& [word, kind] : profiles)
-        EXPECT_EQ(wire("profile='" + std::string(word) + "'").profile, kind);
+        {"gauss", WireProfileKind::gauss},   {"nv", WireProfileKind::nv},         {"step", WireProfileKind::step},
+        {"linear", WireProfileKind::linear}, {"smooth", WireProfileKind::smooth}, {"box", WireProfileKind::box}};
+    for (const auto& [word, kind] : profiles) EXPECT_EQ(wire("profile='" + std::string(word) + "'").profile, kind);
     const std::pair<const char*, WirePath> paths[] = {{"linear", WirePath::linear},
                                                       {"premultiplied", WirePath::premultiplied},
                                                       {"homogeneous", WirePath::homogeneous},
                                                       {"cases", WirePath::cases}};
-    for (const auto& [word, path] : paths)
-        EXPECT_EQ(wire("path='" + std::string(word) + "'").path, path);
+    for (const auto& [word, path] : paths) EXPECT_EQ(wire("path='" + std::string(word) + "'").path, path);
     EXPECT_EQ(wire("exclude='flags'").exclude, WireExclude::flags);
     EXPECT_EQ(wire("exclude='q'\nq=3").exclude, WireExclude::q);
     EXPECT_EQ(wire("exclude='q'\nq=3").q_px, 3);
@@ -56,8 +49,7 @@ TEST(WireSettings, WordsAndNumbers) {
 }
 
 TEST(WireSettings, WrongOnesAreErrors) {
-    EXPECT_NE(error("profile='gaus'").find("scene.toml:4:9"), std::string::npos)
-        << error("profile='gaus'");
+    EXPECT_NE(error("profile='gaus'").find("scene.toml:4:9"), std::string::npos) << error("profile='gaus'");
     EXPECT_NE(error("widht='matched'").find("did you mean 'width'?"), std::string::npos);
     EXPECT_NE(error("duty=1.5").find("at most 1"), std::string::npos);
     EXPECT_NE(error("period=0").find("greater than 0"), std::string::npos);

@@ -63,8 +63,10 @@ std::vector<double> dash_lengths(const std::vector<LineSegment>& parts) {
         const double length = glm::distance(parts[i].from, parts[i].to);
         const bool goes_on = i > 0 && (glm::distance(parts[i].from, parts[i - 1].to) < 1e-9 ||
                                        glm::distance(parts[i].to, parts[i - 1].from) < 1e-9);
-        if (goes_on) lengths.back() += length;
-        else lengths.push_back(length);
+        if (goes_on)
+            lengths.back() += length;
+        else
+            lengths.push_back(length);
     }
     return lengths;
 }
@@ -84,7 +86,7 @@ TEST(VisibleDashes, OfAnOpenChainBeginAtItsHigherEnd) {
     EXPECT_EQ(std::min(first.from.y, first.to.y), 11);  // half a pen's width from the end
     EXPECT_EQ(std::max(first.from.y, first.to.y), 15);
     const std::vector<double> lengths = dash_lengths(parts[0]);
-    ASSERT_EQ(lengths.size(), 9u);  // 90 pixels
+    ASSERT_EQ(lengths.size(), 9u);                                     // 90 pixels
     for (const double length : lengths) EXPECT_NEAR(length, 4, 1e-9);  // also around the corners
 }
 
@@ -213,7 +215,8 @@ TEST(VisibleDashes, AlongFeaturesStandStillInAnAnimation) {
     };
     const auto frame = [](const Scene& s, int number) {
         const glm::dvec3 move = glm::dvec3(0.8, 0.5, -0.2) * (number * 0.0004);
-        return Drawing(s, perspective_camera(glm::dvec3(1.2, 1.1, 2.3) + move, move), kSize, kSize, {0, 0, kSize, kSize}, 1, render_abuffer);
+        return Drawing(s, perspective_camera(glm::dvec3(1.2, 1.1, 2.3) + move, move), kSize, kSize,
+                       {0, 0, kSize, kSize}, 1, render_abuffer);
     };
     for (int number = 0; number < 12; ++number) {
         const double of_dashes = change(frame(scene, number), frame(scene, number + 1));
@@ -246,7 +249,9 @@ TEST(VisibleDashes, OfALoopThatBranchesHangOnNoOrder) {
         std::vector<std::vector<std::uint32_t>> polygons{{0, 1, 2}, {0, 3, 4}};
         if (is_reversed) polygons = {{4, 0, 3}, {2, 0, 1}};
         for (const auto& polygon : polygons) soup.add_polygon(polygon);
-        return Drawing(dashed_scene(soup), pixel_camera(kSize, kSize), kSize, kSize, {0, 0, kSize, kSize}, 1, render_abuffer).coverage();
+        return Drawing(dashed_scene(soup), pixel_camera(kSize, kSize), kSize, kSize, {0, 0, kSize, kSize}, 1,
+                       render_abuffer)
+            .coverage();
     };
     EXPECT_EQ(drawn(false), drawn(true));
 }

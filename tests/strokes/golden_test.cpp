@@ -63,15 +63,19 @@ TEST(Golden, Cube) {
 }
 
 TEST(Golden, CrossingSheets) {
-    expect_golden("crossing", scene_of({rectangle(4.3, 4.3, 43.3, 20.3, -10, 20), rectangle(8.3, 8.3, 39.3, 28.3, 10, -20)}), pixel_camera(48, 32));
+    expect_golden("crossing",
+                  scene_of({rectangle(4.3, 4.3, 43.3, 20.3, -10, 20), rectangle(8.3, 8.3, 39.3, 28.3, 10, -20)}),
+                  pixel_camera(48, 32));
 }
 
 TEST(Golden, TorusSilhouette) {
-    expect_golden("torus", scene_of({make_torus(0.7, 0.25, 48, 24)}), perspective_camera({0.4, 2.5, 3.2}, {0, 0, 0}, 30));
+    expect_golden("torus", scene_of({make_torus(0.7, 0.25, 48, 24)}),
+                  perspective_camera({0.4, 2.5, 3.2}, {0, 0, 0}, 30));
 }
 
 TEST(Golden, StrokesMeetAtATJunction) {
-    expect_golden("t_junction", scene_of({rectangle(10.3, 10.3, 38.3, 22.3, 5), rectangle(20.3, 2.3, 28.3, 30.3, -5)}), pixel_camera(48, 32));
+    expect_golden("t_junction", scene_of({rectangle(10.3, 10.3, 38.3, 22.3, 5), rectangle(20.3, 2.3, 28.3, 30.3, -5)}),
+                  pixel_camera(48, 32));
 }
 
 TEST(Golden, ThinBars) {
@@ -89,9 +93,11 @@ TEST(Golden, ThinBars) {
 
 /// A roof whose ridge, a crease, runs behind a plate.
 Scene roof_behind_plate() {
-    return scene_of({soup_of({{3.3, 12.4, 0}, {45.2, 19.7, 0}, {45.2, 31.6, -30}, {3.3, 29.6, -30}, {3.3, 1.2, -30}, {45.2, 2.2, -30}},
-                             {{0, 1, 2, 3}, {1, 0, 4, 5}}),
-                     soup_of({{18.4, 6.2, 9}, {31.3, 8.8, 9}, {29.1, 27.2, 9}, {16.2, 24.6, 9}}, {{0, 1, 2, 3}})});
+    return scene_of(
+        {soup_of(
+             {{3.3, 12.4, 0}, {45.2, 19.7, 0}, {45.2, 31.6, -30}, {3.3, 29.6, -30}, {3.3, 1.2, -30}, {45.2, 2.2, -30}},
+             {{0, 1, 2, 3}, {1, 0, 4, 5}}),
+         soup_of({{18.4, 6.2, 9}, {31.3, 8.8, 9}, {29.1, 27.2, 9}, {16.2, 24.6, 9}}, {{0, 1, 2, 3}})});
 }
 
 void expect_stroke(const std::string& name, Scene scene, double width_px, StrokeSide side = StrokeSide::both,
@@ -114,7 +120,14 @@ TEST(Golden, StrokesOnOneSide) {
 
 /// Obtuse, right and acute corners, turning both ways.
 Scene arrow() {
-    return scene_of({soup_of({{5.3, 10.2, 0}, {24.6, 10.2, 0}, {24.6, 4.3, 0}, {42.7, 16.4, 0}, {24.6, 28.5, 0}, {24.6, 22.3, 0}, {5.3, 22.3, 0}, {12.4, 16.2, 0}},
+    return scene_of({soup_of({{5.3, 10.2, 0},
+                              {24.6, 10.2, 0},
+                              {24.6, 4.3, 0},
+                              {42.7, 16.4, 0},
+                              {24.6, 28.5, 0},
+                              {24.6, 22.3, 0},
+                              {5.3, 22.3, 0},
+                              {12.4, 16.2, 0}},
                              {{0, 1, 2, 3, 4, 5, 6, 7}})});
 }
 

@@ -25,7 +25,9 @@ constexpr std::array<double, 2> kDash{4, 3};
 constexpr double kPeriod = kDash[0] + kDash[1];
 
 /// A chain of one piece whose dashes begin at `at`.
-DashPiece piece_of(glm::dvec2 from, glm::dvec2 to, double at = 0) { return {from, to, at, at + glm::distance(from, to)}; }
+DashPiece piece_of(glm::dvec2 from, glm::dvec2 to, double at = 0) {
+    return {from, to, at, at + glm::distance(from, to)};
+}
 
 /// Each piece is a chain.
 DashPlaces lay_out(SharedDashes& shared, const std::vector<DashPiece>& pieces) {
@@ -46,7 +48,9 @@ std::vector<Interval> union_of(const std::vector<DashPiece>& pieces, const DashP
         places.for_parts(i, [&](const DashPart& part) {
             const double length = part.at_end - part.at_begin;
             const auto place = [&](double at) {
-                return glm::dot(glm::mix(pieces[i].from, pieces[i].to, std::lerp(part.begin, part.end, (at - part.at_begin) / length)), along);
+                return glm::dot(glm::mix(pieces[i].from, pieces[i].to,
+                                         std::lerp(part.begin, part.end, (at - part.at_begin) / length)),
+                                along);
             };
             pen.for_dashes(part.at_begin, part.at_end, 1, [&](double first, double last) {
                 all.push_back({std::min(place(first), place(last)), std::max(place(first), place(last))});
@@ -55,13 +59,16 @@ std::vector<Interval> union_of(const std::vector<DashPiece>& pieces, const DashP
     }
     std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
     for (const Interval& i : all) {
-        if (!joined.empty() && i.begin <= joined.back().end + 0.05) joined.back().end = std::max(joined.back().end, i.end);
-        else joined.push_back(i);
+        if (!joined.empty() && i.begin <= joined.back().end + 0.05)
+            joined.back().end = std::max(joined.back().end, i.end);
+        else
+            joined.push_back(i);
     }
     return joined;
 }
 
-// Pieces of any length and either direction that lie on each other in part, an eighth of a pixel beside a line: one dashed line.
+// Pieces of any length and either direction that lie on each other in part, an eighth of a pixel beside a line: one
+// dashed line.
 TEST(SharedDashes, OfPiecesOnOneLineAreThoseOfOneLine) {
     for (std::uint64_t trial = 0; trial < 300; ++trial) {
         Random random(trial);
@@ -73,8 +80,10 @@ TEST(SharedDashes, OfPiecesOnOneLineAreThoseOfOneLine) {
         for (int i = random.integer(2, 12); i > 0; --i) {
             const double begin = pieces.empty() ? low : random.real(low, high - 1.5), end = begin + random.real(2, 40);
             high = std::max(high, end);
-            if (random.integer(0, 1) == 1) pieces.push_back(piece_of(place(begin), place(end), random.real(0, 20)));
-            else pieces.push_back(piece_of(place(end), place(begin), random.real(0, 20)));
+            if (random.integer(0, 1) == 1)
+                pieces.push_back(piece_of(place(begin), place(end), random.real(0, 20)));
+            else
+                pieces.push_back(piece_of(place(end), place(begin), random.real(0, 20)));
             low = i > 6 ? low : begin;
         }
         SharedDashes shared(kPicture, 0.25);
@@ -82,15 +91,18 @@ TEST(SharedDashes, OfPiecesOnOneLineAreThoseOfOneLine) {
         ASSERT_FALSE(dashes.empty());
         for (std::size_t i = 1; i + 1 < dashes.size(); ++i) {
             EXPECT_NEAR(dashes[i].end - dashes[i].begin, kDash[0], 0.2) << trial;
-            EXPECT_NEAR(dashes[i].begin - dashes[i - 1].begin, i == 1 ? dashes[2].begin - dashes[1].begin : kPeriod, i == 1 ? kPeriod : 0.2) << trial;
+            EXPECT_NEAR(dashes[i].begin - dashes[i - 1].begin, i == 1 ? dashes[2].begin - dashes[1].begin : kPeriod,
+                        i == 1 ? kPeriod : 0.2)
+                << trial;
         }
     }
 }
 
 // Those that only touch go on as well, where lines lie on each other somewhere along them.
 TEST(SharedDashes, RunOnStraight) {
-    const std::vector<DashPiece> pieces{piece_of({20, 50}, {50, 50}), piece_of({50, 50}, {61, 50}, 0.7), piece_of({79, 50}, {61, 50}, 1.9),
-                                        piece_of({79, 50}, {100, 50}, 2.3), piece_of({45, 50}, {20, 50}, 5.5)};
+    const std::vector<DashPiece> pieces{piece_of({20, 50}, {50, 50}), piece_of({50, 50}, {61, 50}, 0.7),
+                                        piece_of({79, 50}, {61, 50}, 1.9), piece_of({79, 50}, {100, 50}, 2.3),
+                                        piece_of({45, 50}, {20, 50}, 5.5)};
     SharedDashes shared(kPicture, 0.25);
     const std::vector<Interval> dashes = union_of(pieces, lay_out(shared, pieces), {1, 0});
     ASSERT_EQ(dashes.size(), 12u);  // of 80 pixels
@@ -102,8 +114,9 @@ TEST(SharedDashes, RunOnStraight) {
 
 // Lines that cross, run beside each other at a distance, or touch in a straight line only: to the bit.
 TEST(SharedDashes, OfOtherLinesAreTheirOwn) {
-    std::vector<DashPiece> pieces{piece_of({20, 50}, {120, 50}, 0.3), piece_of({20, 40}, {120, 61}, 0.4), piece_of({20, 50.75}, {120, 50.75}, 0.5),
-                                  piece_of({120, 50}, {180, 50}, 0.6), piece_of({70, 10}, {70, 200}, 0.7)};
+    std::vector<DashPiece> pieces{piece_of({20, 50}, {120, 50}, 0.3), piece_of({20, 40}, {120, 61}, 0.4),
+                                  piece_of({20, 50.75}, {120, 50.75}, 0.5), piece_of({120, 50}, {180, 50}, 0.6),
+                                  piece_of({70, 10}, {70, 200}, 0.7)};
     SharedDashes shared(kPicture, 0.25);
     const DashPlaces places = lay_out(shared, pieces);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -142,7 +155,8 @@ TEST(SharedDashes, OfCurvesAreThoseOfTheFirst) {
     for (std::size_t i = 64; i < pieces.size(); ++i) {
         places.for_parts(i, [&](const DashPart& part) {
             for (double s = 0.05; s < 1; s += 0.1) {
-                const glm::dvec2 p = glm::mix(pieces[i].from, pieces[i].to, std::lerp(part.begin, part.end, s)) - glm::dvec2(120, 120);
+                const glm::dvec2 p =
+                    glm::mix(pieces[i].from, pieces[i].to, std::lerp(part.begin, part.end, s)) - glm::dvec2(120, 120);
                 const double a = std::atan2(p.y, p.x), on_first = (a < 0 ? a + 2 * std::numbers::pi : a) * 60;
                 alike += is_on(std::lerp(part.at_begin, part.at_end, s)) == is_on(on_first) ? 1 : 0;
                 ++all;
@@ -167,7 +181,8 @@ PolygonSoup pin(double radius, double low, double high, int segments, double z, 
     });
 }
 
-Image drawn(const Scene& scene, const Camera& camera = pixel_camera(kSize, kSize), int threads = 1, PixelRect crop = kPicture) {
+Image drawn(const Scene& scene, const Camera& camera = pixel_camera(kSize, kSize), int threads = 1,
+            PixelRect crop = kPicture) {
     return Drawing(scene, camera, kSize, kSize, crop, threads, render_abuffer).image();
 }
 
@@ -192,7 +207,8 @@ double dashed_share(Scene scene, PixelRect rect) {
 TEST(SharedDashes, OfHiddenRimsSeenFromTheSide) {
     for (const int segments : {5, 6, 24, 200}) {
         std::vector<PolygonSoup> objects{block()};
-        for (int i = 0; i < (segments > 24 ? 1 : 6); ++i) objects.push_back(pin(20 + 4 * i, 70, 170.2, segments, -60 + 30 * i, 0.3 * i));
+        for (int i = 0; i < (segments > 24 ? 1 : 6); ++i)
+            objects.push_back(pin(20 + 4 * i, 70, 170.2, segments, -60 + 30 * i, 0.3 * i));
         const double share = dashed_share(scene_of(objects), {60, 66, 180, 74});
         EXPECT_GT(share, 0.45) << segments;
         EXPECT_LT(share, 0.7) << segments;
@@ -206,7 +222,8 @@ TEST(SharedDashes, OfHiddenBodiesWithCommonSides) {
         std::vector<PolygonSoup> objects{block()};
         for (int i = 0; i < 8; ++i) {
             const double low = random.real(50, 110);
-            objects.push_back(box_between({60.5, low, -80 + 18 * i}, {random.real(90, 180), low + random.real(15, 60), -62 + 18 * i}));
+            objects.push_back(box_between({60.5, low, -80 + 18 * i},
+                                          {random.real(90, 180), low + random.real(15, 60), -62 + 18 * i}));
         }
         const double share = dashed_share(scene_of(objects), {60, 30, 61, 210});
         EXPECT_GT(share, 0.45) << trial;
@@ -217,7 +234,8 @@ TEST(SharedDashes, OfHiddenBodiesWithCommonSides) {
 // A row of bodies in contact side by side: their common edges are visible, those of one or of the other.
 TEST(SharedDashes, OfVisibleBodiesInContact) {
     std::vector<PolygonSoup> objects;
-    for (int i = 0; i < 4; ++i) objects.push_back(box_between({30 + 40.0 * i, 40, 0}, {70 + 40.0 * i, 200, 50 + 3.0 * (i % 2)}));
+    for (int i = 0; i < 4; ++i)
+        objects.push_back(box_between({30 + 40.0 * i, 40, 0}, {70 + 40.0 * i, 200, 50 + 3.0 * (i % 2)}));
     Scene scene = scene_of(objects);
     const double solid = ink(drawn(scene), "lines.A", kPicture);
     scene.lines.style.dash_px = {8, 6};
@@ -232,27 +250,29 @@ TEST(SharedDashes, OfHiddenLinesLeaveVisibleOnesAlone) {
     const Image image = drawn(scene);
     EXPECT_GT(ink(image, "lines.A", kPicture), 100);
     EXPECT_GT(ink(image, "lines_hidden.A", {50, 50, 190, 190}), 100);  // of the box inside
-    EXPECT_NEAR(ink(image, "lines_hidden.A", kPicture), ink(image, "lines_hidden.A", {50, 50, 190, 190}), 0.01);  // of the block
+    EXPECT_NEAR(ink(image, "lines_hidden.A", kPicture), ink(image, "lines_hidden.A", {50, 50, 190, 190}),
+                0.01);  // of the block
 }
 
 /// Pins and boxes whose lines lie on each other.
 std::vector<PolygonSoup> assembly() {
-    return {block(), pin(30, 60, 150, 24, 0), pin(22, 60, 150, 10, 10, 0.2), box_between({80, 60, -70}, {150, 120, -50}),
-            box_between({80, 90, -50}, {140, 160, -31})};
+    return {block(), pin(30, 60, 150, 24, 0), pin(22, 60, 150, 10, 10, 0.2),
+            box_between({80, 60, -70}, {150, 120, -50}), box_between({80, 90, -50}, {140, 160, -31})};
 }
 
 TEST(SharedDashes, DependOnThePictureOnly) {
     Scene scene = scene_of(assembly()), turned = scene_of([] {
-        std::vector<PolygonSoup> objects = assembly();
-        for (PolygonSoup& o : objects) {
-            PolygonSoup other;
-            other.positions = o.positions;
-            for (std::size_t p = o.polygon_count(); p-- > 0;) other.add_polygon(o.polygon(p));
-            other.object_names = o.object_names;
-            o = other;
-        }
-        return objects;
-    }());
+                                            std::vector<PolygonSoup> objects = assembly();
+                                            for (PolygonSoup& o : objects) {
+                                                PolygonSoup other;
+                                                other.positions = o.positions;
+                                                for (std::size_t p = o.polygon_count(); p-- > 0;)
+                                                    other.add_polygon(o.polygon(p));
+                                                other.object_names = o.object_names;
+                                                o = other;
+                                            }
+                                            return objects;
+                                        }());
     for (Scene* s : {&scene, &turned}) {
         s->lines.style.hidden.style = HiddenStyle::dashed;
         s->lines.style.dash_px = {7, 4};
@@ -268,7 +288,8 @@ TEST(SharedDashes, DependOnThePictureOnly) {
                 for (int x = 0; x < kSize; ++x) {
                     ASSERT_EQ(whole.value(a, x, y), other.value(c, x, y)) << channel << ' ' << x << ' ' << y;
                     if (x < crop.x0 || y < crop.y0 || x >= crop.x1 || y >= crop.y1) continue;
-                    ASSERT_EQ(whole.value(a, x, y), part.value(b, x - crop.x0, y - crop.y0)) << channel << ' ' << x << ' ' << y;
+                    ASSERT_EQ(whole.value(a, x, y), part.value(b, x - crop.x0, y - crop.y0))
+                        << channel << ' ' << x << ' ' << y;
                 }
             }
         }

@@ -29,7 +29,8 @@ double ink(std::array<double, 2> dash_px, double width_px, bool is_hidden, bool 
     } else if (!is_solid) {
         style.dash_px = dash_px;
     }
-    const Drawing drawing(scene, perspective_camera({1.7, 1.3, 2.5}, {0, 0, 0}), kSize, kSize, {0, 0, kSize, kSize}, 1, render_abuffer);
+    const Drawing drawing(scene, perspective_camera({1.7, 1.3, 2.5}, {0, 0, 0}), kSize, kSize, {0, 0, kSize, kSize}, 1,
+                          render_abuffer);
     return drawing.sum(is_hidden ? "lines_hidden.A" : "lines.A");
 }
 
@@ -39,14 +40,22 @@ TEST(ShortDashes, HaveTheirShareOfTheSolidLine) {
     for (const bool is_hidden : {false, true}) {
         for (const double width_px : {0.3, 1.0, 4.0}) {
             const double solid = ink({}, width_px, is_hidden, true);
-            for (const auto [on, off] : {std::array{1e-6, 1e-6}, {1e-300, 1e-300}, {kLeast, kLeast}, {1e-6, 3e-6}, {3e-9, 1e-9}, {1e-9, 0.01}, {0.007, 0.007}}) {
-                EXPECT_NEAR(ink({on, off}, width_px, is_hidden) / solid, on / (on + off), 0.01) << on << ' ' << off << ' ' << width_px << is_hidden;
+            for (const auto [on, off] : {std::array{1e-6, 1e-6},
+                                         {1e-300, 1e-300},
+                                         {kLeast, kLeast},
+                                         {1e-6, 3e-6},
+                                         {3e-9, 1e-9},
+                                         {1e-9, 0.01},
+                                         {0.007, 0.007}}) {
+                EXPECT_NEAR(ink({on, off}, width_px, is_hidden) / solid, on / (on + off), 0.01)
+                    << on << ' ' << off << ' ' << width_px << is_hidden;
             }
         }
     }
 }
 
-// From a period to one a little longer, the ink changes by a little: from dashes that are drawn to those that are not, and in between.
+// From a period to one a little longer, the ink changes by a little: from dashes that are drawn to those that are not,
+// and in between.
 TEST(ShortDashes, AreContinuousWithLongerOnes) {
     for (const bool is_hidden : {false, true}) {
         for (const double width_px : {0.3, 1.0, 4.0}) {
@@ -69,7 +78,8 @@ TEST(ShortDashes, InkOfThoseThatAreDrawn) {
     for (const double width_px : {1.0, 2.0}) {
         const double solid = ink({}, width_px, false, true);
         for (const std::array<double, 2> dash_px : {std::array{8.0, 6.0}, {1.0, 2.0}, {0.5, 0.5}, {3.0, 0.5}}) {
-            EXPECT_NEAR(ink(dash_px, width_px, false) / solid, ink_of_dashes(dash_px, width_px), 0.05) << dash_px[0] << ' ' << dash_px[1];
+            EXPECT_NEAR(ink(dash_px, width_px, false) / solid, ink_of_dashes(dash_px, width_px), 0.05)
+                << dash_px[0] << ' ' << dash_px[1];
         }
     }
 }
@@ -84,7 +94,8 @@ TEST(ShortDashes, OnlyThoseThatCanBeSeenAreLaidOut) {
     EXPECT_FALSE(visible_dashes(style).dash_px);
     style.dash_px = {1e-9, 65535};  // a dot here and there
     EXPECT_TRUE(visible_dashes(style).dash_px);
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinite = std::numeric_limits<double>::infinity();
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
+                     kInfinite = std::numeric_limits<double>::infinity();
     for (const double bad : {kNan, kInfinite, -1.0, 0.0}) {
         style.dash_px = {bad, 4};
         EXPECT_FALSE(visible_dashes(style).dash_px) << bad;

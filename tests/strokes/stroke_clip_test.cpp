@@ -21,7 +21,8 @@ std::vector<ClipPiece> random_pieces(Random& random) {
     for (ClipPiece& p : pieces) {
         p.from = {random.real(-8, kSize + 8), random.real(-8, kSize + 8)};
         const double length = random.integer(0, 6) == 0 ? 0 : std::pow(2.0, random.real(-6, 5));
-        const double angle = random.integer(0, 4) == 0 ? 0.7853981633974483 * random.integer(0, 7) : random.real(0, 6.3);
+        const double angle =
+            random.integer(0, 4) == 0 ? 0.7853981633974483 * random.integer(0, 7) : random.real(0, 6.3);
         p.to = p.from + length * glm::dvec2(std::cos(angle), std::sin(angle));
         if (random.integer(0, 5) == 0) p.to.y = p.from.y;
         p.depth_from_px = random.real(0, 30);
@@ -41,7 +42,8 @@ std::vector<const ClipPiece*> boundaries_of(const std::vector<ClipPiece>& pieces
 }
 
 StrokeSide random_side(Random& random) {
-    return std::array{StrokeSide::both, StrokeSide::inside, StrokeSide::outside}[static_cast<std::size_t>(random.integer(0, 2))];
+    return std::array{StrokeSide::both, StrokeSide::inside,
+                      StrokeSide::outside}[static_cast<std::size_t>(random.integer(0, 2))];
 }
 
 int count(const StrokeMask& mask) {
@@ -60,7 +62,8 @@ TEST(StrokeClipper, HangsOnNoRectangle) {
         const StrokeSide side = random_side(random);
         StrokeClipper whole, part;
         StrokeCanvas on_whole, on_part;
-        const int x0 = random.integer(0, 30), y0 = random.integer(0, 30), width = random.integer(1, kSize - x0), height = random.integer(1, kSize - y0);
+        const int x0 = random.integer(0, 30), y0 = random.integer(0, 30), width = random.integer(1, kSize - x0),
+                  height = random.integer(1, kSize - y0);
         whole.reset(0, 0, kSize, kSize);
         on_whole.reset(0, 0, kSize, kSize);
         part.reset(x0, y0, width, height);
@@ -73,7 +76,8 @@ TEST(StrokeClipper, HangsOnNoRectangle) {
         }
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
-                ASSERT_EQ(on_part.at(x, y).rows, on_whole.at(x0 + x, y0 + y).rows) << "trial " << trial << " at " << x << ',' << y;
+                ASSERT_EQ(on_part.at(x, y).rows, on_whole.at(x0 + x, y0 + y).rows)
+                    << "trial " << trial << " at " << x << ',' << y;
                 covered += count(on_part.at(x, y));
             }
         }

@@ -33,7 +33,9 @@ int expected(const std::vector<Stroke>& strokes, int column, glm::dvec2 sample) 
     bool is_close = false;
     for (const Stroke& s : strokes) {
         const glm::dvec2 along = s.to - s.from;
-        const double down = std::abs(along.y) * 16 <= std::abs(along.x) ? kStrokeColumnShifts[static_cast<std::size_t>(column % 8)] / 16 : 0.0;
+        const double down = std::abs(along.y) * 16 <= std::abs(along.x)
+                                ? kStrokeColumnShifts[static_cast<std::size_t>(column % 8)] / 16
+                                : 0.0;
         const double beyond = s.distance(sample + glm::dvec2(0, down)) - s.radius;
         if (beyond < -1e-9) return 1;
         is_close = is_close || beyond < 1e-9;
@@ -58,7 +60,8 @@ std::vector<Stroke> some_strokes(Random& random, glm::dvec2 low, glm::dvec2 size
     return strokes;
 }
 
-void expect_samples(const StrokeCanvas& canvas, const std::vector<Stroke>& strokes, glm::ivec2 origin, std::uint64_t seed) {
+void expect_samples(const StrokeCanvas& canvas, const std::vector<Stroke>& strokes, glm::ivec2 origin,
+                    std::uint64_t seed) {
     std::set<std::pair<int, int>> touched;
     for (int row = 0; row < canvas.height(); ++row) {
         for (int column = 0; column < canvas.width(); ++column) {
@@ -75,7 +78,8 @@ void expect_samples(const StrokeCanvas& canvas, const std::vector<Stroke>& strok
                         << "seed " << seed << ", pixel " << column << "," << row << ", sample " << c << "," << r;
                 }
             }
-            ASSERT_EQ(canvas.is_touched(column, row), any != 0) << "seed " << seed << ", pixel " << column << "," << row;
+            ASSERT_EQ(canvas.is_touched(column, row), any != 0)
+                << "seed " << seed << ", pixel " << column << "," << row;
             if (any != 0) touched.insert({row, column});
         }
     }
@@ -90,7 +94,8 @@ TEST(StrokeCanvas, HasTheSamplesNearTheLines) {
         for (std::uint64_t seed = 0; seed < 80; ++seed) {
             if (seed % 2 == 1) canvas = StrokeCanvas(*kernels);  // without room left over from larger ones
             Random random(seed);
-            const glm::ivec2 size(random.integer(1, 34), random.integer(1, 9)), origin(random.integer(-50, 50), random.integer(-50, 50));
+            const glm::ivec2 size(random.integer(1, 34), random.integer(1, 9)),
+                origin(random.integer(-50, 50), random.integer(-50, 50));
             canvas.reset(origin.x, origin.y, size.x, size.y);
             const std::vector<Stroke> strokes = some_strokes(random, origin, size);
             for (const Stroke& s : strokes) canvas.draw(s.from, s.to, s.radius);
@@ -119,7 +124,8 @@ TEST(StrokeCanvas, TheSamplesDoNotDependOnWhereItLies) {
             }
             for (int row = 0; row < part_size.y; ++row) {
                 for (int column = 0; column < part_size.x; ++column) {
-                    ASSERT_EQ(part.at(column, row).rows, whole.at(column + inset.x, row + inset.y).rows) << "seed " << seed;
+                    ASSERT_EQ(part.at(column, row).rows, whole.at(column + inset.x, row + inset.y).rows)
+                        << "seed " << seed;
                 }
             }
         }
@@ -164,7 +170,8 @@ TEST(StrokeCanvas, StrokesAreAsWideAtAnyAngle) {
         const glm::dvec2 half = 0.5 * kLength * glm::dvec2(std::cos(angle), std::sin(angle));
         const int y0 = random.integer(-100, 100);
         canvas.reset(0, y0, kSize, kSize);
-        const glm::dvec2 middle = glm::dvec2(0.5 * kSize, y0 + 0.5 * kSize) + glm::dvec2(random.real(-1, 1), random.real(-1, 1));
+        const glm::dvec2 middle =
+            glm::dvec2(0.5 * kSize, y0 + 0.5 * kSize) + glm::dvec2(random.real(-1, 1), random.real(-1, 1));
         canvas.draw(middle - half, middle + half, 0.5 * kWidth);
         int count = 0;
         canvas.for_touched([&](int column, int row) { count += count_bits(canvas.at(column, row)); });
@@ -177,7 +184,8 @@ TEST(StrokeCanvas, LevelStrokesHaveTheirCoverageInEachPixel) {
     Random random(12);
     StrokeCanvas canvas;
     for (int trial = 0; trial < 200; ++trial) {
-        const double radius = random.real(0.1, 2), y = random.real(4, 8), fall = trial % 2 == 0 ? 0 : random.real(-0.06, 0.06);
+        const double radius = random.real(0.1, 2), y = random.real(4, 8),
+                     fall = trial % 2 == 0 ? 0 : random.real(-0.06, 0.06);
         canvas.reset(0, 0, 8, 12);
         canvas.draw({-10, y - 14 * fall}, {18, y + 14 * fall}, radius);
         const double reach = radius * std::hypot(1, fall);
@@ -187,9 +195,12 @@ TEST(StrokeCanvas, LevelStrokesHaveTheirCoverageInEachPixel) {
                 double expected = 0;
                 for (int i = 0; i < kSteps; ++i) {
                     const double middle = y + fall * (column + (i + 0.5) / kSteps - 4);
-                    expected += std::max(std::min(middle + reach, row + 1.0) - std::max(middle - reach, 1.0 * row), 0.0) / kSteps;
+                    expected +=
+                        std::max(std::min(middle + reach, row + 1.0) - std::max(middle - reach, 1.0 * row), 0.0) /
+                        kSteps;
                 }
-                ASSERT_NEAR(count_bits(canvas.at(column, row)) / kSamples, expected, 0.01) << "trial " << trial << ", fall " << fall;
+                ASSERT_NEAR(count_bits(canvas.at(column, row)) / kSamples, expected, 0.01)
+                    << "trial " << trial << ", fall " << fall;
             }
         }
     }
@@ -211,12 +222,15 @@ TEST(StrokeCanvas, KnowsWhereItIsOpen) {
             for (int y = box.y0; y < box.y1; ++y) {
                 for (int x = box.x0; x < box.x1; ++x) {
                     if (canvas.is_full(x, y)) continue;
-                    expected = {std::min(expected.x0, x), std::min(expected.y0, y), std::max(expected.x1, x + 1), std::max(expected.y1, y + 1)};
+                    expected = {std::min(expected.x0, x), std::min(expected.y0, y), std::max(expected.x1, x + 1),
+                                std::max(expected.y1, y + 1)};
                 }
             }
             ASSERT_EQ(open.is_empty(), expected.is_empty()) << trial;
             if (open.is_empty()) continue;
-            ASSERT_TRUE(open.x0 == expected.x0 && open.y0 == expected.y0 && open.x1 == expected.x1 && open.y1 == expected.y1) << trial;
+            ASSERT_TRUE(open.x0 == expected.x0 && open.y0 == expected.y0 && open.x1 == expected.x1 &&
+                        open.y1 == expected.y1)
+                << trial;
         }
     }
 }
@@ -228,7 +242,8 @@ TEST(StrokeCanvas, WideStrokesAreTheUnionOfEach) {
         StrokeCanvas all, one, expected;
         for (StrokeCanvas* c : {&all, &expected}) c->reset(0, 0, 32, 32);
         for (int k = 0; k < 12; ++k) {
-            const glm::dvec2 from(random.real(-60, 90), random.real(-60, 90)), to(random.real(-60, 90), random.real(-60, 90));
+            const glm::dvec2 from(random.real(-60, 90), random.real(-60, 90)),
+                to(random.real(-60, 90), random.real(-60, 90));
             const double radius_px = random.real(8, 40);
             all.draw(from, to, radius_px);
             one.reset(0, 0, 32, 32);
@@ -236,7 +251,8 @@ TEST(StrokeCanvas, WideStrokesAreTheUnionOfEach) {
             one.for_touched([&](int x, int y) { expected.add(x, y, one.at(x, y)); });
         }
         for (int y = 0; y < 32; ++y) {
-            for (int x = 0; x < 32; ++x) ASSERT_EQ(all.at(x, y).rows, expected.at(x, y).rows) << trial << ' ' << x << ' ' << y;
+            for (int x = 0; x < 32; ++x)
+                ASSERT_EQ(all.at(x, y).rows, expected.at(x, y).rows) << trial << ' ' << x << ' ' << y;
         }
     }
 }

@@ -56,11 +56,12 @@ TEST(Strokes, FiltersMakeTheirProfileOfAStraightLine) {
                 const double at = std::round(edge * 256) / 256;
                 for (int x = 24; x < 38; ++x) {
                     const double middle = x + 0.5;
-                    const double expected =
-                        integral(filter, at - 0.5 * width - middle, at + 0.5 * width - middle);
+                    const double expected = integral(filter, at - 0.5 * width - middle, at + 0.5 * width - middle);
                     // Samples are 1/32 pixel apart; negative lobes are cut off.
-                    ASSERT_NEAR(d.line(x, 32), std::clamp(expected, 0.0, 1.0), filter == PixelFilter::box ? 0.033 : 0.012)
-                        << "filter " << static_cast<int>(filter) << " width " << width << " edge " << edge << " x " << x;
+                    ASSERT_NEAR(d.line(x, 32), std::clamp(expected, 0.0, 1.0),
+                                filter == PixelFilter::box ? 0.033 : 0.012)
+                        << "filter " << static_cast<int>(filter) << " width " << width << " edge " << edge << " x "
+                        << x;
                 }
             }
         }
@@ -117,8 +118,10 @@ TEST(Strokes, ThinStrokesHaveTheirEnergyAtEveryAngleAndPlace) {
                     return glm::dvec3(p, 0);
                 };
                 // A crease that two faces on an orthographic view have in common.
-                Scene scene = scene_of({soup_of({at(0, 0), at(50, 0), at(50, 20) + glm::dvec3(0, 0, -40), at(0, 20) + glm::dvec3(0, 0, -40), at(50, -20) + glm::dvec3(0, 0, -40), at(0, -20) + glm::dvec3(0, 0, -40)},
-                                                {{0, 1, 2, 3}, {1, 0, 5, 4}})});
+                Scene scene = scene_of({soup_of(
+                    {at(0, 0), at(50, 0), at(50, 20) + glm::dvec3(0, 0, -40), at(0, 20) + glm::dvec3(0, 0, -40),
+                     at(50, -20) + glm::dvec3(0, 0, -40), at(0, -20) + glm::dvec3(0, 0, -40)},
+                    {{0, 1, 2, 3}, {1, 0, 5, 4}})});
                 scene.lines.classes = LineClass::crease;
                 scene.lines.style.width_px = width;
                 const double expected = 50 * width + 3.14159265 / 4 * width * width;
@@ -137,8 +140,9 @@ Scene box_behind_plate() {
         p = {p.x, p.y * std::cos(b) - p.z * std::sin(b), p.y * std::sin(b) + p.z * std::cos(b)};
         return p + glm::dvec3(48.3, 47.6, -100);
     };
-    return scene_of({transformed(make_box({46, 46, 46}), turned),
-                     soup_of({{34.2, 38.1, 100}, {60.7, 33.6, 100}, {65.4, 58.8, 100}, {38.3, 63.3, 100}}, {{0, 1, 2, 3}})});
+    return scene_of(
+        {transformed(make_box({46, 46, 46}), turned),
+         soup_of({{34.2, 38.1, 100}, {60.7, 33.6, 100}, {65.4, 58.8, 100}, {38.3, 63.3, 100}}, {{0, 1, 2, 3}})});
 }
 
 TEST(Strokes, NothingIsDrawnOverANearerSurfaceThatHasNoLines) {
@@ -219,7 +223,9 @@ TEST(Strokes, InsideStrokesStayOnTheSurface) {
 
 TEST(Strokes, BothSidesTogetherAreTheWholeStroke) {
     constexpr int kSize = 96;
-    Scene scene = scene_of({transformed(make_torus(26, 9, 48, 24), [](glm::dvec3 p) { return glm::dvec3(p.x, 0.8 * p.z + 0.6 * p.y, 0.8 * p.y - 0.6 * p.z) + glm::dvec3(48, 48, 0); })});
+    Scene scene = scene_of({transformed(make_torus(26, 9, 48, 24), [](glm::dvec3 p) {
+        return glm::dvec3(p.x, 0.8 * p.z + 0.6 * p.y, 0.8 * p.y - 0.6 * p.z) + glm::dvec3(48, 48, 0);
+    })});
     scene.lines.classes = LineClassSet(LineClass::silhouette) | LineClass::border;
     scene.lines.style.width_px = 3;
     double sums[3];
@@ -265,9 +271,10 @@ TEST(Strokes, SurfacesThatPassThroughEachOtherNearAFoldMeetThere) {
 
 TEST(Strokes, OneSideIsWhatRaysSay) {
     constexpr int kSize = 96;
-    const Scene scenes[] = {box_behind_plate(),
-                            scene_of({transformed(make_sphere(30, 48, 24), [](glm::dvec3 p) { return p + glm::dvec3(44, 44, 0); }),
-                                      rectangle(50.4, 20.3, 88.1, 52.7, 120)})};
+    const Scene scenes[] = {
+        box_behind_plate(),
+        scene_of({transformed(make_sphere(30, 48, 24), [](glm::dvec3 p) { return p + glm::dvec3(44, 44, 0); }),
+                  rectangle(50.4, 20.3, 88.1, 52.7, 120)})};
     for (const Scene& plain : scenes) {
         for (const StrokeSide side : {StrokeSide::both, StrokeSide::inside, StrokeSide::outside}) {
             for (const double width : {1.0, 3.0, 10.0}) {
@@ -276,7 +283,8 @@ TEST(Strokes, OneSideIsWhatRaysSay) {
                 scene.lines.style.width_px = width;
                 const Camera camera = pixel_camera(kSize, kSize);
                 const double psnr = psnr_db(draw(scene, camera, kSize), draw(scene, camera, kSize, render_reference));
-                EXPECT_GT(psnr, 38) << "width " << width << " side " << static_cast<int>(side) << " objects " << scene.objects.size() << (&plain == scenes ? " box" : " sphere");
+                EXPECT_GT(psnr, 38) << "width " << width << " side " << static_cast<int>(side) << " objects "
+                                    << scene.objects.size() << (&plain == scenes ? " box" : " sphere");
             }
         }
     }
@@ -288,7 +296,9 @@ TEST(Strokes, EdgesInOnePlaceAreOneStroke) {
     const Camera camera = pixel_camera(kSize, kSize);
     for (const double angle_deg : {0.0, 20.0, 71.0}) {
         const double c = std::cos(glm::radians(angle_deg)), s = std::sin(glm::radians(angle_deg));
-        const auto upright = [=](glm::dvec3 p) { return glm::dvec3(24.1 + c * p.x + s * p.z, 23.8 + s * p.x - c * p.z, p.y); };
+        const auto upright = [=](glm::dvec3 p) {
+            return glm::dvec3(24.1 + c * p.x + s * p.z, 23.8 + s * p.x - c * p.z, p.y);
+        };
         for (const PolygonSoup& body : {make_box({24, 4, 16}), make_cylinder(9, 9, 12, 48)}) {
             for (const StrokeSide side : {StrokeSide::both, StrokeSide::inside, StrokeSide::outside}) {
                 Scene scene = scene_of({transformed(body, upright)});
@@ -319,9 +329,10 @@ TEST(Strokes, CropsAndThreadsChangeNothingOfFiltersAndSides) {
                 const Channel& full = *whole.image().find(channel.name);
                 for (int y = 0; y < part.height(); ++y) {
                     for (int x = 0; x < part.width(); ++x) {
-                        ASSERT_EQ(part.image().value(channel, x, y), whole.image().value(full, x + crop.x0, y + crop.y0))
-                            << channel.name << " " << x << "," << y << " filter " << static_cast<int>(filter) << " side "
-                            << static_cast<int>(side);
+                        ASSERT_EQ(part.image().value(channel, x, y),
+                                  whole.image().value(full, x + crop.x0, y + crop.y0))
+                            << channel.name << " " << x << "," << y << " filter " << static_cast<int>(filter)
+                            << " side " << static_cast<int>(side);
                     }
                 }
             }

@@ -56,7 +56,8 @@ Camera perspective_camera(glm::dvec3 eye, glm::dvec3 target, double fov_deg) {
     settings.eye = eye;
     settings.target = target;
     settings.fov_deg = fov_deg;
-    return resolve_camera(settings, [](const auto&) {}, 1);
+    return resolve_camera(
+        settings, [](const auto&) {}, 1);
 }
 
 Drawing::Drawing(const Scene& scene, const Camera& camera, int width, int height, int threads)
@@ -115,7 +116,8 @@ double Drawing::drawn_share(glm::dvec2 a, glm::dvec2 b, double trim_px, double r
         for (int y = static_cast<int>(std::floor(p.y)) - 1; y <= p.y + 1; ++y) {
             for (int x = static_cast<int>(std::floor(p.x)) - 1; x <= p.x + 1; ++x) {
                 if (x < 0 || y < 0 || x >= width() || y >= height()) continue;
-                const glm::dvec2 d = glm::max(glm::max(glm::dvec2(x, y) - p, p - glm::dvec2(x + 1, y + 1)), glm::dvec2(0.0));
+                const glm::dvec2 d =
+                    glm::max(glm::max(glm::dvec2(x, y) - p, p - glm::dvec2(x + 1, y + 1)), glm::dvec2(0.0));
                 found = found || (glm::length(d) <= reach_px && line(x, y) > 0);
             }
         }
@@ -136,8 +138,8 @@ double Drawing::drawn_share(glm::dvec2 a, glm::dvec2 b, double trim_px, double r
         const auto at = std::mismatch(x.bytes.begin(), x.bytes.end(), y.bytes.begin()).first - x.bytes.begin();
         const int pixel = static_cast<int>(static_cast<std::size_t>(at) / size_of(x.type));
         const int px = pixel % a.width(), py = pixel / a.width();
-        return ::testing::AssertionFailure() << "channel " << x.name << " differs at pixel " << px << "," << py
-                                             << ": " << a.value(x, px, py) << " and " << b.value(y, px, py);
+        return ::testing::AssertionFailure() << "channel " << x.name << " differs at pixel " << px << "," << py << ": "
+                                             << a.value(x, px, py) << " and " << b.value(y, px, py);
     }
     return ::testing::AssertionSuccess();
 }

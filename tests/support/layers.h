@@ -112,7 +112,8 @@ inline Camera ortho_camera(glm::dvec3 eye, double height) {
     settings.target = glm::dvec3(0.0);
     settings.orthographic = true;
     settings.height = height;
-    return resolve_camera(settings, [](const auto&) {}, 1);
+    return resolve_camera(
+        settings, [](const auto&) {}, 1);
 }
 
 inline glm::dvec2 pixel_of(const Frame& frame, const Camera& camera, glm::dvec3 world) {

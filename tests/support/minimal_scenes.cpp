@@ -62,8 +62,7 @@ void mark_all_edges(PolygonSoup& soup) {
 
 /// Centred at a pixel position with the middle at z = .5.
 PolygonSoup sphere(double x, double y, double radius, int segments, int rings) {
-    return transformed(make_sphere(radius, segments, rings),
-                       [&](glm::dvec3 p) { return p + world(x, y, 0.5); });
+    return transformed(make_sphere(radius, segments, rings), [&](glm::dvec3 p) { return p + world(x, y, 0.5); });
 }
 
 MinimalScene made(std::vector<PolygonSoup> objects) {
@@ -75,9 +74,7 @@ MinimalScene made(std::vector<PolygonSoup> objects) {
     return result;
 }
 
-ScreenSegment segment(glm::dvec2 a, glm::dvec2 b, const DepthAt& z) {
-    return {a, b, z(a.x, a.y), z(b.x, b.y)};
-}
+ScreenSegment segment(glm::dvec2 a, glm::dvec2 b, const DepthAt& z) { return {a, b, z(a.x, a.y), z(b.x, b.y)}; }
 
 /// A square around a middle, cut by a line of slope .37 (from its left to its right side).
 struct CutSquare {
@@ -119,8 +116,8 @@ MinimalScene scene_half_slope(double b, bool below) {
 }
 
 MinimalScene scene_gap(double gap) {
-    MinimalScene s = made({grid(20.3, 20.7, 21.271, 10, 10, flat(0.5)),
-                           rectangle(-50, -50, kSize + 50, kSize + 50, flat(0.5 - gap))});
+    MinimalScene s = made(
+        {grid(20.3, 20.7, 21.271, 10, 10, flat(0.5)), rectangle(-50, -50, kSize + 50, kSize + 50, flat(0.5 - gap))});
     for (int i = 0; i <= 10; ++i) {
         const double at = 21.271 * i;
         s.lines.push_back({{20.3, 20.7 + at}, {20.3 + 212.71, 20.7 + at}});
@@ -134,11 +131,10 @@ MinimalScene scene_dilemma() {
     const DepthAt surface = tilted(b);
     const DepthAt cover = [=](double x, double y) { return surface(x, y) - 0.005; };
     const CutSquare seen({64.13, 127.71}, 40), hidden({192.13, 127.71}, 40);
-    MinimalScene s = made({polygons(seen.points, surface, {seen.above(), seen.below()}),
-                           polygons(hidden.points, surface, {hidden.above(), hidden.below()}),
-                           rectangle(162, 97, 222, 157, cover)});
-    s.lines = {segment(seen.points[4], seen.points[5], surface),
-               segment(hidden.points[4], hidden.points[5], surface)};
+    MinimalScene s =
+        made({polygons(seen.points, surface, {seen.above(), seen.below()}),
+              polygons(hidden.points, surface, {hidden.above(), hidden.below()}), rectangle(162, 97, 222, 157, cover)});
+    s.lines = {segment(seen.points[4], seen.points[5], surface), segment(hidden.points[4], hidden.points[5], surface)};
     return s;
 }
 
@@ -151,15 +147,15 @@ MinimalScene scene_sphere() {
 }
 
 MinimalScene scene_step() {
-    MinimalScene s = made({rectangle(100.37, 60.2, 180.6, 190.8, flat(0.3)),
-                           rectangle(-50, -50, kSize + 50, kSize + 50, flat(0.6))});
+    MinimalScene s = made(
+        {rectangle(100.37, 60.2, 180.6, 190.8, flat(0.3)), rectangle(-50, -50, kSize + 50, kSize + 50, flat(0.6))});
     s.lines = {{{100.37, 60.2}, {100.37, 190.8}, 0.3, 0.3}};
     return s;
 }
 
 MinimalScene scene_flat() {
-    MinimalScene s = made({rectangle(80.4, 80.3, 170.6, 170.7, flat(0.5)),
-                           rectangle(30.4, 30.3, 220.6, 220.7, flat(0.501))});
+    MinimalScene s =
+        made({rectangle(80.4, 80.3, 170.6, 170.7, flat(0.5)), rectangle(30.4, 30.3, 220.6, 220.7, flat(0.501))});
     s.lines = {{{80.4, 80.3}, {170.6, 80.3}}, {{80.4, 170.7}, {170.6, 170.7}}};
     return s;
 }
@@ -167,9 +163,8 @@ MinimalScene scene_flat() {
 MinimalScene scene_graze() {
     // 200 pixels high on the screen, and as deep as 2 degrees make that.
     const double deep = 200 / std::tan(glm::radians(2.0));
-    PolygonSoup floor = transformed(grid(28.2, 28.4, 20, 10, 10, flat(0.5)), [&](glm::dvec3 p) {
-        return glm::dvec3(p.x, p.y, -(p.y - 128) / 200 * deep);
-    });
+    PolygonSoup floor = transformed(grid(28.2, 28.4, 20, 10, 10, flat(0.5)),
+                                    [&](glm::dvec3 p) { return glm::dvec3(p.x, p.y, -(p.y - 128) / 200 * deep); });
     MinimalScene s = made({floor});
     s.camera = pixel_camera(static_cast<int>(kSize), static_cast<int>(kSize), deep);
     s.units_per_z = 1.25 * deep;
@@ -193,7 +188,7 @@ MinimalScene scene_thin(double shift_px) {
 }
 
 MinimalScene scene_concave() {
-    const std::vector<glm::dvec2> p = {{40.3, 40.6}, {120.7, 40.6}, {120.7, 130.2},
+    const std::vector<glm::dvec2> p = {{40.3, 40.6},   {120.7, 40.6},  {120.7, 130.2},
                                        {210.4, 130.2}, {210.4, 214.9}, {40.3, 214.9}};
     MinimalScene s = made({polygons(p, flat(0.5), {{5, 4, 3, 2, 1, 0}})});
     for (std::size_t i = 0; i < p.size(); ++i) s.lines.push_back({p[i], p[(i + 1) % p.size()]});
@@ -232,9 +227,7 @@ MinimalScene scene_near(int behind) {
 
 MinimalScene scene_intersect() {
     // z = .5 + (x - 128) / 512 and its mirror image meet at x = 128.
-    const auto slanted = [](double sign) {
-        return [sign](double x, double) { return 0.5 + sign * (x - 128) / 512; };
-    };
+    const auto slanted = [](double sign) { return [sign](double x, double) { return 0.5 + sign * (x - 128) / 512; }; };
     const std::vector<glm::dvec2> p = {{40.3, 50.7}, {215.6, 60.2}, {120.4, 220.3}};
     const std::vector<glm::dvec2> q = {{50.2, 190.7}, {110.4, 40.6}, {210.8, 200.1}};
     MinimalScene s = made({polygons(p, slanted(1), {{0, 2, 1}}), polygons(q, slanted(-1), {{0, 2, 1}})});
@@ -243,7 +236,7 @@ MinimalScene scene_intersect() {
 }
 
 MinimalScene scene_tjunc() {
-    const std::vector<glm::dvec2> p = {{40.3, 60.6},  {128.4, 60.6}, {128.4, 200.2}, {40.3, 200.2},
+    const std::vector<glm::dvec2> p = {{40.3, 60.6},  {128.4, 60.6},  {128.4, 200.2}, {40.3, 200.2},
                                        {210.7, 60.6}, {210.7, 130.7}, {128.4, 130.7}, {210.7, 200.2}};
     return made({polygons(p, flat(0.5), {{3, 2, 1, 0}, {6, 5, 4, 1}, {2, 7, 5, 6}})});
 }
@@ -255,7 +248,8 @@ MinimalScene scene_cut(double angle_deg) {
     const std::vector<glm::dvec2> sheet = {{20, 40}, {236, 40}, {236, 216}, {20, 216}, {20, 128.37}, {236, 128.37}};
     const double top = 128.37 - 100 * tangent, bottom = 128.37 + 100 * tangent;
     const std::vector<glm::dvec2> cover = {{edge_at(top), top}, {500, top}, {500, bottom}, {edge_at(bottom), bottom}};
-    MinimalScene s = made({polygons(sheet, flat(0.6), {{4, 5, 1, 0}, {3, 2, 5, 4}}), polygons(cover, flat(0.4), {{3, 2, 1, 0}})});
+    MinimalScene s =
+        made({polygons(sheet, flat(0.6), {{4, 5, 1, 0}, {3, 2, 5, 4}}), polygons(cover, flat(0.4), {{3, 2, 1, 0}})});
     s.lines = {{{20, 128.37}, {128.2, 128.37}, 0.6, 0.6}};
     return s;
 }
@@ -317,7 +311,8 @@ MinimalScene scene_star() {
         const glm::dvec2 odd(std::fmod(0.618034 * i, 1.0), std::fmod(0.754878 * i, 1.0));
         const glm::dvec2 middle = glm::dvec2(13 + 17 * (i % 14), 14 + 18 * (i / 14)) + odd;
         const auto first = static_cast<std::uint32_t>(points.size());
-        for (const glm::dvec2 d : {-7.0 * along, 7.0 * along, 2.0 * across, -2.0 * across}) points.push_back(middle + d);
+        for (const glm::dvec2 d : {-7.0 * along, 7.0 * along, 2.0 * across, -2.0 * across})
+            points.push_back(middle + d);
         corners.push_back({first, first + 1, first + 2});
         corners.push_back({first + 1, first, first + 3});
         marks.push_back({first, first + 1});

@@ -82,9 +82,8 @@ void Oracle::build(std::uint32_t node, std::uint32_t first, std::uint32_t count)
     const int axis = size.x > size.y && size.x > size.z ? 0 : (size.y > size.z ? 1 : 2);
     const std::uint32_t half = count / 2;
     const auto begin = order_.begin() + first;
-    std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-        return center(a)[axis] < center(b)[axis];
-    });
+    std::nth_element(begin, begin + half, begin + count,
+                     [&](std::uint32_t a, std::uint32_t b) { return center(a)[axis] < center(b)[axis]; });
     const auto left = static_cast<std::uint32_t>(nodes_.size());
     nodes_.resize(nodes_.size() + 2);
     nodes_[node].first = left;
@@ -160,8 +159,7 @@ bool Oracle::touches(const Hit& a, glm::dvec2 at_a, const Hit& b, glm::dvec2 at_
     return std::min({gap_a, gap_b, std::abs(a.distance - b.distance)}) <= pixels * pixel_size;
 }
 
-Oracle::Judgement Oracle::judge(const Hit& a, glm::dvec2 at_a, const Hit& b, glm::dvec2 at_b,
-                                double crease_deg) const {
+Oracle::Judgement Oracle::judge(const Hit& a, glm::dvec2 at_a, const Hit& b, glm::dvec2 at_b, double crease_deg) const {
     if (a.triangle == b.triangle) return {};
     if (a.triangle == Hit::kNone || b.triangle == Hit::kNone) return {true, true};
     const Triangle &ta = triangles_[a.triangle], &tb = triangles_[b.triangle];
@@ -180,13 +178,14 @@ Oracle::Judgement Oracle::judge(const Hit& a, glm::dvec2 at_a, const Hit& b, glm
         for (const std::uint32_t w : corners_[b.triangle]) shared += v == w;
     }
     if (shared >= 2) {
-        return {angle > crease_deg - kAngleMarginDeg || maybe_apart, angle > crease_deg + kAngleMarginDeg && !maybe_apart};
+        return {angle > crease_deg - kAngleMarginDeg || maybe_apart,
+                angle > crease_deg + kAngleMarginDeg && !maybe_apart};
     }
     // Not neighbours: something may lie between them that the samples missed.
     const double suspicious = shared == 1 ? crease_deg - kAngleMarginDeg : crease_deg / 2;
     // Surfaces that pass through each other: either plane runs behind the other surface.
-    const bool may_cross = plane_distance(a.triangle, ray(at_b)) >= b.distance &&
-                           plane_distance(b.triangle, ray(at_a)) >= a.distance;
+    const bool may_cross =
+        plane_distance(a.triangle, ray(at_b)) >= b.distance && plane_distance(b.triangle, ray(at_a)) >= a.distance;
     return {angle > suspicious || maybe_apart || may_cross, false};
 }
 
@@ -211,8 +210,7 @@ bool Oracle::persists(Hit a, glm::dvec2 at_a, Hit b, glm::dvec2 at_b, double cre
     return judge(a, at_a, b, at_b, crease_deg).certain;
 }
 
-void Oracle::add_edge_points(int x0, int y0, int x1, int y1, double crease_deg,
-                             std::vector<LinePoint>& points) const {
+void Oracle::add_edge_points(int x0, int y0, int x1, int y1, double crease_deg, std::vector<LinePoint>& points) const {
     struct Side {
         std::uint32_t a, b, triangle;
         bool operator<(const Side& o) const { return std::tie(a, b, triangle) < std::tie(o.a, o.b, o.triangle); }
@@ -248,8 +246,8 @@ void Oracle::add_edge_points(int x0, int y0, int x1, int y1, double crease_deg,
     }
 }
 
-void Oracle::add_visible_points(const glm::dvec3& p, const glm::dvec3& q, int x0, int y0, int x1,
-                                int y1, std::vector<LinePoint>& points) const {
+void Oracle::add_visible_points(const glm::dvec3& p, const glm::dvec3& q, int x0, int y0, int x1, int y1,
+                                std::vector<LinePoint>& points) const {
     constexpr double kNear = 1e-6;
     if (!orthographic_ && (-p.z < kNear || -q.z < kNear)) return;  // the tests have none that matter
     const auto pixel = [&](const glm::dvec3& v) {
@@ -284,7 +282,8 @@ std::vector<Oracle::LinePoint> Oracle::line_points(int x0, int y0, int x1, int y
         }
     });
     const auto hit = [&](int row, int column) -> const Hit& {
-        return hits[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+        return hits[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                    static_cast<std::size_t>(column)];
     };
     std::vector<LinePoint> points;
     const auto visit = [&](int row, int column, int down, int right) {
@@ -301,8 +300,8 @@ std::vector<Oracle::LinePoint> Oracle::line_points(int x0, int y0, int x1, int y
             const auto same = [&](int r0, int c0, int r1, int c1) {
                 const Hit &x = hit(r0, c0), &y = hit(r1, c1);
                 if (!touches(x, position(r0, c0), y, position(r1, c1), kSurelyApartPx)) return false;
-                return x.triangle == Hit::kNone || std::abs(glm::dot(triangles_[x.triangle].normal,
-                                                                     triangles_[y.triangle].normal)) > 0.94;
+                return x.triangle == Hit::kNone ||
+                       std::abs(glm::dot(triangles_[x.triangle].normal, triangles_[y.triangle].normal)) > 0.94;
             };
             for (int k = 1; k <= kThin; ++k) {
                 j.certain = j.certain && same(row - k * down, column - k * right, row, column) &&
@@ -318,7 +317,8 @@ std::vector<Oracle::LinePoint> Oracle::line_points(int x0, int y0, int x1, int y
             };
             j.certain = j.certain && wide(row, column) && wide(row + down, column + right);
         }
-        j.certain = j.certain && persists(hit(row, column), at_a, hit(row + down, column + right), at_b, crease_angle_deg);
+        j.certain =
+            j.certain && persists(hit(row, column), at_a, hit(row + down, column + right), at_b, crease_angle_deg);
         points.push_back({0.5 * (at_a + at_b), j.certain});
     };
     for (int row = 0; row < rows; ++row) {
@@ -331,13 +331,14 @@ std::vector<Oracle::LinePoint> Oracle::line_points(int x0, int y0, int x1, int y
     return points;
 }
 
-LineAgreement compare_lines(const std::vector<Oracle::LinePoint>& truth,
-                            const std::vector<double>& coverage, int x0, int y0, int x1, int y1) {
+LineAgreement compare_lines(const std::vector<Oracle::LinePoint>& truth, const std::vector<double>& coverage, int x0,
+                            int y0, int x1, int y1) {
     LineAgreement result;
     const int width = x1 - x0, height = y1 - y0;
     const auto covered = [&](int x, int y) {
         if (x < x0 || y < y0 || x >= x1 || y >= y1) return -1.0;
-        return coverage[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x - x0)];
+        return coverage[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(x - x0)];
     };
     // Distance from a point to the square of a pixel.
     const auto distance = [](glm::dvec2 p, int x, int y) {
@@ -357,7 +358,8 @@ LineAgreement compare_lines(const std::vector<Oracle::LinePoint>& truth,
                     continue;
                 }
                 drawn = drawn || c > 0;
-                near[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x - x0)] = true;
+                near[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x - x0)] = true;
             }
         }
         if (!point.certain || !complete) continue;
@@ -370,7 +372,8 @@ LineAgreement compare_lines(const std::vector<Oracle::LinePoint>& truth,
         for (int x = x0; x < x1; ++x) {
             const double c = covered(x, y);
             result.total_mass += c;
-            if (c > 0 && !near[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x - x0)]) {
+            if (c > 0 && !near[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
+                               static_cast<std::size_t>(x - x0)]) {
                 result.false_mass += c;
                 result.false_pixels.emplace_back(x, y);
             }

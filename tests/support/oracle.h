@@ -33,14 +33,13 @@ class Oracle {
     };
     /// Lines of the default classes within a rectangle of pixels, found at `density` samples per
     /// pixel and axis.
-    std::vector<LinePoint> line_points(int x0, int y0, int x1, int y1, int density,
-                                       double crease_angle_deg) const;
+    std::vector<LinePoint> line_points(int x0, int y0, int x1, int y1, int density, double crease_angle_deg) const;
 
     std::uint32_t object_of(std::uint32_t triangle) const { return triangles_[triangle].object; }
 
   private:
     struct Triangle {
-        glm::dvec3 a, e1, e2;   // view space
+        glm::dvec3 a, e1, e2;     // view space
         glm::dvec3 normal;        // of the polygon, unit
         glm::dvec3 plane_normal;  // of the triangle, unit
         std::uint32_t object, polygon, mesh_triangle;
@@ -63,8 +62,7 @@ class Oracle {
     /// Whether a line between two hits is still there when their distance is halved six times.
     bool persists(Hit a, glm::dvec2 at_a, Hit b, glm::dvec2 at_b, double crease_deg) const;
     /// Adds, as possible lines, the visible parts of all mesh edges that may be features.
-    void add_edge_points(int x0, int y0, int x1, int y1, double crease_deg,
-                         std::vector<LinePoint>& points) const;
+    void add_edge_points(int x0, int y0, int x1, int y1, double crease_deg, std::vector<LinePoint>& points) const;
     void add_visible_points(const glm::dvec3& p, const glm::dvec3& q, int x0, int y0, int x1, int y1,
                             std::vector<LinePoint>& points) const;
     bool touches(const Hit& a, glm::dvec2 at_a, const Hit& b, glm::dvec2 at_b, double pixels) const;
@@ -80,16 +78,16 @@ class Oracle {
 
 /// How a drawing compares with the truth.
 struct LineAgreement {
-    double false_mass = 0;   ///< coverage in pixels farther than 1 px from any possible line
+    double false_mass = 0;  ///< coverage in pixels farther than 1 px from any possible line
     double total_mass = 0;
-    int missing = 0;         ///< certain line points farther than 1 px from any drawn pixel
+    int missing = 0;  ///< certain line points farther than 1 px from any drawn pixel
     int certain = 0;
     std::vector<glm::ivec2> false_pixels;
     std::vector<glm::dvec2> missing_points;
 };
 
 /// `coverage` has a value per pixel of the rectangle, row by row.
-LineAgreement compare_lines(const std::vector<Oracle::LinePoint>& truth,
-                            const std::vector<double>& coverage, int x0, int y0, int x1, int y1);
+LineAgreement compare_lines(const std::vector<Oracle::LinePoint>& truth, const std::vector<double>& coverage, int x0,
+                            int y0, int x1, int y1);
 
 }  // namespace burin::test

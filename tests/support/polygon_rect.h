@@ -6,8 +6,8 @@
 
 namespace burin::test {
 
-/// Whether a convex polygon and a rectangle, borders included, have a place in common, by clipping one at the other's sides.
-/// 1/256 pixel.
+/// Whether a convex polygon and a rectangle, borders included, have a place in common, by clipping one at the other's
+/// sides. 1/256 pixel.
 inline bool touches(const ScreenPolygon& polygon, glm::dvec2 low, glm::dvec2 high) {
     std::vector<glm::dvec2> left;
     for (int i = 0; i < polygon.count; ++i) {

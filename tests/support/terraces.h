@@ -15,7 +15,8 @@ struct Terraces {
     Terraces(Random& random, double deepest) {
         constexpr std::size_t kSteps = 40;
         soup = make_plane(2.5, 2.5, kSteps, kSteps);
-        const double deep = random.real(0, deepest) * random.real(0, 1), apart = random.integer(0, 2) * random.real(0, 2e-3);
+        const double deep = random.real(0, deepest) * random.real(0, 1),
+                     apart = random.integer(0, 2) * random.real(0, 2e-3);
         for (std::size_t i = 0; i < soup.positions.size(); ++i) {
             glm::dvec3& p = soup.positions[i];
             p = {p.x, -p.z, deep * random.integer(0, 2)};

@@ -33,7 +33,9 @@ struct Pair {
         if (std::abs(normal.z) < 0.3 || std::abs(glm::dot(normal, glm::normalize(origin))) < 0.3) return;
         const double turn = random.real(0, 6.28);
         for (int k = 0; k < 3; ++k) {  // around the origin
-            const auto corner = [&](double angle) { return origin + random.real(0.4, 1) * (std::cos(angle) * along + std::sin(angle) * across); };
+            const auto corner = [&](double angle) {
+                return origin + random.real(0.4, 1) * (std::cos(angle) * along + std::sin(angle) * across);
+            };
             a[k] = corner(turn + 2.0944 * k);
             b[k] = corner(2.0944 * k);
         }
@@ -81,11 +83,14 @@ TEST(Coincidence, IsNotThatOfASurfaceInFrontOfAnother) {
         for (int trial = 0; trial < 2000; ++trial) {
             Pair pair(random);
             if (!pair.is_useful) continue;
-            const glm::dvec3 towards_eye = pair.normal * (glm::dot(pair.normal, orthographic ? glm::dvec3(0, 0, 1) : -pair.origin) > 0 ? 1.0 : -1.0);
+            const glm::dvec3 towards_eye =
+                pair.normal *
+                (glm::dot(pair.normal, orthographic ? glm::dvec3(0, 0, 1) : -pair.origin) > 0 ? 1.0 : -1.0);
             for (const double by : {1e-6, 1e-5, 1e-4, 1e-2}) {
                 Pair moved = pair;
                 move(moved.b, by * towards_eye);
-                const SurfaceOrder order = compare_surfaces(p, moved.b, moved.a, true, 1e-7), reversed = compare_surfaces(p, moved.a, moved.b, true, 1e-7);
+                const SurfaceOrder order = compare_surfaces(p, moved.b, moved.a, true, 1e-7),
+                                   reversed = compare_surfaces(p, moved.a, moved.b, true, 1e-7);
                 ASSERT_FALSE(order.are_coincident() || reversed.are_coincident()) << trial << ' ' << by;
                 ASSERT_TRUE(order.is_in_front() && !order.is_behind()) << trial << ' ' << by;
                 ASSERT_TRUE(reversed.is_behind() && !reversed.is_in_front()) << trial << ' ' << by;
@@ -107,7 +112,8 @@ TEST(Coincidence, TakesTheErrorsOfTheTwoTriangles) {
         for (const double by : {1e-6, 1e-4}) {
             Pair moved = pair;
             move(moved.b, by * towards_eye);
-            ASSERT_EQ(compare_surfaces(p, moved.b, moved.a, true, {1e-3, 1e-8, 1e-8}).is_in_front(), by > 1e-5) << trial;
+            ASSERT_EQ(compare_surfaces(p, moved.b, moved.a, true, {1e-3, 1e-8, 1e-8}).is_in_front(), by > 1e-5)
+                << trial;
             ASSERT_FALSE(compare_surfaces(p, moved.b, moved.a, true, {1e-3, 1e-3, 1e-8}).is_in_front()) << trial;
         }
     }
@@ -150,9 +156,10 @@ TEST(Coincidence, IsExactWhereTheyMayNotBeOnePlane) {
 
 TEST(Coincidence, AsksOnlyWhereBothAreInThePicture) {
     const Projection p = projection(false);
-    // Long strips towards the eye: in the picture they pass through each other by less than can be seen, near the eye, below
-    // the picture, by more.
-    const glm::dvec3 one[3] = {{-1, -1, -20}, {1, -1, -20}, {0, -1, -0.1}}, other[3] = {{-1, -1.00001, -20}, {1, -0.99999, -20}, {0, -1.00002, -0.1}};
+    // Long strips towards the eye: in the picture they pass through each other by less than can be seen, near the eye,
+    // below the picture, by more.
+    const glm::dvec3 one[3] = {{-1, -1, -20}, {1, -1, -20}, {0, -1, -0.1}},
+                     other[3] = {{-1, -1.00001, -20}, {1, -0.99999, -20}, {0, -1.00002, -0.1}};
     EXPECT_TRUE(coincide(p, one, other, 1e-9));
     const glm::dvec3 beside[3] = {{5, 5, -6}, {6, 5, -6}, {5, 6, -6}};
     EXPECT_FALSE(compare_surfaces(p, one, beside, true, 1e-9).have_common_place);

@@ -35,8 +35,11 @@ TEST(PolygonRows, TellWhatAPolygonTouchesOfARow) {
             ASSERT_FALSE(is_touched && !is_in_range) << "trial " << trial;
             // Convex: it has no gaps, so nothing more is in the range.
             const bool has_area = left < right && top < bottom;  // else the other test may round it away
-            const bool is_surely_in_range = has_area && !range.is_empty() && range.low <= right - 1e-6 && range.high >= left + 1e-6;
-            if (is_surely_in_range) { ASSERT_TRUE(is_touched) << "trial " << trial; }
+            const bool is_surely_in_range =
+                has_area && !range.is_empty() && range.low <= right - 1e-6 && range.high >= left + 1e-6;
+            if (is_surely_in_range) {
+                ASSERT_TRUE(is_touched) << "trial " << trial;
+            }
             ++(is_touched ? touched : beside);
         }
     }

@@ -21,10 +21,12 @@ ScreenPolygon random_polygon(Random& random, int reach) {
     for (int i = 0; i < polygon.count; ++i) angles.push_back(random.real(0, 6.283185307179586));
     std::sort(angles.begin(), angles.end());
     if (random.integer(0, 1) != 0) std::reverse(angles.begin(), angles.end());
-    const double width = random.real(1, reach), height = random.real(1, reach), x = random.real(-reach, reach), y = random.real(-reach, reach);
+    const double width = random.real(1, reach), height = random.real(1, reach), x = random.real(-reach, reach),
+                 y = random.real(-reach, reach);
     for (int i = 0; i < polygon.count; ++i) {
         const double angle = angles[static_cast<std::size_t>(i)];
-        polygon.corners[static_cast<std::size_t>(i)] = {static_cast<int>(x + width * std::cos(angle)), static_cast<int>(y + height * std::sin(angle))};
+        polygon.corners[static_cast<std::size_t>(i)] = {static_cast<int>(x + width * std::cos(angle)),
+                                                        static_cast<int>(y + height * std::sin(angle))};
     }
     return polygon;
 }

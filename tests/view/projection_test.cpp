@@ -59,7 +59,8 @@ TEST(ProjectTriangle, NeighboursShareTheirSnappedEdgeWhereverItIsClipped) {
                                             static_cast<int>(snap_to_subpixels(pixel.y))};
                 for (const ScreenPolygon& polygon : {l, r}) {
                     bool found = false;
-                    for (int i = 0; i < polygon.count; ++i) found = found || polygon.corners[static_cast<std::size_t>(i)] == snapped;
+                    for (int i = 0; i < polygon.count; ++i)
+                        found = found || polygon.corners[static_cast<std::size_t>(i)] == snapped;
                     ASSERT_TRUE(found) << "trial " << trial;
                 }
             }

@@ -71,8 +71,8 @@ TEST(ScanConvert, AgreesWithTheExactTestOnEverySample) {
     for (int trial = 0; trial < 3000; ++trial) {
         Random random(static_cast<std::uint64_t>(trial));
         const bool ties = trial % 2 == 0;
-        const ScreenPolygon t = triangle(random_point(random, 6, ties), random_point(random, 6, ties),
-                                         random_point(random, 6, ties));
+        const ScreenPolygon t =
+            triangle(random_point(random, 6, ties), random_point(random, 6, ties), random_point(random, 6, ties));
         for (const int s : {1, 2, 3, 4, 6, 8, 14}) {
             SampleCounts counts;
             count_samples(t, s, counts);

@@ -49,7 +49,8 @@ struct Orders {
 };
 
 TEST(SurfaceSet, ComparesWholePolygons) {
-    // Their planes cross within the picture, 1/100 pixel apart at most: some pairs of triangles do not cross themselves.
+    // Their planes cross within the picture, 1/100 pixel apart at most: some pairs of triangles do not cross
+    // themselves.
     const Orders quads({disc({50, 50, 0}, 4), disc({50, 50, 0.0015}, 4, 2e-4)});
     EXPECT_EQ(quads.asked, 4);
     EXPECT_EQ(quads.coincident, 4);
@@ -65,7 +66,8 @@ TEST(SurfaceSet, TrianglesAreOfOnePolygonWhereIdsAreEqual) {
         for (std::uint32_t t = 0; t < scene.meshes[i].triangles.size(); ++t) all.push_back({i, t});
     }
     for (const SurfaceId a : all) {
-        for (const SurfaceId b : all) EXPECT_EQ(surfaces.are_of_one_polygon(a, b), surfaces.polygon_id(a) == surfaces.polygon_id(b));
+        for (const SurfaceId b : all)
+            EXPECT_EQ(surfaces.are_of_one_polygon(a, b), surfaces.polygon_id(a) == surfaces.polygon_id(b));
     }
 }
 
@@ -84,12 +86,15 @@ int coincident_faces(const PolygonSoup& a, const PolygonSoup& b) {
     const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100});
     const auto is_near_zero = [&](std::uint32_t t) {
         const auto& corners = scene.meshes[0].triangles[t];
-        return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return std::abs(scene.meshes[0].position(v).z) < 0.1; });
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](std::uint32_t v) { return std::abs(scene.meshes[0].position(v).z) < 0.1; });
     };
     int count = 0;
-    const auto first_of_b = static_cast<std::uint32_t>(2 * a.polygon_count()), end = static_cast<std::uint32_t>(scene.meshes[0].triangles.size());
+    const auto first_of_b = static_cast<std::uint32_t>(2 * a.polygon_count()),
+               end = static_cast<std::uint32_t>(scene.meshes[0].triangles.size());
     for (std::uint32_t s = 0; s < first_of_b; ++s) {
-        for (std::uint32_t t = first_of_b; t < end; ++t) count += is_near_zero(s) && is_near_zero(t) && frame.surfaces.order({0, s}, {0, t}).are_coincident();
+        for (std::uint32_t t = first_of_b; t < end; ++t)
+            count += is_near_zero(s) && is_near_zero(t) && frame.surfaces.order({0, s}, {0, t}).are_coincident();
     }
     return count;
 }
@@ -97,11 +102,13 @@ int coincident_faces(const PolygonSoup& a, const PolygonSoup& b) {
 /// Bodies of one object are flush, whichever way they are wound. A thin plate has two sides, as do two sheets.
 TEST(SurfaceSet, TellsTheSidesOfBodies) {
     const auto tilted = [](glm::dvec3 p) { return p + glm::dvec3(0, 0, 0.0015 + 2e-4 * (p.x + p.y - 100)); };
-    const PolygonSoup large = moved(make_box({60, 60, 20}), {50, 50, -10}), small = transformed(moved(make_box({30, 30, 20}), {50, 50, -10}), tilted);
+    const PolygonSoup large = moved(make_box({60, 60, 20}), {50, 50, -10}),
+                      small = transformed(moved(make_box({30, 30, 20}), {50, 50, -10}), tilted);
     for (const PolygonSoup& a : {large, turned(large)}) {
         for (const PolygonSoup& b : {small, turned(small)}) EXPECT_EQ(coincident_faces(a, b), 4);
     }
-    const PolygonSoup behind = transformed(moved(make_box({30, 30, 20}), {50, 50, 10}), tilted);  // with its back at z = 0
+    const PolygonSoup behind =
+        transformed(moved(make_box({30, 30, 20}), {50, 50, 10}), tilted);  // with its back at z = 0
     for (const PolygonSoup& b : {behind, turned(behind)}) EXPECT_EQ(coincident_faces(large, b), 0);
     const PolygonSoup sheet = disc({50, 50, 0}, 4), other = disc({50, 50, 0.0015}, 4, 2e-4);
     EXPECT_EQ(coincident_faces(sheet, other), 4);
