@@ -225,13 +225,13 @@ std::vector<LayerSegment> HiddenPass::take_segments() {
 /// Adds a part of a line, moved to the smooth contour if it is one.
 void HiddenPass::add(const WholeLine& line, LayerSegment segment, std::vector<LayerSegment>& segments) const {
     if (contours_ == nullptr) return segments.push_back(segment);
-    std::vector<LineSegment> moved(1);
+    std::vector<LinePiece> moved(1);
     moved[0].from = segment.from;
     moved[0].to = segment.to;
     moved[0].drawn_as = line.drawn_as;
-    moved[0].line_key = line.line_key;
+    moved[0].line = line.id;
     contours_->move(moved);
-    for (const LineSegment& part : moved) {
+    for (const LinePiece& part : moved) {
         segment.from = part.from;
         segment.to = part.to;
         segments.push_back(segment);

@@ -71,8 +71,7 @@ class CompleteRows {
 }  // namespace
 
 StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPrinter* finisher,
-                                       std::vector<std::vector<LineSegment>>& segments, Film& film,
-                                       RenderStats& stats) {
+                                       std::vector<std::vector<LinePiece>>& segments, Film& film, RenderStats& stats) {
     Stopwatch watch;
     const int per_pixel = samples_per_pixel_of(*frame_.scene);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
@@ -94,7 +93,7 @@ StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPr
     std::vector<FineParts> fine_parts(workers, FineParts(screen_, kernels_, completes_lines(*frame_.scene)));
     std::vector<std::vector<FinePart>> parts(workers);
     std::vector<std::unique_ptr<FineLines>> fine_lines(workers);
-    std::vector<std::vector<LineSegment>> lines_of(
+    std::vector<std::vector<LinePiece>> lines_of(
         workers);  // of a tile: a list of its own would grow in memory that all share
     std::vector<WorkerTimes> times(workers);
     const std::size_t before = segments.size();
@@ -129,7 +128,7 @@ StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPr
         if (has_edges && !fine_lines[w])
             fine_lines[w] =
                 std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region, needs_all_visible_lines(frame_));
-        std::vector<LineSegment>& lines = lines_of[w];
+        std::vector<LinePiece>& lines = lines_of[w];
         lines.clear();
         const auto add_fine_lines = [&] {
             parts[w].clear();

@@ -27,7 +27,7 @@ class VisiblePass {
     /// finished, except for the last ones; nullptr: none. Returns the lists of `segments` that may reach rows that are
     /// not.
     StrokePrinter::Lists draw(PixelRect region, int tile_samples, RowPrinter* finisher,
-                              std::vector<std::vector<LineSegment>>& segments, Film& film, RenderStats& stats);
+                              std::vector<std::vector<LinePiece>>& segments, Film& film, RenderStats& stats);
     /// Of all instances, if they are shown always and it looked for lines that samples miss.
     const PossibleLines* possible_lines() const { return possible_lines_ ? &*possible_lines_ : nullptr; }
 

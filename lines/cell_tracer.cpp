@@ -28,10 +28,10 @@ glm::dvec2 inwards(const LineCrossing& c, glm::dvec2 center) {
 }
 
 /// A piece that starts or ends at the crossing whose line it is.
-void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 center,
-         std::vector<LineSegment>& segments, const LineCrossing* other_end = nullptr) {
+void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 center, std::vector<LinePiece>& segments,
+         const LineCrossing* other_end = nullptr) {
     if (from == to) return;
-    LineSegment& segment = segments.emplace_back();  // in place: copying would wait for what was just stored
+    LinePiece& segment = segments.emplace_back();  // in place: copying would wait for what was just stored
     segment.from = from;
     segment.to = to;
     segment.is_drawn = !style.classes.empty();
@@ -46,7 +46,8 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 c
     constexpr double kBack = 1e-6;
     const bool runs_back = glm::dot((to == style.pixel ? from : to) - style.pixel, in) < -kBack * glm::length(in);
     segment.front_on_left = ((to == style.pixel) != runs_back ? -side : side) < 0;
-    segment.line_key = style.line_key;
+    segment.line = style.line;
+    segment.classes = style.classes;
     segment.opacity = style.opacity;
 }
 
@@ -64,14 +65,14 @@ bool has_direction(const LineCrossing& c) { return c.along != glm::dvec2(0.0); }
 }  // namespace
 
 void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high, bool has_bridges,
-                std::vector<LineSegment>& segments) {
+                std::vector<LinePiece>& segments) {
     const glm::dvec2 center = 0.5 * (low + high);
     const auto runs_through = [&](const LineCrossing& c) {
         return has_edge(c) && !c.classes.empty() && !is_inside(c.edge_ends[0], low, high) &&
                !is_inside(c.edge_ends[1], low, high);
     };
     const auto join = [&](const LineCrossing& a, const LineCrossing& b) {
-        if (a.line_key != b.line_key) {
+        if (a.line != b.line) {
             if (has_direction(a) && has_direction(b)) {
                 std::optional<glm::dvec2> corner;
                 for (const glm::dvec2& p : a.edge_ends) {
@@ -139,14 +140,14 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
     std::size_t partner = 0;
     for (std::size_t i = 0; i < crossings.size() && partner == 0; ++i) {
         for (std::size_t j = i + 1; j < crossings.size() && partner == 0; ++j) {
-            if (sorted[i]->line_key != sorted[j]->line_key) continue;
+            if (sorted[i]->line != sorted[j]->line) continue;
             std::swap(sorted[0], sorted[i]);
             std::swap(sorted[1], sorted[j]);
             partner = 1;
         }
     }
     join(*sorted[0], *sorted[1]);
-    if (crossings.size() == 4 && sorted[2]->line_key == sorted[3]->line_key) {
+    if (crossings.size() == 4 && sorted[2]->line == sorted[3]->line) {
         join(*sorted[2], *sorted[3]);
         return;
     }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "lines/line_crossing.h"
 #include "lines/line_piece.h"
 
 namespace burin {
@@ -19,6 +20,6 @@ namespace burin {
 /// run through the cell, of which one ends a surface, are joined though they do not meet. Else what is missing of
 /// them is expected to be found along their edges, if they can be told apart.
 void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high, bool has_bridges,
-                std::vector<LineSegment>& segments);
+                std::vector<LinePiece>& segments);
 
 }  // namespace burin

@@ -80,8 +80,8 @@ class Chains {
     double length_in_mesh(std::uint32_t end) const {
         const WholeLine& line = lines_[end / 2];
         if (!line.is_edge()) return 0;
-        const Mesh& mesh = *surfaces_.instances[static_cast<std::uint32_t>(line.line_key >> 32)].mesh;
-        const auto h = static_cast<HalfEdge>(line.line_key & 0xFFFFFFFFu);
+        const Mesh& mesh = *surfaces_.instances[line.id.instance()].mesh;
+        const HalfEdge h = line.id.half_edge();
         if (mesh.is_loose(h)) {
             const auto [a, b] = mesh.loose_edge(h);
             return glm::distance(mesh.local_position(a), mesh.local_position(b));
@@ -93,7 +93,7 @@ class Chains {
     std::tuple<std::uint64_t, double, double> depth_of(std::uint32_t end) const {
         const WholeLine& line = lines_[end / 2];
         const bool is_forwards = end % 2 == 0;
-        return {line.line_key, is_forwards ? line.nearness_from : line.nearness_to,
+        return {line.id.bits, is_forwards ? line.nearness_from : line.nearness_to,
                 is_forwards ? line.nearness_to : line.nearness_from};
     }
     std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }

@@ -71,7 +71,7 @@ class Joiner {
   public:
     Joiner(std::span<const MovedLine> lines, Joints& joints) : lines_(lines), joints_(joints) {
         for (std::uint32_t i = 0; i < lines.size(); ++i) {
-            const LineSegment& s = *lines[i].given;
+            const LinePiece& s = *lines[i].given;
             lines_in_.add(glm::min(s.from, s.to), glm::max(s.from, s.to), i);
             for (const std::uint32_t end : {2 * i, 2 * i + 1}) ends_in_.add(place(end), place(end), end);
         }
@@ -96,7 +96,7 @@ class Joiner {
         double least = kMetPx;
         lines_in_.visit(place(end), [&](std::uint32_t line) {
             if (line == end / 2) return;
-            const LineSegment& s = *lines_[line].given;
+            const LinePiece& s = *lines_[line].given;
             const double distance = glm::distance(nearest_on(s.from, s.to, place(end)), place(end));
             if (distance < least || (distance == least && beside && place_key(line) < place_key(*beside))) {
                 least = distance;
@@ -109,7 +109,7 @@ class Joiner {
 
   private:
     glm::dvec2 place(std::uint32_t end) const {
-        const LineSegment& s = *lines_[end / 2].given;
+        const LinePiece& s = *lines_[end / 2].given;
         return end % 2 == 0 ? s.from : s.to;
     }
     glm::dvec2 moved(std::uint32_t end) const {
@@ -122,7 +122,7 @@ class Joiner {
         return {lines_[end / 2].is_moved, p.x, p.y};
     }
     std::tuple<double, double, double, double> place_key(std::uint32_t line) const {
-        const LineSegment& s = *lines_[line].given;
+        const LinePiece& s = *lines_[line].given;
         return {s.from.x, s.from.y, s.to.x, s.to.y};
     }
     bool add(std::uint32_t end, glm::dvec2 to) {

@@ -11,7 +11,7 @@ namespace burin {
 
 /// A visible line where a surface ends, and where it was moved to: two points or more.
 struct MovedLine {
-    const LineSegment* given;
+    const LinePiece* given;
     std::vector<glm::dvec2> points;
     bool is_moved = false;
 };
@@ -25,7 +25,7 @@ struct LeadIn {
 /// What joins lines again that met before they were moved, at their ends or where one ends beside
 /// another: outlines stay closed. The order of the lines does not matter.
 struct Joints {
-    std::vector<LineSegment> pieces;
+    std::vector<LinePiece> pieces;
     std::vector<LeadIn> to_lines_that_stay;
 };
 Joints find_joints(std::span<const MovedLine> lines);

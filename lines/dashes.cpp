@@ -28,9 +28,9 @@ class Chains {
         bool is_closed = false;
     };
 
-    explicit Chains(std::vector<const LineSegment*> pieces) : pieces_(std::move(pieces)) { link(); }
+    explicit Chains(std::vector<const LinePiece*> pieces) : pieces_(std::move(pieces)) { link(); }
 
-    const LineSegment& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
+    const LinePiece& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
     double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
 
     /// By where they begin.
@@ -85,7 +85,7 @@ class Chains {
     }
 
     void link_node(std::vector<std::uint32_t> ends) {
-        link_pairs(ends, [&](std::uint32_t end) { return piece(end).line_key; });
+        link_pairs(ends, [&](std::uint32_t end) { return piece(end).line; });
         std::erase_if(ends, [&](std::uint32_t end) { return link_[end] != kNoEnd; });
         if (ends.size() != 2) link_pairs(ends, [&](std::uint32_t end) { return piece(end).drawn_as; });
         if (ends.size() == 2) link_pairs(ends, [](std::uint32_t) { return 0; });
@@ -132,7 +132,7 @@ class Chains {
         std::rotate(chain.ends.begin(), highest, chain.ends.end());
     }
 
-    std::vector<const LineSegment*> pieces_;
+    std::vector<const LinePiece*> pieces_;
     std::vector<std::uint32_t> link_;
 };
 
@@ -141,25 +141,25 @@ class Features {
   public:
     Features(std::span<const WholeLine> lines, const SurfaceSet& surfaces) : lines_(lines) {
         for (std::uint32_t i = 0; i < lines.size(); ++i) {
-            keys_.push_back({lines[i].line_key, i});
+            keys_.push_back({lines[i].id, i});
             if (!lines[i].has_more_owners) continue;
             // A piece has the key of the two triangles that it was found between.
-            const auto instance = static_cast<std::uint32_t>(lines[i].line_key >> 32);
-            const auto h = static_cast<HalfEdge>(lines[i].line_key & 0xFFFFFFFFu);
+            const std::uint32_t instance = lines[i].id.instance();
+            const HalfEdge h = lines[i].id.half_edge();
             const Mesh& mesh = *surfaces.instances[instance].mesh;
             for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
-                keys_.push_back({std::uint64_t{instance} << 32 | std::min(g, mesh.next_on_edge[g]), i});
+                keys_.push_back({LineId::of_edge(instance, std::min(g, mesh.next_on_edge[g])), i});
             }
         }
         std::sort(keys_.begin(), keys_.end());
     }
 
-    std::optional<std::uint32_t> find(const LineSegment& piece) const {
+    std::optional<std::uint32_t> find(const LinePiece& piece) const {
         std::optional<std::uint32_t> nearest;
         double least = 0;
         const glm::dvec2 middle = 0.5 * (piece.from + piece.to);
-        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), std::pair(piece.line_key, 0u));
-             i != keys_.end() && i->first == piece.line_key; ++i) {
+        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), std::pair(piece.line, 0u));
+             i != keys_.end() && i->first == piece.line; ++i) {
             const double beyond = std::abs(share_of(lines_[i->second], middle) - 0.5);  // an edge may be cut into parts
             if (nearest && beyond >= least) continue;
             nearest = i->second;
@@ -175,18 +175,18 @@ class Features {
 
   private:
     std::span<const WholeLine> lines_;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys_;  // number of a line
+    std::vector<std::pair<LineId, std::uint32_t>> keys_;  // number of a line
 };
 
 /// Adds the dashes of a part of a piece.
-void draw(const LineSegment& piece, const DashPart& part, const DashPen& pen, std::vector<LineSegment>& drawn) {
+void draw(const LinePiece& piece, const DashPart& part, const DashPen& pen, std::vector<LinePiece>& drawn) {
     const double share = part.end - part.begin, length = part.at_end - part.at_begin;
     const auto point = [&](double at) {
         return glm::mix(piece.from, piece.to, part.begin + share * ((at - part.at_begin) / length));
     };
     const double per_px = std::abs(length) / (share * glm::distance(piece.from, piece.to));
     pen.for_dashes(part.at_begin, part.at_end, per_px, [&](double first, double last) {
-        LineSegment dash = piece;
+        LinePiece dash = piece;
         dash.from = point(length > 0 ? first : last);
         dash.to = point(length > 0 ? last : first);
         drawn.push_back(dash);
@@ -194,8 +194,8 @@ void draw(const LineSegment& piece, const DashPart& part, const DashPen& pen, st
 }
 
 /// Of a piece of a feature. `first`, `last`: where its ends are on the feature, as shares of it.
-void draw_on_feature(const LineSegment& piece, double first, double last, const LineDashes& dashes, std::size_t feature,
-                     const DashPen& pen, std::vector<LineSegment>& drawn) {
+void draw_on_feature(const LinePiece& piece, double first, double last, const LineDashes& dashes, std::size_t feature,
+                     const DashPen& pen, std::vector<LinePiece>& drawn) {
     constexpr double kFar = 1e300;
     dashes.for_parts(feature, [&](const DashPart& part) {
         // A piece may go on a little beyond its feature.
@@ -224,7 +224,7 @@ void add_pieces(const Chains& chains, const Chains::Chain& chain, double period_
     for (const std::uint32_t end : chain.ends) {
         const double begin = at;
         at += scale * chains.length(end);
-        const LineSegment& piece = chains.piece(end);
+        const LinePiece& piece = chains.piece(end);
         const bool is_backwards = end % 2 == 1;
         pieces.push_back({piece.from, piece.to, is_backwards ? at : begin, is_backwards ? begin : at});
     }
@@ -232,17 +232,17 @@ void add_pieces(const Chains& chains, const Chains::Chain& chain, double period_
 
 }  // namespace
 
-std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
-                                             std::array<double, 2> dash_px, double width_px, PixelRect picture,
-                                             std::span<const WholeLine> features, const SurfaceSet& surfaces) {
-    std::vector<std::vector<LineSegment>> result(1);
+std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePiece>>& segments,
+                                           std::array<double, 2> dash_px, double width_px, PixelRect picture,
+                                           std::span<const WholeLine> features, const SurfaceSet& surfaces) {
+    std::vector<std::vector<LinePiece>> result(1);
     const DashPen pen(dash_px, width_px);
     SharedDashes shared(picture, SharedDashes::reach_of_pen_px(width_px));
     const LineDashes of_features(features, surfaces, pen.period_px(), shared);
     const Features on_mesh(features, surfaces);
-    std::vector<const LineSegment*> others;
+    std::vector<const LinePiece*> others;
     for (const auto& list : segments) {
-        for (const LineSegment& s : list) {
+        for (const LinePiece& s : list) {
             if (!s.is_drawn) {
                 result[0].push_back(s);
             } else if (s.from == s.to) {
@@ -257,7 +257,7 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
         }
     }
     const Chains chains(std::move(others));
-    std::vector<const LineSegment*> drawn;
+    std::vector<const LinePiece*> drawn;
     std::vector<DashPiece> pieces;
     std::vector<std::size_t> chain_ends;
     for (const Chains::Chain& chain : chains.all()) {
@@ -273,10 +273,10 @@ std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineS
     return result;
 }
 
-CourseIndex courses_of(const std::vector<std::vector<LineSegment>>& segments, PixelRect picture, double reach_px) {
+CourseIndex courses_of(const std::vector<std::vector<LinePiece>>& segments, PixelRect picture, double reach_px) {
     CourseIndex courses(picture, reach_px);
     for (const auto& list : segments) {
-        for (const LineSegment& s : list) {
+        for (const LinePiece& s : list) {
             const bool is_solid = s.is_drawn && s.opacity == 255;  // hidden lines shine through what fades
             if (is_solid && glm::distance(s.from, s.to) >= courses.shortest_px()) courses.add(s.from, s.to);
         }

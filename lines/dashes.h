@@ -29,11 +29,11 @@ namespace burin {
 /// Lines that lie on each other share their dashes (SharedDashes): features first.
 ///
 /// All of that depends on nothing but where the lines are, if all of the picture's are given.
-std::vector<std::vector<LineSegment>> dashed(const std::vector<std::vector<LineSegment>>& segments,
-                                             std::array<double, 2> dash_px, double width_px, PixelRect picture,
-                                             std::span<const WholeLine> features, const SurfaceSet& surfaces);
+std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePiece>>& segments,
+                                           std::array<double, 2> dash_px, double width_px, PixelRect picture,
+                                           std::span<const WholeLine> features, const SurfaceSet& surfaces);
 
 /// Where solid lines would be drawn whose dashes hidden ones must leave alone, in a picture of this size.
-CourseIndex courses_of(const std::vector<std::vector<LineSegment>>& segments, PixelRect picture, double reach_px);
+CourseIndex courses_of(const std::vector<std::vector<LinePiece>>& segments, PixelRect picture, double reach_px);
 
 }  // namespace burin

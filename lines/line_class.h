@@ -29,14 +29,15 @@ constexpr std::string_view name_of(LineClass c) { return kLineClassNames[static_
 
 /// A set of line classes, one bit each.
 struct LineClassSet {
-    std::uint8_t bits = 0;
+    static_assert(kLineClassCount <= 16, "a bit for each class");
+    std::uint16_t bits = 0;
 
     constexpr LineClassSet() = default;
-    constexpr LineClassSet(LineClass c) : bits(static_cast<std::uint8_t>(1u << static_cast<int>(c))) {}
-    static constexpr LineClassSet all() { return from_bits(0xFF); }
+    constexpr LineClassSet(LineClass c) : bits(static_cast<std::uint16_t>(1u << static_cast<int>(c))) {}
+    static constexpr LineClassSet all() { return from_bits((1u << kLineClassCount) - 1); }
     static constexpr LineClassSet from_bits(unsigned bits) {
         LineClassSet set;
-        set.bits = static_cast<std::uint8_t>(bits);
+        set.bits = static_cast<std::uint16_t>(bits);
         return set;
     }
     constexpr bool has(LineClass c) const { return (bits >> static_cast<int>(c) & 1) != 0; }

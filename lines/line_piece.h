@@ -4,38 +4,35 @@
 #include <glm/glm.hpp>
 
 #include "lines/line_class.h"
+#include "lines/line_id.h"
 
 namespace burin {
 
-/// Where a line crosses the way between two neighbouring samples.
-struct LineCrossing {
-    glm::dvec2 pixel{0.0};
-    LineClassSet classes;  ///< all that apply, among those asked for; none: it only hides strokes
-    /// Of the mesh's edge that the line is; equal: there is none (intersections), or it leaves the screen.
-    glm::dvec2 edge_ends[2] = {glm::dvec2(0.0), glm::dvec2(0.0)};
-    glm::dvec2 along{0.0};          ///< which way the line runs, to and fro; 0: not known
-    std::uint64_t line_key = 0;     ///< equal for two crossings of one mesh edge or one intersection
-    double nearness = 0;            ///< of the front surface
-    bool occludes = false;          ///< the front surface ends here, before another one or the background
-    std::uint8_t opacity = 255;     ///< 255 = full
-    glm::dvec2 towards_front{0.0};  ///< from the crossing to the sample of the front surface
-};
-
-/// Of the blocks of the picture within which pieces are merged: so that a crop of a picture merges the
-/// same pieces.
+/// The side of the blocks of a picture within which pieces are merged: so that a crop of a picture merges the same
+/// pieces.
 constexpr int kMergeBlockPx = 8;
 
-/// A straight piece of a line on the screen, in pixels.
-struct LineSegment {
-    glm::dvec2 from{0.0}, to{0.0};
+/// A straight piece of one line on the screen, seen or hidden: all that drawing gets. It says which line it is and what
+/// is in front of it; all else that can be known of a line follows from these and the surfaces.
+struct LinePiece {
+    glm::dvec2 from{0.0}, to{0.0};  ///< in pixels
+    LineId line;
+    float nearness_from = 0, nearness_to = 0;  ///< at either end, of the surface that the line lies on
+    std::uint32_t block = 0;                   ///< pieces that are seen are merged within one block of the picture only
+    LineClassSet classes;                      ///< all that apply somewhere on it, among those asked for
     LineClass drawn_as = LineClass::silhouette;
-    bool front_on_left = false;  ///< of the way from `from` to `to`, as seen on the screen
-    bool occludes = false;       ///< a surface ends here; else the line lies on one, or between two in contact
+    std::uint8_t opacity = 255;       ///< of the line itself, 255 = full; less where it fades
+    std::uint8_t transmission = 255;  ///< what transparent surfaces in front let through, 255 = all
+    /// Quantitative invisibility (Appel 1967): how many opaque layers are in front. 255: that many or more.
+    std::uint8_t invisibility = 0;
     bool is_drawn = true;        ///< else it only hides strokes
-    float nearness_from = 0, nearness_to = 0;
-    std::uint64_t line_key = 0;
-    std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades
-    std::uint32_t block = 0;     ///< only pieces of one block of the picture are merged
+    bool occludes = false;       ///< a surface ends here; else the line lies on one, or between two in contact
+    bool front_on_left = false;  ///< of the way from `from` to `to`, as seen on the screen
+
+    bool is_hidden() const { return invisibility > 0; }
+    /// Of the line as it is seen.
+    std::uint8_t seen_opacity() const { return static_cast<std::uint8_t>((opacity * transmission + 127) / 255); }
 };
+static_assert(sizeof(LinePiece) == 64, "a line of the cache");
 
 }  // namespace burin

@@ -18,8 +18,6 @@ namespace {
 constexpr double kFarthestPart = 0.25;
 constexpr double kLongestJointsPart = 0.5;
 
-HalfEdge half_edge_of(std::uint64_t line_key) { return static_cast<HalfEdge>(line_key & 0xFFFFFFFFu); }
-
 /// Whether a surface is not smooth all around the vertex of a corner.
 bool is_at_sharp_edge(const Mesh& mesh, const SmoothMesh& smooth, HalfEdge corner) {
     bool is_sharp = false;
@@ -29,7 +27,7 @@ bool is_at_sharp_edge(const Mesh& mesh, const SmoothMesh& smooth, HalfEdge corne
     return is_sharp;
 }
 
-void add_pieces(const LineSegment& line, const std::vector<glm::dvec2>& points, std::vector<LineSegment>& to) {
+void add_pieces(const LinePiece& line, const std::vector<glm::dvec2>& points, std::vector<LinePiece>& to) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         if (points[i - 1] == points[i]) continue;
         to.push_back(line);
@@ -52,16 +50,16 @@ SmoothContours::SmoothContours(const SurfaceSet& surfaces, double cos_crease_ang
     for (const SurfaceInstance& instance : surfaces.instances) smooth_of_.push_back(&meshes_[numbers[instance.mesh]]);
 }
 
-bool SmoothContours::is_fold(const LineSegment& segment) const {
-    if (segment.drawn_as != LineClass::silhouette || segment.line_key >> 63 != 0) return false;
-    return !smooth_of_[segment.line_key >> 32]->is_sharp(half_edge_of(segment.line_key));
+bool SmoothContours::is_fold(const LinePiece& segment) const {
+    if (segment.drawn_as != LineClass::silhouette || !segment.line.is_edge()) return false;
+    return !smooth_of_[segment.line.instance()]->is_sharp(segment.line.half_edge());
 }
 
-FoldMap SmoothContours::map_of(std::uint64_t line_key) const {
-    const auto instance = static_cast<std::uint32_t>(line_key >> 32);
+FoldMap SmoothContours::map_of(LineId edge) const {
+    const std::uint32_t instance = edge.instance();
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
     const Projection& projection = surfaces_.projection;
-    const HalfEdge h = half_edge_of(line_key);
+    const HalfEdge h = edge.half_edge();
     glm::dvec2 ends[2];
     double longest = 0;
     for (const HalfEdge side : {h, mesh.next_on_edge[h]}) {
@@ -86,29 +84,29 @@ FoldMap SmoothContours::map_of(std::uint64_t line_key) const {
     return {ends[0], ends[1], ContourFinder(surfaces_, instance, smooth).chains_around(h), farthest_px};
 }
 
-void SmoothContours::move(std::vector<std::vector<LineSegment>>& lists, int threads) const {
-    std::vector<std::uint64_t> keys;
+void SmoothContours::move(std::vector<std::vector<LinePiece>>& lists, int threads) const {
+    std::vector<LineId> folds;
     for (const auto& list : lists) {
-        for (const LineSegment& s : list) {
-            if (is_fold(s)) keys.push_back(s.line_key);
+        for (const LinePiece& s : list) {
+            if (is_fold(s)) folds.push_back(s.line);
         }
     }
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-    std::vector<FoldMap> maps(keys.size());
+    std::sort(folds.begin(), folds.end());
+    folds.erase(std::unique(folds.begin(), folds.end()), folds.end());
+    std::vector<FoldMap> maps(folds.size());
     constexpr std::size_t kChunk = 64;
-    parallel_for((keys.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        for (std::size_t i = chunk * kChunk; i < std::min(keys.size(), (chunk + 1) * kChunk); ++i)
-            maps[i] = map_of(keys[i]);
+    parallel_for((folds.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+        for (std::size_t i = chunk * kChunk; i < std::min(folds.size(), (chunk + 1) * kChunk); ++i)
+            maps[i] = map_of(folds[i]);
     });
 
-    const auto number_of = [&](std::uint64_t key) {
-        return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+    const auto number_of = [&](LineId fold) {
+        return static_cast<std::size_t>(std::lower_bound(folds.begin(), folds.end(), fold) - folds.begin());
     };
-    const auto moved_line = [&](const LineSegment& s) {
+    const auto moved_line = [&](const LinePiece& s) {
         MovedLine line{&s, {s.from, s.to}};
         if (!is_fold(s)) return line;
-        const FoldMap& map = maps[number_of(s.line_key)];
+        const FoldMap& map = maps[number_of(s.line)];
         line.is_moved = map.is_moved();
         if (line.is_moved) line.points = map.moved(s.from, s.to);
         return line;
@@ -117,7 +115,7 @@ void SmoothContours::move(std::vector<std::vector<LineSegment>>& lists, int thre
     const auto join = [&] {
         lines.clear();
         for (const auto& list : lists) {
-            for (const LineSegment& s : list) {
+            for (const LinePiece& s : list) {
                 if (s.occludes && s.from != s.to) lines.push_back(moved_line(s));
             }
         }
@@ -125,34 +123,34 @@ void SmoothContours::move(std::vector<std::vector<LineSegment>>& lists, int thre
     };
     Joints joints = join();
     // What would be joined by longer lines than half of what is seen of it is better left where it is.
-    std::vector<double> seen(keys.size(), 0), joined(keys.size(), 0);
+    std::vector<double> seen(folds.size(), 0), joined(folds.size(), 0);
     for (const MovedLine& line : lines) {
-        if (line.is_moved) seen[number_of(line.given->line_key)] += glm::distance(line.given->from, line.given->to);
+        if (line.is_moved) seen[number_of(line.given->line)] += glm::distance(line.given->from, line.given->to);
     }
-    for (const LineSegment& s : joints.pieces) {
-        if (is_fold(s)) joined[number_of(s.line_key)] += glm::distance(s.from, s.to);
+    for (const LinePiece& s : joints.pieces) {
+        if (is_fold(s)) joined[number_of(s.line)] += glm::distance(s.from, s.to);
     }
-    for (std::size_t i = 0; i < keys.size(); ++i) {
+    for (std::size_t i = 0; i < folds.size(); ++i) {
         if (joined[i] > kLongestJointsPart * seen[i]) maps[i] = {};
     }
     joints = join();
     for (const LeadIn& lead : joints.to_lines_that_stay)
-        maps[number_of(lines[lead.line].given->line_key)].lead_to_end(lead.place);
+        maps[number_of(lines[lead.line].given->line)].lead_to_end(lead.place);
     if (!joints.to_lines_that_stay.empty()) joints = join();
 
-    std::vector<LineSegment> moved;
+    std::vector<LinePiece> moved;
     for (auto& list : lists) {
         moved.clear();
-        for (const LineSegment& s : list) add_pieces(s, moved_line(s).points, moved);
+        for (const LinePiece& s : list) add_pieces(s, moved_line(s).points, moved);
         list = moved;
     }
     lists.push_back(std::move(joints.pieces));
 }
 
-void SmoothContours::move(std::vector<LineSegment>& segments) const {
-    std::vector<LineSegment> moved;
-    for (const LineSegment& s : segments) {
-        const FoldMap map = is_fold(s) ? map_of(s.line_key) : FoldMap();
+void SmoothContours::move(std::vector<LinePiece>& segments) const {
+    std::vector<LinePiece> moved;
+    for (const LinePiece& s : segments) {
+        const FoldMap map = is_fold(s) ? map_of(s.line) : FoldMap();
         if (map.is_moved()) {
             add_pieces(s, map.moved(s.from, s.to), moved);
         } else {

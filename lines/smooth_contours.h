@@ -27,13 +27,13 @@ class SmoothContours {
     SmoothContours(const SurfaceSet& surfaces, double cos_crease_angle, int threads);
 
     /// Moves the folds among all visible lines of a picture, and adds a list of what joins them.
-    void move(std::vector<std::vector<LineSegment>>& lists, int threads) const;
+    void move(std::vector<std::vector<LinePiece>>& lists, int threads) const;
     /// Moves the folds among some pieces, each by itself.
-    void move(std::vector<LineSegment>& segments) const;
+    void move(std::vector<LinePiece>& segments) const;
 
   private:
-    bool is_fold(const LineSegment& segment) const;
-    FoldMap map_of(std::uint64_t line_key) const;
+    bool is_fold(const LinePiece& segment) const;
+    FoldMap map_of(LineId edge) const;
 
     const SurfaceSet& surfaces_;
     std::vector<SmoothMesh> meshes_;

@@ -7,6 +7,7 @@
 
 #include "kernels/tile_kernels.h"
 #include "lines/line_class.h"
+#include "lines/line_id.h"
 
 namespace burin {
 
@@ -34,14 +35,16 @@ struct WholeLine {
     std::int8_t front_side = 0;
     /// Of a border that is a seam elsewhere, the part of edge_on_screen() that the line is, as shares.
     double edge_begin = 0, edge_end = 1;
-    static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
-    std::uint64_t line_key = kNoKey;  ///< of an edge: LineCrossing::line_key
-    bool is_edge() const { return line_key != kNoKey; }
+    LineId id;
+    bool is_edge() const { return !id.is_none(); }
     LineClassSet classes;  ///< all that apply, among those asked for
     LineClass drawn_as = LineClass::silhouette;
     std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades
-    /// Lines that meet at an end have equal nodes there. For edges: instance and vertex.
+    /// Lines that meet at an end have equal nodes there. The ends of edges are vertices.
     std::array<std::uint64_t, 2> nodes{kNoNode, kNoNode};
+    static constexpr std::uint64_t node_of_vertex(std::uint32_t instance, std::uint32_t vertex) {
+        return std::uint64_t{instance} << 32 | vertex;
+    }
 
     /// Opacity of a line behind what lets through so much, 255 = all.
     std::uint8_t opacity_behind(std::uint8_t transmission) const {

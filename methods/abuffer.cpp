@@ -106,7 +106,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     if (options.progress != nullptr) options.progress->begin("rendering", tiles.count());
 
     const bool has_layers = HiddenPass::is_needed(*frame.scene);
-    std::vector<std::vector<LineSegment>> segments;
+    std::vector<std::vector<LinePiece>> segments;
     std::optional<CourseIndex> visible_courses;  // before they are dashed
     RowPrinter finisher(frame, kernels, stats.threads, options, film);
     VisiblePass surfaces(frame, screen, kernels, stats.threads, options.progress);

@@ -146,12 +146,12 @@ FeatureEdges::FeatureEdges(const Frame& frame, int threads) {
     for (std::uint32_t i = 0; i < classes_.size(); ++i) {
         const Mesh& mesh = *frame.surfaces.instances[i].mesh;
         InstanceEdges edges(frame, i, outlines(i));
-        std::vector<std::uint8_t>& classes = classes_[i];
+        std::vector<LineClassSet>& classes = classes_[i];
         classes.resize(3 * mesh.triangles.size());
         parallel_for_each(mesh.polygon_count, threads,
                           [&](std::size_t p) { edges.find_facing(static_cast<std::uint32_t>(p)); });
         parallel_for_each(classes.size(), threads,
-                          [&](std::size_t h) { classes[h] = edges.classes_of(static_cast<HalfEdge>(h)).bits; });
+                          [&](std::size_t h) { classes[h] = edges.classes_of(static_cast<HalfEdge>(h)); });
     }
 }
 

@@ -29,14 +29,14 @@ class FeatureEdges {
     /// Those of the requested classes that the edge `half_edge` (0, 1, 2) of a triangle has. Empty for
     /// diagonals within a polygon.
     LineClassSet classes(SurfaceId s, HalfEdge half_edge) const {
-        return LineClassSet::from_bits(classes_[s.instance][3 * std::size_t{s.triangle} + half_edge]);
+        return classes_[s.instance][3 * std::size_t{s.triangle} + half_edge];
     }
     /// What the line along the edge is called, if it is one.
     std::optional<LineClass> drawn(SurfaceId s, HalfEdge half_edge) const { return classes(s, half_edge).first(); }
     const PolygonOutlines& outlines(std::uint32_t instance) const { return outlines_[outlines_of_instance_[instance]]; }
 
   private:
-    std::vector<std::vector<std::uint8_t>> classes_;  // per instance and half-edge
+    std::vector<std::vector<LineClassSet>> classes_;  // per instance and half-edge
     std::vector<PolygonOutlines> outlines_;           // one per mesh that is used
     std::vector<std::size_t> outlines_of_instance_;
 };

@@ -4,12 +4,12 @@
 
 namespace burin {
 
-void FadedStrokes::draw(std::span<const LineSegment* const> segments, PixelRect rect,
+void FadedStrokes::draw(std::span<const LinePiece* const> segments, PixelRect rect,
                         const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke) {
     masks_.clear();
     width_ = (rect.width() + 7) / 8 * 8;
     std::vector<std::uint8_t> opacities;
-    for (const LineSegment* s : segments) {
+    for (const LinePiece* s : segments) {
         if (s->is_drawn && s->opacity < 255) opacities.push_back(s->opacity);
     }
     if (opacities.empty()) return;

@@ -19,7 +19,7 @@ class FadedStrokes {
     explicit FadedStrokes(const TileKernels& kernels) : canvas_(kernels) {}
 
     /// Draws those of the segments that are not opaque, by draw_stroke(index, canvas).
-    void draw(std::span<const LineSegment* const> segments, PixelRect rect,
+    void draw(std::span<const LinePiece* const> segments, PixelRect rect,
               const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke);
 
     /// Whether there is any in a pixel of the rectangle.

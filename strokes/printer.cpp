@@ -27,7 +27,7 @@ class StrokePrinter::Bins {
         end_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
         std::vector<Place> places;
         for (const auto& list : segments) {
-            for (const LineSegment& s : list) {
+            for (const LinePiece& s : list) {
                 constexpr std::ptrdiff_t kAhead = 16;
                 if (list.data() + list.size() - &s > kAhead) __builtin_prefetch(&s + kAhead);
                 const std::optional<Place> place = place_of(s, reach_px);
@@ -49,17 +49,17 @@ class StrokePrinter::Bins {
         const int y0 = region_.y0 + static_cast<int>(i) / columns_ * kTilePx;
         return {x0, y0, std::min(x0 + kTilePx, region_.x1), std::min(y0 + kTilePx, region_.y1)};
     }
-    std::span<const LineSegment* const> segments(std::size_t i) const {
+    std::span<const LinePiece* const> segments(std::size_t i) const {
         return {sorted_.data() + end_[i], end_[i + 1] - end_[i]};
     }
 
   private:
     /// A segment and the columns and rows of tiles that its stroke may reach, the last ones included.
     struct Place {
-        const LineSegment* segment;
+        const LinePiece* segment;
         int x0, y0, x1, y1;
     };
-    std::optional<Place> place_of(const LineSegment& s, double reach) const {
+    std::optional<Place> place_of(const LinePiece& s, double reach) const {
         struct Range {
             double low, high;
         };
@@ -86,7 +86,7 @@ class StrokePrinter::Bins {
     PixelRect region_;
     int columns_, rows_;
     std::vector<std::size_t> end_;
-    std::vector<const LineSegment*> sorted_;
+    std::vector<const LinePiece*> sorted_;
 };
 
 namespace {
@@ -115,7 +115,7 @@ class StrokePrinter::Printer {
         : style_(frame.scene->lines.style), kernels_(kernels), strokes_(frame, kernels) {}
 
     /// What print() draws and what is asked for strokes(): tile by tile.
-    void draw(std::span<const LineSegment* const> segments, PixelRect rect, int reach) {
+    void draw(std::span<const LinePiece* const> segments, PixelRect rect, int reach) {
         strokes_.draw(segments, {rect.x0 - reach, rect.y0 - reach, rect.x1 + reach, rect.y1 + reach});
     }
     const VisibleStrokes& strokes() const { return strokes_; }

@@ -17,7 +17,7 @@ namespace burin {
 class StrokePrinter {
   public:
     /// Pieces of lines, list after list.
-    using Lists = std::span<const std::vector<LineSegment>>;
+    using Lists = std::span<const std::vector<LinePiece>>;
 
     StrokePrinter(const Frame& frame, const TileKernels& kernels, int threads, Film& film);
     ~StrokePrinter();

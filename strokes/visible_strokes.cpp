@@ -30,10 +30,10 @@ VisibleStrokes::VisibleStrokes(const Frame& frame, const TileKernels& kernels)
     for (StrokeCanvas& canvas : canvases_) canvas = StrokeCanvas(kernels);
 }
 
-void VisibleStrokes::draw(std::span<const LineSegment* const> segments, PixelRect rect) {
+void VisibleStrokes::draw(std::span<const LinePiece* const> segments, PixelRect rect) {
     rect_ = rect;
     LineClassSet present;
-    for (const LineSegment* s : segments) {
+    for (const LinePiece* s : segments) {
         if (s->is_drawn && s->opacity == 255) present |= s->drawn_as;
     }
     classes_.clear();
@@ -44,7 +44,7 @@ void VisibleStrokes::draw(std::span<const LineSegment* const> segments, PixelRec
         canvas_of(line_class).reset(rect.x0, rect.y0, rect.width(), rect.height());
     }
     if (needs_clipping(segments)) return draw_clipped(segments);
-    for (const LineSegment* s : segments) {
+    for (const LinePiece* s : segments) {
         if (s->is_drawn && s->opacity == 255) canvas_of(s->drawn_as).draw(s->from, s->to, pen_.radius_px);
     }
     faded_.draw(segments, rect, [&](std::size_t i, StrokeCanvas& canvas) {
@@ -54,10 +54,10 @@ void VisibleStrokes::draw(std::span<const LineSegment* const> segments, PixelRec
 
 /// The stroke of a boundary that is drawn covers what other strokes cover of the surface in front, unless
 /// their class comes first.
-bool VisibleStrokes::needs_clipping(std::span<const LineSegment* const> segments) const {
+bool VisibleStrokes::needs_clipping(std::span<const LinePiece* const> segments) const {
     if (side_ != StrokeSide::both) return true;
     bool has_faded = false, has_undrawn = false;
-    for (const LineSegment* s : segments) {
+    for (const LinePiece* s : segments) {
         has_faded = has_faded || (s->is_drawn && s->opacity < 255);
         has_undrawn = has_undrawn || !s->is_drawn;
         if (s->occludes && s->is_drawn && !classes_.empty() && s->drawn_as > classes_.front()) return true;
@@ -65,9 +65,9 @@ bool VisibleStrokes::needs_clipping(std::span<const LineSegment* const> segments
     return has_undrawn && (has_faded || !classes_.empty());
 }
 
-void VisibleStrokes::draw_clipped(std::span<const LineSegment* const> segments) {
+void VisibleStrokes::draw_clipped(std::span<const LinePiece* const> segments) {
     pieces_.clear();
-    for (const LineSegment* s : segments) {
+    for (const LinePiece* s : segments) {
         pieces_.push_back(
             {s->from, s->to, depth_px(s->nearness_from), depth_px(s->nearness_to), s->occludes, s->front_on_left});
     }
@@ -96,10 +96,10 @@ void VisibleStrokes::draw_clipped(std::span<const LineSegment* const> segments) 
 }
 
 /// What hides strokes of a class.
-void VisibleStrokes::find_boundaries(std::span<const LineSegment* const> segments, LineClass line_class) {
+void VisibleStrokes::find_boundaries(std::span<const LinePiece* const> segments, LineClass line_class) {
     boundaries_.clear();
     for (std::size_t i = 0; i < segments.size(); ++i) {
-        const LineSegment& s = *segments[i];
+        const LinePiece& s = *segments[i];
         if (s.occludes && (side_ != StrokeSide::both || !s.is_drawn || s.drawn_as > line_class)) {
             boundaries_.push_back(&pieces_[i]);
         }

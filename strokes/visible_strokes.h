@@ -21,7 +21,7 @@ class VisibleStrokes {
     explicit VisibleStrokes(const Frame& frame, const TileKernels& kernels = best_kernels());
 
     /// `segments`: all that come within the pen's radius of the rectangle, drawn or not.
-    void draw(std::span<const LineSegment* const> segments, PixelRect rect);
+    void draw(std::span<const LinePiece* const> segments, PixelRect rect);
 
     const Pen& pen() const { return pen_; }
     PixelRect rect() const { return rect_; }
@@ -72,9 +72,9 @@ class VisibleStrokes {
   private:
     StrokeCanvas& canvas_of(LineClass c) { return canvases_[static_cast<std::size_t>(c)]; }
     const StrokeCanvas& canvas_of(LineClass c) const { return canvases_[static_cast<std::size_t>(c)]; }
-    bool needs_clipping(std::span<const LineSegment* const> segments) const;
-    void find_boundaries(std::span<const LineSegment* const> segments, LineClass line_class);
-    void draw_clipped(std::span<const LineSegment* const> segments);
+    bool needs_clipping(std::span<const LinePiece* const> segments) const;
+    void find_boundaries(std::span<const LinePiece* const> segments, LineClass line_class);
+    void draw_clipped(std::span<const LinePiece* const> segments);
     double depth_px(float nearness) const;
 
     const Projection& projection_;

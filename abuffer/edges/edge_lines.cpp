@@ -134,7 +134,7 @@ class EdgeLineFinder::Rules {
         if (line == nullptr) return;
         line->owners = {WholeLine::kNoOwner, WholeLine::kNoOwner};
         line->classes = line->drawn_as = LineClass::mark;
-        line->line_key = std::uint64_t{instance} << 32 | number;
+        line->id = LineId::of_edge(instance, number);
     }
 
     std::optional<SurfaceId> solid_at_border(SurfaceId s, HalfEdge h) const {
@@ -350,7 +350,7 @@ class EdgeLineFinder::Rules {
         line.classes = classes;
         line.drawn_as = *classes.first();
         line.opacity = opacity;
-        line.line_key = std::uint64_t{s.instance} << 32 | std::min(h, mesh.next_on_edge[h]);
+        line.id = LineId::of_edge(s.instance, std::min(h, mesh.next_on_edge[h]));
     }
 
     /// A line between two vertices. nullptr if it does not touch the region or is a dot.
@@ -367,8 +367,8 @@ class EdgeLineFinder::Rules {
         line.to = ends->to;
         line.nearness_from = ends->nearness_from;
         line.nearness_to = ends->nearness_to;
-        if (is_on_screen(instance, a)) line.nodes[0] = std::uint64_t{instance} << 32 | a;
-        if (is_on_screen(instance, b)) line.nodes[1] = std::uint64_t{instance} << 32 | b;
+        if (is_on_screen(instance, a)) line.nodes[0] = WholeLine::node_of_vertex(instance, a);
+        if (is_on_screen(instance, b)) line.nodes[1] = WholeLine::node_of_vertex(instance, b);
         return &line;
     }
 

@@ -171,8 +171,8 @@ bool IntersectionLines::cut_edge(const Occluder& owner, std::size_t corner, cons
     const std::size_t second = (corner + 1) % 3;
     const glm::dvec2 from(owner.x[corner], owner.y[corner]), to(owner.x[second], owner.y[second]);
     double begin = 0, end = 1;
-    const auto node_of_vertex = [&](std::size_t k) { return std::uint64_t{owner.instance} << 32 | owner.vertices[k]; };
-    line.nodes = {node_of_vertex(corner), node_of_vertex(second)};
+    line.nodes = {WholeLine::node_of_vertex(owner.instance, owner.vertices[corner]),
+                  WholeLine::node_of_vertex(owner.instance, owner.vertices[second])};
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = (k + 1) % 3;
         const glm::dvec2 p(other.x[k], other.y[k]), edge = glm::dvec2(other.x[next], other.y[next]) - p;

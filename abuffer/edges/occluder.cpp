@@ -155,7 +155,7 @@ bool lies_on(const WholeLine& line, const Occluder& triangle) {
     int common = 0;
     for (const std::uint64_t node : line.nodes) {
         for (const std::uint32_t v : triangle.vertices) {
-            common += node == (std::uint64_t{triangle.instance} << 32 | v);
+            common += node == (WholeLine::node_of_vertex(triangle.instance, v));
         }
     }
     return common == 2;

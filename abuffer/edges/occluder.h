@@ -62,7 +62,7 @@ bool is_grazed_at_end(const ScreenSurfaces& screen, const WholeLine& line, const
 inline bool only_grazes(const ScreenSurfaces& screen, const WholeLine& line, const Occluder& t) {
     bool has_end = false;
     for (const std::uint32_t v : t.vertices) {
-        const std::uint64_t node = std::uint64_t{t.instance} << 32 | v;
+        const std::uint64_t node = WholeLine::node_of_vertex(t.instance, v);
         has_end |= (node == line.nodes[0]) | (node == line.nodes[1]);
     }
     return has_end && is_grazed_at_end(screen, line, t);

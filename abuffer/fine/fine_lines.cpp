@@ -59,7 +59,7 @@ class FineLines::BlockClipper {
 
     /// add_visible() of all, but for what is surely covered by strokes of others that are nearer: those first.
     void add_not_covered(std::span<const FineCandidate> candidates, std::span<const std::uint32_t> numbers,
-                         std::vector<LineSegment>& segments) {
+                         std::vector<LinePiece>& segments) {
         order_.clear();
         for (const std::uint32_t i : numbers) {
             const FineCandidate& c = candidates[i];
@@ -73,7 +73,7 @@ class FineLines::BlockClipper {
         notes_drawn_ = false;
     }
 
-    void add_visible(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
+    void add_visible(const FineCandidate& candidate, std::vector<LinePiece>& segments) {
         const WholeLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
         const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)),
@@ -139,7 +139,7 @@ class FineLines::BlockClipper {
     }
 
     /// Adds all of a candidate, whatever is in front of it.
-    void add_all(const FineCandidate& candidate, std::vector<LineSegment>& segments) {
+    void add_all(const FineCandidate& candidate, std::vector<LinePiece>& segments) {
         add(candidate, candidate.part.begin, candidate.part.end, segments);
     }
 
@@ -216,7 +216,7 @@ class FineLines::BlockClipper {
 
     /// Adds what is no negligible fold.
     void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
-                  std::vector<LineSegment>& segments) {
+                  std::vector<LinePiece>& segments) {
         if (candidate.line.classes.has(LineClass::silhouette) && !candidate.line.is_wire) {
             const double step = kWidthStepPx / candidate.line.length_px();
             // At a vertex rounding says which triangle one gets to.
@@ -260,7 +260,7 @@ class FineLines::BlockClipper {
                            line.nearness_at(t), 0) != Ring::none;
     }
 
-    void add(const FineCandidate& candidate, double begin, double end, std::vector<LineSegment>& segments) {
+    void add(const FineCandidate& candidate, double begin, double end, std::vector<LinePiece>& segments) {
         const WholeLine& line = candidate.line;
         LineClassSet classes = line.classes;
         bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
@@ -271,12 +271,13 @@ class FineLines::BlockClipper {
                 if (classes.empty()) return;
             }
         }
-        LineSegment s;
+        LinePiece s;
         s.from = line.at(begin) / 256.0;
         s.to = line.at(end) / 256.0;
+        s.classes = classes;
         s.drawn_as = *classes.first();
         s.opacity = line.opacity;
-        s.line_key = line.line_key;
+        s.line = line.id;
         s.block = static_cast<std::uint32_t>(candidate.part.block_y & 0xFFFF) << 16 |
                   static_cast<std::uint32_t>(candidate.part.block_x & 0xFFFF);
         const double zero = screen_.surfaces().farthest_nearness;
@@ -365,7 +366,7 @@ FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const Tri
 
 FineLines::~FineLines() = default;
 
-void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vector<LineSegment>& segments) {
+void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vector<LinePiece>& segments) {
     find_candidates(parts);
     if (candidates_.empty()) return;
     blocks_.fill(tile, candidates_);
@@ -379,7 +380,7 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
     }
 }
 
-void FineLines::find_in_block(std::size_t block, std::vector<LineSegment>& segments) {
+void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& segments) {
     const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
     const auto are_few = [&](std::size_t count) {
         const std::size_t per_cell = clipper_->triangles_per_cell();

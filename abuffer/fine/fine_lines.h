@@ -23,7 +23,7 @@ class FineLines {
     ~FineLines();
 
     /// Adds what is visible of the parts that are lines, all of one tile.
-    void find(std::size_t tile, std::span<const FinePart> parts, std::vector<LineSegment>& segments);
+    void find(std::size_t tile, std::span<const FinePart> parts, std::vector<LinePiece>& segments);
 
   private:
     class BlockClipper;
@@ -32,7 +32,7 @@ class FineLines {
     bool is_loose(const FineEdge& edge) const {
         return edge.half_edge >= 3 * screen_.mesh(edge.instance).triangle_count;
     }
-    void find_in_block(std::size_t block, std::vector<LineSegment>& segments);
+    void find_in_block(std::size_t block, std::vector<LinePiece>& segments);
 
     const ScreenSurfaces& screen_;
     bool draws_each_;

@@ -30,7 +30,7 @@ int floor_to_int(double v) {
 }
 
 /// Whether a piece lies on the line that goes through an edge.
-bool runs_along(const EdgeOnScreen& edge, const LineSegment& piece) {
+bool runs_along(const EdgeOnScreen& edge, const LinePiece& piece) {
     const double limit = kOffSubpixels * glm::distance(edge.from, edge.to);
     return std::abs(edge.side_of(piece.from * 256.0)) <= limit && std::abs(edge.side_of(piece.to * 256.0)) <= limit;
 }
@@ -97,7 +97,7 @@ void FineParts::find_loose(const SampleTile& samples, std::span<const TileEdge> 
 }
 
 void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges, std::span<const TileEdge> loose,
-                     std::span<const LineSegment> drawn, std::vector<FinePart>& parts) {
+                     std::span<const LinePiece> drawn, std::vector<FinePart>& parts) {
     if (edges.empty() && loose.empty()) return;
     find_farthest(samples);
     find_loose(samples, loose, parts);
@@ -139,11 +139,11 @@ void FineParts::find(const SampleTile& samples, std::span<const TileEdge> edges,
         if (is_behind(range.is_one() ? blocks_ : areas_, samples, edge, 0, 1)) continue;
         const Owners owners = owners_of(e);
         const HalfEdge partner = mesh.partners[e.half_edge];
-        const std::uint64_t key = std::uint64_t{e.instance} << 32 | std::min(e.half_edge, partner);
+        const LineId line = LineId::of_edge(e.instance, std::min(e.half_edge, partner));
         for_blocks(samples, edge, range, [&](int x, int y, double begin, double end) {
             const std::uint32_t block =
                 static_cast<std::uint32_t>(y & 0xFFFF) << 16 | static_cast<std::uint32_t>(x & 0xFFFF);
-            find_undrawn(edge, begin, end, drawn_.of_line(block, key));
+            find_undrawn(edge, begin, end, drawn_.of_line(block, line));
             open_.clear();
             for (const Interval& i : undrawn_) {
                 if (is_tip(samples, edge, i)) {
@@ -363,11 +363,11 @@ bool FineParts::is_in_front(std::uint32_t number, glm::dvec2 subpixel, double ne
 /// Whether a line of another edge in the same place on the screen was found in the block.
 bool FineParts::is_drawn_by_another(const EdgeOnScreen& edge, std::uint32_t block) const {
     const auto in_block = drawn_.in_block(block);
-    return std::any_of(in_block.begin(), in_block.end(), [&](const LineSegment& s) { return runs_along(edge, s); });
+    return std::any_of(in_block.begin(), in_block.end(), [&](const LinePiece& s) { return runs_along(edge, s); });
 }
 
 /// What is left of an edge where pieces of its line were found.
-void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces) {
+void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LinePiece> pieces) {
     undrawn_.assign(1, {begin, end});
     if (pieces.empty()) return;
     if (!takes_rests_) return undrawn_.clear();
@@ -375,7 +375,7 @@ void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
     const double square = glm::dot(along, along);
     const double slack = kSlackSubpixels / std::sqrt(square), shortest = kShortestRestSubpixels / std::sqrt(square);
     const double shortest_tip = kShortestTipSubpixels / std::sqrt(square);
-    for (const LineSegment& s : pieces) {
+    for (const LinePiece& s : pieces) {
         // A bridge to another line, which only begins at this one.
         if (!runs_along(edge, s)) continue;
         const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;

@@ -6,7 +6,7 @@
 #include "abuffer/fine/fine_edges.h"
 #include "abuffer/samples/sample_tile.h"
 #include "abuffer/screen/edge_on_screen.h"
-#include "lines/merge_segments.h"
+#include "lines/merge_pieces.h"
 
 namespace burin {
 
@@ -26,10 +26,10 @@ class FineParts {
     /// others with a gap between them narrower than a sample (completes_lines()).
     FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, bool takes_rests);
 
-    /// `drawn`: the lines found in the tile, as a SegmentMerger leaves them. Of loose edges, which
+    /// `drawn`: the lines found in the tile, as a PieceMerger leaves them. Of loose edges, which
     /// samples never tell of, all that is not clearly behind.
     void find(const SampleTile& samples, std::span<const TileEdge> edges, std::span<const TileEdge> loose,
-              std::span<const LineSegment> drawn, std::vector<FinePart>& parts);
+              std::span<const LinePiece> drawn, std::vector<FinePart>& parts);
 
   private:
     struct Owners {
@@ -70,7 +70,7 @@ class FineParts {
     bool is_in_front(std::uint32_t number, glm::dvec2 subpixel, double nearness) const;
     static bool is_tip(const SampleTile& samples, const EdgeOnScreen& edge, Interval part);
     bool is_drawn_by_another(const EdgeOnScreen& edge, std::uint32_t block) const;
-    void find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LineSegment> pieces);
+    void find_undrawn(const EdgeOnScreen& edge, double begin, double end, std::span<const LinePiece> pieces);
     double level(double nearness) const;
 
     const ScreenSurfaces& screen_;
@@ -81,7 +81,7 @@ class FineParts {
     static constexpr std::size_t kAreaPitch = BlockTable::kPitch >> (kAreaShift - kBlockShift);
     Squares blocks_{kBlockShift, BlockTable::kPitch, {}};
     Squares areas_{kAreaShift, kAreaPitch, {}};  // most edges lie behind whole ones
-    SegmentIndex drawn_;
+    PieceIndex drawn_;
     std::vector<FineEdge> asked_;
     std::vector<Interval> undrawn_, open_;
 };

@@ -132,8 +132,8 @@ bool Contacts::is_flush(const WholeLine& line, double begin, double end, const O
 /// Whether a face that ends at a line laps over another one there by a narrow strip alone.
 bool Contacts::laps_narrowly(const WholeLine& line, SurfaceId own, const FacePlace& other, glm::dvec2 middle) const {
     if (!line.is_edge()) return false;
-    const auto edge = static_cast<HalfEdge>(line.line_key);
-    return burin::laps_narrowly(screen_.surfaces(), own, edge, other, middle / double{kSubpixelsPerPixel});
+    return burin::laps_narrowly(screen_.surfaces(), own, line.id.half_edge(), other,
+                                middle / double{kSubpixelsPerPixel});
 }
 
 std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, const Occluder& t,

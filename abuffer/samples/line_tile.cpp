@@ -78,8 +78,7 @@ bool LineTile::decide(const SamplePair& pair, const NeighbourSamples& neighbours
         }
         // The background is beside a surface where no edge of it is found: views too narrow for numbers.
         const auto number = [this](SurfaceId id) { return id.is_background() ? ~0u : screen_.number_of(id); };
-        const auto [low, high] = std::minmax({number(neighbours.surfaces[0]), number(neighbours.surfaces[1])});
-        crossing.line_key = std::uint64_t{1} << 63 | std::uint64_t{low} << 32 | high;
+        crossing.line = LineId::of_surfaces(number(neighbours.surfaces[0]), number(neighbours.surfaces[1]));
     }
     return true;
 }
@@ -88,7 +87,7 @@ void LineTile::set_edge(SurfaceEdge edge, LineCrossing& crossing) const {
     const HalfEdge h = edge.half_edge;
     const std::uint32_t instance = edge.surface.instance;
     const ScreenMesh& mesh = screen_.mesh(instance);
-    crossing.line_key = std::uint64_t{instance} << 32 | std::min(h, mesh.partners[h]);
+    crossing.line = LineId::of_edge(instance, std::min(h, mesh.partners[h]));
     const std::uint32_t first = h - h % 3;
     const ScreenVertex& from = mesh.vertices[mesh.corners[h]];
     const ScreenVertex& to = mesh.vertices[mesh.corners[first + (h - first + 1) % 3]];
@@ -227,7 +226,7 @@ void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& a
             crossing.occludes = true;
             crossing.opacity = 255;
             crossing.nearness = found.nearness[i];
-            crossing.line_key = std::uint64_t{instance} << 32 | std::min(found.exit[i], found.partner[i]);
+            crossing.line = LineId::of_edge(instance, std::min(found.exit[i], found.partner[i]));
             crossing.edge_ends[0] = glm::dvec2(found.from_x[i], found.from_y[i]) / double{kSubpixelsPerPixel};
             crossing.edge_ends[1] = glm::dvec2(found.to_x[i], found.to_y[i]) / double{kSubpixelsPerPixel};
             crossing.along = crossing.edge_ends[1] - crossing.edge_ends[0];
@@ -263,7 +262,7 @@ void LineTile::decide_all(std::span<const SamplePair> pairs) {
     }
 }
 
-void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) {
+void LineTile::find_lines(std::size_t tile, std::vector<LinePiece>& segments) {
     flush_.set_tile(tile);
     pitch_px_ = 1.0 / samples_.samples_per_pixel;  // exact
     const std::size_t size = 2 * samples_.ids.size();
@@ -275,7 +274,7 @@ void LineTile::find_lines(std::size_t tile, std::vector<LineSegment>& segments) 
     for (const SamplePair& place : std::span(crossing_places_).first(crossing_count_)) crossing_between(place) = 0;
 }
 
-void LineTile::trace_cells(std::vector<LineSegment>& segments) {
+void LineTile::trace_cells(std::vector<LinePiece>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
     const bool has_bridges = !completes_lines(*frame_.scene);
     const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples_.samples_per_pixel));

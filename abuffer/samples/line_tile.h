@@ -10,8 +10,9 @@
 #include "abuffer/samples/walks_ahead.h"
 #include "kernels/tile_kernels.h"
 #include "lines/crease_fade.h"
+#include "lines/line_crossing.h"
 #include "lines/line_piece.h"
-#include "lines/merge_segments.h"
+#include "lines/merge_pieces.h"
 #include "render/frame.h"
 
 namespace burin {
@@ -23,7 +24,7 @@ class LineTile {
              const TileKernels& kernels);
 
     /// Adds the pieces of lines of a tile, which was drawn last.
-    void find_lines(std::size_t tile, std::vector<LineSegment>& segments);
+    void find_lines(std::size_t tile, std::vector<LinePiece>& segments);
 
   private:
     glm::dvec2 position(int column, int row) const;
@@ -55,7 +56,7 @@ class LineTile {
     LineCrossing& next_crossing();
     void add_crossing(const SamplePair& pair);
     void decide_all(std::span<const SamplePair> pairs);
-    void trace_cells(std::vector<LineSegment>& segments);
+    void trace_cells(std::vector<LinePiece>& segments);
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
@@ -81,8 +82,8 @@ class LineTile {
     std::vector<SamplePair> crossing_places_;  // of each
     // Per sample, crossing_between() it and the one to its right, and the one below it.
     std::vector<std::uint32_t> between_;
-    std::vector<LineSegment> pieces_;
-    SegmentMerger merger_;
+    std::vector<LinePiece> pieces_;
+    PieceMerger merger_;
 };
 
 }  // namespace burin

@@ -21,13 +21,13 @@ using namespace test;
 
 constexpr PixelRect kPicture{0, 0, 200, 200};
 
-std::vector<LineSegment> polyline(const std::vector<glm::dvec2>& points) {
-    std::vector<LineSegment> pieces;
+std::vector<LinePiece> polyline(const std::vector<glm::dvec2>& points) {
+    std::vector<LinePiece> pieces;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        LineSegment s;
+        LinePiece s;
         s.from = points[i];
         s.to = points[i + 1];
-        s.line_key = i;
+        s.line = LineId{i};
         pieces.push_back(s);
     }
     return pieces;
@@ -44,10 +44,10 @@ std::vector<glm::dvec2> circle(double radius_px, int count) {
 }
 
 using Ends = std::tuple<double, double, double, double>;
-std::vector<Ends> sorted_ends(const std::vector<std::vector<LineSegment>>& lists) {
+std::vector<Ends> sorted_ends(const std::vector<std::vector<LinePiece>>& lists) {
     std::vector<Ends> ends;
     for (const auto& list : lists) {
-        for (const LineSegment& s : list) {
+        for (const LinePiece& s : list) {
             const auto a = std::tuple(s.from.x, s.from.y), b = std::tuple(s.to.x, s.to.y);
             ends.push_back(std::tuple_cat(std::min(a, b), std::max(a, b)));
         }
@@ -57,7 +57,7 @@ std::vector<Ends> sorted_ends(const std::vector<std::vector<LineSegment>>& lists
 }
 
 /// Lengths of the connected parts, one after the other from the start of the chain.
-std::vector<double> dash_lengths(const std::vector<LineSegment>& parts) {
+std::vector<double> dash_lengths(const std::vector<LinePiece>& parts) {
     std::vector<double> lengths;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const double length = glm::distance(parts[i].from, parts[i].to);
@@ -82,7 +82,7 @@ TEST(VisibleDashes, OnACircleAreEqualWithoutASeam) {
 TEST(VisibleDashes, OfAnOpenChainBeginAtItsHigherEnd) {
     const auto parts = dashed({polyline({{10, 50}, {10, 20}, {60, 20}, {60, 10}})}, {6, 4}, 2, kPicture, {}, {});
     ASSERT_FALSE(parts[0].empty());
-    const LineSegment& first = parts[0].front();
+    const LinePiece& first = parts[0].front();
     EXPECT_EQ(std::min(first.from.y, first.to.y), 11);  // half a pen's width from the end
     EXPECT_EQ(std::max(first.from.y, first.to.y), 15);
     const std::vector<double> lengths = dash_lengths(parts[0]);
@@ -91,13 +91,13 @@ TEST(VisibleDashes, OfAnOpenChainBeginAtItsHigherEnd) {
 }
 
 TEST(VisibleDashes, TheOrderOfPiecesChangesNothing) {
-    std::vector<LineSegment> pieces = polyline(circle(40, 97));
-    for (const LineSegment& s : polyline({{100.3 + 40, 100.7}, {170, 120}, {180, 80}, {150, 20}})) pieces.push_back(s);
+    std::vector<LinePiece> pieces = polyline(circle(40, 97));
+    for (const LinePiece& s : polyline({{100.3 + 40, 100.7}, {170, 120}, {180, 80}, {150, 20}})) pieces.push_back(s);
     const auto expected = sorted_ends(dashed({pieces}, {7, 3}, 1, kPicture, {}, {}));
     for (std::uint64_t trial = 0; trial < 20; ++trial) {
         Random random(trial);
-        std::vector<std::vector<LineSegment>> lists(3);
-        std::vector<LineSegment> rest = pieces;
+        std::vector<std::vector<LinePiece>> lists(3);
+        std::vector<LinePiece> rest = pieces;
         while (!rest.empty()) {
             const auto i = static_cast<std::size_t>(random.real(0, 1) * static_cast<double>(rest.size())) % rest.size();
             lists[rest.size() % 3].push_back(rest[i]);
@@ -108,16 +108,16 @@ TEST(VisibleDashes, TheOrderOfPiecesChangesNothing) {
 }
 
 TEST(VisibleDashes, HooksDoNotDotTheGaps) {
-    std::vector<LineSegment> pieces = polyline({{10, 10}, {50, 10}});
+    std::vector<LinePiece> pieces = polyline({{10, 10}, {50, 10}});
     const auto expected = sorted_ends(dashed({pieces}, {6, 4}, 2, kPicture, {}, {}));
-    for (const LineSegment& s : polyline({{19, 10}, {20, 10.5}})) pieces.push_back(s);
+    for (const LinePiece& s : polyline({{19, 10}, {20, 10.5}})) pieces.push_back(s);
     EXPECT_EQ(sorted_ends(dashed({pieces}, {6, 4}, 2, kPicture, {}, {})), expected);
 }
 
 TEST(VisibleDashes, DotsAreRoundAndKeepTheirDirection) {
     const auto parts = dashed({polyline({{10, 10}, {50, 10}})}, {1, 4}, 3, kPicture, {}, {});
     ASSERT_EQ(parts[0].size(), 8u);
-    for (const LineSegment& s : parts[0]) {
+    for (const LinePiece& s : parts[0]) {
         EXPECT_NEAR(s.to.x - s.from.x, 1.0 / 256, 1e-9);
         EXPECT_EQ(s.to.y, s.from.y);
     }

@@ -24,9 +24,9 @@ TEST(HiddenStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
     Random random(5);
     const auto place = [&] { return glm::dvec2(random.real(-2, kSize + 2), random.real(-2, kSize + 2)); };
     for (int round = 0; round < 40; ++round) {
-        std::vector<LineSegment> in_front(5);
-        std::vector<const LineSegment*> listed;
-        for (LineSegment& s : in_front) {
+        std::vector<LinePiece> in_front(5);
+        std::vector<const LinePiece*> listed;
+        for (LinePiece& s : in_front) {
             s.from = place();
             s.to = place();
             listed.push_back(&s);

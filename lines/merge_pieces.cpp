@@ -1,4 +1,4 @@
-#include "lines/merge_segments.h"
+#include "lines/merge_pieces.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 constexpr double kStraightPx = 1.0 / 2048;
 
 /// From left to right, or downwards. Without a branch: which way pieces run is a guess.
-void put_in_order(LineSegment& s) {
+void put_in_order(LinePiece& s) {
     const bool turns = !((s.from.x < s.to.x) | ((s.from.x == s.to.x) & (s.from.y < s.to.y)));
     const glm::dvec2 ends[2] = {s.from, s.to};
     const float nearness[2] = {s.nearness_from, s.nearness_to};
@@ -28,17 +28,17 @@ void put_in_order(LineSegment& s) {
 constexpr std::size_t kBuckets = 256;
 std::size_t bucket_of(std::uint32_t block) { return (block >> 16 & 15u) << 4 | (block & 15u); }
 
-bool is_before(const LineSegment& a, const LineSegment& b) {
+bool is_before(const LinePiece& a, const LinePiece& b) {
     if (a.block != b.block) return a.block < b.block;
-    if (a.line_key != b.line_key) return a.line_key < b.line_key;
+    if (a.line != b.line) return a.line < b.line;
     if (a.from.x != b.from.x) return a.from.x < b.from.x;
     if (a.from.y != b.from.y) return a.from.y < b.from.y;
     if (a.to.x != b.to.x) return a.to.x < b.to.x;
     return a.to.y != b.to.y ? a.to.y < b.to.y : a.opacity < b.opacity;
 }
 
-bool continues(const LineSegment& a, const LineSegment& b) {
-    const bool is_same_line = a.line_key == b.line_key && a.drawn_as == b.drawn_as && a.is_drawn == b.is_drawn &&
+bool continues(const LinePiece& a, const LinePiece& b) {
+    const bool is_same_line = a.line == b.line && a.drawn_as == b.drawn_as && a.is_drawn == b.is_drawn &&
                               a.opacity == b.opacity && a.block == b.block;
     if (!is_same_line || a.to != b.from || a.front_on_left != b.front_on_left) return false;
     const glm::dvec2 along = b.to - a.from, bend = a.to - a.from;
@@ -48,7 +48,7 @@ bool continues(const LineSegment& a, const LineSegment& b) {
 
 }  // namespace
 
-void SegmentMerger::sort(std::span<std::uint32_t> order, std::span<const LineSegment> pieces) const {
+void PieceMerger::sort(std::span<std::uint32_t> order, std::span<const LinePiece> pieces) const {
     if (sort_few(order, pieces)) return;
     std::sort(order.begin(), order.end(),
               [pieces](std::uint32_t a, std::uint32_t b) { return is_before(pieces[a], pieces[b]); });
@@ -56,24 +56,24 @@ void SegmentMerger::sort(std::span<std::uint32_t> order, std::span<const LineSeg
 
 /// Those of one block of an ordinary picture, by numbers that say nearly all: without branches, for what comes before
 /// what is a guess. False where they cannot.
-bool SegmentMerger::sort_few(std::span<std::uint32_t> order, std::span<const LineSegment> pieces) const {
+bool PieceMerger::sort_few(std::span<std::uint32_t> order, std::span<const LinePiece> pieces) const {
     // The line, where on it, and which piece: 32, 23 and 6 bits behind the exponent's first one.
     constexpr int kIndexBits = 6, kPlaceBits = 23;
     constexpr std::size_t kFew = std::size_t{1} << kIndexBits;
     constexpr std::uint64_t kExponent = std::uint64_t{1} << 62;
     constexpr double kPerPx = 1 << 19, kBeyondPx = 4;
     if (order.size() > kFew) return false;
-    const LineSegment& first = pieces[order[0]];
+    const LinePiece& first = pieces[order[0]];
     const double begin = kMergeBlockPx * static_cast<std::int16_t>(first.block & 0xFFFFu) - kBeyondPx;
     std::array<double, kFew + 4> keys, sorted;  // with what the kernel reads behind
     bool fits = true;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const LineSegment& s = pieces[order[i]];
+        const LinePiece& s = pieces[order[i]];
         const double place = (s.from.x - begin) * kPerPx;
         const bool is_inside = (place >= 0) & (place < 1 << kPlaceBits);
-        fits &= (s.block == first.block) & (s.line_key >> 32 == first.line_key >> 32) & is_inside;
+        fits &= (s.block == first.block) & (s.line.group() == first.line.group()) & is_inside;
         const std::uint64_t key =
-            (s.line_key & 0xFFFFFFFFu) << kPlaceBits | static_cast<std::uint32_t>(is_inside ? place : 0.0);
+            std::uint64_t{s.line.member()} << kPlaceBits | static_cast<std::uint32_t>(is_inside ? place : 0.0);
         keys[i] = std::bit_cast<double>(kExponent | key << kIndexBits | i);
     }
     if (!fits) return false;
@@ -94,10 +94,10 @@ bool SegmentMerger::sort_few(std::span<std::uint32_t> order, std::span<const Lin
     return true;
 }
 
-void SegmentMerger::merge(std::span<LineSegment> pieces, std::vector<LineSegment>& merged) {
+void PieceMerger::merge(std::span<LinePiece> pieces, std::vector<LinePiece>& merged) {
     std::array<std::uint32_t, kBuckets> next{};
     std::array<std::uint64_t, kBuckets / 64> used{};  // a bit per bucket: few have any
-    for (LineSegment& s : pieces) {
+    for (LinePiece& s : pieces) {
         put_in_order(s);
         const std::size_t bucket = bucket_of(s.block);
         ++next[bucket];
@@ -121,12 +121,13 @@ void SegmentMerger::merge(std::span<LineSegment> pieces, std::vector<LineSegment
         sort(order, pieces);
         bool is_first = true;
         for (const std::uint32_t i : order) {
-            const LineSegment& piece = pieces[i];
+            const LinePiece& piece = pieces[i];
             if (!is_first && continues(merged.back(), piece)) {
-                LineSegment& last = merged.back();
+                LinePiece& last = merged.back();
                 last.to = piece.to;
                 last.nearness_to = piece.nearness_to;
                 last.occludes = last.occludes || piece.occludes;
+                last.classes |= piece.classes;
             } else {
                 merged.push_back(piece);
             }
@@ -135,43 +136,43 @@ void SegmentMerger::merge(std::span<LineSegment> pieces, std::vector<LineSegment
     });
 }
 
-void SegmentIndex::set(std::span<const LineSegment> merged) {
+void PieceIndex::set(std::span<const LinePiece> merged) {
     static_assert(kBuckets == burin::kBuckets);
     merged_ = merged;
     keys_.resize(merged.size());
     std::size_t bucket = 0;
     for (std::uint32_t i = 0; i < merged.size(); ++i) {
-        keys_[i] = {merged[i].line_key, merged[i].block};
+        keys_[i] = {merged[i].line, merged[i].block};
         for (const std::size_t own = bucket_of(merged[i].block); bucket <= own; ++bucket) begin_[bucket] = i;
     }
     for (; bucket <= kBuckets; ++bucket) begin_[bucket] = static_cast<std::uint32_t>(merged.size());
 }
 
 /// Without branches on what keys are: they would be guesses.
-std::size_t SegmentIndex::first_not_before(std::uint32_t block, std::uint64_t line_key) const {
+std::size_t PieceIndex::first_not_before(std::uint32_t block, LineId line) const {
     const std::size_t bucket = bucket_of(block);
     std::size_t first = begin_[bucket];
     for (std::size_t count = begin_[bucket + 1] - first; count > 0;) {
         const std::size_t half = count / 2;
         const Key& k = keys_[first + half];
-        const bool is_before = (k.block < block) | ((k.block == block) & (k.line_key < line_key));
+        const bool is_before = (k.block < block) | ((k.block == block) & (k.line < line));
         first += is_before ? count - half : 0;
         count = half;
     }
     return first;
 }
 
-std::span<const LineSegment> SegmentIndex::in_block(std::uint32_t block) const {
-    const std::size_t first = first_not_before(block, 0);
+std::span<const LinePiece> PieceIndex::in_block(std::uint32_t block) const {
+    const std::size_t first = first_not_before(block, LineId{0});
     std::size_t last = first;
     while (last < keys_.size() && keys_[last].block == block) ++last;
     return merged_.subspan(first, last - first);
 }
 
-std::span<const LineSegment> SegmentIndex::of_line(std::uint32_t block, std::uint64_t line_key) const {
-    const std::size_t first = first_not_before(block, line_key);
+std::span<const LinePiece> PieceIndex::of_line(std::uint32_t block, LineId line) const {
+    const std::size_t first = first_not_before(block, line);
     std::size_t last = first;
-    while (last < keys_.size() && keys_[last].block == block && keys_[last].line_key == line_key) ++last;
+    while (last < keys_.size() && keys_[last].block == block && keys_[last].line == line) ++last;
     return merged_.subspan(first, last - first);
 }
 

@@ -1,4 +1,4 @@
-#include "lines/merge_segments.h"
+#include "lines/merge_pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -13,19 +13,19 @@ using namespace test;
 
 TEST(MergeSegments, JoinsOnlyWhatContinuesStraightOn) {
     const auto piece = [](glm::dvec2 from, glm::dvec2 to, std::uint64_t key, std::uint32_t block = 0) {
-        LineSegment s;
+        LinePiece s;
         s.from = from;
         s.to = to;
-        s.line_key = key;
+        s.line.bits = key;
         s.block = block;
         // All with the front above.
         s.front_on_left = from.x < to.x;
         return s;
     };
-    std::vector<LineSegment> segments,
+    std::vector<LinePiece> segments,
         pieces{piece({2, 1}, {1, 0.5}, 1), piece({0, 0}, {1, 0.5}, 1), piece({2, 1}, {3, 1.5}, 1),
                piece({3, 1.5}, {4, 2}, 2), piece({4, 2}, {5, 2}, 2),   piece({5, 2}, {6, 2}, 2, 1)};
-    SegmentMerger(best_kernels()).merge(pieces, segments);
+    PieceMerger(best_kernels()).merge(pieces, segments);
     ASSERT_EQ(segments.size(), 4u);
     EXPECT_EQ(segments[0].from, glm::dvec2(0, 0));
     EXPECT_EQ(segments[0].to, glm::dvec2(3, 1.5));
@@ -40,10 +40,10 @@ TEST(MergeSegments, TheOrderOfPiecesChangesNothing) {
         const std::uint32_t block =
             (static_cast<std::uint32_t>(row) & 0xFFFFu) << 16 | (static_cast<std::uint32_t>(column) & 0xFFFFu);
         const glm::dvec2 corner = double{kMergeBlockPx} * glm::dvec2(column, row);
-        std::vector<LineSegment> pieces(static_cast<std::size_t>(random.integer(1, 90)));
+        std::vector<LinePiece> pieces(static_cast<std::size_t>(random.integer(1, 90)));
         const std::uint64_t instance = static_cast<std::uint64_t>(random.integer(0, 5)) << 32;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
-            LineSegment& s = pieces[i];
+            LinePiece& s = pieces[i];
             s.from = corner + glm::dvec2(random.real(-1, 9), random.real(-1, 9));
             if (i > 0 && random.integer(0, 2) == 0) {
                 s.from.x = pieces[i - 1].from.x + random.integer(-1, 1) * 1e-9;  // no bit of the place tells
@@ -54,24 +54,23 @@ TEST(MergeSegments, TheOrderOfPiecesChangesNothing) {
                 s.from = pieces[i - 1].from;
                 s.to = glm::dvec2(random.integer(0, 1) == 0 ? s.to.x : pieces[i - 1].to.x, s.to.y);
             }
-            s.line_key = (seed % 7 == 0 ? static_cast<std::uint64_t>(random.integer(0, 2)) << 32 : instance) |
-                         (random.integer(0, 3) == 0 ? 0xFFFFFFFFu : static_cast<std::uint32_t>(random.integer(0, 4)));
+            s.line.bits = (seed % 7 == 0 ? static_cast<std::uint64_t>(random.integer(0, 2)) << 32 : instance) |
+                          (random.integer(0, 3) == 0 ? 0xFFFFFFFFu : static_cast<std::uint32_t>(random.integer(0, 4)));
             s.block = block;
         }
         ++(pieces.size() > 64 ? many : few);
-        std::vector<LineSegment> shuffled = pieces, merged, other;
+        std::vector<LinePiece> shuffled = pieces, merged, other;
         for (std::size_t i = shuffled.size(); i > 1; --i)
             std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
-        SegmentMerger(best_kernels()).merge(pieces, merged);
-        SegmentMerger(best_kernels()).merge(shuffled, other);
+        PieceMerger(best_kernels()).merge(pieces, merged);
+        PieceMerger(best_kernels()).merge(shuffled, other);
         ASSERT_EQ(merged.size(), other.size()) << "seed " << seed;
         for (std::size_t i = 0; i < merged.size(); ++i) {
-            const LineSegment &a = merged[i], &b = other[i];
-            ASSERT_TRUE(a.line_key == b.line_key && a.from == b.from && a.to == b.to)
-                << "seed " << seed << ", piece " << i;
+            const LinePiece &a = merged[i], &b = other[i];
+            ASSERT_TRUE(a.line == b.line && a.from == b.from && a.to == b.to) << "seed " << seed << ", piece " << i;
             if (i == 0) continue;
-            const LineSegment& before = merged[i - 1];
-            ASSERT_TRUE(before.line_key < a.line_key || (before.line_key == a.line_key && before.from.x <= a.from.x))
+            const LinePiece& before = merged[i - 1];
+            ASSERT_TRUE(before.line < a.line || (before.line == a.line && before.from.x <= a.from.x))
                 << "seed " << seed << ", piece " << i;
         }
     }
@@ -83,17 +82,17 @@ TEST(MergeSegments, TheOrderOfPiecesChangesNothing) {
 /// Merged pieces are found by their block and line, wherever the tile lies.
 TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
     Random random(11);
-    SegmentMerger merger(best_kernels());
-    SegmentIndex index;
+    PieceMerger merger(best_kernels());
+    PieceIndex index;
     for (int round = 0; round < 200; ++round) {
         const auto first_row = static_cast<std::uint32_t>(random.integer(0, 0xFFFF));
         const auto first_column = static_cast<std::uint32_t>(random.integer(0, 0xFFFF));
-        std::vector<LineSegment> segments, given(static_cast<std::size_t>(random.integer(0, 300)));
+        std::vector<LinePiece> segments, given(static_cast<std::size_t>(random.integer(0, 300)));
         const int blocks = random.integer(1, 40);
-        for (LineSegment& s : given) {  // too far from each other to be merged
+        for (LinePiece& s : given) {  // too far from each other to be merged
             s.from = {random.real(0, 9000), random.real(0, 9000)};
             s.to = {random.real(0, 9000), random.real(0, 9000)};
-            s.line_key = static_cast<std::uint64_t>(random.integer(0, 9));
+            s.line.bits = static_cast<std::uint64_t>(random.integer(0, 9));
             s.block = ((first_row + static_cast<std::uint32_t>(random.integer(0, blocks))) & 0xFFFFu) << 16 |
                       ((first_column + static_cast<std::uint32_t>(random.integer(0, blocks))) & 0xFFFFu);
         }
@@ -101,18 +100,17 @@ TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
         ASSERT_EQ(segments.size(), given.size());
         index.set(segments);
         EXPECT_TRUE(index.of_line(static_cast<std::uint32_t>(random.integer(0, 0xFFFF)), 10).empty());
-        for (const LineSegment& any : given) {
+        for (const LinePiece& any : given) {
             const auto count = [&](const auto& is_it) { return std::count_if(given.begin(), given.end(), is_it); };
             const auto in_block = index.in_block(any.block);
-            const auto of_line = index.of_line(any.block, any.line_key);
+            const auto of_line = index.of_line(any.block, any.line);
             ASSERT_EQ(static_cast<std::ptrdiff_t>(in_block.size()),
-                      count([&](const LineSegment& s) { return s.block == any.block; }))
+                      count([&](const LinePiece& s) { return s.block == any.block; }))
                 << round;
             ASSERT_EQ(static_cast<std::ptrdiff_t>(of_line.size()),
-                      count([&](const LineSegment& s) { return s.block == any.block && s.line_key == any.line_key; }))
+                      count([&](const LinePiece& s) { return s.block == any.block && s.line == any.line; }))
                 << round;
-            for (const LineSegment& s : of_line)
-                ASSERT_TRUE(s.block == any.block && s.line_key == any.line_key) << round;
+            for (const LinePiece& s : of_line) ASSERT_TRUE(s.block == any.block && s.line == any.line) << round;
         }
     }
 }
