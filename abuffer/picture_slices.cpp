@@ -7,7 +7,6 @@
 #include <string>
 
 #include "abuffer/hidden_pass.h"
-#include "abuffer/lines_of_crop.h"
 #include "abuffer/screen/sampling.h"
 #include "abuffer/slice_costs.h"
 #include "base/error.h"
@@ -131,7 +130,7 @@ SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTil
                       int threads) {
     SlicePlan plan;
     plan.groups = group_instances(frame);
-    const bool has_layers = HiddenPass::is_needed(*frame.scene);
+    const bool has_layers = frame.needs.behind();
     const PixelTiles layer_tiles = HiddenPass::tiles_of(frame);
     const PixelRect a = tiles.rect(), b = layer_tiles.rect();
     const PixelRect picture{std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
@@ -139,7 +138,7 @@ SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     Rows visible, layers;
     visible.of_instance.resize(instance_count);
     layers.of_instance.resize(instance_count);
-    SliceCosts costs(tiles, has_layers ? &layer_tiles : nullptr, samples_per_pixel_of(*frame.scene),
+    SliceCosts costs(tiles, has_layers ? &layer_tiles : nullptr, samples_per_pixel_of(frame),
                      frame.scene->abuffer.draws_fine_lines(), threads);
     std::uint64_t least = 0;
     for (const std::vector<std::uint32_t>& group : plan.groups) {
@@ -156,16 +155,15 @@ SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     }
     // Lines are kept to the end of a piece, or of the picture where other lines have to be found first.
     std::uint64_t lasting = lasting_bytes(frame, tiles, threads);
-    const LineStyle& style = frame.scene->lines.style;
-    if (visible_dashes(style).dash_px || hidden_dashes(style).dash_px) lasting += feature_bytes(frame, screen);
+    if (frame.needs.whole_lines) lasting += feature_bytes(frame, screen);
     lasting += (costs.largest_layer_tile() + costs.largest_fine_tile()) * static_cast<std::uint64_t>(threads);
     const auto split = [&](const RowCosts& rows, bool keeps_lines) {
         std::vector<std::uint64_t> bytes = rows.bins;
         for (std::size_t i = 0; i < bytes.size(); ++i) (keeps_lines ? lasting : bytes[i]) += rows.lines[i];
         return bytes;
     };
-    visible.bytes = split(costs.visible(), has_layers || needs_all_visible_lines(frame));
-    layers.bytes = split(costs.layers(), HiddenPass::needs_all_lines(frame));
+    visible.bytes = split(costs.visible(), has_layers || frame.needs.whole_picture);
+    layers.bytes = split(costs.layers(), frame.needs.whole_picture_behind);
     const std::uint64_t left = cap_bytes > lasting ? cap_bytes - lasting : 0;
     plan.visible = cut(frame, visible, left, least);
     plan.layers = cut(frame, layers, left, least);

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "abuffer/fine/fine_lines.h"
-#include "abuffer/lines_of_crop.h"
 #include "abuffer/samples/line_tile.h"
 #include "abuffer/samples/pixel_fill.h"
 #include "abuffer/screen/sampling.h"
@@ -23,10 +22,8 @@ struct WorkerTimes {
     double raster = 0, lines = 0, shade = 0, write = 0;
 };
 
-/// So many bands are finished by one thread before it goes on with tiles.
-constexpr int kMostBandsAtOnce = 8;
-/// Where bands are handed on, so many rows of tiles may be begun below one that is not complete, and for each thread
-/// two more and what it takes in a row: their bands are there.
+/// Where rows are handed on, this many rows of tiles may be begun below one that is not complete, and for each thread
+/// two more and what it takes in a row: what is drawn of them must be kept.
 constexpr std::size_t kRowsAhead = 4;
 
 /// Counts the rows of tiles that are complete, from the top.
@@ -70,98 +67,108 @@ class CompleteRows {
 
 }  // namespace
 
-StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPrinter* finisher,
-                                       std::vector<std::vector<LinePiece>>& segments, Film& film, RenderStats& stats) {
+/// What one thread of a pass has for tile after tile.
+class VisiblePass::Worker {
+  public:
+    Worker(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const TriangleBins& bins,
+           const FineEdges* fine_edges, PixelRect region)
+        : fine_edges_(fine_edges),
+          bins_(bins),
+          surface_(frame, screen, bins, samples_per_pixel_of(frame), kernels),
+          line_tile_(frame, screen, bins, surface_, kernels),
+          filler_(frame, screen, kernels),
+          fine_parts_(screen, kernels, completes_lines(frame)) {
+        if (fine_edges_ != nullptr)
+            fine_lines_.emplace(frame, screen, bins, kernels, region, frame.needs.whole_picture);
+    }
+
+    /// Fills the pixels of a tile and returns its lines, until the next call.
+    std::span<const LinePiece> draw(std::size_t tile, Film& film) {
+        Stopwatch lap;
+        lines_.clear();
+        if (bins_.is_empty(tile)) {
+            filler_.clear(bins_.empty_tiles_from(tile), film);
+            if (fine_edges_ != nullptr && fine_edges_->has_any(tile)) {  // it may have what is smaller than a sample
+                surface_.draw(tile);
+                add_fine_lines(tile);
+            }
+        } else {
+            surface_.draw(tile);
+            times.raster += lap.lap();
+            line_tile_.find_lines(tile, lines_);
+            if (fine_edges_ != nullptr) add_fine_lines(tile);
+            times.lines += lap.lap();
+            filler_.fill(surface_, film);
+        }
+        times.shade += lap.lap();
+        return lines_;
+    }
+    std::uint64_t sample_tests() const { return surface_.sample_tests(); }
+
+    WorkerTimes times;
+
+  private:
+    void add_fine_lines(std::size_t tile) {
+        parts_.clear();
+        fine_parts_.find(surface_.samples(), fine_edges_->in(tile), fine_edges_->loose_in(tile), lines_, parts_);
+        fine_lines_->find(tile, parts_, lines_);
+    }
+
+    const FineEdges* fine_edges_;
+    const TriangleBins& bins_;
+    SurfaceTile surface_;
+    LineTile line_tile_;
+    PixelFiller filler_;
+    FineParts fine_parts_;
+    std::optional<FineLines> fine_lines_;
+    std::vector<FinePart> parts_;
+    std::vector<LinePiece> lines_;  // of a tile: a list of its own would grow in memory that all threads share
+};
+
+void VisiblePass::draw(PixelRect region, int tile_samples, RowSink* sink, LineDrawing& drawing, Film& film,
+                       RenderStats& stats) {
     Stopwatch watch;
-    const int per_pixel = samples_per_pixel_of(*frame_.scene);
+    const int per_pixel = samples_per_pixel_of(frame_);
     const bool has_fine = frame_.scene->abuffer.draws_fine_lines();
     const std::vector<LooseChunk> loose = chunks_of_loose_edges(screen_, frame_.criteria.classes);
     const bool has_edges = has_fine || !loose.empty();
     const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples, has_edges);
-    std::optional<FineEdges> fine_edges;
     const PixelTiles grid(region, tile_samples / per_pixel);
     if (has_fine) possible_lines_.emplace(screen_, threads_);
+    std::optional<FineEdges> fine_edges;
     if (has_edges)
         fine_edges.emplace(screen_, has_fine ? &*possible_lines_ : nullptr, loose, grid, per_pixel, threads_);
     if (!screen_.shows_all()) possible_lines_.reset();
     stats.prepare_s += watch.lap();
 
-    const auto workers = static_cast<std::size_t>(threads_);
-    std::vector<std::unique_ptr<SurfaceTile>> tiles(workers);
-    std::vector<std::unique_ptr<LineTile>> line_tiles(workers);
-    std::vector<std::unique_ptr<PixelFiller>> fillers(workers);
-    std::vector<FineParts> fine_parts(workers, FineParts(screen_, kernels_, completes_lines(*frame_.scene)));
-    std::vector<std::vector<FinePart>> parts(workers);
-    std::vector<std::unique_ptr<FineLines>> fine_lines(workers);
-    std::vector<std::vector<LinePiece>> lines_of(
-        workers);  // of a tile: a list of its own would grow in memory that all share
-    std::vector<WorkerTimes> times(workers);
-    const std::size_t before = segments.size();
-    segments.resize(before + bins.tile_count());
+    std::vector<std::unique_ptr<Worker>> workers(static_cast<std::size_t>(threads_));
+    drawing.begin_rows(grid);
     CompleteRows rows(grid);
-    // The first list with lines whose strokes reach rows from `y` on.
-    const auto first_reaching = [&](int y) {
-        const double first_y = y - finisher->reach_px() - region.y0;
-        const auto row = static_cast<std::size_t>(std::max(first_y, 0.0)) / static_cast<std::size_t>(grid.tile_px());
-        return row == 0 ? 0 : before + row * static_cast<std::size_t>(grid.columns());
-    };
-    // After a tile. The last rows are left to all threads together.
-    const auto finish_rows = [&](std::size_t tile, int worker) {
-        const std::size_t columns = static_cast<std::size_t>(grid.columns()), complete = rows.add(tile);
-        if (finisher == nullptr || complete == 0 || complete * columns == grid.count()) return 0.0;
-        const PixelRect part = finisher->take(grid.tile((complete - 1) * columns).y1, kMostBandsAtOnce);
-        if (part.height() == 0) return 0.0;
-        return finisher->finish_as(
-            worker, part,
-            StrokePrinter::Lists(segments).first(before + complete * columns).subspan(first_reaching(part.y0)));
-    };
-    const std::size_t most_rows =
-        kRowsAhead + 2 * workers + kMostInARow * workers / static_cast<std::size_t>(grid.columns());
-    const bool has_limit = finisher != nullptr && finisher->hands_on();
-    const auto draw_tile = [&](std::size_t index, int worker) {
-        const auto w = static_cast<std::size_t>(worker);
-        if (!tiles[w]) {
-            tiles[w] = std::make_unique<SurfaceTile>(frame_, screen_, bins, per_pixel, kernels_);
-            line_tiles[w] = std::make_unique<LineTile>(frame_, screen_, bins, *tiles[w], kernels_);
+    const auto columns = static_cast<std::size_t>(grid.columns());
+    const std::size_t most_rows = kRowsAhead + 2 * workers.size() + kMostInARow * workers.size() / columns;
+    const bool has_limit = sink != nullptr && sink->hands_on();
+    const auto draw_tile = [&](std::size_t tile, int number) {
+        std::unique_ptr<Worker>& worker = workers[static_cast<std::size_t>(number)];
+        if (!worker) {
+            worker =
+                std::make_unique<Worker>(frame_, screen_, kernels_, bins, has_edges ? &*fine_edges : nullptr, region);
         }
-        if (!fillers[w]) fillers[w] = std::make_unique<PixelFiller>(frame_, screen_, kernels_);
-        if (has_edges && !fine_lines[w])
-            fine_lines[w] =
-                std::make_unique<FineLines>(frame_, screen_, bins, kernels_, region, needs_all_visible_lines(frame_));
-        std::vector<LinePiece>& lines = lines_of[w];
-        lines.clear();
-        const auto add_fine_lines = [&] {
-            parts[w].clear();
-            fine_parts[w].find(tiles[w]->samples(), fine_edges->in(index), fine_edges->loose_in(index), lines,
-                               parts[w]);
-            fine_lines[w]->find(index, parts[w], lines);
-        };
+        drawing.put_visible(tile, worker->draw(tile, film));
         Stopwatch lap;
-        if (bins.is_empty(index)) {
-            fillers[w]->clear(bins.empty_tiles_from(index), film);
-            if (has_edges && fine_edges->has_any(index)) {  // it may have what is smaller than a sample
-                tiles[w]->draw(index);
-                add_fine_lines();
-            }
-        } else {
-            tiles[w]->draw(index);
-            times[w].raster += lap.lap();
-            line_tiles[w]->find_lines(index, lines);
-            if (has_edges) add_fine_lines();
-            times[w].lines += lap.lap();
-            fillers[w]->fill(*tiles[w], film);
+        const std::size_t complete = rows.add(tile);
+        double write_s = 0;
+        // The last rows are left to all threads together.
+        if (sink != nullptr && complete != 0 && complete * columns != grid.count()) {
+            write_s = sink->draw_rows_as(number, grid.tile((complete - 1) * columns).y1);
         }
-        segments[before + index].assign(lines.begin(), lines.end());
-        times[w].shade += lap.lap();
-        const double write_s = finish_rows(index, worker);
-        times[w].write += write_s;
-        times[w].lines += lap.lap() - write_s;
+        worker->times.write += write_s;
+        worker->times.lines += lap.lap() - write_s;
         if (progress_ != nullptr) progress_->advance();
     };
-    parallel_for(bins.tile_count(), threads_, [&](std::size_t index, int worker) {
-        if (has_limit) rows.wait_for_turn(index, most_rows);
+    parallel_for(bins.tile_count(), threads_, [&](std::size_t tile, int worker) {
+        if (has_limit) rows.wait_for_turn(tile, most_rows);
         try {
-            draw_tile(index, worker);
+            draw_tile(tile, worker);
         } catch (...) {
             rows.stop();
             throw;
@@ -169,12 +176,13 @@ StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPr
     });
     const double wall = watch.lap();
     WorkerTimes sum;
-    for (std::size_t w = 0; w < workers; ++w) {
-        sum.raster += times[w].raster;
-        sum.lines += times[w].lines;
-        sum.shade += times[w].shade;
-        sum.write += times[w].write;
-        if (tiles[w]) stats.fragments += tiles[w]->sample_tests();
+    for (const std::unique_ptr<Worker>& worker : workers) {
+        if (!worker) continue;
+        sum.raster += worker->times.raster;
+        sum.lines += worker->times.lines;
+        sum.shade += worker->times.shade;
+        sum.write += worker->times.write;
+        stats.fragments += worker->sample_tests();
     }
     const double total = sum.raster + sum.lines + sum.shade + sum.write;
     const double scale = total > 0 ? wall / total : 0;
@@ -182,8 +190,6 @@ StrokePrinter::Lists VisiblePass::draw(PixelRect region, int tile_samples, RowPr
     stats.lines_s += sum.lines * scale;
     stats.shade_s += sum.shade * scale;
     stats.write_s += sum.write * scale;
-    return StrokePrinter::Lists(segments).subspan(
-        finisher == nullptr ? 0 : std::min(first_reaching(finisher->taken_y()), segments.size()));
 }
 
 }  // namespace burin

@@ -109,7 +109,8 @@ std::string measure_quality(const std::string& scenes, const std::vector<std::st
     const View star_view = view_of(star, kSize, kSize), crossing_view = view_of(crossing, kSize, kSize);
     JsonWriter json;
     json.begin_object();
-    json.key("samples_per_pixel").value(samples_per_pixel_of(star));
+    json.key("samples_per_pixel")
+        .value(samples_per_pixel_of(make_frame(star, star_view.camera, kSize, kSize, star_view.crop)));
     json.key("pictures").begin_array();
     for (const double width_px : {1.0, 0.3, 3.0}) measure_picture(json, "star", star, star_view, width_px, 64);
     measure_picture(json, "star", star, star_view, 12, 16);

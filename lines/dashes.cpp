@@ -9,6 +9,7 @@
 #include "lines/dash_pen.h"
 #include "lines/line_dashes.h"
 #include "lines/shared_dashes.h"
+#include "lines/whole_line_index.h"
 
 namespace burin {
 namespace {
@@ -136,48 +137,6 @@ class Chains {
     std::vector<std::uint32_t> link_;
 };
 
-/// Which edge of the mesh a piece lies on, of those that are features.
-class Features {
-  public:
-    Features(std::span<const WholeLine> lines, const SurfaceSet& surfaces) : lines_(lines) {
-        for (std::uint32_t i = 0; i < lines.size(); ++i) {
-            keys_.push_back({lines[i].id, i});
-            if (!lines[i].has_more_owners) continue;
-            // A piece has the key of the two triangles that it was found between.
-            const std::uint32_t instance = lines[i].id.instance();
-            const HalfEdge h = lines[i].id.half_edge();
-            const Mesh& mesh = *surfaces.instances[instance].mesh;
-            for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
-                keys_.push_back({LineId::of_edge(instance, std::min(g, mesh.next_on_edge[g])), i});
-            }
-        }
-        std::sort(keys_.begin(), keys_.end());
-    }
-
-    std::optional<std::uint32_t> find(const LinePiece& piece) const {
-        std::optional<std::uint32_t> nearest;
-        double least = 0;
-        const glm::dvec2 middle = 0.5 * (piece.from + piece.to);
-        for (auto i = std::lower_bound(keys_.begin(), keys_.end(), std::pair(piece.line, 0u));
-             i != keys_.end() && i->first == piece.line; ++i) {
-            const double beyond = std::abs(share_of(lines_[i->second], middle) - 0.5);  // an edge may be cut into parts
-            if (nearest && beyond >= least) continue;
-            nearest = i->second;
-            least = beyond;
-        }
-        return nearest;
-    }
-    /// Where along a line a place is, in pixels.
-    static double share_of(const WholeLine& line, glm::dvec2 place) {
-        const glm::dvec2 from = line.from / 256.0, along = (line.to - line.from) / 256.0;
-        return glm::dot(place - from, along) / glm::dot(along, along);
-    }
-
-  private:
-    std::span<const WholeLine> lines_;
-    std::vector<std::pair<LineId, std::uint32_t>> keys_;  // number of a line
-};
-
 /// Adds the dashes of a part of a piece.
 void draw(const LinePiece& piece, const DashPart& part, const DashPen& pen, std::vector<LinePiece>& drawn) {
     const double share = part.end - part.begin, length = part.at_end - part.at_begin;
@@ -239,7 +198,7 @@ std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePie
     const DashPen pen(dash_px, width_px);
     SharedDashes shared(picture, SharedDashes::reach_of_pen_px(width_px));
     const LineDashes of_features(features, surfaces, pen.period_px(), shared);
-    const Features on_mesh(features, surfaces);
+    const WholeLineIndex on_mesh(features, surfaces);
     std::vector<const LinePiece*> others;
     for (const auto& list : segments) {
         for (const LinePiece& s : list) {
@@ -248,8 +207,8 @@ std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePie
             } else if (s.from == s.to) {
                 continue;
             } else if (const auto feature = on_mesh.find(s)) {
-                const double first = Features::share_of(features[*feature], s.from),
-                             last = Features::share_of(features[*feature], s.to);
+                const double first = WholeLineIndex::share_of(features[*feature], s.from),
+                             last = WholeLineIndex::share_of(features[*feature], s.to);
                 draw_on_feature(s, first, last, of_features, *feature, pen, result[0]);
             } else {
                 others.push_back(&s);

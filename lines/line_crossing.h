@@ -17,10 +17,10 @@ struct LineCrossing {
     glm::dvec2 edge_ends[2] = {glm::dvec2(0.0), glm::dvec2(0.0)};
     glm::dvec2 along{0.0};  ///< which way the line runs, to and fro; 0: not known
     LineId line;
-    double nearness = 0;                ///< of the front surface
-    bool occludes = false;              ///< the front surface ends here, before another one or the background
-    std::uint8_t opacity = 255;         ///< 255 = full
-    glm::dvec2 towards_front{0.0};      ///< from the crossing to the sample of the front surface
+    double nearness = 0;            ///< of the front surface
+    bool occludes = false;          ///< the front surface ends here, before another one or the background
+    std::uint8_t opacity = 255;     ///< 255 = full
+    glm::dvec2 towards_front{0.0};  ///< from the crossing to the sample of the front surface
 };
 
 }  // namespace burin

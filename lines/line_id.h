@@ -8,8 +8,8 @@
 
 namespace burin {
 
-/// Names a line of a picture: an edge of one instance's mesh, or the place where two surfaces meet. Pieces and crossings
-/// with equal ids are of one line. This is the only place that packs and unpacks the number.
+/// Names a line of a picture: an edge of one instance's mesh, or the place where two surfaces meet. Pieces and
+/// crossings with equal ids are of one line. This is the only place that packs and unpacks the number.
 ///
 /// Bits: of an edge, the instance (31 bits) above the edge's half-edge (32); where surfaces meet, a 1, the lower one of
 /// the triangles' numbers (31), the higher one (32). Numbers of triangles count through all instances.
@@ -17,8 +17,8 @@ struct LineId {
     static constexpr std::uint64_t kNone = ~std::uint64_t{0};
     std::uint64_t bits = kNone;
 
-    /// `least`: the lowest of the half-edges that lie on the edge, so that all of them give one id. Of a loose edge, its
-    /// number as the mesh counts it.
+    /// `least`: the lowest of the half-edges that lie on the edge, so that all of them give one id. Of a loose edge,
+    /// its number as the mesh counts it.
     static constexpr LineId of_edge(std::uint32_t instance, HalfEdge least) {
         return {std::uint64_t{instance} << 32 | least};
     }

@@ -35,4 +35,12 @@ struct LinePiece {
 };
 static_assert(sizeof(LinePiece) == 64, "a line of the cache");
 
+/// Whether a part of a line behind surfaces begins where another one ends and looks the same, however many opaque
+/// surfaces are in front of either.
+inline bool goes_on_alike(const LinePiece& before, const LinePiece& next) {
+    return before.line == next.line && before.to == next.from && before.is_hidden() == next.is_hidden() &&
+           before.transmission == next.transmission && before.opacity == next.opacity &&
+           before.drawn_as == next.drawn_as;
+}
+
 }  // namespace burin

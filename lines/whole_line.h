@@ -36,7 +36,7 @@ struct WholeLine {
     /// Of a border that is a seam elsewhere, the part of edge_on_screen() that the line is, as shares.
     double edge_begin = 0, edge_end = 1;
     LineId id;
-    bool is_edge() const { return !id.is_none(); }
+    bool is_edge() const { return id.is_edge(); }
     LineClassSet classes;  ///< all that apply, among those asked for
     LineClass drawn_as = LineClass::silhouette;
     std::uint8_t opacity = 255;  ///< 255 = full; less where the line fades

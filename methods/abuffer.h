@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lines/line_drawing.h"
 #include "render/method.h"
 
 namespace burin {
@@ -14,6 +15,11 @@ namespace burin {
 ///     says where the line crosses between them. trace_cell() joins the crossings to pieces of lines.
 ///  4. Pixels are filled from their samples; then strokes are drawn over them.
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film);
+
+/// The same in two steps, so that what is found can be drawn more than once: find_drawing() puts the surfaces into the
+/// film and returns the lines, draw_lines() draws them over it.
+LineDrawing find_drawing(const Frame& frame, const RunOptions& options, Film& film);
+void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film);
 
 /// Whether its bands are finished one after the other: not where lines depend on others anywhere in the picture.
 bool abuffer_finishes_in_bands(const Frame& frame);

@@ -139,6 +139,15 @@ Film::~Film() = default;
 Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 
+Film Film::copy() const {
+    Film other(display_, crop_, layers_, classes_);
+    for (const Channel& channel : image().channels()) {
+        const auto& bytes = channel.bytes;
+        std::copy(bytes.begin(), bytes.end(), other.block_of(0)->image.find(channel.name)->bytes.begin());
+    }
+    return other;
+}
+
 std::vector<ChannelFormat> Film::channels() const {
     std::vector<ChannelFormat> channels;
     Planes none;

@@ -92,6 +92,9 @@ class Film {
     Film(Film&&) noexcept;
     Film& operator=(Film&&) noexcept;
 
+    /// The same pixels again, of a whole film: to draw on one and keep the other.
+    Film copy() const;
+
     /// Whether it lies in memory as a whole.
     bool is_whole() const { return blocks_.size() == 1 && row_shift_ == kWholeShift; }
     PixelRect display() const { return display_; }

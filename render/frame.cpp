@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "mesh/box.h"
 #include "mesh/text_scan.h"
+#include "render/drawing_needs.h"
 #include "render/frame_reach.h"
 
 namespace burin {
@@ -28,6 +29,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     frame.width = width;
     frame.height = height;
     frame.crop = crop;
+    frame.needs = needs_of(scene);
     frame.criteria.classes = scene.lines.classes;
     frame.criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
 

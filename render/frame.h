@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "lines/drawing_needs.h"
 #include "lines/surface_walk.h"
 #include "scene/scene.h"
 #include "view/surface_set.h"
@@ -18,6 +19,7 @@ struct Frame {
     PixelRect crop;  ///< the part to render
     SurfaceSet surfaces;
     LineCriteria criteria;
+    DrawingNeeds needs;  ///< what the looks of the scene ask for
 
     const Material& material_of(SurfaceId s) const { return scene->materials[surfaces.material_id(s) - 1]; }
 };

@@ -9,17 +9,19 @@
 namespace burin {
 namespace {
 
-TileLists<const LayerSegment*> sort_by_tile(std::span<const std::vector<LayerSegment>> segments, const PixelTiles& grid,
-                                            double reach_px) {
-    std::vector<std::vector<TileLists<const LayerSegment*>::Record>> records(segments.size());
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        for (const LayerSegment& s : segments[i]) {
-            grid.visit(glm::min(s.from, s.to) - reach_px, glm::max(s.from, s.to) + reach_px, [&](std::uint32_t tile) {
-                records[i].push_back({tile, &s});
-            });
+/// Calls use(piece) for the pieces that are to be drawn: those that follow each other and look alike are one stroke,
+/// which is kept in `joined`.
+template <typename Use>
+void for_strokes(std::span<const LinePiece> pieces, const LineStyle& style, std::deque<LinePiece>& joined,
+                 const Use& use) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const LinePiece* piece = &pieces[i];
+        for (; i + 1 < pieces.size() && goes_on_alike(*piece, pieces[i + 1]); ++i) {
+            if (piece == &pieces[i]) piece = &joined.emplace_back(pieces[i]);
+            joined.back().to = pieces[i + 1].to;
         }
+        if (piece->transmission > 0 && !(piece->is_hidden() && style.hidden.style == HiddenStyle::none)) use(*piece);
     }
-    return TileLists<const LayerSegment*>(records, grid.count());
 }
 
 void remove(StrokeMask& mask, const StrokeMask& taken) {
@@ -106,15 +108,15 @@ class TileStrokes {
     std::vector<std::size_t> used_;
 };
 
-void draw_seen_through(std::span<const LayerSegment* const> layers, int transmission, const Pen& pen,
-                       const LineStyle& style, TileStrokes& strokes) {
+void draw_seen_through(std::span<const LinePiece* const> layers, int opacity, const Pen& pen, const LineStyle& style,
+                       TileStrokes& strokes) {
     for (std::size_t c = 0; c < kLineClassCount; ++c) {
         const auto line_class = static_cast<LineClass>(c);
-        const auto is_it = [&](const LayerSegment& s) {
-            return !s.is_hidden && s.transmission == transmission && s.drawn_as == line_class;
+        const auto is_it = [&](const LinePiece& s) {
+            return !s.is_hidden() && s.seen_opacity() == opacity && s.drawn_as == line_class;
         };
-        if (std::none_of(layers.begin(), layers.end(), [&](const LayerSegment* s) { return is_it(*s); })) continue;
-        const float strength = pen.strength * static_cast<float>(transmission) / 255.0f;
+        if (std::none_of(layers.begin(), layers.end(), [&](const LinePiece* s) { return is_it(*s); })) continue;
+        const float strength = pen.strength * static_cast<float>(opacity) / 255.0f;
         strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
             TileStrokes::Pixel& own = strokes.pixel(i);
             remove(mask, own.visible);
@@ -130,9 +132,9 @@ void draw_seen_through(std::span<const LayerSegment* const> layers, int transmis
     }
 }
 
-void draw_hidden(std::span<const LayerSegment* const> layers, int transmission, const Pen& pen, TileStrokes& strokes) {
-    const auto is_it = [&](const LayerSegment& s) { return s.is_hidden && s.transmission == transmission; };
-    const float strength = pen.strength * static_cast<float>(transmission) / 255.0f;
+void draw_hidden(std::span<const LinePiece* const> layers, int opacity, const Pen& pen, TileStrokes& strokes) {
+    const auto is_it = [&](const LinePiece& s) { return s.is_hidden() && s.seen_opacity() == opacity; };
+    const float strength = pen.strength * static_cast<float>(opacity) / 255.0f;
     strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
         TileStrokes::Pixel& own = strokes.pixel(i);
         remove(mask, own.hidden);
@@ -185,12 +187,12 @@ class HiddenStrokes::Worker {
           hidden_pen_(style.hidden_width_px(), StrokeSide::both, hidden_dashes(style).opacity),
           strokes_(filter, kernels) {}
 
-    void draw_below(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible,
+    void draw_below(std::span<const LinePiece* const> list, PixelRect inner, const VisibleStrokes& visible,
                     Film& film) {
         seen_through_.clear();
-        const LayerSegment& first = *list.front();
-        const bool is_plain = filter_ == nullptr && std::all_of(list.begin(), list.end(), [&](const LayerSegment* s) {
-                                  return s->is_hidden && s->transmission == first.transmission;
+        const LinePiece& first = *list.front();
+        const bool is_plain = filter_ == nullptr && std::all_of(list.begin(), list.end(), [&](const LinePiece* s) {
+                                  return s->is_hidden() && s->seen_opacity() == first.seen_opacity();
                               });
         strokes_.reset({inner.x0 - reach_, inner.y0 - reach_, inner.x1 + reach_, inner.y1 + reach_});
         if (is_plain) {
@@ -210,8 +212,7 @@ class HiddenStrokes::Worker {
         LinePixel lines;
     };
 
-    void draw_all(std::span<const LayerSegment* const> list, PixelRect inner, const VisibleStrokes& visible,
-                  Film& film) {
+    void draw_all(std::span<const LinePiece* const> list, PixelRect inner, const VisibleStrokes& visible, Film& film) {
         const PixelRect rect = strokes_.rect();
         visible.for_touched([&](int column, int row) {
             const auto i = static_cast<std::size_t>(row * rect.width() + column);
@@ -222,12 +223,12 @@ class HiddenStrokes::Worker {
             });
         });
         // The least weakened ones first: they cover the others.
-        std::vector<int> transmissions;
-        for (const LayerSegment* s : list) transmissions.push_back(s->transmission);
-        std::sort(transmissions.rbegin(), transmissions.rend());
-        transmissions.erase(std::unique(transmissions.begin(), transmissions.end()), transmissions.end());
-        for (const int t : transmissions) draw_seen_through(list, t, pen_, style_, strokes_);
-        for (const int t : transmissions) draw_hidden(list, t, hidden_pen_, strokes_);
+        std::vector<int> opacities;
+        for (const LinePiece* s : list) opacities.push_back(s->seen_opacity());
+        std::sort(opacities.rbegin(), opacities.rend());
+        opacities.erase(std::unique(opacities.begin(), opacities.end()), opacities.end());
+        for (const int o : opacities) draw_seen_through(list, o, pen_, style_, strokes_);
+        for (const int o : opacities) draw_hidden(list, o, hidden_pen_, strokes_);
         for (const std::size_t i : strokes_.used()) {
             TileStrokes::Pixel& pixel = strokes_.pixel(i);
             const int x = rect.x0 + static_cast<int>(i) % rect.width();
@@ -242,17 +243,16 @@ class HiddenStrokes::Worker {
     }
 
     /// The same where all lines are hidden and none covers another: pixels by themselves.
-    void draw_plain(std::span<const LayerSegment* const> list, PixelRect rect, const VisibleStrokes& visible,
-                    Film& film) {
-        const float strength = hidden_pen_.strength * static_cast<float>(list.front()->transmission) / 255.0f;
-        const auto all = [](const LayerSegment&) { return true; };
+    void draw_plain(std::span<const LinePiece* const> list, PixelRect rect, const VisibleStrokes& visible, Film& film) {
+        const float strength = hidden_pen_.strength * static_cast<float>(list.front()->seen_opacity()) / 255.0f;
+        const auto all = [](const LinePiece&) { return true; };
         touched_.clear();
         strokes_.draw(list, hidden_pen_.radius_px, all, [&](std::size_t i, const StrokeMask& mask) {
             const int column = static_cast<int>(i) % rect.width(), row = static_cast<int>(i) / rect.width();
             if (touched_.empty() || touched_.back().row != row) film.prefetch(rect.x0 + column, rect.y0 + row);
             touched_.push_back({column, row, &mask});
         });
-        const std::vector<HiddenInk>& inks = inks_of(list.front()->transmission);
+        const std::vector<HiddenInk>& inks = inks_of(list.front()->seen_opacity());
         for (const auto& [column, row, mask] : touched_) {
             const int x = rect.x0 + column, y = rect.y0 + row;
             if (!visible.is_touched(column, row)) {  // mostly
@@ -267,9 +267,9 @@ class HiddenStrokes::Worker {
         }
     }
     /// Of hidden lines alone, by how many samples of the pixel they cover.
-    const std::vector<HiddenInk>& inks_of(std::uint8_t transmission) {
-        std::vector<HiddenInk>& inks = inks_[transmission];
-        const float strength = hidden_pen_.strength * static_cast<float>(transmission) / 255.0f;
+    const std::vector<HiddenInk>& inks_of(std::uint8_t opacity) {
+        std::vector<HiddenInk>& inks = inks_[opacity];
+        const float strength = hidden_pen_.strength * static_cast<float>(opacity) / 255.0f;
         for (int samples = static_cast<int>(inks.size()); samples <= TileStrokes::kSamples; ++samples) {
             const float own = strength * TileStrokes::share(samples);
             inks.push_back(hidden_ink(style_, 0, glm::vec4(0.0f), own, own));
@@ -283,7 +283,7 @@ class HiddenStrokes::Worker {
     Pen pen_, hidden_pen_;
     TileStrokes strokes_;
     std::vector<SeenThrough> seen_through_;
-    std::array<std::vector<HiddenInk>, 256> inks_;  // by transmission, of those that were asked for
+    std::array<std::vector<HiddenInk>, 256> inks_;  // by opacity, of those that were asked for
     struct Touched {
         int column, row;
         const StrokeMask* mask;
@@ -292,12 +292,21 @@ class HiddenStrokes::Worker {
 };
 
 HiddenStrokes::HiddenStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
-                             std::span<const std::vector<LayerSegment>> layers)
+                             const LineDrawing::Lists& behind)
     : filter_(FilterTable::make(frame.scene->lines.style.filter)), grid_(part, kTilePx) {
     // What is not in front of all is drawn on both sides.
     const LineStyle& style = frame.scene->lines.style;
     const double radius_px = std::max(Pen(style.width_px).radius_px, Pen(style.hidden_width_px()).radius_px);
-    lists_ = sort_by_tile(layers, grid_, radius_px + reach_px(style.filter) + 1);
+    const double reach = radius_px + reach_px(style.filter) + 1;
+    std::vector<std::vector<TileLists<const LinePiece*>::Record>> records(behind.size());
+    for (std::size_t i = 0; i < behind.size(); ++i) {
+        for_strokes(behind[i], style, joined_, [&](const LinePiece& s) {
+            grid_.visit(glm::min(s.from, s.to) - reach, glm::max(s.from, s.to) + reach, [&](std::uint32_t tile) {
+                records[i].push_back({tile, &s});
+            });
+        });
+    }
+    lists_ = TileLists<const LinePiece*>(records, grid_.count());
     for (int i = 0; i < threads; ++i) workers_.emplace_back(style, filter_.get(), kernels);
 }
 

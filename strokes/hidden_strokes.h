@@ -1,10 +1,12 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "kernels/tile_kernels.h"
+#include "lines/line_drawing.h"
 #include "render/film.h"
 #include "render/frame.h"
 #include "strokes/pixel_filter.h"
@@ -13,24 +15,16 @@
 
 namespace burin {
 
-/// A straight piece of a line that some surface is in front of, on the screen, in pixels.
-struct LayerSegment {
-    glm::dvec2 from{0.0}, to{0.0};
-    LineClass drawn_as = LineClass::silhouette;
-    bool is_hidden = false;           ///< by an opaque surface; else seen through transparent ones
-    std::uint8_t transmission = 255;  ///< what transparent surfaces in front let through, 255 = all
-};
-
-/// Draws lines behind surfaces in one part of the picture: below the visible lines into the beauty, hidden ones into
-/// their own channels, and those seen through transparent surfaces into the channels of the visible lines. Tile by
-/// tile, together with the visible strokes, which cover them.
+/// Draws pieces of lines that some surface is in front of, in one part of the picture: below the visible lines into the
+/// beauty, hidden ones into their own channels, and those seen through transparent surfaces into the channels of the
+/// visible lines. Tile by tile, together with the visible strokes, which cover them.
 class HiddenStrokes {
   public:
     static constexpr int kTilePx = 32;
 
-    /// `layers` must outlive it.
+    /// The pieces must outlive it.
     HiddenStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
-                  std::span<const std::vector<LayerSegment>> layers);
+                  const LineDrawing::Lists& behind);
     ~HiddenStrokes();
 
     bool has_any(std::size_t tile) const { return !lists_.of(tile).empty(); }
@@ -44,7 +38,8 @@ class HiddenStrokes {
 
     std::unique_ptr<const FilterTable> filter_;
     PixelTiles grid_;
-    TileLists<const LayerSegment*> lists_;
+    std::deque<LinePiece> joined_;  // of pieces that follow each other and look alike
+    TileLists<const LinePiece*> lists_;
     std::vector<Worker> workers_;
 };
 

@@ -20,7 +20,7 @@ constexpr int kTilePx = HiddenStrokes::kTilePx;
 /// The segments whose strokes reach each tile, in the order of the lists.
 class StrokePrinter::Bins {
   public:
-    Bins(Lists segments, PixelRect region, double reach_px)
+    Bins(const Lists& segments, PixelRect region, double reach_px)
         : region_(region),
           columns_((region.width() + kTilePx - 1) / kTilePx),
           rows_((region.height() + kTilePx - 1) / kTilePx) {
@@ -225,7 +225,7 @@ StrokePrinter::StrokePrinter(const Frame& frame, const TileKernels& kernels, int
       printers_(static_cast<std::size_t>(threads), Printer(frame, kernels)) {}
 StrokePrinter::~StrokePrinter() = default;
 
-StrokePrinter::Bins StrokePrinter::sort(PixelRect part, Lists lines) const {
+StrokePrinter::Bins StrokePrinter::sort(PixelRect part, const Lists& lines) const {
     const LineStyle& style = frame_.scene->lines.style;
     return {lines, part, Pen(style.width_px, style.side).radius_px + reach_px(style.filter) + 1.0};
 }
@@ -246,13 +246,13 @@ void StrokePrinter::print(int worker, const Bins& bins, std::size_t index, Hidde
     if (has_behind) behind->draw_above(worker, film_);
 }
 
-void StrokePrinter::draw(PixelRect part, Lists lines, HiddenStrokes* behind) {
+void StrokePrinter::draw(PixelRect part, const Lists& lines, HiddenStrokes* behind) {
     const Bins bins = sort(part, lines);
     parallel_for(bins.tile_count(), static_cast<int>(printers_.size()),
                  [&](std::size_t i, int worker) { print(worker, bins, i, behind); });
 }
 
-void StrokePrinter::draw_as(int worker, PixelRect part, Lists lines) {
+void StrokePrinter::draw_as(int worker, PixelRect part, const Lists& lines) {
     const Bins bins = sort(part, lines);
     for (std::size_t i = 0; i < bins.tile_count(); ++i) print(worker, bins, i, nullptr);
 }

@@ -154,6 +154,7 @@ void IntersectionLines::add(const Occluder& a, const Occluder& b, std::vector<Wh
     const glm::dvec2 low_end = glm::min(line.from, line.to), high_end = glm::max(line.from, line.to);
     if (high_end.x < low_.x || high_end.y < low_.y || low_end.x > high_.x || low_end.y > high_.y) return;
     line.owners = {a.number, b.number};
+    line.id = LineId::of_surfaces(a.number, b.number);
     const SurfaceId sa = screen_.surface_of(a.number), sb = screen_.surface_of(b.number);
     if (frame_.surfaces.are_of_one_polygon(sa, sb)) return;
     const glm::dvec2 middle = 0.5 * (line.from + line.to) / 256.0;

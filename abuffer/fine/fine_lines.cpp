@@ -358,10 +358,10 @@ FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const Tri
                      const TileKernels& kernels, PixelRect region, bool draws_each)
     : screen_(screen),
       draws_each_(draws_each),
-      grid_(samples_per_pixel_of(*frame.scene)),
+      grid_(samples_per_pixel_of(frame)),
       // The last blocks reach half a sample beyond the region (SampleBlocks).
       finder_(frame, screen, {region.x0, region.y0, region.x1 + 1, region.y1 + 1}, kHasBothOfSeam),
-      blocks_(screen, bins, kernels, samples_per_pixel_of(*frame.scene)),
+      blocks_(screen, bins, kernels, samples_per_pixel_of(frame)),
       clipper_(std::make_unique<BlockClipper>(screen, finder_, kernels, frame.criteria)) {}
 
 FineLines::~FineLines() = default;

@@ -145,7 +145,7 @@ void HidingTile::hide(const WholeLine& line, std::uint32_t i, const Occluder& t,
     if (hidden.is_any && !only_grazes(screen_, line, t)) sweep_.add(t.number, hidden.begin, hidden.end, t.transmission);
 }
 
-void HidingTile::find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {
+void HidingTile::find_parts(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {
     const glm::dvec2 corner = glm::dvec2(rect_.x0, rect_.y0) * 256.0;
     double begin = 0, end = 1;
     if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
@@ -165,7 +165,7 @@ void HidingTile::find_pieces(const WholeLine& line, std::uint32_t line_number, s
     if (sweep_.is_empty()) return;
     if (line.classes.has(LineClass::border) && !line.is_wire) find_contacts(line, part);
     const std::size_t first_piece = pieces.size();
-    sweep_.find_pieces(line, line_number, pieces);
+    sweep_.find_parts(line, line_number, pieces);
     drop_contacts(line, first_piece, pieces);
 }
 

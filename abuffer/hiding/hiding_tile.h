@@ -31,7 +31,7 @@ class HidingTile {
                             std::vector<WholeLine>& lines);
 
     /// Adds the parts of a line within the tile that something is in front of.
-    void find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces);
+    void find_parts(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces);
 
     /// How many pairs of cell and triangle were kept so far.
     std::uint64_t fragment_count() const { return fragment_count_; }

@@ -77,7 +77,7 @@ void HidingSweep::find_events() {
         std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
 }
 
-void HidingSweep::find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {
+void HidingSweep::find_parts(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {
     if (joins_parts_) merge_intervals();
     find_events();
     int opaque = opaque_;

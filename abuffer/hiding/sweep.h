@@ -25,7 +25,7 @@ class HidingSweep {
         has_transparent_ = has_transparent_ || transmission > 0;
     }
     /// Adds the pieces of the part that something is in front of.
-    void find_pieces(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces);
+    void find_parts(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces);
 
   private:
     struct Interval {

@@ -42,7 +42,7 @@ class TransparentTile {
         const bool any = std::any_of(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return opacity(n) < 1; });
         if (!any) return;
         rect_ = grid_.tile(tile);
-        const int s = samples_per_pixel_of(*frame_.scene);
+        const int s = samples_per_pixel_of(frame_);
         samples_.reset(rect_.x0 * s, rect_.y0 * s, rect_.width() * s, rect_.height() * s, s);
         layers_.clear();
         for (const std::uint32_t n : numbers) {

@@ -276,7 +276,7 @@ void LineTile::find_lines(std::size_t tile, std::vector<LinePiece>& segments) {
 
 void LineTile::trace_cells(std::vector<LinePiece>& segments) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
-    const bool has_bridges = !completes_lines(*frame_.scene);
+    const bool has_bridges = !completes_lines(frame_);
     const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples_.samples_per_pixel));
     const auto block_of = [block_shift](int sample) {
         return static_cast<std::uint32_t>(sample >> block_shift) & 0xFFFFu;

@@ -35,7 +35,7 @@ bool is_covered(const SampleTile& samples, PixelRect rect) {
 
 PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels)
     : frame_(frame), screen_(screen), kernels_(kernels) {
-    const int per_pixel = samples_per_pixel_of(*frame.scene);
+    const int per_pixel = samples_per_pixel_of(frame);
     const auto samples = static_cast<float>(per_pixel * per_pixel);
     for (int covered = 0; covered <= per_pixel * per_pixel; ++covered) {
         const glm::vec4 sum = glm::vec4(frame.scene->surfaces.paper_color, 1.0f) * static_cast<float>(covered);

@@ -273,7 +273,7 @@ TEST(FlushFaces, AmongHiddenLines) {
             const Layers layers(scene, camera);
             double not_seen_px = 0;
             std::vector<char> is_near(kSize * kSize, 0);
-            for (const LinePart& piece : layers.pass.pieces()) {
+            for (const LinePart& piece : layers.pass.parts()) {
                 const WholeLine& line = layers.pass.lines()[piece.line];
                 if (piece.invisibility != 1) continue;
                 const double length = (piece.end - piece.begin) * line.length_px();

@@ -141,12 +141,12 @@ std::size_t segment_count(const Scene& scene, const Camera& camera) {
     const Frame frame = make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize});
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
     VisiblePass pass(frame, screen, best_kernels(), 1, nullptr);
-    std::vector<std::vector<LinePiece>> segments;
+    LineDrawing drawing;
     Film film({0, 0, kSize, kSize}, {0, 0, kSize, kSize}, LayerSet{}, frame.criteria.classes);
     RenderStats stats;
-    pass.draw({0, 0, kSize, kSize}, TileGrid::kTileSamples, nullptr, segments, film, stats);
+    pass.draw({0, 0, kSize, kSize}, TileGrid::kTileSamples, nullptr, drawing, film, stats);
     std::size_t count = 0;
-    for (const std::vector<LinePiece>& list : segments) count += list.size();
+    for (const std::span<const LinePiece> list : drawing.visible()) count += list.size();
     return count;
 }
 

@@ -315,8 +315,8 @@ TEST(HiddenContacts, BodiesThatStandFlushHideNothingOfEachOther) {
         double nearest = -1e300;
         for (const WholeLine& line : layers.pass.lines())
             nearest = std::max({nearest, line.nearness_from, line.nearness_to});
-        EXPECT_FALSE(layers.pass.pieces().empty());
-        for (const LinePart& p : layers.pass.pieces()) {
+        EXPECT_FALSE(layers.pass.parts().empty());
+        for (const LinePart& p : layers.pass.parts()) {
             const WholeLine& line = layers.pass.lines()[p.line];
             EXPECT_LT(line.nearness_at(0.5 * (p.begin + p.end)), nearest - 1) << "an edge of the upper faces";
         }

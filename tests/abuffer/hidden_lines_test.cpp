@@ -36,7 +36,7 @@ TEST(HiddenLines, ACubeShowsNineEdgesAndHidesThree) {
             EXPECT_NEAR(layers.hidden_px(1), expected, 0.75) << trial;
             EXPECT_NEAR(layers.all_hidden_px(), layers.hidden_px(1), 1e-9) << trial;
             std::map<std::uint32_t, double> share;
-            for (const LinePart& p : layers.pass.pieces()) share[p.line] += p.end - p.begin;
+            for (const LinePart& p : layers.pass.parts()) share[p.line] += p.end - p.begin;
             EXPECT_EQ(share.size(), 3u) << trial;
         }
     }
@@ -114,23 +114,20 @@ TEST(HiddenLines, AreOneStrokeBehindHoweverManyLayers) {
     EXPECT_GT(layers.hidden_px(1), 100);
     EXPECT_GT(layers.hidden_px(2), 50);
     HiddenPass pass(layers.frame, layers.screen, best_kernels(), 1);
-    const TileRows rows = HiddenPass::tiles_of(layers.frame).rows();
-    pass.find_lines(rows);
-    pass.sort(rows);
-    pass.find_pieces();
-    const std::vector<LayerSegment> segments = pass.take_segments();
+    find_all(pass, layers.frame);
+    const std::vector<LinePiece> pieces = pass.make_pieces();
     const auto is_at_tile = [](glm::dvec2 p) {
         const auto is_border = [](double v) { return std::abs(v - 32 * std::round(v / 32)) < 1e-6; };
         return is_border(p.x) || is_border(p.y);
     };
     double sum = 0;
     int ends_within = 0, met_within = 0;
-    for (const LayerSegment& s : segments) {
-        EXPECT_TRUE(s.is_hidden);
+    for (const LinePiece& s : pieces) {
+        EXPECT_TRUE(s.is_hidden());
         sum += glm::distance(s.from, s.to);
         if (is_at_tile(s.to)) continue;
         ++ends_within;
-        for (const LayerSegment& other : segments) {
+        for (const LinePiece& other : pieces) {
             const glm::dvec2 own = s.to - s.from, next = other.to - other.from;
             const bool goes_on = glm::dot(own, next) > 0.99 * glm::length(own) * glm::length(next);
             met_within += goes_on && glm::distance(s.to, other.from) < 1e-6 ? 1 : 0;
@@ -149,7 +146,7 @@ TEST(HiddenLines, ACubeInACube) {
         // Behind the outer faces: nine edges of the inner cube; behind its own, too: the other three.
         // Of the outer cube's three, parts are behind its faces and parts behind the inner cube's two walls.
         std::map<std::uint32_t, std::map<int, double>> of_line;
-        for (const LinePart& p : layers.pass.pieces()) {
+        for (const LinePart& p : layers.pass.parts()) {
             of_line[p.line][p.invisibility] += p.end - p.begin;
         }
         int once = 0, twice = 0, outer = 0;
@@ -316,7 +313,7 @@ TEST(HiddenLines, SheetsThatCrossBehindAWall) {
     // The wall hides y = 60 to 140 of the crossing, which runs along x = 120.
     EXPECT_NEAR(layers.hidden_px(1, LineClass::intersection), 80, 0.3);
     EXPECT_NEAR(layers.hidden_px(2, LineClass::intersection), 0, 1e-9);
-    for (const LinePart& p : layers.pass.pieces()) {
+    for (const LinePart& p : layers.pass.parts()) {
         const WholeLine& line = layers.pass.lines()[p.line];
         if (line.drawn_as != LineClass::intersection) continue;
         EXPECT_NEAR(line.from.x / 256, 120, 0.01);

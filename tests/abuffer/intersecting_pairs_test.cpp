@@ -14,6 +14,7 @@
 #include "mesh/shapes.h"
 #include "methods/abuffer.h"
 #include "tests/support/drawing.h"
+#include "tests/support/layers.h"
 #include "tests/support/random.h"
 
 namespace burin {
@@ -306,9 +307,9 @@ struct Found {
         ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), threads);
         const TriangleBins bins(screen, frame.crop, 4, best_kernels(), threads);
         HiddenPass pass(frame, screen, best_kernels(), threads);
-        pass.find();
+        find_all(pass, frame);
         lines = pass.lines();
-        pieces = pass.pieces();
+        pieces = pass.parts();
         const auto key = [](const LinePart& p) { return std::tuple(p.line, p.begin, p.end); };
         std::sort(pieces.begin(), pieces.end(), [&](const LinePart& a, const LinePart& b) { return key(a) < key(b); });
     }
@@ -401,9 +402,9 @@ double second_wall_begins_at(double x, bool has_many, int crop_x0) {
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
     const TriangleBins bins(screen, {0, 0, 100, 100}, 4, best_kernels(), 1);
     HiddenPass pass(frame, screen, best_kernels(), 1);
-    pass.find();
+    find_all(pass, frame);
     const int before = has_many ? 2 : 1;
-    for (const LinePart& p : pass.pieces()) {
+    for (const LinePart& p : pass.parts()) {
         const WholeLine& line = pass.lines()[p.line];
         if (line.from.y != 50 * 256 || line.to.y != 50 * 256 || p.invisibility != before + 1) continue;
         const double at = glm::mix(line.from.x, line.to.x, line.from.x < line.to.x ? p.begin : p.end) / 256;

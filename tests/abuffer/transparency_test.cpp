@@ -144,7 +144,7 @@ TEST(Transparency, GlassDoesNotCountAsALayer) {
     EXPECT_GT(layers.hidden_px(2), 300);
     EXPECT_EQ(layers.hidden_px(3) + layers.hidden_px(4), layers.hidden_px(3))
         << "only the box's rear face is behind its front";
-    for (const LinePart& p : layers.pass.pieces()) {
+    for (const LinePart& p : layers.pass.parts()) {
         if (layers.pass.lines()[p.line].owners[0] < 12) {
             EXPECT_EQ(p.transmission, 128);
         }

@@ -23,7 +23,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"scene", {"base", "image", "mesh", "kernels", "view", "lines", "shading"}},
     {"render", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene"}},
     {"strokes", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render"}},
-    {"abuffer", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes"}},
+    {"abuffer", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render"}},
     {"output", {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render"}},
     {"methods",
      {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer",

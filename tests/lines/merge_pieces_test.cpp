@@ -99,7 +99,7 @@ TEST(MergeSegments, MergedPiecesAreFoundByBlockAndLine) {
         merger.merge(given, segments);
         ASSERT_EQ(segments.size(), given.size());
         index.set(segments);
-        EXPECT_TRUE(index.of_line(static_cast<std::uint32_t>(random.integer(0, 0xFFFF)), 10).empty());
+        EXPECT_TRUE(index.of_line(static_cast<std::uint32_t>(random.integer(0, 0xFFFF)), LineId{10}).empty());
         for (const LinePiece& any : given) {
             const auto count = [&](const auto& is_it) { return std::count_if(given.begin(), given.end(), is_it); };
             const auto in_block = index.in_block(any.block);

@@ -15,7 +15,8 @@ using namespace test;
 constexpr int kSize = HiddenStrokes::kTilePx;
 
 TEST(HiddenStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
-    const Scene scene = scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})});
+    Scene scene = scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})});
+    scene.lines.style.hidden.style = HiddenStyle::solid;
     const PixelRect rect{0, 0, kSize, kSize};
     const Frame frame = make_frame(scene, pixel_camera(kSize, kSize), kSize, kSize, rect);
     VisibleStrokes visible(frame);
@@ -32,30 +33,30 @@ TEST(HiddenStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
             listed.push_back(&s);
         }
         visible.draw(listed, rect);
-        std::vector<std::vector<LayerSegment>> hidden(1);
+        std::vector<LinePiece> hidden;
         for (int i = 0; i < 8; ++i) {
-            LayerSegment s;
+            LinePiece s;
             s.from = place();
             s.to = place();
-            s.is_hidden = true;
+            s.invisibility = 1;
             s.transmission = round % 2 == 0 ? 255 : 100;
-            hidden[0].push_back(s);
+            hidden.push_back(s);
         }
         const auto drawn = [&] {
             Film film(rect, rect, layers, LineClassSet::all());
             for (int y = 0; y < kSize; ++y) film.put_background(0, kSize, y);
-            HiddenStrokes strokes(frame, best_kernels(), 1, rect, hidden);
+            HiddenStrokes strokes(frame, best_kernels(), 1, rect, {hidden});
             EXPECT_TRUE(strokes.has_any(0));
             strokes.draw_below(0, 0, visible, film);
             return film;
         };
         const Film alone = drawn();
         // One more, of another kind, that ends beside the tile.
-        LayerSegment beside = hidden[0].front();
+        LinePiece beside = hidden.front();
         beside.from = {kSize + 1.2, 3};
         beside.to = {kSize + 1.3, 5};
         beside.transmission = 50;
-        hidden[0].push_back(beside);
+        hidden.push_back(beside);
         EXPECT_TRUE(same_bits(alone.image(), drawn().image())) << round;
     }
 }

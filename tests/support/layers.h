@@ -45,6 +45,15 @@ inline PolygonSoup turned(PolygonSoup soup) {
     return soup;
 }
 
+/// Finds all lines of a picture, with what is in front of them, in one slice.
+inline void find_all(HiddenPass& pass, const Frame& frame) {
+    const TileRows rows = HiddenPass::tiles_of(frame).rows();
+    pass.find_lines(rows);
+    pass.sort(rows);
+    pass.find_parts();
+    pass.join_results();
+}
+
 /// The lines of a frame with what is in front of them.
 struct Layers {
     Frame frame;
@@ -57,12 +66,12 @@ struct Layers {
           screen(frame.surfaces, frame.criteria, best_kernels(), threads),
           bins(screen, frame.crop, 4, best_kernels(), threads),
           pass(frame, screen, best_kernels(), threads) {
-        pass.find();
+        find_all(pass, frame);
     }
     /// Pixels of lines with so many opaque layers in front, of one class or of all.
     double hidden_px(int invisibility, std::optional<LineClass> of = std::nullopt) const {
         double sum = 0;
-        for (const LinePart& p : pass.pieces()) {
+        for (const LinePart& p : pass.parts()) {
             const WholeLine& line = pass.lines()[p.line];
             if (p.invisibility != invisibility || (of && line.drawn_as != *of)) continue;
             sum += (p.end - p.begin) * line.length_px();
@@ -76,7 +85,7 @@ struct Layers {
     }
     /// How many opaque layers are in front of a line at a place on it.
     int invisibility(std::uint32_t line, double at) const {
-        for (const LinePart& p : pass.pieces()) {
+        for (const LinePart& p : pass.parts()) {
             if (p.line == line && p.begin <= at && at < p.end) return p.invisibility;
         }
         return 0;

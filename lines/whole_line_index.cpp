@@ -1,0 +1,42 @@
+#include "lines/whole_line_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin {
+
+WholeLineIndex::WholeLineIndex(std::span<const WholeLine> lines, const SurfaceSet& surfaces) : lines_(lines) {
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+        const LineId id = lines[i].id;
+        numbers_.push_back({id, i});
+        if (!lines[i].has_more_owners) continue;
+        // A piece has the key of the two triangles that it was found between.
+        const Mesh& mesh = *surfaces.instances[id.instance()].mesh;
+        const HalfEdge h = id.half_edge();
+        for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
+            numbers_.push_back({LineId::of_edge(id.instance(), std::min(g, mesh.next_on_edge[g])), i});
+        }
+    }
+    std::sort(numbers_.begin(), numbers_.end());
+}
+
+std::optional<std::uint32_t> WholeLineIndex::find(const LinePiece& piece) const {
+    std::optional<std::uint32_t> nearest;
+    double least = 0;
+    const glm::dvec2 middle = 0.5 * (piece.from + piece.to);
+    for (auto i = std::lower_bound(numbers_.begin(), numbers_.end(), std::pair(piece.line, 0u));
+         i != numbers_.end() && i->first == piece.line; ++i) {
+        const double beyond = std::abs(share_of(lines_[i->second], middle) - 0.5);
+        if (nearest && beyond >= least) continue;
+        nearest = i->second;
+        least = beyond;
+    }
+    return nearest;
+}
+
+double WholeLineIndex::share_of(const WholeLine& line, glm::dvec2 place) {
+    const glm::dvec2 from = line.from / 256.0, along = (line.to - line.from) / 256.0;
+    return glm::dot(place - from, along) / glm::dot(along, along);
+}
+
+}  // namespace burin

@@ -1,0 +1,23 @@
+#pragma once
+
+namespace burin {
+
+/// Draws the rows of a picture from the top, as soon as the lines that reach them are found: so finding can tell a
+/// drawer that it does not know how far it has come.
+class RowSink {
+  public:
+    virtual ~RowSink() = default;
+
+    /// Draws the rows that lines from row `known_y` on do not reach: those above are in the drawing and will not
+    /// change. Called by one thread of a pass, its number being `worker`, while the others find lines further down. It
+    /// may leave rows for later. Returns the seconds that were spent on handing finished rows on.
+    virtual double draw_rows_as(int worker, int known_y) = 0;
+    /// The same, called while no pass runs, so that all threads may help, and no row is left for later.
+    virtual double draw_rows(int known_y) = 0;
+    /// Where pieces lie that are still needed: from this row on. Not while other threads draw.
+    virtual double first_needed_y() const = 0;
+    /// Whether somebody waits for finished rows, so that finding must not run far ahead of them.
+    virtual bool hands_on() const = 0;
+};
+
+}  // namespace burin

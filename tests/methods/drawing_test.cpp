@@ -1,0 +1,89 @@
+// Lines found once and drawn later make the picture that a render makes, to the bit: for all scenes and looks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "methods/abuffer.h"
+#include "scene/scene_description.h"
+#include "tests/support/drawing.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+struct Look {
+    std::string name;
+    std::vector<Override> overrides;
+    bool is_cropped = false;
+    std::uint64_t memory_bytes = 0;
+};
+
+std::vector<Look> looks() {
+    std::vector<Look> all = {
+        {"plain", {}},
+        {"hidden", {{"lines.hidden.style", "\"solid\""}, {"lines.hidden.width", "2"}}},
+        {"hidden dashed", {{"lines.hidden.style", "\"dashed\""}}},
+        {"dashed", {{"lines.dash", "[7, 4]"}, {"lines.width", "2"}}},
+        {"both dashed", {{"lines.dash", "[6, 3]"}, {"lines.hidden.style", "\"dashed\""}}},
+        {"fading", {{"lines.crease_angle", "[20, 60]"}, {"lines.hidden.style", "\"solid\""}}},
+        {"one side", {{"lines.side", "\"outside\""}, {"lines.width", "4"}}},
+        {"filter", {{"lines.filter", "\"mitchell\""}, {"lines.hidden.style", "\"solid\""}}},
+        {"smooth", {{"lines.contours", "\"smooth\""}, {"lines.hidden.style", "\"dashed\""}}},
+    };
+    Look crop = all[1], cropped_dashes = all[4], capped = all[1], capped_plain = all[0];
+    crop.name = "hidden, cropped";
+    cropped_dashes.name = "both dashed, cropped";
+    crop.is_cropped = cropped_dashes.is_cropped = true;
+    capped.name = "hidden, capped";
+    capped_plain.name = "plain, capped";
+    capped.memory_bytes = capped_plain.memory_bytes = std::uint64_t{100} << 20;
+    all.insert(all.end(), {crop, cropped_dashes, capped, capped_plain});
+    return all;
+}
+
+constexpr int kWidth = 120, kHeight = 90;
+
+Film film_of(const Frame& frame) {
+    LayerSet layers;
+    layers.coverage = layers.surface = layers.lines_hidden = true;
+    return {{0, 0, kWidth, kHeight}, frame.crop, layers, frame.criteria.classes};
+}
+
+/// A scene's lines, found once, are drawn twice over the surfaces that were found with them.
+void expect_same(const std::string& path, const Look& look) {
+    Scene scene = load_scene(read_scene_file(path, look.overrides));
+    const Camera camera =
+        resolve_camera(scene.cameras.front(), scene_points(scene), static_cast<double>(kWidth) / kHeight);
+    const PixelRect crop = look.is_cropped ? PixelRect{37, 21, 101, 70} : PixelRect{0, 0, kWidth, kHeight};
+    const Frame frame = make_frame(scene, camera, kWidth, kHeight, crop);
+    RunOptions options{1, nullptr, look.memory_bytes};
+    Film whole = film_of(frame), surfaces = film_of(frame);
+    render_abuffer(frame, options, whole);
+    options.threads = 2;
+    const LineDrawing drawing = find_drawing(frame, options, surfaces);
+    for (const int threads : {1, 3}) {
+        options.threads = threads;
+        Film film = surfaces.copy();
+        draw_lines(frame, drawing, options, film);
+        EXPECT_TRUE(same_bits(film.image(), whole.image())) << path << ", " << look.name << ", " << threads;
+    }
+}
+
+TEST(Drawing, FoundLinesDrawnLaterAreTheRenderedPicture) {
+    std::vector<std::string> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(BURIN_SOURCE_FOLDER "/scenes")) {
+        if (entry.path().extension() == ".toml") paths.push_back(entry.path());
+    }
+    std::sort(paths.begin(), paths.end());
+    ASSERT_GT(paths.size(), 5u);
+    for (const std::string& path : paths) {
+        for (const Look& look : looks()) expect_same(path, look);
+    }
+}
+
+}  // namespace
+}  // namespace burin
