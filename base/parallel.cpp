@@ -18,7 +18,7 @@ std::size_t count_workers(std::size_t count, int threads) {
     return std::min(count, static_cast<std::size_t>(resolve_thread_count(threads)));
 }
 
-/// Calls work(worker, stop) once on each of so many threads, or fewer, one of them this one. The first exception sets
+/// Calls work(worker, stop) once on each of `workers` threads, or fewer, one of them this one. The first exception sets
 /// `stop` and is rethrown.
 template <typename Work>
 void on_workers(std::size_t workers, const Work& work) {

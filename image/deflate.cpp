@@ -14,9 +14,9 @@ namespace {
 constexpr std::ptrdiff_t kMaxDistance = 32768;
 constexpr std::ptrdiff_t kLongRun = 512;       // is not summed byte by byte
 constexpr std::size_t kBlockSequences = 8192;  // that are coded together
-/// After so many misses it is noise, and only searched for runs. Not sooner: planes of noise may be copies of each
-/// other, as those of grey lines are, which are met only if enough places in a plane are entered into the table and
-/// searched.
+/// After this many misses bytes are taken for noise, and only searched for runs. Not sooner: planes of noise may be
+/// copies of each other, as those of grey lines are, which are met only if enough places in a plane are entered into
+/// the table and searched.
 constexpr std::uint32_t kMissesOfNoise = 64;
 
 std::uint64_t load_eight(const std::uint8_t* p) {

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kMaxLength = 258;
 constexpr std::uint32_t kEndOfBlock = 256;
 constexpr std::uint32_t kLastBlock = 1, kStored = 0 << 1, kFixedCodes = 1 << 1, kOwnCodes = 2 << 1;  // bits of a header
-constexpr std::uint32_t kManyLiterals = 64;  // so many at once may be stored
+constexpr std::uint32_t kManyLiterals = 64;  // as many at once, or more, may be stored
 constexpr std::size_t kMaxStored = 65535;    // in one block
 /// About what the lengths of own codes take, and what is beside the bytes of a stored block.
 constexpr std::uint64_t kOwnCodesBits = 600, kStoredBlockBits = 50;

@@ -38,8 +38,8 @@ class DeflateBlock {
     };
     static const Codes& fixed_codes();
 
-    /// So many literals at once or more are stored, between blocks of the same codes, which must be the fixed ones
-    /// then.
+    /// Puts all sequences with these codes. `stored_from`: as many literals at once, or more, are stored between blocks
+    /// of the codes, which must be the fixed ones then.
     void put_sequences(BitWriter& out, const Codes& codes, std::uint32_t stored_from) const;
 
     std::span<const DeflateSequence> sequences_;

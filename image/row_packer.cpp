@@ -72,7 +72,7 @@ void put_turns(std::uint8_t* to, std::size_t count, std::uint8_t a, std::uint8_t
     std::memcpy(to + i, turns, count - i);
 }
 
-/// Puts so many pairs of pixels of 2 or 4 bytes that are all the same.
+/// Puts `pairs` pairs of pixels of 2 or 4 bytes that are all the same.
 void put_repeated(PairPlace to, std::size_t pairs, std::span<const std::uint8_t> pixel, Pair before) {
     const Pair first{pixel[0], pixel[1]}, second = last_pair(pixel);  // may be the same
     put_turns(to.even, pairs, first.even, second.even, before.even);

@@ -100,7 +100,7 @@ struct StepBox {
 struct StepBoxes {
     enum Number { begins_x, begins_y, ends_x, ends_y, nearest };
     static constexpr std::size_t kNumbers = 5, kLows = 2, kSteps = 256;  // the first ones are least values
-    static constexpr std::size_t kAtOnce = 64;                           ///< arrays have room for a multiple of so many
+    static constexpr std::size_t kAtOnce = 64;                           ///< arrays have room for a multiple of this
     static constexpr std::size_t rounded_up(std::size_t count) { return (count + kAtOnce - 1) / kAtOnce * kAtOnce; }
     struct Axis {
         float from = 0, steps_per_unit = 0;

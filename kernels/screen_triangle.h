@@ -52,7 +52,7 @@ struct ScreenMesh {
     const std::uint8_t* facing = nullptr;
     /// Per triangle, bit k: edge k may be a line. 0: the triangle is plain (see SampleTile).
     const std::uint8_t* line_edges = nullptr;
-    /// So many bytes behind the last facing and the last line edges kernels may read.
+    /// Kernels may read this many bytes behind the last facing and the last line edges.
     static constexpr std::size_t kPadding = 3;
 };
 

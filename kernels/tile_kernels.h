@@ -76,7 +76,7 @@ struct TileKernels {
     void (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
                  std::uint8_t* facing, CulledTriangles& found);
     /// Lists where keys differ from those before them, beginning with the first one, and behind them the end. Returns
-    /// their number without the end. Needs room for kRoomBehindCulled more than there are keys, and reads so many keys
+    /// their number without the end. Needs room for kRoomBehindCulled more than there are keys, and reads as many keys
     /// more.
     std::size_t (*find_runs)(const std::uint32_t* keys, std::size_t count, std::uint32_t* starts);
     /// Puts culled triangles to `to`, each where `next` says for its key, which is the next one's place then. `starts`:

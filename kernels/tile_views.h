@@ -124,7 +124,7 @@ struct CulledTriangles {
     std::size_t other_count;
 };
 
-/// So many triangles are on their way from memory while others are drawn.
+/// This many triangles are on their way from memory while others are drawn.
 constexpr std::size_t kTrianglesAhead = 64;
 
 /// So much room behind them kernels may read and write.

@@ -28,13 +28,13 @@ class BoundaryCells {
     bool is_one() const { return columns_ == 1 && rows_ == 1; }
     /// The cells that a piece lies in; of one beyond all, the outermost ones.
     Box cells_of(const PieceEnds& piece) const;
-    /// Whether there are none so many steps away, or farther.
+    /// Whether there are no cells `ring` steps away, or farther.
     bool is_beyond(const Box& middle, int ring) const {
         return ring > middle.x0 && ring > middle.y0 && middle.x1 + ring > columns_ && middle.y1 + ring > rows_;
     }
     /// All pieces that are not in this ring or in one before it are as far away from what is in the middle, or farther.
     static double distance_px(int ring) { return kCellPx * ring; }
-    /// Calls visit(number) for the pieces in the cells so many steps from those in the middle. A piece may lie in
+    /// Calls visit(number) for the pieces in the cells `ring` steps from those in the middle. A piece may lie in
     /// several.
     template <typename Visit>
     void for_ring(const Box& middle, int ring, const Visit& visit) const {

@@ -7,7 +7,7 @@
 namespace burin {
 namespace {
 
-/// An edge is looked at in steps of this, or in so many.
+/// An edge is looked at in steps of kStepPx, or in kMostSteps steps if these are longer.
 constexpr double kStepPx = 0.25, kMostSteps = 2048;
 /// A contour is followed from one foot to the next one unless that is more than this many times as long as the
 /// straight way, and longer than this: then it goes elsewhere, and comes back.

@@ -58,7 +58,7 @@ class Walker {
         Place farthest = current;      // where the walk got farthest
         Place before_wall = current;   // where it last got farther at all
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
-        int slivers = 0;               // there were so many others since
+        int slivers = 0;               // how many slivers came since
         const double negligible_fold = kNegligibleFoldPx / length_, snapping = kSnappingPx / length_;
         CircleFinder<State> circle;  // polygons that pass an edge several times make some
 

@@ -43,11 +43,12 @@ struct WholeLine {
     /// Lines that meet at an end have equal nodes there. For edges: instance and vertex.
     std::array<std::uint64_t, 2> nodes{kNoNode, kNoNode};
 
-    /// Opacity of a line behind what lets through so much, 255 = all.
+    /// Opacity of the line behind surfaces that let `transmission` through, 255 = all.
     std::uint8_t opacity_behind(std::uint8_t transmission) const {
         return static_cast<std::uint8_t>((opacity * transmission + 127) / 255);
     }
-    /// Of a level line all places are exactly on it; and those of one that runs the other way are the same.
+    /// A place of the line, by its share of the way. Places of a horizontal line are exactly on it, and those of a line
+    /// that runs the other way are the same.
     glm::dvec2 at(double t) const { return t < 0.5 ? from + (to - from) * t : to - (to - from) * (1 - t); }
     double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
     /// The least nearness in a part of it.
@@ -64,9 +65,9 @@ struct WholeLine {
 struct LinePart {
     std::uint32_t line = 0;     ///< number of the line
     double begin = 0, end = 1;  ///< as shares of the way from `from` to `to`
-    /// Quantitative invisibility (Appel 1967): how many opaque layers are in front. 255: so many or more.
+    /// Quantitative invisibility (Appel 1967): how many opaque surfaces are in front. 255: 255 or more.
     std::uint8_t invisibility = 0;
-    /// What transparent layers in front let through, 255 = all.
+    /// What transparent surfaces in front let through, 255 = all.
     std::uint8_t transmission = 255;
 };
 

@@ -16,7 +16,7 @@ class HeaderReader {
     HeaderReader(const void* bytes, std::uint64_t size)
         : at_(static_cast<const unsigned char*>(bytes)), end_(at_ + size) {}
 
-    /// Whether the data say to be a mesh of so many triangles (and, if it is known so early,
+    /// Says what is wrong if the data do not claim to be a mesh of this many triangles (and, where the header tells,
     /// points).
     const char* check(std::uint64_t points, std::uint64_t triangles) {
         if (end_ - at_ < 11 || std::memcmp(at_, "DRACO", 5) != 0) return "this is not Draco's";

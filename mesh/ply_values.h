@@ -36,7 +36,7 @@ inline bool is_coordinate(const glm::dvec3& p) {
 /// readers everywhere take any white space, so this does too.
 class AsciiValues {
   public:
-    /// `margin`: so many line feeds stand in front of the body and behind it, and may be read.
+    /// `margin`: how many line feeds stand in front of the body and behind it, which may be read.
     AsciiValues(std::string_view body, std::size_t first_line, std::size_t margin = 0)
         : p_(body.data()),
           end_(p_ + body.size()),

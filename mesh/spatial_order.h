@@ -10,7 +10,7 @@
 
 namespace burin {
 
-/// Meshes of so many polygons and more are put in spatial order; smaller ones fit the caches in any.
+/// Meshes of this many polygons and more are put in spatial order; smaller ones fit the caches in any.
 constexpr std::size_t kWorthSpatialOrder = std::size_t{1} << 16;
 
 /// Puts polygons together that are near each other: by the first cell that has a corner of theirs, of 16 x 16 x 16

@@ -133,7 +133,7 @@ class SceneLoader {
         count_polygons(object.instances.size(), counts.polygons);
     }
 
-    /// Counts what instances of an object take that has so many parts.
+    /// Counts what instances of an object take that has `parts` parts.
     void count_instances(const ObjectDescription& object, std::uint64_t instances, std::uint64_t parts,
                          std::uint64_t name_bytes) {
         constexpr std::uint64_t kBytesPerPart = 600;  // here and in a frame; measured

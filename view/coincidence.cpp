@@ -14,7 +14,7 @@
 namespace burin {
 namespace {
 
-/// Planes that meet at an angle drift apart by more than kCoincidentPx within so many pixels, or are taken for one.
+/// Planes that meet at an angle drift apart by more than kCoincidentPx within this many pixels, or are taken for one.
 constexpr double kAroundPx = 2;
 /// Programs round coordinates on the way to a file. By less than this, in pixels, nothing is in front for certain,
 /// unless that is more than single precision loses anywhere in the scene.

@@ -8,8 +8,8 @@
 namespace burin {
 namespace {
 
-/// So many pairs of triangles are looked at in a search at most. One that climbs to where surfaces are farthest apart
-/// finds in some steps whether they drift apart.
+/// A search looks at no more pairs of triangles than this. One that climbs to where surfaces are farthest apart finds
+/// in some steps whether they drift apart.
 constexpr std::size_t kMostPairs = 48;
 /// Planes at a greater angle have no more than a strip in common where surfaces run along each other: at an edge, where
 /// one of two copies has gone on to the next facet. Of 6 degrees.

@@ -57,7 +57,7 @@ std::size_t find_sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t b
             with_edges |= (has_any * kToOneByte >> 56) << k;
         }
         if (sides.size() < count + 3 * kGroup) sides.resize(2 * count + 3 * kGroup);
-        for (; with_edges != 0; with_edges &= with_edges - 1) {  // without other branches: they would be guesses
+        for (; with_edges != 0; with_edges &= with_edges - 1) {  // without other branches, which would be unpredictable
             const std::uint32_t t = first + static_cast<std::uint32_t>(std::countr_zero(with_edges));
             const bool is_found_from_behind = has_sharp & (rank_of_side(mesh.facing[t]) == 2) & (sharp[t] == 0);
             const unsigned edges = mesh.line_edges[t] & (is_found_from_behind - 1u);
@@ -86,7 +86,7 @@ std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin
         const bool is_pair = is_surely_pair(mesh, h) || (g != h && mesh.partners[g] == h);
         const unsigned own = rank_of_side(mesh.facing[h / 3]), other = rank_of_side(mesh.facing[g / 3]);
         const bool is_found_from_other =
-            is_pair & ((own > other) | ((own == other) & (g < h)));  // a branch would be a guess
+            is_pair & ((own > other) | ((own == other) & (g < h)));  // a branch would be unpredictable
         sides[count] = is_pair ? std::min(h, g) : h;                 // no side that is still to be looked at
         count += is_found_from_other ? 0 : 1;
     }

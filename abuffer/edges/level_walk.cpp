@@ -8,8 +8,9 @@
 namespace burin {
 namespace {
 
-/// What is nearer to a limit may be on its other side by rounding, within so many pixels of the origin and where edges
-/// are no more nearly along the way. 1/256 pixel.
+/// What is nearer to a limit than this may be on its other side by rounding, as long as places are within
+/// kFarthestPlace of the origin and edges are at most kMostAlongPerSide times as long along the way as across it. 1/256
+/// pixel.
 constexpr double kMargin = 1.0 / 16;
 constexpr double kFarthestPlace = 8192 * kSubpixelsPerPixel;
 constexpr double kMostAlongPerSide = 256;

@@ -15,7 +15,7 @@ bool owns_edge(double along_x, double along_y) { return (along_y < 0) | ((along_
 /// triangles without area.
 bool set_corners(Occluder& triangle, const glm::dvec2 (&corners)[3]) {
     const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    // Without a branch: it would be a guess.
+    // Chosen without a branch, which would be unpredictable.
     const std::size_t second = area < 0 ? 2 : 1;
     const glm::dvec2 p[3] = {corners[0], corners[second], corners[3 - second]};
     triangle.vertices = {triangle.vertices[0], triangle.vertices[second], triangle.vertices[3 - second]};
@@ -89,8 +89,8 @@ void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint3
     const ScreenVertex &a = mesh.vertices[corner[0]], &first = mesh.vertices[corner[1]],
                        &second = mesh.vertices[corner[2]];
     const auto area = static_cast<double>(doubled_area(a, first, second));
-    // Which way it is wound is a guess, so without a branch. The plane is the same to the bit: both factors change
-    // their signs.
+    // Which way it is wound would be an unpredictable branch, so there is none. The plane is the same to the bit: both
+    // factors change their signs.
     const std::size_t turned = area < 0 ? 1 : 0;
     const ScreenVertex &b = mesh.vertices[corner[1 + turned]], &c = mesh.vertices[corner[2 - turned]];
     triangle.number = number;

@@ -75,7 +75,8 @@ constexpr double kCertainPx = kLevelPx / 64;
 /// Surfaces no farther apart than this are in contact: depth_tolerance().
 constexpr double kContactPx = 2;
 
-/// So many pixels' widths as a step in nearness, at a nearness less farthest_nearness, and what coordinates are off by.
+/// What `level_px` pixels' widths are as a step in nearness, at a nearness less farthest_nearness, with what
+/// coordinates are off by.
 double level_slack(const SurfaceSet& surfaces, double nearness, double level_px = kLevelPx);
 /// What snapping does to the nearness of a line.
 double snapping_slack(const WholeLine& line);

@@ -47,10 +47,10 @@ class FineBlocks {
     const std::vector<CrossedTriangle>& triangles(std::size_t block) const { return triangles_[block]; }
 
   private:
-    /// A block is cut into so many cells along each side, for a triangle beside all candidates to be left out.
+    /// A block is cut into this many cells along each side, for a triangle beside all candidates to be left out.
     static constexpr int kCells = SampleBlocks::kShift - HidingGrid::kCellShift + 1;
     static_assert(SampleBlocks::kShift == HidingGrid::kShift && kCells == 2);
-    /// So many triangles are sorted at once.
+    /// This many triangles are sorted at once.
     static constexpr std::size_t kAtOnce = 256;
 
     struct Box {
@@ -85,7 +85,7 @@ class FineBlocks {
     std::vector<float> least_;                   // the same as a BlockTable
     int sample_blocks_ = 0;                      // along each side
     glm::ivec2 beyond_low_{0}, beyond_high_{0};  // where borders may be in contact
-    std::vector<std::uint32_t> nearer_;  // of one instance's triangles, those that are still to be sorted: so many
+    std::vector<std::uint32_t> nearer_;  // of one instance's triangles, the `listed_` ones that are still to be sorted
     std::size_t listed_ = 0;
     std::uint32_t listed_instance_ = 0;
     std::vector<std::vector<std::uint32_t>> candidates_;  // per block

@@ -9,13 +9,13 @@
 namespace burin {
 namespace {
 
-/// A block is cut into so many cells along each side, at most, that about so many triangles are in one: fewer where
-/// there are very many pairs of a line and a triangle.
+/// A block is cut into at most kMostCells cells along each side, so that about kTrianglesPerCell triangles are in one,
+/// or kFewTrianglesPerCell where there are more than kManyPairs pairs of a line and a triangle.
 constexpr int kMostCells = 32;
 constexpr std::size_t kTrianglesPerCell = 512, kFewTrianglesPerCell = 128, kManyPairs = std::size_t{1} << 18;
-/// For so few lines it is not worth it.
+/// For no more lines than kFewLines cells are not worth it, unless there are more than kMostForFewLines triangles.
 constexpr std::size_t kFewLines = 12, kMostForFewLines = 1024;
-/// In so many cells a triangle may be, on average.
+/// A triangle may be in this many cells, on average.
 constexpr std::size_t kMostPlaces = 4;
 /// What single precision may do to places, 1/256 pixel: near the picture, and from some distance on.
 struct Rounding {

@@ -17,7 +17,8 @@ class FineCells {
   public:
     FineCells(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels) {}
 
-    /// `triangles` must stay. `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
+    /// `triangles` must stay. `corner`: of the block, in 1/256 pixel. `line_count`: how many lines will be looked at
+    /// there.
     void set(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count);
     /// How many triangles are in a cell, on average. Cells are as small as they can be where there are very many pairs
     /// of a line and a triangle.

@@ -47,7 +47,7 @@ class FineLines::BlockClipper {
           criteria_(criteria),
           cells_(screen, kernels) {}
 
-    /// `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
+    /// `corner`: of the block, in 1/256 pixel. `line_count`: how many lines will be looked at there.
     void set_triangles(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count) {
         given_ = &triangles;
         cells_.set(triangles, corner, line_count);

@@ -21,7 +21,7 @@ constexpr double kOffSubpixels = 8;
 constexpr double kSlackSubpixels = 1;
 /// Something is clearly in front if it is nearer by this many pixels' widths.
 constexpr double kClearlyInFrontPx = 2;
-/// No surface beside an edge is so steep that a sample on it is in front by so many times that.
+/// No surface beside an edge is so steep that a sample on it is in front by this many times kClearlyInFrontPx.
 constexpr double kFarInFront = 8;
 
 int floor_to_int(double v) {

@@ -7,7 +7,7 @@
 namespace burin {
 namespace {
 
-/// Cells are made so small that about so many triangles begin in one.
+/// Cells are made so small that about this many triangles begin in one.
 constexpr double kTrianglesPerCell = 4096;
 /// Between contacts, what is left of a line is at least so long.
 constexpr double kShortestRestPx = 1.0 / 32;

@@ -28,7 +28,8 @@ class OccluderCells {
     void clear(PixelRect rect);
     /// Where triangles are measured from, in 1/256 pixel.
     glm::ivec2 corner() const { return corner_; }
-    /// So many more, which are set where they stay, until the next ones come. Kernels may write kRoom beyond them.
+    /// Adds `count` triangles, which the caller sets where they stay, before the next ones come. Kernels may write
+    /// kRoom beyond them.
     CrossedTriangle* add(std::size_t count) {
         count_ += count;
         if (triangles_.size() < count_ + kRoom) triangles_.resize(2 * count_ + kRoom);
@@ -95,7 +96,7 @@ class OccluderCells {
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
     float cells_per_subpixel_ = 0;
     std::size_t count_ = 0;
-    std::vector<CrossedTriangle> triangles_;  // so many, and room for more
+    std::vector<CrossedTriangle> triangles_;  // `count_` of them, and room for more
     std::vector<std::uint32_t> cell_end_, places_;
     std::vector<TriangleIndex> indices_;         // per cell
     std::vector<StepBox> boxes_;                 // around parts of a line

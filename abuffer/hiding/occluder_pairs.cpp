@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-/// Cells are made so small that about so many triangles begin in one: pairs are looked for one by one.
+/// Cells are made so small that about this many triangles begin in one: pairs are looked for one by one.
 constexpr double kTrianglesPerCell = 80;
 constexpr float kFar = 1e30f;
 

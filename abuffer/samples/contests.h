@@ -19,8 +19,8 @@ class Contests {
     /// Where more are level with what is seen at a sample, the nearest of them take part, and of
     /// equally near ones the first. Six were the most in all scenes and models tried.
     static constexpr std::size_t kMostAtSample = 32;
-    /// So many of a tile are noted before they are selected, unless more are allowed: 3 MB. While
-    /// they are selected, 13 MB, and as much again to sort them.
+    /// At most this many of a tile are noted before they are selected, unless more are allowed: 3 MB. While they are
+    /// selected they take 13 MB, and as much again to sort them.
     static constexpr std::size_t kMostNoted = std::size_t{1} << 18;
 
     explicit Contests(const ScreenSurfaces& screen, std::size_t most = kMostNoted)
@@ -31,8 +31,8 @@ class Contests {
         count_ = 0;
         is_selecting_ = false;
     }
-    /// The same of a tile with so many samples where that are too many: from now on those that take
-    /// part are kept.
+    /// Draws a tile again that has too many of them, with `sample_count` samples: from now on only those that take part
+    /// are kept.
     void begin_selecting(std::size_t sample_count);
     bool is_selecting() const { return is_selecting_; }
     std::size_t count() const { return count_; }
@@ -53,7 +53,7 @@ class Contests {
         noted_ = {};
         noted_.resize(std::size_t{count_} + count_ / 8);
     }
-    /// While it is selecting: room for so many more, at most as many as the tile has samples.
+    /// While it is selecting: makes room for `more`, which is at most the number of the tile's samples.
     void make_room_for(std::size_t more) {
         if (count_ + more > noted_.size()) keep_nearest();
     }

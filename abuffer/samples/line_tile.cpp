@@ -161,7 +161,7 @@ void LineTile::find_crossings() {
 std::size_t LineTile::find_outlines(std::size_t asked) {
     if (outlines_.size() < asked) outlines_.resize(2 * asked);
     std::size_t count = 0, left = 0;
-    for (std::size_t i = 0; i < asked; ++i) {  // without branches: which ones are is a guess
+    for (std::size_t i = 0; i < asked; ++i) {  // without branches: which ones are is unpredictable
         const SamplePair pair = pairs_[i];
         const std::uint32_t first = samples_.ids[first_of(pair)], second = samples_.ids[second_of(pair)];
         const bool has_first = first != SampleTile::kBackground,
@@ -288,7 +288,7 @@ void LineTile::trace_cells(std::vector<LineSegment>& segments) {
         const std::uint32_t* const own =
             &between_[2 * (static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column))];
         const std::uint32_t sides[4] = {own[0], own[1], own[3], own[2 * stride]};
-        std::uint32_t numbers[5];  // without branches: which sides have any is a guess
+        std::uint32_t numbers[5];  // without branches: which sides have any is unpredictable
         std::size_t count = 0;
         for (const std::uint32_t side : sides) {
             numbers[count] = side;

@@ -159,7 +159,7 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
 void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& film) {
     const int s = samples.samples_per_pixel;
     std::uint8_t covered[kWidth + 8] = {};
-    const auto end_of_run = [&](int begin) {  // eight at a time: where it ends is a guess
+    const auto end_of_run = [&](int begin) {  // eight at a time: where it ends is unpredictable
         for (int at = begin; at < rect.width(); at += 8) {
             std::uint64_t eight;
             std::memcpy(&eight, covered + at, sizeof eight);

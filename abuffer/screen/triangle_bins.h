@@ -44,7 +44,7 @@ class TriangleBins {
 
     std::size_t tile_count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
     PixelRect tile(std::size_t index) const;
-    /// So many tiles farther right and down; nothing where that is none.
+    /// The tile that is `columns` farther right and `rows` farther down; nothing where there is none.
     std::optional<std::size_t> tile_beside(std::size_t index, int columns, int rows) const;
     bool is_empty(std::size_t tile) const { return runs_in(tile).empty() && large_in(tile).empty(); }
     /// The empty tiles side by side from this one on, as one rectangle; nothing if the tile to its left
