@@ -15,7 +15,7 @@ struct CoverageError {
     double max_error = 0;
     /// 20 log10(1 / rmse). Nothing if the pictures are equal.
     std::optional<double> psnr_db;
-    /// The same without the worst 2 % of the line pixels.
+    /// PSNR without the worst 2 % of the line pixels.
     std::optional<double> psnr98_db;
 };
 

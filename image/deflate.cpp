@@ -119,7 +119,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
         if (is_run) {
             from = p - 2;
         } else if (misses < kMissesOfNoise) {
-            // Of six bytes: shorter copies are found in noise, and coding them takes longer than it saves.
+            // The hash is of six bytes: shorter copies are found in noise, and coding them takes longer than it saves.
             const auto hash = static_cast<std::uint32_t>((here << 16) * 0x9E3779B97F4A7C15u >> (64 - kHashBits));
             const std::uint32_t place = newest_[hash];
             newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;

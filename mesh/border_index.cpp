@@ -22,7 +22,7 @@ constexpr double kWidestReachPart = 0.05;
 
 glm::dvec3 direction_of(const BorderIndex::Segment& s) { return s.b - s.a; }
 
-/// Of the angle between two edges that run along each other, at least.
+/// The least cosine of the angle between two edges that run along each other.
 constexpr double kCosParallel = 0.9;
 
 bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderIndex::Segment& other) {

@@ -122,7 +122,7 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh, st
     return mesh;
 }
 
-/// The same for a mesh that has nothing but triangles and has them already.
+/// Finishes a mesh that has nothing but triangles and has them already.
 Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
     check_triangle_count(mesh.name, mesh.triangles.size());
     bool has_duplicates = false;

@@ -10,7 +10,7 @@ namespace burin {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-/// Of more flips than this for each triangle, rounding is the cause.
+/// If there are more flips than this for each triangle, rounding is the cause.
 constexpr std::size_t kMostFlips = 64;
 /// Coordinates are exact to this, for a polygon of size 1.
 constexpr double kFlatHeight = 1e-6;

@@ -53,7 +53,7 @@ class HeaderReader {
     void skip_name() {
         if (at_ < end_) skip(1 + std::uint64_t{*at_});
     }
-    /// Those of attributes, each after its id, and those of the mesh.
+    /// Skips the metadata of attributes, each after its id, and those of the mesh.
     void skip_all_metadata() {
         for (std::uint64_t left = number(); left > 0 && is_good_; --left) {
             number();

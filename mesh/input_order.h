@@ -13,8 +13,8 @@ namespace burin {
 class InputOrder {
   public:
     InputOrder() = default;
-    /// Of each polygon its number in the input, in which those with the numbers `dropped`, in ascending order, were
-    /// left out.
+    /// `numbers`: for each polygon its number in the input. `dropped`: the numbers of those that were left out, in
+    /// ascending order.
     InputOrder(UnfilledVector<std::uint32_t> numbers, std::vector<std::uint32_t> dropped)
         : numbers_(std::move(numbers)), dropped_(std::move(dropped)) {}
 

@@ -40,7 +40,7 @@ class NameUses {
 
     /// The number of the name of each of `count` polygons.
     std::vector<std::uint32_t> per_polygon(std::size_t count) const { return per_item(count, &Place::polygon); }
-    /// The same of lines.
+    /// The number of the name of each of `count` lines.
     std::vector<std::uint32_t> per_line(std::size_t count) const { return per_item(count, &Place::line); }
 
   private:

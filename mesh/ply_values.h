@@ -133,7 +133,8 @@ class AsciiValues {
         return true;
     }
 
-    /// The same for triangles, each of them a row of the number 3 and three vertex numbers on one line.
+    /// Reads plain rows of triangles, each of them the number 3 and three vertex numbers on one line, and returns how
+    /// many there were.
     std::size_t plain_triangles(std::span<std::uint32_t> corners) {
         const std::size_t max_count = corners.size() / 3;
         const auto read_some = [&](std::size_t row) {

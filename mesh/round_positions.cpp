@@ -17,7 +17,7 @@ namespace {
 /// side is blurred: of what fills 1000 pixels single precision then moves corners by 1/64 pixel.
 constexpr double kLargestReach = 256;
 constexpr std::size_t kMostSamples = 1024;
-/// Of the largest coordinate. Programs leave noise in the last digits of double precision, which
+/// Bits that are kept of the largest coordinate. Programs leave noise in the last digits of double precision, which
 /// must not keep vertices apart.
 constexpr int kBitsWithResiduals = 46;
 
@@ -130,8 +130,8 @@ RoundedPositions round_positions(const PolygonSoup& soup) {
 std::vector<std::uint32_t> weld_vertices(const RoundedPositions& rounded) {
     std::vector<std::uint32_t> first = weld_vertices(rounded.positions);
     if (rounded.residuals.empty()) return first;
-    // Of those that are one in single precision, the ones that are one altogether, the first one in
-    // front.
+    // Vertices that are one in single precision are put in order, so that those that are one altogether stand together,
+    // the first one in front.
     const auto key = [&](std::uint32_t v) {
         const glm::vec3& r = rounded.residuals[v];
         return std::tuple(first[v], r.x, r.y, r.z);

@@ -112,7 +112,7 @@ std::size_t positions(const char*& p, const char* limit, std::size_t max_rows, d
         if ((minus & ~begins & _blsmsk_u64(feeds)) != 0) break;
         const auto negative = static_cast<__mmask8>(_pext_u64(minus, begins));
         const __m512i places = places_of(others);
-        // Of each number, in 64 bits.
+        // Where the point and the end of each number are, in 64 bits each.
         const __m256i point_and_end = _mm256_cvtepu16_epi64(_mm512_castsi512_si128(places)),
                       end = _mm256_srli_epi64(point_and_end, 8);
         const __m256i point = _mm256_and_si256(point_and_end, _mm256_set1_epi64x(0xFF)), one = _mm256_set1_epi64x(1);

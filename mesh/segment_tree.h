@@ -54,7 +54,7 @@ class SegmentTree {
         visit_nearest(
             at, reach, [](const glm::vec3&, const glm::vec3&) { return true; }, visit);
     }
-    /// The same for pieces in boxes that also may_be_near(low, high).
+    /// Visits the nearest pieces in boxes for which may_be_near(low, high) says yes.
     template <typename MayBeNear, typename Visit>
     void visit_nearest(const glm::dvec3& at, const double& reach, const MayBeNear& may_be_near,
                        const Visit& visit) const {

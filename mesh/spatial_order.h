@@ -24,7 +24,7 @@ class SpatialOrder {
 
     /// The numbers of all triangles. `corners`: three vertices per triangle.
     UnfilledVector<std::uint32_t> of_triangles(std::span<const std::uint32_t> corners) const;
-    /// Of some polygons of a soup their places in `polygons`, which has their numbers.
+    /// The order of some polygons of a soup, as places in `polygons`, which has their numbers.
     UnfilledVector<std::uint32_t> of_polygons(const PolygonSoup& soup, std::span<const std::uint32_t> polygons) const;
 
   private:

@@ -30,7 +30,7 @@ class PolygonSides {
         }
     }
 
-    /// Whether a rectangle lies beside the polygon, with all of its border, for certain. 1/256 pixel, no farther than
+    /// Whether a rectangle lies beside the polygon, with all of its boundary, for certain. 1/256 pixel, no farther than
     /// the guard band.
     bool leave_out(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) const {
         return std::any_of(sides_.begin(), sides_.begin() + count_,

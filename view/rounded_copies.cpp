@@ -105,7 +105,7 @@ class PairSearch {
         return true;
     }
 
-    /// Those beyond edges of two triangles at which the surface does not turn away from the eye.
+    /// The neighbours of a triangle beyond edges of two triangles at which the surface does not turn away from the eye.
     std::vector<SurfaceId> neighbours(SurfaceId s) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         std::vector<SurfaceId> found;

@@ -10,7 +10,7 @@ namespace {
 std::int64_t ceil_divide(std::int64_t a, std::int64_t positive_b) {
     return a >= 0 ? (a + positive_b - 1) / positive_b : -(-a / positive_b);
 }
-/// The same, from about 1 / b: a division takes longer than all else.
+/// ceil_divide() by means of a number that is about 1 / b: a division takes longer than all else.
 std::int64_t ceil_divide(std::int64_t a, std::int64_t positive_b, double per_b) {
     auto quotient = static_cast<std::int64_t>(static_cast<double>(a) * per_b);
     while (quotient * positive_b < a) ++quotient;

@@ -9,7 +9,8 @@
 namespace burin {
 namespace {
 
-/// Of more, only the two triangles are compared: time would grow with the square of the corners.
+/// The most pairs of triangles that two polygons are compared by. If there are more, only the two triangles are
+/// compared: time would grow with the square of the corners.
 constexpr std::uint64_t kMostComparisons = 16;
 
 /// The triangles [first, second) of the polygon that a triangle belongs to, or some of them if there are many.

@@ -95,7 +95,7 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     for (std::size_t k = 1; is_crowd && k < part_count; ++k)
         ends.push_back(static_cast<double>(k) / static_cast<double>(part_count));
     std::sort(ends.begin(), ends.end());
-    // Of those about it, few come near. Where these are many, each place is looked up by itself.
+    // Few of the segments about the border come near it. Where many do, each place is looked up by itself.
     constexpr std::size_t kFew = 32;
     const bool has_few = about.segments().size() <= kFew && !is_crowd;
     const bool has_few_near = !has_few && mesh.borders.find_near(h, kFew, near);

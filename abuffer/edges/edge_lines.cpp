@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
 
-/// Of both triangles at an edge.
+/// Prefetches the vertices of both triangles at an edge.
 void ask_for_vertices(const ScreenMesh& mesh, HalfEdge h) {
     for (const HalfEdge side : {h, mesh.partners[h]}) {
         const std::uint32_t* const corners = mesh.corners + (side - side % 3);

@@ -37,7 +37,7 @@ class EdgeLineFinder {
 
     /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
     void find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const;
-    /// The same of a loose edge of an instance, by its number (Mesh::loose_number()).
+    /// Adds a loose edge of an instance, by its number (Mesh::loose_number()), if it touches the region.
     void find_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const;
 
     /// What counts where a border of triangle `s` is in contact with another surface: the triangle, or behind a sliver
@@ -55,7 +55,7 @@ constexpr PixelRect anywhere_on_screen() {
     return {-kFarPx, -kFarPx, kFarPx, kFarPx};
 }
 
-/// Of the mesh of an instance, the loose edges [begin, end), by their numbers.
+/// The loose edges [begin, end) of the mesh of an instance, by their numbers.
 struct LooseChunk {
     std::uint32_t instance;
     HalfEdge begin, end;

@@ -19,7 +19,7 @@ constexpr double kNegligibleFoldSubpixels = kNegligibleFoldPx * kSubpixelsPerPix
 constexpr double kSnappingSubpixels = kSnappingPx * kSubpixelsPerPixel;
 /// depth_tolerance() is 2 pixels' widths, or more.
 constexpr double kSurelyLevelPx = 1.5;
-/// Of nearness, and of the share of an edge where the way crosses it.
+/// What rounding may do to nearness, and to the share of an edge where the way crosses it.
 constexpr double kNearnessRounding = 0x1p-22, kShareRounding = 0x1p-10;
 constexpr int kMostSteps = 24;
 
@@ -95,7 +95,7 @@ bool surely_goes_on(const ScreenSurfaces& screen, std::uint32_t instance, HalfEd
         return high - low <= kSurelyLevelPx / surfaces.projection.focal_px * scale -
                                  kNearnessRounding * (std::abs(low) + std::abs(high));
     };
-    // Of the places since it last surely got farther: compared in depth is only what lies within these.
+    // The range of nearness since the walk last surely got farther: only what lies within it is compared in depth.
     double lowest = exit.lowest, highest = exit.highest, farthest = 0;
     bool is_one = true;
     for (int step = 0; step < kMostSteps; ++step) {

@@ -29,7 +29,7 @@ class DrawnParts {
     bool cover(const WholeLine& line, double begin, double end, Kind kind, double level) const;
 
   private:
-    /// Of a line, from a place to another one along x or y, whichever changes more.
+    /// A part of a line, from a place to another one along x or y, whichever changes more.
     struct Part {
         glm::dvec2 from, to;  ///< of the whole line
         double begin, end;

@@ -15,7 +15,7 @@ namespace {
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 /// A border asks what is behind it, too. As a multiple of level_slack(): 4 pixels' widths.
 constexpr double kBehindBorder = 64;
-/// So far beside a line triangles are asked for, with what rounding may do to places. 1/256 pixel.
+/// How far beside a line triangles are asked for, with what rounding may do to places. 1/256 pixel.
 constexpr int kReach = kBeyondSubpixels + 1;
 /// 1/256 pixel. Four times as far as any place on the screen.
 constexpr float kFar = 1 << 24;
@@ -160,7 +160,7 @@ void FineBlocks::add_small(const TriangleRun& run) {
     constexpr float kNoLevel = 0;
     listed_ +=
         kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data() + listed_);
-    // Of several runs: of one, too few are left to ask memory for the next ones meanwhile.
+    // Triangles of several runs are taken together: one run leaves too few to prefetch the next ones meanwhile.
     constexpr std::size_t kEnough = 4 * kAtOnce;
     if (listed_ >= kEnough) sort_listed();
 }
@@ -215,7 +215,7 @@ void FineBlocks::add(const CrossedTriangle& triangle, const Box& box, std::span<
 
 bool FineBlocks::hides_something(const Box& box, float highest, int block_x, int block_y) const {
     const int origin_x = kCells * (first_x_ + block_x), origin_y = kCells * (first_y_ + block_y);
-    // Those beyond the block lie beside the cells at its end.
+    // Triangles beyond the block lie beside the cells at its end.
     const auto cell = [&](std::int32_t subpixel, int origin) {
         return std::clamp(cell_of(subpixel) - origin, 0, kCells - 1);
     };

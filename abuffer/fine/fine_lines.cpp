@@ -22,7 +22,7 @@ constexpr double kShortestPiecePx = 1.0 / 32;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
-/// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many layers, lines are left to
+/// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many surfaces, lines are left to
 /// the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 22;
 /// Where so many triangles lie over each other that cells do not tell them apart, each pair is looked at more closely,
@@ -321,12 +321,12 @@ class FineLines::BlockClipper {
         return double{kBeyondSubpixels} * (is_front_on_left(candidate) ? right : -right);
     }
 
-    /// Of the way from the line's beginning to its end.
+    /// Whether the front is on the left of the way from the line's beginning to its end.
     bool is_front_on_left(const FineCandidate& candidate) const {
         const WholeLine& line = candidate.line;
         const int side = line.front_side != 0 || line.is_loose() ? line.front_side : owner_side(candidate);
-        // Of a loose edge, or a surface that is seen edge-on, either side will do, but the same one
-        // whichever way the line runs.
+        // For a loose edge, or a surface that is seen edge-on, either side will do, but the same one whichever way the
+        // line runs.
         if (side == 0) return line.from.x != line.to.x ? line.from.x < line.to.x : line.from.y < line.to.y;
         return side < 0;  // y runs down
     }
@@ -391,7 +391,7 @@ void FineLines::find_in_block(std::size_t block, std::vector<LineSegment>& segme
         for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], segments);
         return;
     }
-    // Of loose edges samples tell nothing: where they alone are too many, all of them are drawn.
+    // Samples tell nothing about loose edges: where these alone are too many, all of them are drawn.
     const auto is_loose_one = [&](std::uint32_t i) { return candidates_[i].line.is_loose(); };
     const bool are_few_loose =
         are_few(static_cast<std::size_t>(std::count_if(numbers.begin(), numbers.end(), is_loose_one)));
@@ -431,7 +431,7 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
     }
 }
 
-/// Those that an edge is, until the next call.
+/// The lines that an edge is; they are good until the next call.
 std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
     constexpr std::size_t kKnownBorders = 1 << 17;
     const SurfaceId s{instance, h / 3};

@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-/// So far from a line its triangles are compared with others at its depth. 2 pixels.
+/// How far from a line its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
 
 /// Doubled areas are off by less than this, (1/256 pixel)^2.

@@ -182,7 +182,7 @@ void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
         contact.makes_line = !classes->empty();
         contacts_of_line_.push_back(contact);
     });
-    // Of several the nearest counts.
+    // If there are several, the nearest counts.
     const auto is_behind_another = [&](const Contact& c) {
         const double middle = 0.5 * (c.begin + c.end);
         const glm::dvec2 at = line.at(middle);

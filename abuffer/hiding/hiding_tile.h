@@ -37,7 +37,7 @@ class HidingTile {
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
-    /// Of a line, with its ends as WholeLine has them.
+    /// A part of a line, with its ends as WholeLine has them.
     struct PartInTile {
         double begin, end;
         glm::dvec2 from, to;

@@ -44,8 +44,8 @@ std::span<const OccluderPairs::Pair> OccluderPairs::find(const OccluderCells& tr
 }
 
 void OccluderPairs::find_in_cell(int column, int row) {
-    // Of all cells that both triangles touch, the one with the corner where their boxes begin to overlap
-    // is responsible.
+    // A pair counts in one of the cells that both triangles touch: the one with the corner where their boxes begin to
+    // overlap.
     const float left = column == 0 ? -kFar : cells_.pitch() * static_cast<float>(column);
     const float top = row == 0 ? -kFar : cells_.pitch() * static_cast<float>(row);
     const auto from = [](float begin, float border) { return begin >= border ? -kFar : border; };

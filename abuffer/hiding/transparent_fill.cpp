@@ -132,8 +132,8 @@ class TransparentTile {
         });
     }
 
-    /// Of two surfaces at about one depth, of which the first is nearer by `gap` at a sample. Asked of the same two for
-    /// one sample after the other.
+    /// Whether the first of two surfaces at about one depth is in front; it is nearer by `gap` at a sample. It is asked
+    /// about the same two for one sample after the other.
     bool is_in_front(std::uint32_t number, std::uint32_t opaque, float gap) {
         if (compared_[0] != number || compared_[1] != opaque) {
             compared_[0] = number;

@@ -44,7 +44,7 @@ class FastWalker::Way {
         const double u = u_[k] + static_cast<double>(across_ - v_[k]) * (u_[n] - u_[k]) / (v_[n] - v_[k]);
         return (u - origin_) * per_unit_;
     }
-    /// The same along the edge: 0 = at corner k.
+    /// Where along the edge that is: 0 = at corner k.
     double along_edge(std::uint32_t k) const { return static_cast<double>(across_ - v_[k]) / (v_[next(k)] - v_[k]); }
     /// On an edge that the line crosses, of any triangle.
     double nearness_at(HalfEdge h) const {
@@ -140,7 +140,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     for (result.step_count = 1; result.step_count < FastWalk::kMaxSteps; ++result.step_count) {
         if (current->left > 1 || (current->left == 1 && !passes_goal)) {
             end_at(FastWalk::arrived, *current);
-            // Elsewhere nobody asks for lines.
+            // Lines are asked for only at the two surfaces of the pair.
             if (SurfaceId{instance, current->triangle} == pair.surfaces[backwards ? 0 : 1])
                 note_lines(pair, backwards, result);
             return;

@@ -107,7 +107,7 @@ void LineTile::find_pairs() {
     is_smooth_.assign(pair_count_, 0);
     const auto first_id = [&](std::size_t i) { return samples_.ids[first_of(pairs_[i])]; };
     const bool has_one_mesh = screen_.surfaces().instances.size() == 1;
-    // Those of one mesh after the other.
+    // Pairs are taken mesh by mesh.
     for (std::size_t begin = 0; begin < pair_count_;) {
         if (first_id(begin) == SampleTile::kBackground) {
             ++begin;
@@ -190,8 +190,8 @@ std::size_t LineTile::find_outlines(std::size_t asked) {
     return left;
 }
 
-/// Those of one mesh, at most MeshWalks::kMost. Pairs where there is another line, or none, are added to those that are
-/// asked.
+/// Crosses the outlines of pairs of one mesh, at most MeshWalks::kMost. Pairs where there is another line, or none, are
+/// added to those that are asked.
 void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& asked) {
     const std::uint32_t instance = pairs[0].instance;
     const ScreenMesh& mesh = screen_.mesh(instance);
@@ -240,7 +240,7 @@ void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& a
     }
 }
 
-/// Not kept before add_crossing().
+/// The place of the next crossing, which is not kept before add_crossing().
 LineCrossing& LineTile::next_crossing() {
     if (crossings_.size() == crossing_count_) {
         crossings_.resize(2 * crossings_.size() + WalksAhead::kMostPairs);

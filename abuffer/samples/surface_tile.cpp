@@ -175,8 +175,8 @@ void SurfaceTile::draw_seen() {
     seen_count_ = 0;
 }
 
-/// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it
-/// near runs first, by the nearness of one triangle of each.
+/// Puts the half of a closed surface that is turned to the eye first, whichever way it is wound, and in it near runs
+/// first, by the nearness of one triangle of each.
 void SurfaceTile::order_runs(std::size_t tile) {
     runs_.clear();
     double sum[2] = {0, 0}, count[2] = {0, 0};

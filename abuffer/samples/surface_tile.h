@@ -21,7 +21,7 @@ class SurfaceTile {
     void draw(std::size_t tile);
 
     const SampleTile& samples() const { return samples_; }
-    /// The same for kernels. It is good until the next draw().
+    /// The samples as kernels see them. The view is good until the next draw().
     SampleView view();
     PixelRect rect() const { return rect_; }
     SurfaceId surface_at(std::size_t sample) const {

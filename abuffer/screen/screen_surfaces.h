@@ -55,7 +55,8 @@ class ScreenSurfaces {
         const ScreenVertex* const v = vertices(s.instance);
         return {{v[t[0]], v[t[1]], v[t[2]]}};
     }
-    /// Of a triangle's plane, extended to a place in 1/256 pixel, less farthest_nearness. It must not be edge-on.
+    /// The nearness of a triangle's plane, extended to a place in 1/256 pixel, less farthest_nearness. The triangle
+    /// must not be edge-on.
     double nearness_of(std::uint32_t number, glm::dvec2 subpixel) const;
     /// An instance that is shown, as the kernels see it.
     const ScreenMesh& mesh(std::uint32_t instance) const { return meshes_[instance]; }
@@ -66,11 +67,11 @@ class ScreenSurfaces {
 
     Facing facing(std::uint32_t number) const { return static_cast<Facing>(facing_[number]); }
     void set_facing(std::uint32_t number, Facing f) { facing_[number] = f; }
-    /// Those of an instance.
+    /// The facings of the triangles of an instance.
     std::uint8_t* facings(std::uint32_t instance) { return facing_.get() + first_triangle_[instance]; }
     /// Once the facing of all triangles of the instance is known: finds which edges may be lines.
     void find_line_edges(const TriangleChunk& chunk);
-    /// No edge can be one.
+    /// Whether no edge of a triangle can be a line.
     bool is_plain(std::uint32_t number) const { return line_edges_[number] == 0; }
 
     const SurfaceSet& surfaces() const { return surfaces_; }

@@ -185,7 +185,7 @@ class Binner {
         for (auto* list : {&records.runs, &records.thin_runs}) {
             for (auto& [tile, run] : *list) {
                 run.nearness = run.triangles[run.count / 2].highest;
-                // Of closed surfaces these face away, as a rule; of the others a whole run is seldom hidden.
+                // On closed surfaces these face away, as a rule; a whole run of the others is seldom hidden.
                 if (run.kind == wound_clockwise) sum_up(run);
             }
         }

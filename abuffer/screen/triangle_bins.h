@@ -33,7 +33,7 @@ struct TriangleRun {
     bool is_behind(const float* least, float high) const;
 };
 
-/// What of the instances that are shown touches each tile of a picture.
+/// Sorts the triangles of the instances that are shown to the tiles of a picture that they touch.
 class TriangleBins {
   public:
     /// Finds the facing of all triangles on the way, and which of their edges may be lines. Tiles cover `region`; a
@@ -54,10 +54,10 @@ class TriangleBins {
     /// Numbers into large().
     std::span<const std::uint32_t> large_in(std::size_t tile) const { return large_in_.of(tile); }
     const LargePolygon& large(std::uint32_t i) const { return large_[i]; }
-    /// The same for what lies between samples.
+    /// The runs and large polygons that lie between samples.
     std::span<const TriangleRun> thin_runs_in(std::size_t tile) const { return thin_runs_.of(tile); }
     std::span<const std::uint32_t> thin_large_in(std::size_t tile) const { return thin_large_in_.of(tile); }
-    /// The tiles, all of one size but for the last ones.
+    /// The width of tiles, all of one size but for the last ones.
     int tile_px() const { return tile_px_; }
 
   private:
