@@ -5,7 +5,7 @@
 
 namespace burin {
 
-/// For vectors that begin with a cache line: wide loads from them need not touch two.
+/// An allocator for vectors that begin with a cache line: wide loads from them need not touch two.
 template <typename T>
 struct CacheLineAllocator {
     using value_type = T;

@@ -27,7 +27,7 @@ struct FrontBoxes {
 struct ScreenLine {
     float ax, ay, bx, by, low;
     bool is_exact = false;  ///< it is no longer than kLongestExact, and its ends are whole numbers
-    float reach = 0;        ///< so far beside it counts, too; it is not exact then
+    float reach = 0;        ///< how far beside it counts, too, in 1/256 pixel; it is not exact then
 };
 /// Along both axes together.
 constexpr float kLongestExact = 2048;
@@ -44,7 +44,7 @@ struct HidingGrid {
     static constexpr std::int32_t kShift = 11, kCellShift = kShift - 1;  ///< log2 of widths in 1/256 pixel
     std::int32_t first_x, first_y;                                       ///< of the upper left block, in 1/256 pixel
     std::int32_t columns, rows;
-    std::int32_t reach;  ///< so far from a block triangles touch it, too; they lie beside the cells at its end then
+    std::int32_t reach;  ///< triangles this far from a block touch it, too; they lie beside the cells at its end then
     /// Blocks row by row, for each the least nearness in any rectangle of its cells.
     const float* farthest;
     static constexpr std::size_t kPlaces = 16;
@@ -111,7 +111,7 @@ struct StepBoxes {
     std::uint8_t* around[kNumbers] = {};  ///< each kAtOnce of them
 };
 
-/// How far away something is in a picture: square blocks, row by row.
+/// DepthGrid says how far away lines are in a picture: square blocks, row by row.
 struct DepthGrid {
     /// Four pages, each with all blocks: the least nearness in a block; in it and the one to the right; in it and the
     /// one below; and in all four.

@@ -28,7 +28,7 @@ struct MeshWalks {
     std::int32_t origin[kRoom];                   ///< of the sample, along it
     std::uint32_t down[kRoom], backwards[kRoom];  ///< all bits or none
 
-    // Those that ended, in no order; of others nothing is known.
+    // The walks that ended, in no order; nothing is known of others.
     static constexpr std::uint32_t kFolds = 1;          ///< the surface turns away, else the walk arrives
     static constexpr std::uint32_t kMayCrossLines = 2;  ///< it went over a sharp edge, or through what may be a sliver
     std::size_t ended_count;

@@ -37,7 +37,7 @@ inline double extended_nearness(const ScreenTriangle& t, double x, double y) {
                     static_cast<double>(doubled_area(a, b, c));
 }
 
-/// Of ScreenMesh::sharp: the triangle may be a sliver.
+/// A bit of ScreenMesh::sharp: the triangle may be a sliver.
 constexpr std::uint8_t kMayBeSliver = 8;
 
 /// The triangles of one instance of a mesh on the screen.

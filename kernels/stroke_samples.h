@@ -9,7 +9,7 @@ namespace burin {
 /// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Of these places
 /// they are staggered, or a stroke in step with them would be too wide or too narrow all along.
 constexpr int kStrokeRows = 16, kStrokeColumns = 32;
-/// Masks of pixels behind those of a canvas, which are read and written as they are. A multiple of eight.
+/// How many masks of pixels behind those of a canvas are read, and written as they are. A multiple of eight.
 constexpr std::size_t kRoomBehindMasks = 8;
 
 /// Rows are shifted by less than half a column, and again so after this many of the picture: 8 pixels.
@@ -37,7 +37,7 @@ constexpr double stroke_row_shift(std::int32_t row) {
 }
 
 /// Boundaries that are nearly horizontal, which cross less than a row in a pixel, are sampled at eight heights: each
-/// set of every eighth column lies a part of a row further down. In the order of van der Corput's sequence.
+/// set of every eighth column lies a part of a row further down. The order is van der Corput's sequence.
 constexpr int kStrokeColumnSets = 8;
 constexpr std::array<double, kStrokeColumnSets> kStrokeColumnShifts = {-7.0 / 16, 1.0 / 16, -3.0 / 16, 5.0 / 16,
                                                                        -5.0 / 16, 3.0 / 16, -1.0 / 16, 7.0 / 16};

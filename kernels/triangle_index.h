@@ -6,14 +6,15 @@
 
 namespace burin {
 
-/// Which of some triangles touch boxes on the screen: by their own boxes, cut into steps of a byte.
+/// Finds the triangles that touch boxes on the screen, so that lines are compared with few of them: by the boxes around
+/// triangles, cut into steps of a byte.
 class TriangleIndex {
   public:
     TriangleIndex() = default;
     TriangleIndex(TriangleIndex&&) = default;  // not copied: boxes are told by where they lie
     TriangleIndex& operator=(TriangleIndex&&) = default;
 
-    /// Of the triangles `listed`. What lies beyond `bounds` is taken to be at its border.
+    /// Indexes the triangles `listed`. What lies beyond `bounds` is taken to be at its rim.
     void make(const TileKernels& kernels, const CrossedTriangle* triangles, const std::uint32_t* listed,
               std::size_t count, const ScreenBox& bounds) {
         kernels_ = &kernels;

@@ -12,8 +12,8 @@ struct PieceEnds {
     glm::dvec2 from{0.0}, to{0.0};
 };
 
-/// Straight pieces in square cells of the screen, to be looked at ring by ring around another one. Buffers are used
-/// again.
+/// BoundaryCells sorts straight pieces into square cells of the screen, to be looked at ring by ring around another
+/// piece. Buffers are used again.
 class BoundaryCells {
   public:
     /// Some cells: columns [x0, x1) and rows [y0, y1).
@@ -21,12 +21,12 @@ class BoundaryCells {
         int x0, y0, x1, y1;
     };
 
-    /// They are numbered as they come. Few are in one cell. Those farther than 1200 pixels from a place are in the
-    /// outermost cells.
+    /// Sorts the pieces, which are numbered as they come. Few are in one cell. Pieces farther than 1200 pixels from
+    /// `place` are in the outermost cells.
     void set(std::span<const PieceEnds> pieces, glm::dvec2 place);
 
     bool is_one() const { return columns_ == 1 && rows_ == 1; }
-    /// The cells that a piece lies in; of one beyond all, the outermost ones.
+    /// The cells that a piece lies in; the outermost ones if it lies beyond all.
     Box cells_of(const PieceEnds& piece) const;
     /// Whether there are no cells `ring` steps away, or farther.
     bool is_beyond(const Box& middle, int ring) const {

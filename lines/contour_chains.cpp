@@ -28,7 +28,7 @@ glm::dvec3 on_cubic(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
     return a * (s * s * s) + b * (3 * s * s * t) + c * (3 * s * t * t) + d * (t * t * t);
 }
 
-/// Of the edge between two vertices with unit normals.
+/// A point of the cubic that stands for the edge between two vertices with unit normals.
 glm::dvec3 on_edge(const glm::dvec3& a, const glm::dvec3& normal_a, const glm::dvec3& b, const glm::dvec3& normal_b,
                    double share) {
     const glm::dvec3 way = b - a;

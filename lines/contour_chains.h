@@ -31,8 +31,8 @@ class ContourFinder {
     ContourFinder(const SurfaceSet& surfaces, std::uint32_t instance, const SmoothMesh& smooth)
         : surfaces_(surfaces), mesh_(*surfaces.instances[instance].mesh), instance_(instance), smooth_(smooth) {}
 
-    /// On the triangles around a smooth edge: those that have a vertex in common with one at the
-    /// edge's ends.
+    /// The chains on the triangles around a smooth edge: those that have a vertex in common with one at the edge's
+    /// ends.
     std::vector<ContourChain> chains_around(HalfEdge h) const;
 
   private:

@@ -116,7 +116,7 @@ class Joiner {
         const auto& points = lines_[end / 2].points;
         return end % 2 == 0 ? points.front() : points.back();
     }
-    /// Of those that met, the others are joined to the first one: one that stayed, if any did.
+    /// Orders ends that met: the others are joined to the first one, which is one that stayed, if any did.
     std::tuple<bool, double, double> key(std::uint32_t end) const {
         const glm::dvec2 p = moved(end);
         return {lines_[end / 2].is_moved, p.x, p.y};

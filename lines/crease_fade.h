@@ -9,9 +9,8 @@
 
 namespace burin {
 
-/// How opaque a crease is drawn: not at all where its polygons' normals differ by `from_deg`, fully from
-/// `to_deg` on, in between linear in the angle. So a crease that opens or closes in an animation does
-/// not pop.
+/// CreaseFade says how opaque a crease is drawn: not at all where its polygons' normals differ by `from_deg`, fully
+/// from `to_deg` on, in between linear in the angle. So a crease that opens or closes in an animation does not pop.
 struct CreaseFade {
     double from_deg = 0, to_deg = 0;  ///< equal: creases do not fade
 

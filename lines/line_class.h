@@ -62,7 +62,7 @@ constexpr LineClassSet kDefaultLineClasses = LineClassSet(LineClass::silhouette)
 /// The class with this name, if there is one.
 std::optional<LineClass> line_class_named(std::string_view name);
 
-/// Names joined by commas.
+/// The names of the classes, joined by commas.
 std::string to_string(LineClassSet classes);
 
 }  // namespace burin

@@ -91,7 +91,7 @@ class Decider {
 
     /// Whether point i's surface ends behind the other for certain, though within the tolerance.
     bool is_certainly_behind(int i, double gap) const { return gap < -tolerance_at_end(i, kCertainlyApartPx); }
-    /// The same for a surface that begins in front of the other.
+    /// Whether point i's surface, which begins in front of the other, ends behind it for certain.
     bool passes_through_before_end(int i, double gap) const {
         if (!is_certainly_behind(i, gap)) return false;
         const glm::dvec2 at = points_[i].pixel;

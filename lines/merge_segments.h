@@ -10,14 +10,14 @@
 
 namespace burin {
 
-/// Joins pieces of one line and block that continue each other, as far as they lie on one straight line to
-/// within 1/2048 pixel: strokes of long pieces are drawn faster than those of many short ones.
+/// SegmentMerger joins pieces of one line and block that continue each other, as far as they lie on one straight line
+/// to within 1/2048 pixel: strokes of long pieces are drawn faster than those of many short ones.
 class SegmentMerger {
   public:
     explicit SegmentMerger(const TileKernels& kernels) : kernels_(kernels) {}
 
-    /// Puts them behind what `merged` has, block by block, and in each block line by line. Turns some of the pieces
-    /// round.
+    /// Puts the merged pieces behind what `merged` has, block by block, and in each block line by line. Turns some of
+    /// the pieces round.
     void merge(std::span<LineSegment> pieces, std::vector<LineSegment>& merged);
 
   private:
@@ -28,7 +28,7 @@ class SegmentMerger {
     std::vector<std::uint32_t> order_;  // numbers of pieces
 };
 
-/// Finds those of one line in a block, or all in the block, among pieces that a SegmentMerger left.
+/// SegmentIndex finds the pieces of one line in a block, or all in the block, among pieces that a SegmentMerger left.
 class SegmentIndex {
   public:
     /// `merged` must stay. Buffers are used again.

@@ -69,7 +69,7 @@ UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
     return normals;
 }
 
-/// Of cosines by rough normals, for both may be off by 3 units of 1 / kRoughUnit.
+/// How far a cosine of rough normals may be off, for both may be off by 3 units of 1 / kRoughUnit.
 constexpr double kDoubt = 2e-4;
 
 /// Where nothing but creases is looked for, between triangles. Rough normals tell nearly always: half of the memory.

@@ -251,7 +251,7 @@ class Walker {
         return is_border(from) ? continue_over_seam(from) : best;
     }
 
-    /// The same for a border edge: another patch of the mesh may have its border there.
+    /// Continues a walk over a border edge: another patch of the mesh may have its border there.
     Continuation continue_over_seam(const Place& from) const {
         Continuation none;
         const Mesh& mesh = surfaces_.mesh_of(from.surface);

@@ -10,14 +10,14 @@
 
 namespace burin {
 
-/// A straight line on the screen, seen or not: an edge of a mesh, or where two triangles pass through
-/// each other.
+/// WholeLine is a straight line on the screen, seen or not: an edge of a mesh, or where two triangles pass through each
+/// other.
 struct WholeLine {
     /// An end that no other line has in common.
     static constexpr std::uint64_t kNoNode = ~std::uint64_t{0};
 
     glm::dvec2 from{0.0}, to{0.0};  ///< in 1/256 pixel
-    /// At either end, less SurfaceSet::farthest_nearness.
+    /// Nearness at either end, less SurfaceSet::farthest_nearness.
     double nearness_from = 0, nearness_to = 0;
     /// Numbers of the triangles that the line lies on; they do not hide it. A loose edge has none.
     std::array<std::uint32_t, 2> owners{};
@@ -25,14 +25,15 @@ struct WholeLine {
     bool is_loose() const { return owners[0] == kNoOwner; }
     bool is_wire = false;  ///< the edge in front of a wire, or of a strip as narrow, whose triangles say nothing about
                            ///< what is in front
-    /// Surfaces hide it only where they are in front for certain, and not where they touch it, unless it is flush with
-    /// them.
+    /// Whether surfaces hide it only where they are in front for certain, and not where they touch it, unless it is
+    /// flush with them.
     bool is_by_itself() const { return is_wire || is_loose(); }
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;
-    /// Of a contour, on which side of the way the surface in front is, as side_of_edge() counts. 0: elsewhere.
+    /// On which side of a contour the surface in front is, as side_of_edge() counts. 0: the line is no contour.
     std::int8_t front_side = 0;
-    /// Of a border that is a seam elsewhere, the part of edge_on_screen() that the line is, as shares.
+    /// The part of edge_on_screen() that the line is, as shares: less than all of it where a border is a seam
+    /// elsewhere.
     double edge_begin = 0, edge_end = 1;
     static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
     std::uint64_t line_key = kNoKey;  ///< of an edge: LineCrossing::line_key
@@ -61,7 +62,7 @@ struct WholeLine {
     }
 };
 
-/// A part of a line with the same surfaces in front of it all along.
+/// LinePart is a part of a line with the same surfaces in front of it all along.
 struct LinePart {
     std::uint32_t line = 0;     ///< number of the line
     double begin = 0, end = 1;  ///< as shares of the way from `from` to `to`

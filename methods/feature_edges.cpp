@@ -36,7 +36,7 @@ class InstanceEdges {
 
     LineClassSet classes_of(HalfEdge h) const {
         if (PolygonOutlines::across_diagonal(mesh_, h) != kNoHalfEdge) return {};
-        // Of all who share the edge, so that they agree on it where they are more than two.
+        // The classes of all triangles that share the edge, so that they agree on it where they are more than two.
         LineClassSet classes = edge_classes(surfaces_, {{instance_, h / 3}, h}, frame_.criteria);
         for (HalfEdge g = mesh_.next_on_edge[h]; g != h; g = mesh_.next_on_edge[g]) {
             classes |= edge_classes(surfaces_, {{instance_, g / 3}, g}, frame_.criteria);

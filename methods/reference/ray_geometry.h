@@ -38,7 +38,7 @@ class RayGeometry {
     /// Distance along the view axis of the facet's plane at a pixel position; infinite where the plane
     /// lies behind the eye or along the ray.
     double plane_distance(Facet f, glm::dvec2 pixel) const;
-    /// The same, kept within the distances of the facet's corners: what a ray hits there.
+    /// plane_distance(), kept within the distances of the facet's corners: what a ray hits there.
     double distance(Facet f, glm::dvec2 pixel) const;
     /// Whether the planes of two facets are one, but for an error of distances, half a pixel from a position to all
     /// sides: where surfaces pass through each other they are not.

@@ -363,7 +363,7 @@ ReferenceLines::Follow ReferenceLines::follow(const Way& way, Facet start, doubl
             result.partner = partner;
             return ended(Follow::End::crack, current, h);
         }
-        // Of several neighbours: one that goes forward, and of those the nearest to the eye.
+        // Among several neighbours it is one that goes forward, and of those the nearest to the eye.
         Facet next;
         Slice next_slice;
         HalfEdge entry = kNoHalfEdge;
@@ -424,7 +424,7 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const auto& u = mesh.triangles[*seam / 3];
     glm::dvec3 c[3];
     for (std::size_t k = 0; k < 3; ++k) c[k] = geometry_.position(f.object, u[(*seam % 3 + k) % 3]);
-    // Of an edge that passes the near plane, what lies in front.
+    // An edge that passes the near plane counts where it lies in front.
     const double before[2] = {-c[0].z - p.near_distance, -c[1].z - p.near_distance};
     if (before[0] <= 0 && before[1] <= 0) return false;
     if (before[0] <= 0 || before[1] <= 0) {

@@ -64,8 +64,8 @@ inline double linear_distance(const EdgeChannel& channel, const glm::dvec3& lamb
     return glm::dot(channel, lambda);
 }
 
-/// The same through an interpolator that is correct in perspective: each distance multiplied by its
-/// corner's w beforehand, and the result by the 1/w that is linear on the screen.
+/// The distance through an interpolator that is correct in perspective: each distance multiplied by its corner's w
+/// beforehand, and the result by the 1/w that is linear on the screen.
 inline double premultiplied_distance(const EdgeChannel& channel, const glm::dvec3& w, const glm::dvec3& lambda) {
     const glm::dvec3 weight = lambda / w;
     const double one_over_w = weight.x + weight.y + weight.z;
