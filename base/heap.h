@@ -1,5 +1,8 @@
 #pragma once
 
+// The program's heap keeps what is freed, in huge pages, because the first write to fresh memory costs more than most
+// work on it.
+
 namespace burin {
 
 /// For a program that soon needs much memory, again and again: what it frees stays with it, to be used again, and

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+// Readers see a file as bytes in memory, and learn of it if another program cuts the file meanwhile.
+
 namespace burin {
 
 /// Knows how long a file was.

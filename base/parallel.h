@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 
+// Work on many indices is handed out to threads; nothing may depend on which thread does what.
+
 namespace burin {
 
 /// Number of threads to use for a request of `threads`; 0 asks for all cores.

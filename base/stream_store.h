@@ -10,6 +10,8 @@
 #include <iterator>
 #include <type_traits>
 
+// Large results that nobody reads soon are written past the caches, so that they push nothing else out.
+
 namespace burin {
 
 /// For memory that is filled long before it is read: written past the caches, it need not be fetched first and

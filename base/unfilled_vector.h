@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+// Large arrays that are filled once begin without values, since zeroing them first would cost as much as filling them.
+
 namespace burin {
 
 /// As std::allocator, but what a vector grows by is left as the memory was.

@@ -5,6 +5,8 @@
 
 #include "compare/plane.h"
 
+// Line coverage of a result is compared with the truth's, pixel by pixel.
+
 namespace burin {
 
 /// How far the line coverage of a result is from the truth, over the *line pixels*: those where

@@ -7,6 +7,8 @@
 
 #include "compare/plane.h"
 
+// The profile of a line is measured across it, where the true line is known.
+
 namespace burin {
 
 /// The centre line of a true stroke, in pixels.

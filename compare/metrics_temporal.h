@@ -5,6 +5,8 @@
 
 #include "compare/plane.h"
 
+// Frames of a moving camera are compared with the truth's frames.
+
 namespace burin {
 
 /// What changes from frame to frame that should not, while the camera moves by parts of a pixel.

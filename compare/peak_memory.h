@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+// The memory of a method is the peak that its run adds to the process.
+
 namespace burin {
 
 /// How much memory a piece of work adds to the process at its peak, as the kernel counts it.

@@ -5,6 +5,8 @@
 #include "compare/metrics_profile.h"
 #include "scene/scene.h"
 
+// The test chart is a scene whose lines are known exactly, so that widths and profiles can be measured.
+
 namespace burin {
 
 /// A built-in scene whose lines are known exactly: what a method does to lines of every direction,

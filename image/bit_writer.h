@@ -6,6 +6,8 @@
 #include <cstring>
 #include <span>
 
+// Codes of any length are put together to bytes.
+
 namespace burin {
 
 /// Bits from the lowest on, into memory that is large enough.

@@ -7,6 +7,8 @@
 #include "image/bit_writer.h"
 #include "image/huffman.h"
 
+// Sequences of literals and copies become blocks of a deflate stream: the second half of Deflater.
+
 namespace burin {
 
 /// Literal bytes, and then a copy of `length` bytes from `distance` bytes before.

@@ -9,6 +9,8 @@
 #include "image/deflate.h"
 #include "image/image_strip.h"
 
+// EXR compresses bytes in an order of its own, into which rows of a film are brought here.
+
 namespace burin {
 
 /// Rows of a strip as an EXR has them in a chunk: one after the other, each of them channel by channel.

@@ -8,6 +8,9 @@
 
 #include "mesh/mesh.h"
 
+// Faces of one plane are told apart by the side on which their body is, which is found from volumes, since winding
+// carries no meaning.
+
 namespace burin {
 
 /// On which side of each triangle its body is, whichever way it is wound: -1 = behind the side from which it is seen

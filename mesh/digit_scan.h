@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+// The digits of plain numbers in a text are read eight at a time.
+
 namespace burin {
 
 /// Digits of a text, eight at a time (Lemire 2021, "Number Parsing at a Gigabyte per Second"), for

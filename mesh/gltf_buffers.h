@@ -12,6 +12,8 @@
 #include "base/model_budget.h"
 #include "mesh/gltf_json.h"
 
+// Accessors of a glTF file become checked numbers in memory, whatever their type, sparse or compressed.
+
 namespace burin {
 
 /// One accessor (glTF 2.0, 3.6.2), resolved to memory: `count` elements of `components` numbers.

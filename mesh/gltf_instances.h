@@ -7,6 +7,8 @@
 #include "mesh/gltf_buffers.h"
 #include "mesh/gltf_json.h"
 
+// A node may show its mesh many times; each time is an object.
+
 namespace burin {
 
 /// How many instances of its mesh a node shows by EXT_mesh_gpu_instancing; none: it has no such

@@ -7,6 +7,8 @@
 
 #include "base/unfilled_vector.h"
 
+// Meshes that were put in spatial order still tell the number that each polygon has in its file.
+
 namespace burin {
 
 /// Where a mesh's polygons stood in the input, if they are in another order now.

@@ -12,6 +12,8 @@
 #include "mesh/polygon_soup.h"
 #include "mesh/round_positions.h"
 
+// Edges that a file marks become marks of polygons' edges, or loose edges if no polygon has them.
+
 namespace burin {
 
 /// The edges that a file marks, each once, and which of them are an edge of a polygon of any

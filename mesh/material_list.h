@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+// Objects share the list of their model's materials, since there may be very many objects.
+
 namespace burin {
 
 /// The scene's material for each material number of a mesh. Copies share the numbers, so that

@@ -9,6 +9,9 @@
 #include "mesh/border_index.h"
 #include "mesh/input_order.h"
 
+// A mesh is what all else works on: welded vertices, triangles with links across edges, and the polygons that they are
+// parts of.
+
 namespace burin {
 
 /// Half-edge k of triangle t (HalfEdge number 3t + k) runs from corner k to corner (k + 1) % 3.

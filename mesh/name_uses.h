@@ -9,6 +9,8 @@
 
 #include "base/huge_pages.h"
 
+// Names of objects and materials stand in front of what they hold for, in a text or in a piece of one.
+
 namespace burin {
 
 /// Names that hold for the polygons and lines behind them, until the next name: in the order of

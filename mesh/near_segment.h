@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
+// Boxes far from a segment are told by one quick test, so that few need an exact one.
+
 namespace burin {
 
 /// Whether a box comes as near to a segment as `margin`; true also for some that do not.

@@ -17,6 +17,8 @@
 #include "mesh/row_scan.h"
 #include "mesh/text_scan.h"
 
+// The body of a PLY file is a sequence of values, as text or as bytes.
+
 namespace burin {
 
 /// A real that stands for an integer, as some writers put vertex numbers.

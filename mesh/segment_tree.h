@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+// Border segments near a place are found by a tree of boxes.
+
 namespace burin {
 
 /// A straight part of a segment, as the box around it.

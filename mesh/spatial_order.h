@@ -8,6 +8,9 @@
 #include "base/unfilled_vector.h"
 #include "mesh/polygon_soup.h"
 
+// Large meshes are put in an order in which neighbours lie near each other in memory
+// (docs/decisions/0014-spatial-order.md).
+
 namespace burin {
 
 /// Meshes of this many polygons and more are put in spatial order; smaller ones fit the caches in any.

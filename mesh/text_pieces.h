@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+// A text is cut into pieces at line ends, for threads to read.
+
 namespace burin {
 
 /// Whole lines of a text, copied. kMargin line feeds stand in front of and behind them.

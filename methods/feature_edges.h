@@ -6,6 +6,8 @@
 #include "methods/polygon_outlines.h"
 #include "render/frame.h"
 
+// Methods that draw mesh edges ask here which edges are lines in a view, and of which classes.
+
 namespace burin {
 
 /// The classes that an edge of a mesh can have by itself. Where surfaces of different objects meet or

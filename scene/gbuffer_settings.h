@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+// Method `gbuffer` reads these settings of a scene.
+
 namespace burin {
 
 /// The image operators of method `gbuffer`; docs/methods/gbuffer.md says what each computes.

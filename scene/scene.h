@@ -16,6 +16,8 @@
 #include "shading/surface_shader.h"
 #include "view/surface_set.h"
 
+// A scene is what a picture is made of: meshes, objects, materials, cameras and settings; it computes nothing.
+
 namespace burin {
 
 /// The picture as a whole.

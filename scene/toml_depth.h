@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+// Text that is nested too deeply is found before it is parsed.
+
 namespace burin {
 
 /// How deep tables and lists may be nested: scenes need six levels. toml++ builds and frees trees

@@ -5,6 +5,8 @@
 
 #include "shading/line_style.h"
 
+// Dashes too short to be seen become a solid line of less strength.
+
 namespace burin {
 
 /// How dashes are drawn. Those with a period below half a pixel cannot be seen, and there would be any number of them:

@@ -8,6 +8,8 @@
 
 #include "lines/line_class.h"
 
+// A line style says how lines look: width, side, filter, colours, dashes, hidden lines.
+
 namespace burin {
 
 /// Which side of the boundary a stroke is drawn on.

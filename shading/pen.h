@@ -6,6 +6,8 @@
 #include "kernels/stroke_samples.h"
 #include "shading/line_style.h"
 
+// A width becomes the radius and the strength that a stroke is drawn with.
+
 namespace burin {
 
 /// What a stroke of a given width is drawn with.

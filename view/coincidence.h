@@ -2,6 +2,9 @@
 
 #include "view/projection.h"
 
+// Two triangles are compared in depth wherever both are: the answer says which is in front, or that they lie in one
+// plane, and is one for all places.
+
 namespace burin {
 
 /// Planes nearer to each other than this, in pixels, cannot be told apart.

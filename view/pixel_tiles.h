@@ -12,6 +12,8 @@
 #include "kernels/subpixel.h"
 #include "view/polygon_rows.h"
 
+// A picture is cut into square tiles, and what touches each tile is kept in lists.
+
 namespace burin {
 
 /// Some rows of tiles: [begin, end).

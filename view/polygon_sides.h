@@ -6,6 +6,8 @@
 
 #include "view/screen_polygon.h"
 
+// Tiles that a long polygon does not touch, though its box does, are told by the sides of the polygon.
+
 namespace burin {
 
 /// The half planes beside the edges of a convex polygon, which tell rectangles that lie beside it though within its

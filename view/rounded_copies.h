@@ -2,6 +2,8 @@
 
 #include "view/surface_set.h"
 
+// Surfaces that are one surface, rounded in two ways, are told from surfaces that pass through each other.
+
 namespace burin {
 
 /// Whether two triangles that overlap at a place on the screen belong to surfaces that stay so near each other around

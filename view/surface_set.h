@@ -13,6 +13,8 @@
 #include "view/projection.h"
 #include "view/screen_polygon.h"
 
+// The surfaces of a frame are meshes with a matrix each; corners, planes and order of any triangle are asked for here.
+
 namespace burin {
 
 /// A triangle of an instance. Ordered by instance (that is, by object), then by triangle.

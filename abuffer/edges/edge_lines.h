@@ -10,6 +10,8 @@
 #include "lines/whole_line.h"
 #include "render/frame.h"
 
+// Edges of meshes become whole lines if they are lines in this view, whatever is in front of them.
+
 namespace burin {
 
 /// Whether an edge belongs to exactly two triangles, as its side alone tells: an edge that is not sharp does. False for

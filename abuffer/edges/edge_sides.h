@@ -7,6 +7,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "lines/line_decision.h"
 
+// Whether an edge is a contour depends on which side of it its triangles lie, as the eye sees them.
+
 namespace burin {
 
 /// Vertices of a half-edge, and of its triangle the third one.

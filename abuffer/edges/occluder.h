@@ -9,6 +9,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "lines/whole_line.h"
 
+// An occluder is a triangle that may hide a line, set up so that lines can be clipped against it.
+
 namespace burin {
 
 /// A triangle on the screen as something that hides lines.

@@ -8,6 +8,9 @@
 #include "lines/line_class.h"
 #include "lines/whole_line.h"
 
+// Parts of lines that lie behind drawn ones on the same straight line of the picture are left out, for their strokes
+// would be the same.
+
 namespace burin {
 
 /// Parts of lines that are drawn in one block, to leave out what lies behind them on the same straight line of the

@@ -9,6 +9,8 @@
 #include "lines/whole_line.h"
 #include "view/polygon_rows.h"
 
+// Triangles that may hide the lines of a tile that samples miss are sorted to its blocks.
+
 namespace burin {
 
 /// A surface that covers a place so far beyond a border is in contact there. 1/64 pixel.

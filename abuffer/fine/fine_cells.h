@@ -9,6 +9,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "kernels/screen_triangles.h"
 
+// In a block of many triangles each line is compared with those near it only.
+
 namespace burin {
 
 /// The triangles that may hide lines in a block, as kernels want them: where there are many for many lines, cell by

@@ -4,6 +4,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "view/pixel_tiles.h"
 
+// All edges that may be lines in a view are sorted to tiles, for the search of lines that samples miss.
+
 namespace burin {
 
 /// An edge of the mesh of an instance.

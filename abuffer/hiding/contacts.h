@@ -9,6 +9,8 @@
 #include "lines/narrow_lap.h"
 #include "lines/whole_line.h"
 
+// Where a line lies in the plane of a surface, the order of both decides which is seen.
+
 namespace burin {
 
 /// How far to one side of a line a place lies at which something covers what ends at the line. 1/64 pixel.

@@ -4,6 +4,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "view/pixel_tiles.h"
 
+// Triangles are sorted to tiles for hidden lines, seen or not.
+
 namespace burin {
 
 /// The numbers of all triangles that touch each tile, be they seen or not; of the instances that are shown, instance by

@@ -12,6 +12,8 @@
 #include "kernels/triangle_index.h"
 #include "lines/whole_line.h"
 
+// Triangles near a part of a line are found by place.
+
 namespace burin {
 
 /// The triangles of a square on the screen by place: where there are very many it is cut into square cells, and each

@@ -9,6 +9,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "kernels/screen_boxes.h"
 
+// Under a cap for memory, each tile looks for triangles that may pass through each other.
+
 namespace burin {
 
 /// Pairs of a tile's triangles that may pass through each other. Buffers are used again.

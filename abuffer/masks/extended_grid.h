@@ -2,6 +2,8 @@
 
 #include <glm/glm.hpp>
 
+// Extended masks of all pixels are windows of one grid of samples.
+
 namespace burin {
 
 /// Where the samples of extended masks lie.

@@ -6,6 +6,8 @@
 
 #include "abuffer/coverage_mask.h"
 
+// Masks of 4 x 4, 8 x 8 and 16 x 16 samples are used by the same code.
+
 namespace burin {
 
 /// Access to masks of any size by row and column.

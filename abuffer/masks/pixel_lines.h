@@ -11,6 +11,8 @@
 #include "abuffer/masks/visibility.h"
 #include "lines/line_decision.h"
 
+// Fragments of a pixel become lines: pairs that touch are decided, surfaces grouped, and strokes made from masks.
+
 namespace burin {
 
 /// Two fragments of a pixel whose visible samples are neighbours, and whether that is a line.

@@ -13,6 +13,8 @@
 #include "view/depth_plane.h"
 #include "view/projection.h"
 
+// Fragments of a pixel become visible masks: the nearest one wins at each sample.
+
 namespace burin {
 
 /// Which fragment is in front at every sample of a pixel's extended mask.

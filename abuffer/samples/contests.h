@@ -10,6 +10,8 @@
 #include "kernels/tile_kernels.h"
 #include "view/surface_set.h"
 
+// Where surfaces are level at a sample, more than nearness decides which of them is seen.
+
 namespace burin {
 
 /// Samples of a tile where surfaces are level, noted while they are drawn, and which of them is seen. Buffers are used

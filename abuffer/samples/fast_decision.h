@@ -3,6 +3,8 @@
 #include "abuffer/samples/fast_walk.h"
 #include "lines/line_decision.h"
 
+// Pairs of samples are decided on snapped vertices, which answers nearly all of them.
+
 namespace burin {
 
 /// decide_line() for all but rare cases, ten times as fast: surfaces on the screen, edges of two triangles or of

@@ -9,6 +9,8 @@
 #include "kernels/mesh_walks.h"
 #include "lines/line_decision.h"
 
+// A walk from one sample to its neighbour goes over snapped vertices, along a row or a column.
+
 namespace burin {
 
 /// A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken a trifle further

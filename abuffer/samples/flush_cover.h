@@ -8,6 +8,8 @@
 #include "abuffer/screen/triangle_bins.h"
 #include "lines/line_decision.h"
 
+// Lines between samples of one plane are dropped where flush faces cover the way from one to the other.
+
 namespace burin {
 
 /// Whether faces in one plane, without a line between them, cover the way between two neighbouring samples

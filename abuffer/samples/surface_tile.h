@@ -8,6 +8,8 @@
 #include "kernels/tile_kernels.h"
 #include "render/frame.h"
 
+// Triangles of a tile become its samples: the nearest surface at each.
+
 namespace burin {
 
 /// What is visible at the samples of one tile after the other; buffers are used again.

@@ -6,6 +6,8 @@
 
 #include "abuffer/screen/screen_surfaces.h"
 
+// Edges that pass behind the eye are cut, and all edges get a direction that no order in the file changes.
+
 namespace burin {
 
 /// What the near plane and the guard band leave of an edge: places in 1/256 pixel, snapped where they are vertices, and

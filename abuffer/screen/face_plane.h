@@ -2,6 +2,8 @@
 
 #include "view/surface_set.h"
 
+// What lies in front beside a line is asked in view space, where snapping does not matter.
+
 namespace burin {
 
 /// The plane of a triangle in view space, as exact as its coordinates: beside a line snapping may decide on the screen

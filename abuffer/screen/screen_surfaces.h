@@ -12,6 +12,8 @@
 #include "lines/surface_walk.h"
 #include "view/surface_set.h"
 
+// Vertices are projected and snapped once per frame; facings and possible line edges of triangles are kept beside them.
+
 namespace burin {
 
 /// Triangles [begin, end) of the mesh of an instance.

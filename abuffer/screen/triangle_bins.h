@@ -10,6 +10,8 @@
 #include "kernels/tile_kernels.h"
 #include "view/pixel_tiles.h"
 
+// Triangles are culled and sorted to tiles, as runs of small ones and single large ones.
+
 namespace burin {
 
 /// A triangle that draw_small() cannot draw: large, or cut by the near plane or the guard band.

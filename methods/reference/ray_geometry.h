@@ -7,6 +7,8 @@
 
 #include "render/frame.h"
 
+// Rays see the scene's triangles by this geometry, which shares no code with the rasterizers.
+
 namespace burin {
 
 /// A triangle of an object of the scene, as rays see it.

@@ -11,6 +11,8 @@
 #include "render/film.h"
 #include "render/frame.h"
 
+// A tile is drawn by rays, from what is visible to the coverage of strokes.
+
 namespace burin {
 
 /// Method `reference` for a rectangle of pixels.

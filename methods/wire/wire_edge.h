@@ -6,6 +6,8 @@
 #include "lines/line_class.h"
 #include "view/surface_set.h"
 
+// Distances to an edge on the screen decide how dark a pixel is.
+
 namespace burin {
 
 /// An edge of a mesh on the screen, in pixels. Its corners are snapped where surfaces' are, so that

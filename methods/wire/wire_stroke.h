@@ -3,6 +3,8 @@
 #include "methods/wire/wire_edge.h"
 #include "methods/wire/wire_profile.h"
 
+// Lines of the wireframe methods vary along an edge and with depth.
+
 namespace burin {
 
 /// How the lines of the wireframe methods look: a profile, and what varies it along an edge and

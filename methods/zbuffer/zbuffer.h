@@ -7,6 +7,9 @@
 #include "methods/zbuffer/pass.h"
 #include "render/frame.h"
 
+// The z-buffered machine has a frame buffer, depths and one more bit per pixel, and draws polygons and vectors pass by
+// pass.
+
 namespace burin {
 
 /// What the frame buffer holds at a pixel. Colours are looked up when the picture is finished.
