@@ -21,7 +21,7 @@ struct CoverageError {
     std::optional<double> psnr98_db;
 };
 
-/// Nothing if there is no line pixel at all.
+/// Compares the coverage of two pictures. Nothing if there is no line pixel at all.
 std::optional<CoverageError> coverage_error(const Plane& result, const Plane& truth);
 
 /// Lines that one of the two pictures has, and the other has nothing like it nearby, as a share of

@@ -21,8 +21,8 @@ struct Flicker {
     double pop = 0;
 };
 
-/// Both have a picture per frame, all of one size. Nothing for fewer than two frames or a truth
-/// without lines.
+/// Measures the flicker of a result against the truth, which both have a picture per frame, all of one size. Nothing
+/// for fewer than two frames or a truth without lines.
 std::optional<Flicker> flicker(const std::vector<Plane>& result, const std::vector<Plane>& truth);
 
 /// Sum of all values.

@@ -195,7 +195,7 @@ class ComparisonRunner {
         bool is_known = false;      ///< else there is no such row: the chart would tell the widths
     };
 
-    /// Both rows' chart metrics.
+    /// Measures the chart metrics of both rows.
     EqualWidth measure_on_chart(const Method& method, MethodResult& result) {
         ComparisonRow& published = result.published;
         ComparisonRow& equal = result.equal_width;

@@ -105,7 +105,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
     const std::uint8_t* summed = begin;    // those before are in the sum
     const std::uint8_t* p = begin;
     std::uint32_t misses = 0;
-    // As run_length(), which begins near the end of a run that is known.
+    // run_length(), begun near the end of a run that is known.
     const auto behind_run = [&](const std::uint8_t* at) {
         const auto place = static_cast<std::size_t>(at - begin);
         while (!runs.empty() && runs.front().end < place + 8) runs = runs.subspan(1);

@@ -7,7 +7,7 @@
 
 namespace burin {
 
-/// A rectangle on the screen in 1/256 pixel, borders included, and a range of nearness.
+/// A rectangle on the screen in 1/256 pixel, its sides included, and a range of nearness.
 struct ScreenBox {
     float x0, y0, x1, y1, low, high;
 };
@@ -17,8 +17,8 @@ struct BoxView {
     const float *x0, *y0, *x1, *y1, *low, *high;
 };
 
-/// Boxes of triangles on the screen, borders included, in 1/256 pixel, and the nearness of their nearest corners: an
-/// array per number.
+/// Boxes of triangles on the screen, their sides included, in 1/256 pixel, and the nearness of their nearest corners:
+/// an array per number.
 struct FrontBoxes {
     const float *x0, *y0, *x1, *y1, *highest;
 };

@@ -22,7 +22,7 @@ struct MeshWalks {
     static constexpr std::size_t kMost = 256, kRoom = kMost + 8;
     static constexpr std::size_t kMostSteps = 22;
 
-    // Where they begin. Coordinates in 1/256 pixel.
+    // Where walks begin, with coordinates in 1/256 pixel.
     std::uint32_t triangle[kRoom];
     std::int32_t across[kRoom];                   ///< of the row or column
     std::int32_t origin[kRoom];                   ///< of the sample, along it

@@ -6,8 +6,8 @@
 
 namespace burin {
 
-/// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Of these places
-/// they are staggered, or a stroke in step with them would be too wide or too narrow all along.
+/// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Samples are
+/// staggered around these places, or a stroke in step with them would be too wide or too narrow all along.
 constexpr int kStrokeRows = 16, kStrokeColumns = 32;
 /// How many masks of pixels behind those of a canvas are read, and written as they are. A multiple of eight.
 constexpr std::size_t kRoomBehindMasks = 8;

@@ -88,7 +88,7 @@ struct TileKernels {
     void (*find_line_edges)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint8_t* line_edges);
     /// Lists the triangles [begin, end) of a mesh that are nearer than what is noted where they are, once for each tile
     /// in which they are, and some that need be looked at: those that touch more than two by two blocks or are not all
-    /// on the screen. Of those `tiles` is kSeveralTiles. Returns how many; both need room for 4 * (end - begin) +
+    /// on the screen. For the latter `tiles` is kSeveralTiles. Returns how many; both need room for 4 * (end - begin) +
     /// kRoomBehindCulled.
     std::size_t (*find_in_front)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const DepthGrid& grid,
                                  std::uint32_t* found, std::uint32_t* tiles);
@@ -223,7 +223,7 @@ constexpr std::uint32_t kMostToWalk = (1u << 29) / 3;
 /// A tile's key for triangles of one kind.
 constexpr std::uint32_t tile_key(std::uint32_t tile, TriangleKind kind) { return kTriangleKinds * tile + kind; }
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
-/// In 1/256 pixel. Products of such lengths fit 32 bits.
+/// The width and height from which triangles are large, in 1/256 pixel. Products of smaller lengths fit 32 bits.
 constexpr std::int32_t kLargestSmallTriangle = 1 << 14;
 /// The length of a normal in 16 bits.
 constexpr float kRoughUnit = 32767;

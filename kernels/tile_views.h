@@ -69,8 +69,8 @@ struct SmoothLimits {
     double snapping;                  ///< how far snapping of a corner may move a deep triangle's edges, in 1/256 pixel
 };
 
-/// The tiles of a picture, all of one size but the last ones. A tile also gets the samples next to its
-/// right and lower border.
+/// The tiles of a picture, all of one size but the last ones. A tile also gets the samples next to its right and lower
+/// sides.
 struct TileGrid {
     static constexpr std::int32_t kTileSamples = 128;  ///< along either side: the most, and the best
     std::int32_t first_column, first_row;              ///< of the upper left sample on the image's grid

@@ -48,7 +48,7 @@ class TriangleIndex {
     static StepBoxes::Axis axis(float begin, float end) {
         return {begin, end > begin ? static_cast<float>(StepBoxes::kSteps) / (end - begin) : 0};
     }
-    /// As the kernel has it.
+    /// The step of a value, as the kernel computes it.
     static std::uint8_t step(const StepBoxes::Axis& axis, float v) {
         const float steps = (v - axis.from) * axis.steps_per_unit;
         constexpr float kLast = StepBoxes::kSteps - 1;

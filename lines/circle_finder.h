@@ -13,7 +13,7 @@ namespace burin {
 template <typename State>
 class CircleFinder {
   public:
-    /// To be called with each state in turn. Whether it has been there before.
+    /// Whether a state has been there before; to be called with each state in turn.
     bool is_closed_by(const State& state) {
         if (earlier_ && *earlier_ == state) return true;
         if (++steps_ == next_) {

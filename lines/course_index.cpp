@@ -88,7 +88,7 @@ void CourseIndex::add_overlap(const Course& way, std::uint32_t course) {
     overlaps_.push_back({begin, end, course});
 }
 
-/// From overlaps to covers: at every place the first course.
+/// Makes covers of overlaps: at every place the first course counts.
 void CourseIndex::choose_first_courses() {
     struct Change {
         double at;

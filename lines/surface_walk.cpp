@@ -294,7 +294,7 @@ class Walker {
         if (!needs_no_clipping(p, a) || !needs_no_clipping(p, b)) return std::nullopt;
         return part_of_way(along_, p.to_pixel(a) - from_, p.to_pixel(b) - from_);
     }
-    /// On the way from where one triangle is left to where the next one is.
+    /// The distance on the way from where one triangle is left to where the next one is.
     double distance_between(const Place& entry, const Place& exit, double fraction) const {
         const Projection& p = surfaces_.projection;
         const double from = entry.exit.fraction, to = exit.exit.fraction;

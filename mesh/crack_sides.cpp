@@ -59,14 +59,14 @@ std::uint32_t CrackSides::apex_vertex(std::uint32_t segment) const {
 }
 glm::dvec3 CrackSides::apex(std::uint32_t segment) const { return mesh_.local_position(apex_vertex(segment)); }
 
-/// From the edge to that, at a right angle.
+/// The vector from the edge to its apex, at a right angle to the edge.
 glm::dvec3 CrackSides::across(std::uint32_t segment) const {
     const BorderIndex::Segment& s = segments_[segment];
     const glm::dvec3 a = s.a, along = s.b - a, to_apex = apex(segment) - a;
     return to_apex - along * (glm::dot(to_apex, along) / std::max(glm::dot(along, along), 1e-300));
 }
 
-/// From the edge into the polygon.
+/// The direction from the edge into the polygon.
 glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
     const glm::dvec3 way = across(segment);
     return way / std::max(glm::length(way), 1e-300);

@@ -15,7 +15,7 @@ namespace burin {
 /// list, and shows its mesh once.
 std::optional<std::uint64_t> gltf_instance_count(const JsonPlace& node, GltfBuffers& buffers);
 
-/// Their matrices, to the space of the node.
+/// The matrices of the instances, to the space of the node.
 std::vector<glm::dmat4> read_gltf_instances(const JsonPlace& node, GltfBuffers& buffers);
 
 }  // namespace burin

@@ -39,7 +39,7 @@ class MarkedEdges {
         std::uint32_t object;
         auto operator<=>(const Mark&) const = default;
     };
-    /// Once all polygons are looked at: those that no polygon has, object by object.
+    /// The edges that no polygon has, object by object, once all polygons are looked at.
     std::vector<Mark> loose_edges() const;
 
   private:

@@ -81,7 +81,7 @@ struct Mesh {
     bool is_loose(HalfEdge h) const { return h >= 3 * triangles.size(); }
     const std::array<std::uint32_t, 2>& loose_edge(HalfEdge h) const { return loose_edges[h - 3 * triangles.size()]; }
     bool has_residuals() const { return !residuals.empty(); }
-    /// As seen from the origin.
+    /// The place of a vertex, as seen from the origin.
     glm::dvec3 local_position(std::uint32_t vertex) const {
         const glm::dvec3 p(positions[vertex]);
         return residuals.empty() ? p : p + glm::dvec3(residuals[vertex]);

@@ -26,7 +26,7 @@ class NameUses {
         bool operator==(const Place&) const = default;
     };
 
-    /// From a place on the name is `name`.
+    /// Says that from a place on the name is `name`.
     void use(std::string_view name, Place place) { use(number_of(name), place); }
 
     /// Uses of a text behind this one, whose first polygon and line have the numbers of `first`

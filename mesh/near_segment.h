@@ -22,7 +22,7 @@ struct NearSegment {
 
   private:
     static constexpr double kRounding = 1e-9;
-    /// To what lies between two values along one axis.
+    /// Clips a segment to what lies between two values along one axis.
     static void clip(double from, double to, double low, double high, double& begin, double& end) {
         const double way = to - from;
         if (way == 0) {

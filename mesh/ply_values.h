@@ -90,7 +90,7 @@ class AsciiValues {
         return p_ == end_;
     }
     std::size_t line() const { return line_; }
-    /// All that is left.
+    /// All of the text that is left.
     std::string_view rest() const { return {p_, static_cast<std::size_t>(end_ - p_)}; }
 
     /// Reads rows of plain numbers from here on, as many as `rows` holds, and returns how many.
@@ -289,7 +289,7 @@ class BinaryValues {
     std::size_t line() const { return 0; }
 
   private:
-    /// For a value that the file has only a part of.
+    /// Ends reading at a value that the file has only a part of.
     bool reach_end() {
         p_ = end_;
         return false;

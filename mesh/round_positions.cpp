@@ -84,7 +84,7 @@ bool is_blurred(const PolygonSoup& soup, double reach) {
     return size > 0 && reach > kLargestReach * size * std::sqrt(static_cast<double>(soup.polygon_count()));
 }
 
-/// In each coordinate, of some corners. Where most of the model is, it is there, too.
+/// The median of some corners, in each coordinate. Where most of the model is, it is there, too.
 glm::dvec3 median_corner(const PolygonSoup& soup) {
     std::vector<double> values[3];
     const std::size_t step = soup.corners.size() / kMostSamples + 1;

@@ -130,7 +130,7 @@ class EarClipper {
         }
         triangles.push_back({previous_[at], at, next_[at]});
     }
-    /// In the polygon's plane.
+    /// The corners in the polygon's plane.
     std::span<const glm::dvec2> points() const { return points_; }
 
   private:

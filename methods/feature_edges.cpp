@@ -113,7 +113,7 @@ class InstanceEdges {
         return classes;
     }
     glm::dvec3 third_corner(HalfEdge h) const { return view(mesh_.triangles[h / 3][(h % 3 + 2) % 3]); }
-    /// As the eye sees it.
+    /// Whether two points are on one side of an edge, as the eye sees it.
     bool same_side_of_edge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p, const glm::dvec3& q) const {
         const glm::dvec3 towards_eye = surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -a;
         const glm::dvec3 side = glm::cross(b - a, towards_eye);

@@ -99,7 +99,7 @@ bool are_beside(const ScreenPolygon& a, const ScreenPolygon& b) {
     return p.is_wide() && q.is_wide() && (p.x1 < q.x0 || q.x1 < p.x0 || p.y1 < q.y0 || q.y1 < p.y0);
 }
 
-/// Where both are in the picture, or anywhere if they are not.
+/// The region where both are in the picture, or anywhere if they are not.
 Region common_region(const Projection& projection, const ScreenPolygon& a, const ScreenPolygon& b) {
     Region common(a);
     common.clip(Region(b));

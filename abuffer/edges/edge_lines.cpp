@@ -35,7 +35,7 @@ constexpr unsigned rank_of_side(std::uint8_t facing) {
 }
 
 /// The sides of edges of some triangles that may be lines in this view: that are sharp, or whose triangles do not face
-/// one way. Of a contour, one side may be missing. The facing of all triangles must be known. Returns how many there
+/// one way. One side of a contour may be missing. The facing of all triangles must be known. Returns how many there
 /// are, the first ones of `sides`.
 std::size_t find_sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end,
                                          UnfilledVector<HalfEdge>& sides) {
@@ -269,7 +269,7 @@ class EdgeLineFinder::Rules {
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             auto solid_h = sides_.past_sliver(s.instance, h), solid_g = sides_.past_sliver(s.instance, *part.partner);
             if (solid_h && solid_g && sides_.are_neighbours(s.instance, *solid_h, *solid_g)) {
-                // Both sides of one narrow strip, which ends here all the same.
+                // The two borders are sides of one narrow strip, which ends here all the same.
                 solid_h = h;
                 solid_g = part.partner;
             }

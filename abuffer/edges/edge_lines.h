@@ -51,7 +51,7 @@ class EdgeLineFinder {
     std::unique_ptr<const Rules> rules_;
 };
 
-/// Where edges can be on the screen at all: dashes must not begin at the picture's border.
+/// The region in which edges can be on the screen at all: dashes must not begin at the rim of the picture.
 constexpr PixelRect anywhere_on_screen() {
     constexpr int kFarPx = 1 << 20;
     return {-kFarPx, -kFarPx, kFarPx, kFarPx};

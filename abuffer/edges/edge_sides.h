@@ -51,7 +51,7 @@ class EdgeSides {
     bool is_needle_on_edge(SurfaceId s, HalfEdge h) const;
     /// Whether the triangle of a half-edge is a sliver. Most are none in any view, which is told at once.
     bool is_sliver_at(SurfaceId s, HalfEdge h) const;
-    /// From an edge into its triangle, in view space: a unit vector.
+    /// The unit vector from an edge into its triangle, in view space.
     glm::dvec3 across_edge(std::uint32_t instance, HalfEdge h) const;
     /// The cosine of the angle at an edge between its triangle and the way to the eye: of several triangles on one
     /// side, the one with the greatest is in front.

@@ -40,7 +40,7 @@ class IntersectionTest {
     }
     /// The diagonal of the box of all vertices.
     double extent() const { return extent_; }
-    /// In single precision, and no smaller for it; nearness is the third axis.
+    /// The box around a triangle, in single precision and no smaller for it; nearness is the third axis.
     static ScreenBox box_of(const Triangle& t);
 
   private:

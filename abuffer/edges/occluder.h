@@ -82,7 +82,7 @@ constexpr double kContactPx = 2;
 double level_slack(const SurfaceSet& surfaces, double nearness, double level_px = kLevelPx);
 /// What snapping does to the nearness of a line.
 double snapping_slack(const WholeLine& line);
-/// Both together for the part [begin, end] of a line.
+/// Both slacks together for the part [begin, end] of a line.
 double line_slack(const SurfaceSet& surfaces, const WholeLine& line, double begin, double end,
                   double level_px = kLevelPx);
 

@@ -48,8 +48,8 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     add_beyond(tile);
 }
 
-/// From the tiles around it, where a border lies so close to the end of this one that what it is in contact with may
-/// not touch it.
+/// Adds triangles of the tiles around, where a border lies so close to the end of this tile that what it is in contact
+/// with may not touch it.
 void FineBlocks::add_beyond(std::size_t tile) {
     const glm::ivec2 low = kSubpixelsPerPixel * glm::ivec2(rect_.x0, rect_.y0) + grid_.half_pitch;
     const glm::ivec2 high = kSubpixelsPerPixel * glm::ivec2(rect_.x1, rect_.y1) + grid_.half_pitch;
@@ -118,7 +118,7 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
     }
 }
 
-/// From single cells to rectangles of them.
+/// Combines the numbers of single cells to those of rectangles of them.
 void FineBlocks::combine_cells() {
     for (std::size_t i = 0; i < count_; ++i) {
         float* const farthest = &farthest_[HidingGrid::kPlaces * block_at(places_[i].x, places_[i].y)];
@@ -133,7 +133,7 @@ void FineBlocks::combine_cells() {
     }
 }
 
-/// In all blocks of samples that a triangle may be listed in that touches the box, see TileTriangle.
+/// Notes a nearness in all blocks of samples in which a triangle that touches the box may be listed, see TileTriangle.
 void FineBlocks::note_least(glm::ivec2 low, glm::ivec2 high, float lowest) {
     const int pitch = 2 * grid_.half_pitch, per_pixel = kSubpixelsPerPixel / pitch;
     const int pitch_shift = std::countr_zero(static_cast<unsigned>(pitch));

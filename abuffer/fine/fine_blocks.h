@@ -13,7 +13,7 @@
 
 namespace burin {
 
-/// A surface that covers a place so far beyond a border is in contact there. 1/64 pixel.
+/// A surface that covers a place this far beyond a border is in contact with it. 1/64 pixel.
 constexpr int kBeyondSubpixels = 4;
 
 /// A part of an edge that is a line if it is visible. The part's begin and end are shares of `line`, which may be a
@@ -44,8 +44,8 @@ class FineBlocks {
     std::size_t count() const { return count_; }
     /// Numbers of candidates.
     std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_[block]; }
-    /// In no particular order. Some from beyond the tile may be listed twice. Those clipped by the near plane or the
-    /// guard band cover the whole screen.
+    /// The triangles of a block, in no particular order. Some from beyond the tile may be listed twice. Triangles that
+    /// are clipped by the near plane or the guard band cover the whole screen.
     const std::vector<CrossedTriangle>& triangles(std::size_t block) const { return triangles_[block]; }
 
   private:

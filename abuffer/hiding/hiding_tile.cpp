@@ -169,7 +169,7 @@ void HidingTile::find_pieces(const WholeLine& line, std::uint32_t line_number, s
     drop_contacts(line, first_piece, pieces);
 }
 
-/// Where a border ends in contact with a surface that goes on beyond it without any line.
+/// Finds where a border ends in contact with a surface that goes on beyond it without any line.
 void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
     if (line.classes.has(LineClass::mark)) return;
     const double slack = line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx);

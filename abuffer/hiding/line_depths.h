@@ -75,7 +75,8 @@ class LineDepths {
                 column_at(high.x), std::min((high.y - first_.y) >> kBlockShift, end_row_ - 1)};
     }
     static constexpr int kBeside = 256;  // 1 pixel
-    /// In the row of tiles with a row of blocks. Those at the picture's border stand for what is beyond it.
+    /// The range of a polygon in the row of tiles that has a row of blocks. Rows at the rim of the picture stand for
+    /// what is beyond it.
     PolygonRows::Range in_row_of_tiles(const PolygonRows& polygon, int y) const {
         constexpr double kFar = 1e9;
         const int begin = y & ~kLast, end = (y | kLast) + 1;

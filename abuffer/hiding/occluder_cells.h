@@ -37,9 +37,10 @@ class OccluderCells {
         if (triangles_.size() < count_ + kRoom) triangles_.resize(2 * count_ + kRoom);
         return triangles_.data() + (count_ - count);
     }
-    /// After all were added. Cells are made so small that about `per_cell` triangles begin in one.
+    /// Sorts the triangles into cells after all were added. Cells are made so small that about `per_cell` triangles
+    /// begin in one.
     void sort(double per_cell);
-    /// What for_crossed() needs, after that.
+    /// Makes what for_crossed() needs, after sort().
     void make_indices();
     const CrossedTriangle& operator[](std::size_t i) const { return triangles_[i]; }
     static ScreenBox box_of(const CrossedTriangle& triangle);

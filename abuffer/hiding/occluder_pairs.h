@@ -25,7 +25,7 @@ class OccluderPairs {
         : screen_(screen), kernels_(kernels), cells_(kernels) {}
 
     void clear() { entries_.clear(); }
-    /// For each entry of the tile's cells. `lowest`: the nearness of its farthest corner.
+    /// Adds what is known of the next entry of the tile's cells. `lowest`: the nearness of its farthest corner.
     void add(float lowest, const Corners& vertices) { entries_.push_back({lowest, vertices}); }
     std::span<const Pair> find(const OccluderCells& triangles, PixelRect rect);
 

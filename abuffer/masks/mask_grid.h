@@ -70,7 +70,7 @@ constexpr Mask sample_bit(int row, int column) {
     return mask;
 }
 
-/// The samples at least `apron` away from the border: a pixel's own.
+/// The samples at least `apron` away from the rim of the mask: a pixel's own.
 template <typename Mask>
 constexpr Mask inner_samples(int apron) {
     Mask mask{};

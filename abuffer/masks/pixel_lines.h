@@ -37,8 +37,8 @@ struct PixelLines {
 /// Finds the lines of a pixel from the masks of its visible fragments: steps 2 and 3 of Patel's
 /// method (2000).
 ///
-/// Fragments that continue each other are grouped to surfaces; where two surfaces border on each
-/// other and the border deserves a line, edge_between() of their masks is the stroke.
+/// Fragments that continue each other are grouped to surfaces; where two surfaces meet and their boundary deserves a
+/// line, edge_between() of their masks is the stroke.
 template <typename Mask>
 class PixelLineFinder {
   public:

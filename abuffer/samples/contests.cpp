@@ -72,7 +72,7 @@ void Contests::settle(SampleTile& samples) {
     if (!has_open) return;
     const auto end_of_open = std::remove_if(noted_.begin(), noted_.begin() + count_,
                                             [&](const Contest& c) { return is_open_[c.sample] == 0; });
-    // After keep_nearest() those of a sample follow each other.
+    // After keep_nearest() the contests of a sample follow each other.
     const auto is_before = [](const Contest& a, const Contest& b) {
         return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser);
     };

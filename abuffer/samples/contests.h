@@ -28,7 +28,7 @@ class Contests {
     explicit Contests(const ScreenSurfaces& screen, std::size_t most = kMostNoted)
         : screen_(screen), most_(most), noted_(std::min(std::size_t{1} << 14, most)) {}
 
-    /// Before a tile is drawn. All that are level are noted.
+    /// Begins a tile, before it is drawn. All that are level are noted.
     void clear() {
         count_ = 0;
         is_selecting_ = false;
@@ -39,7 +39,7 @@ class Contests {
     bool is_selecting() const { return is_selecting_; }
     std::size_t count() const { return count_; }
     std::size_t room() const { return noted_.size(); }
-    /// Where kernels note them.
+    /// Tells kernels where to note contests.
     void put_into(SampleView& view) {
         view.contests = noted_.data();
         view.contest_count = &count_;
@@ -67,7 +67,7 @@ class Contests {
     const float* last_nearness() const { return last_nearness_.data(); }
     const std::uint32_t* last_ids() const { return last_ids_.data(); }
     /// On the edge of a surface that ends at another one, and where two faces fold over, both are level, and rounding
-    /// says which is seen. Of those the one in front wins, and of coincident surfaces the first one, as in
+    /// says which is seen. The one in front wins then, and of coincident surfaces the first one, as in
     /// resolve_visibility().
     void settle(SampleTile& samples);
 

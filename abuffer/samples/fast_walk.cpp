@@ -46,7 +46,7 @@ class FastWalker::Way {
     }
     /// Where along the edge that is: 0 = at corner k.
     double along_edge(std::uint32_t k) const { return static_cast<double>(across_ - v_[k]) / (v_[next(k)] - v_[k]); }
-    /// On an edge that the line crosses, of any triangle.
+    /// Nearness on an edge that the line crosses, of any triangle.
     double nearness_at(HalfEdge h) const {
         const auto vertex = [&](HalfEdge k) -> const ScreenVertex& {
             return mesh_.vertices[mesh_.corners[h - h % 3 + k % 3]];
@@ -56,7 +56,7 @@ class FastWalker::Way {
         return glm::mix(static_cast<double>(p.nearness), static_cast<double>(q.nearness),
                         static_cast<double>(across_ - from) / (to - from));
     }
-    /// On the way through a triangle, from where the one before is left to where it is.
+    /// Nearness on the way through a triangle, from where the one before is left to where this one is.
     double nearness_between(const FastWalk::Step& before, const FastWalk::Step& step, double fraction_of_way) const {
         return glm::mix(nearness_at(before.exit), nearness_at(step.exit),
                         (fraction_of_way - before.left) / (step.left - before.left));
@@ -232,7 +232,7 @@ void FastWalker::note_lines(const NeighbourSamples& pair, bool backwards, FastWa
     if (slivers.count > 0) note_contact_at(result.triangle, 1);
 }
 
-/// From a border to another patch of the mesh. `arrived`: it goes on with the step `next`.
+/// Steps from a border to another patch of the mesh. `arrived`: the walk goes on with the step `next`.
 FastWalk::End FastWalker::step_over_seam(const Way& way, std::uint32_t instance, const FastWalk::Step& from,
                                          Way& beyond, FastWalk::Step& next) {
     const auto entry = seam_beyond(instance, from.exit, way.along_edge(from.exit % 3));

@@ -98,8 +98,8 @@ bool FlushCover::laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm:
     });
 }
 
-/// Whether two triangles lie in one plane without a line between them. Those that have nothing in common on the screen
-/// are compared at one place.
+/// Whether two triangles lie in one plane without a line between them. Triangles that have nothing in common on the
+/// screen are compared at one place.
 bool FlushCover::are_flush(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const {
     if (a.instance != b.instance) return false;
     if (a == b) return true;

@@ -249,8 +249,8 @@ float SurfaceTile::highest_in(const SpanPlane& plane, int from, int to, int firs
     return nearness < plane.high ? std::max(nearness, plane.low) : plane.high;  // not a number: the highest
 }
 
-/// In strips of blocks, without those at the strip's ends that hide the polygon; `has_look`: they are known.
-/// Returns how many samples were drawn.
+/// Draws a large polygon in strips of blocks, without blocks at the strip's ends that hide the polygon; `has_look`:
+/// these are known. Returns how many samples were drawn.
 int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
     ++drawn_;
     const ScanConverter scan(large.polygon, per_pixel_);

@@ -35,7 +35,7 @@ class ScreenSurfaces {
     /// Whether all are shown, always.
     bool shows_all() const { return shows_all_; }
 
-    /// All triangles of the instances that are shown, in ascending order, cut into pieces.
+    /// All triangles of the instances that are shown, in ascending order, cut into chunks.
     std::vector<TriangleChunk> chunks_of_triangles(std::uint32_t largest) const;
 
     std::uint32_t triangle_count() const { return first_triangle_.back(); }
@@ -71,7 +71,7 @@ class ScreenSurfaces {
     void set_facing(std::uint32_t number, Facing f) { facing_[number] = f; }
     /// The facings of the triangles of an instance.
     std::uint8_t* facings(std::uint32_t instance) { return facing_.get() + first_triangle_[instance]; }
-    /// Once the facing of all triangles of the instance is known: finds which edges may be lines.
+    /// Finds which edges may be lines, once the facing of all triangles of the instance is known.
     void find_line_edges(const TriangleChunk& chunk);
     /// Whether no edge of a triangle can be a line.
     bool is_plain(std::uint32_t number) const { return line_edges_[number] == 0; }

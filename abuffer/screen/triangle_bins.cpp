@@ -40,7 +40,7 @@ Box box_of(const Corners& corners, int count) {
     return box;
 }
 
-/// In order, which memory is faster at than at the order of lists.
+/// Prefetches in order, at which memory is faster than at the order of lists.
 void prefetch_to_write(const TileTriangle* first, std::size_t count) {
     const char* const at = reinterpret_cast<const char*>(first);
     for (std::size_t byte = 0; byte < count * sizeof(TileTriangle); byte += 64) __builtin_prefetch(at + byte, 1);
@@ -154,7 +154,7 @@ class Binner {
         return static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(rows);
     }
 
-    /// By counting keys. Neighbours often lie in one tile.
+    /// Sorts by counting keys. Neighbours often lie in one tile.
     void sort(std::uint32_t instance, const CulledTriangles& found, Scratch& scratch, Records& records) const {
         auto& count = scratch.count;
         scratch.used.clear();

@@ -39,7 +39,7 @@ struct TriangleRun {
 class TriangleBins {
   public:
     /// Finds the facing of all triangles on the way, and which of their edges may be lines. Tiles cover `region`; a
-    /// tile also gets what lies on the samples next to its right and lower border. `tile_samples`: a tile's width, a
+    /// tile also gets what lies on the samples next to its right and lower sides. `tile_samples`: a tile's width, a
     /// power of two. `keeps_thin`: triangles between samples are kept, too.
     TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel, const TileKernels& kernels,
                  int threads, int tile_samples = TileGrid::kTileSamples, bool keeps_thin = false);

@@ -289,7 +289,7 @@ SeenCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
         crossing.classes = classes_of_edge(ways[i].facet, ways[i].edge, at) | contact;
         return crossing;
     }
-    // Both go on behind each other, or lie in one plane.
+    // Here both surfaces go on behind each other, or lie in one plane.
     const bool lost = ways[0].end == Follow::End::lost || ways[1].end == Follow::End::lost;
     if (!lost && run_along(t.a, t.b, at)) return crossing;
     if (coincident || lost) {

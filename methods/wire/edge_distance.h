@@ -89,7 +89,7 @@ struct SolidWireframeCase {
     bool has_third;
 };
 
-/// By 4 [corner 0 behind] + 2 [corner 1 behind] + [corner 2 behind]; 1 to 6.
+/// The cases, by 4 [corner 0 behind] + 2 [corner 1 behind] + [corner 2 behind]; 1 to 6.
 constexpr std::array<SolidWireframeCase, 7> kSolidWireframeCases = {{
     {},
     {0, 2, 1, 2, true},
