@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <new>
 
+// Arrays that kernels read begin with a cache line.
+
 namespace burin {
 
 /// An allocator for vectors that begin with a cache line: wide loads from them need not touch two.

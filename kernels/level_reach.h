@@ -1,5 +1,7 @@
 #pragma once
 
+// Kernels leave out what lies behind all that is drawn, except what may still be level with it.
+
 namespace burin {
 
 /// How much a surface may be nearer than another one and still be level with it, as a multiple of what the farther one

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+// Kernels take many walks over a mesh together; what they read and write is here.
+
 namespace burin {
 
 /// What walk_over_mesh() compares with. Lengths are parts of the way from one sample to the other.

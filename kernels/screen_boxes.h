@@ -5,6 +5,8 @@
 
 #include "kernels/tile_kernels.h"
 
+// Boxes lie in an array per number, so that as many are compared at once as vectors hold.
+
 namespace burin {
 
 /// ScreenBoxes keeps boxes on the screen, or in space with nearness as the third axis, in an array per number, as the

@@ -6,6 +6,8 @@
 
 #include "kernels/subpixel.h"
 
+// Vertices and triangles of a mesh on the screen are what most kernels read.
+
 namespace burin {
 
 /// A vertex on the screen: snapped position in 1/256 pixel and nearness, less a constant of the

@@ -9,6 +9,8 @@
 #include "kernels/screen_triangle.h"
 #include "kernels/tile_kernels.h"
 
+// Triangles that may hide lines, and the boxes around them, are made from vertices on the screen.
+
 namespace burin {
 
 /// Makes a triangle that lines may cross from corners that all lie on the screen; places count from the picture's

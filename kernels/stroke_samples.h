@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+// Strokes are sampled at 16 x 32 places of a pixel, which are staggered so that no direction is in step with them.
+
 namespace burin {
 
 /// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Samples are

@@ -16,7 +16,7 @@ struct MeshWalks;
 struct WalkOutlines;
 struct WalkLimits;
 
-/// A round pen's stroke along a segment, in pixels: all that is closer than `radius`.
+/// A round pen's stroke along a straight piece, in pixels: all that is closer than `radius`.
 struct PenStroke {
     double from[2], to[2];
     double radius;

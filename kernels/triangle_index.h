@@ -4,6 +4,8 @@
 
 #include "kernels/tile_kernels.h"
 
+// Lines are compared with the triangles near them only, which an index of boxes finds.
+
 namespace burin {
 
 /// Finds the triangles that touch boxes on the screen, so that lines are compared with few of them: by the boxes around

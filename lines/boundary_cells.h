@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+// The pieces near a place are looked up by cells of the screen, from the nearest ring outwards.
+
 namespace burin {
 
 /// The ends of a straight piece on the screen, in pixels.

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+// A walk that comes back to where it was would go on for ever, so it is told to end.
+
 namespace burin {
 
 /// Tells when something that goes from state to state, each of which follows from the one before, goes round in

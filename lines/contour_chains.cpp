@@ -37,7 +37,7 @@ glm::dvec3 on_edge(const glm::dvec3& a, const glm::dvec3& normal_a, const glm::d
     return on_cubic(a, from_a, from_b, b, share);
 }
 
-/// What a cubic needs to leave an end at the tangent there.
+/// The handle that lets a cubic leave an end along the tangent there.
 glm::dvec2 handle(glm::dvec2 along, glm::dvec2 chord) {
     const double length = glm::length(chord), cosine = glm::dot(along, chord) / length;
     if (!(std::abs(cosine) >= kCosLargestTurn)) return chord / 3.0;

@@ -6,6 +6,8 @@
 #include "lines/corner_normals.h"
 #include "view/surface_set.h"
 
+// The contour of a smooth surface is found on the triangles around a fold, as chains of points.
+
 namespace burin {
 
 /// A part of a smooth contour on the screen, in pixels. Its first point is its last one again if it

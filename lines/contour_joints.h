@@ -7,6 +7,8 @@
 
 #include "lines/line_piece.h"
 
+// Lines that met before some of them were moved are joined again.
+
 namespace burin {
 
 /// A visible piece where a surface ends, and where it was moved to: two points or more.

@@ -5,6 +5,8 @@
 
 #include "lines/surface_walk.h"
 
+// Smooth contours need normals at vertices, which are made from the polygons around.
+
 namespace burin {
 
 /// SmoothMesh says where a mesh is smooth, and has its normals there.

@@ -7,6 +7,8 @@
 
 #include "image/image.h"
 
+// Lines that lie on each other on the screen are found by place, so that they share their dashes.
+
 namespace burin {
 
 /// CourseIndex keeps straight courses of lines on the screen by place, and finds those that another line lies on, so

@@ -7,6 +7,8 @@
 
 #include "lines/line_class.h"
 
+// Creases may fade in between two angles, so that they do not pop in an animation.
+
 namespace burin {
 
 /// CreaseFade says how opaque a crease is drawn: not at all where its polygons' normals differ by `from_deg`, fully

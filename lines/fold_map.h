@@ -6,6 +6,8 @@
 
 #include "lines/contour_chains.h"
 
+// An edge at which a smooth surface folds is moved to the contour beside it.
+
 namespace burin {
 
 /// FoldMap says where the places of an edge, at which a smooth surface folds, are moved to: to the nearest points of

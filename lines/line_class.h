@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+// Each line has classes, of which the first one asked for names it.
+
 namespace burin {
 
 /// The classes of lines, in order of priority: where several fall together, the first one among

@@ -8,6 +8,8 @@
 #include "lines/whole_line.h"
 #include "view/surface_set.h"
 
+// Lines of the mesh get their dashes along whole chains, seen or not.
+
 namespace burin {
 
 /// Whether an edge of the mesh is a line from anywhere.

@@ -58,7 +58,7 @@ void SegmentMerger::sort(std::span<std::uint32_t> order, std::span<const LineSeg
 /// Sorts the pieces of one block of an ordinary picture by numbers that say nearly all, without branches: these would
 /// be unpredictable. Returns false where the numbers cannot.
 bool SegmentMerger::sort_few(std::span<std::uint32_t> order, std::span<const LineSegment> pieces) const {
-    // The line, where on it, and which piece: 32, 23 and 6 bits behind the exponent's first one.
+    // A number says the line, where on it, and which piece: in 32, 23 and 6 bits behind the exponent's first one.
     constexpr int kIndexBits = 6, kPlaceBits = 23;
     constexpr std::size_t kFew = std::size_t{1} << kIndexBits;
     constexpr std::uint64_t kExponent = std::uint64_t{1} << 62;

@@ -2,6 +2,8 @@
 
 #include "lines/surface_walk.h"
 
+// Faces that lap over each other by a narrow strip are in contact, and not one face.
+
 namespace burin {
 
 /// A triangle, and where on the screen it is, in pixels.

@@ -4,6 +4,8 @@
 
 #include "view/surface_set.h"
 
+// Seams are looked for as the eye sees them: gaps wider than a pixel are none.
+
 namespace burin {
 
 /// Borders of two patches farther apart than this on the screen are no seam. Pixels.

@@ -7,6 +7,9 @@
 
 #include "lines/course_index.h"
 
+// Chains of pieces become dashes, and lines that lie on each other get the same ones
+// (docs/decisions/0020-one-dashed-line.md).
+
 namespace burin {
 
 /// A straight piece of a line that is drawn in dashes, in pixels, and where its ends stand along its chain.

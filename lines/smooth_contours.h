@@ -8,6 +8,8 @@
 #include "lines/line_piece.h"
 #include "view/surface_set.h"
 
+// Outlines of smooth surfaces follow interpolated normals instead of a zigzag of edges.
+
 namespace burin {
 
 /// Contours of smooth surfaces: where normals, interpolated between vertices, are across the line of

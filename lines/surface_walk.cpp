@@ -18,9 +18,9 @@ namespace {
 constexpr double kSliverHeightPx = 1.0 / 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an
-/// orthographic view. Linear in view space, also behind the eye. Corners are snapped as the rasterizer snaps them: not
-/// those of triangles that are cut, for what snapping moves grows beyond a corner on the way to one behind the eye.
+/// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an orthographic view. It is
+/// linear in view space, also behind the eye. Corners are snapped as the rasterizer snaps them, but not those of
+/// triangles that are cut: what snapping moves grows beyond a corner on the way to one behind the eye.
 glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view, bool is_snapped) {
     const double w = p.orthographic ? 1.0 : -view.z;
     if (!is_snapped) return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
@@ -307,7 +307,7 @@ class Walker {
     bool is_level(double a, double b, SurfaceId steep) const {
         return std::abs(a - b) <= depth_tolerance(surfaces_, a, surfaces_.plane(steep));
     }
-    /// Whether the planes of two triangles are.
+    /// Whether the planes of two triangles are one, as far as lines care.
     bool is_level_at(double fraction, SurfaceId a, SurfaceId b) const {
         const auto distance = [&](SurfaceId s) {
             return distance_of(surfaces_.projection, surfaces_.plane(s).nearness(at(fraction)));

@@ -9,6 +9,8 @@
 #include "lines/line_class.h"
 #include "view/surface_set.h"
 
+// A walk follows the surface from one visible point towards another, and says how it ended and which edges it crossed.
+
 namespace burin {
 
 /// What makes an edge between two polygons a line.

@@ -8,6 +8,8 @@
 #include "kernels/tile_kernels.h"
 #include "lines/line_class.h"
 
+// Hidden lines and dashes need lines as wholes, whatever is seen of them.
+
 namespace burin {
 
 /// WholeLine is a straight line on the screen, seen or not: an edge of a mesh, or where two triangles pass through each

@@ -9,6 +9,8 @@
 
 #include "mesh/segment_tree.h"
 
+// Walks over seams, and the closing of cracks, ask which borders are near a place.
+
 namespace burin {
 
 using HalfEdge = std::uint32_t;

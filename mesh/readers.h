@@ -7,6 +7,8 @@
 
 #include "mesh/polygon_soup.h"
 
+// Each format has a reader, which takes the path of a file and returns its polygons as they stand there.
+
 namespace burin {
 
 /// Readers of the single-mesh formats. Each takes the path of a file and returns its polygons.

@@ -9,6 +9,8 @@
 #include "kernels/screen_boxes.h"
 #include "kernels/tile_kernels.h"
 
+// Pairs of triangles that may meet are found by a tree of their boxes.
+
 namespace burin {
 
 /// BoxTree takes boxes in space, in an order that keeps neighbours together, eight to a leaf, eight leaves to a node

@@ -338,7 +338,7 @@ class EdgeLineFinder::Rules {
         const std::uint8_t opacity = fade_.opacity(classes, crease_cosine);
         if (opacity == 0) return;
         const Mesh& mesh = surfaces_.mesh_of(s);
-        // One direction, whichever triangle asks.
+        // The line gets one direction, whichever triangle asks.
         const auto vertices = ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
         WholeLine* const added = add_on_screen(s.instance, vertices, lines);
         if (added == nullptr) return;

@@ -16,7 +16,8 @@ namespace {
 using Triangle = IntersectionTest::Triangle;
 
 constexpr std::size_t kMostTriangles = std::size_t{1} << 23, kMostPairs = std::size_t{1} << 24;
-// Pairs whose boxes overlap: scans have one for each triangle, assemblies a few dozen. Of long slanted facets all may.
+// Pairs whose boxes overlap: scans have one for each triangle, assemblies a few dozen. The boxes of long slanted facets
+// may all overlap.
 constexpr std::uint64_t kMostTestsPerTriangle = 64, kLeastTests = 1 << 20;
 constexpr double kLargestExtent = 1e30;  // boxes have single precision
 // How far a coordinate may be off, as a part of the scene's extent.

@@ -41,7 +41,7 @@ class LevelWalk {
 
     Exit at_edge(HalfEdge h) const { return exit_at(h, corner(mesh_.corners[h]), corner(mesh_.corners[next(h)])); }
 
-    /// Through the triangle of a half-edge, from an edge with the same ends.
+    /// Goes through the triangle of a half-edge, from an edge with the same ends.
     Exit through(HalfEdge entry, const Exit& from) const {
         const HalfEdge second = next(entry), third = next(second);
         const std::size_t first = mesh_.corners[entry] == from.ends[0].vertex ? 0 : 1;
@@ -86,7 +86,7 @@ bool surely_goes_on(const ScreenSurfaces& screen, std::uint32_t instance, HalfEd
     const LevelWalk walk(mesh, from, out);
     LevelWalk::Exit exit = walk.at_edge(h);
     if (exit.half_edge == kNoHalfEdge || std::abs(exit.ends[0].side) < kMargin) return false;
-    // It comes from the triangle itself.
+    // The walk comes from the triangle itself.
     const LevelWalk::Exit own = walk.through(h, exit);
     if (own.half_edge == kNoHalfEdge || own.reached > -kMargin) return false;
     const SurfaceSet& surfaces = screen.surfaces();

@@ -8,7 +8,7 @@ namespace {
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// The top-left rule, for an edge of a triangle whose corners run clockwise as seen.
+/// Whether points on an edge belong to the triangle, by the top-left rule; its corners run clockwise as seen.
 bool owns_edge(double along_x, double along_y) { return (along_y < 0) | ((along_y == 0) & (along_x > 0)); }
 
 /// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for

@@ -13,7 +13,7 @@ namespace burin {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-/// A border asks what is behind it, too. As a multiple of level_slack(): 4 pixels' widths.
+/// A border asks what is behind it, too, as far as this multiple of level_slack(): 4 pixels' widths.
 constexpr double kBehindBorder = 64;
 /// How far beside a line triangles are asked for, with what rounding may do to places. 1/256 pixel.
 constexpr int kReach = kBeyondSubpixels + 1;
@@ -197,7 +197,7 @@ void FineBlocks::add(const CrossedTriangle& triangle, const Box& box, std::span<
     const int left = grid_.at(box.x0 - kReach) - first_x_, right = grid_.at(box.x1 + kReach) - first_x_;
     const int top = grid_.at(box.y0 - kReach) - first_y_, bottom = grid_.at(box.y1 + kReach) - first_y_;
     const bool fills_box = left == right || top == bottom;
-    // A long one touches few of the blocks in its box.
+    // A long triangle touches few of the blocks in its box.
     const auto touches = [&](glm::ivec2 block) {
         constexpr int kAround = kReach + 1;  // with rounding
         const int y = first_y_ + block.y, x = first_x_ + block.x;

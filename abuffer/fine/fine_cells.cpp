@@ -68,7 +68,8 @@ void FineCells::sort_to_cells() {
     }
 }
 
-/// Calls visit(cell) for those that a triangle touches, but for rounding: of its box, not those that it passes by.
+/// Calls visit(cell) for the cells of its box that a triangle touches, but for rounding, without those that it passes
+/// by.
 template <typename Visit>
 void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Visit& visit) const {
     const Range cells = range_of(box);
@@ -80,7 +81,7 @@ void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Vis
     const glm::ivec2 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
     const int around = std::max(farthest.x, farthest.y) < near ? margin : far_margin;
     for (int y = cells.y0; y <= cells.y1; ++y) {
-        // Cells at the block's border stand for what is beyond it.
+        // Cells at the rim of the block stand for what is beyond it.
         const int top = y == 0 ? box.low.y : corner_.y + (y << cell_shift_),
                   bottom = y == cells_ - 1 ? box.high.y : corner_.y + ((y + 1) << cell_shift_);
         const PolygonRows::Range range = rows.between(top - around, bottom + around);

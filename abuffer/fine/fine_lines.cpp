@@ -22,11 +22,11 @@ constexpr double kShortestPiecePx = 1.0 / 32;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
-/// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many surfaces, lines are left to
-/// the samples, for time would grow with the square.
+/// The most pairs of an edge and a triangle near it in one block: if there are more, as in a heap of very many
+/// surfaces, lines are left to the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 22;
-/// Where so many triangles lie over each other that cells do not tell them apart, each pair is looked at more closely,
-/// and far fewer are too many: meshes of small triangles and piles of a few hundred large ones stay far below.
+/// Where more than kManyInCell triangles lie over each other, cells do not tell them apart; each pair is looked at more
+/// closely, and far fewer are too many: meshes of small triangles and piles of a few hundred large ones stay far below.
 constexpr std::size_t kManyInCell = 256, kMostLooksInHeap = std::size_t{1} << 18;
 /// In a block with more candidates, those behind others on the same straight line are left out.
 constexpr std::size_t kFewCandidates = 12;
@@ -57,7 +57,8 @@ class FineLines::BlockClipper {
     }
     std::size_t triangles_per_cell() const { return cells_.triangles_per_cell(); }
 
-    /// add_visible() of all, but for what is surely covered by strokes of others that are nearer: those first.
+    /// Calls add_visible() for all candidates, the nearest first, but for those that strokes of nearer ones surely
+    /// cover.
     void add_not_covered(std::span<const FineCandidate> candidates, std::span<const std::uint32_t> numbers,
                          std::vector<LineSegment>& segments) {
         order_.clear();
@@ -86,7 +87,7 @@ class FineLines::BlockClipper {
         const bool is_border = line.owners[0] == line.owners[1], is_by_itself = line.is_by_itself();
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         hidden_.clear();
-        double reached = begin;  // as far as no piece is left
+        double reached = begin;  // up to here all is hidden
         bool is_hidden = false;
         const glm::dvec2 a = line.at(begin), b = line.at(end);
         const PlaneLine clipped{{line.from.x, line.to.x, a.x, b.x},

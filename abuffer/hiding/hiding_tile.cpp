@@ -9,7 +9,7 @@ namespace {
 
 /// Cells are made so small that about this many triangles begin in one.
 constexpr double kTrianglesPerCell = 4096;
-/// Between contacts, what is left of a line is at least so long.
+/// What is left of a line between contacts is at least this long.
 constexpr double kShortestRestPx = 1.0 / 32;
 
 }  // namespace
@@ -198,7 +198,7 @@ void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
     std::erase_if(contacts_of_line_, [](const Contact& c) { return c.makes_line || c.begin >= c.end; });
 }
 
-/// Cuts them out of the pieces of a line, from `first` on. What is left is no dot: contacts with neighbours meet but
+/// Cuts contacts out of the parts of a line, from `first` on. What is left is no dot: contacts with neighbours meet but
 /// for rounding.
 void HidingTile::drop_contacts(const WholeLine& line, std::size_t first, std::vector<LinePart>& pieces) {
     if (contacts_of_line_.empty()) return;

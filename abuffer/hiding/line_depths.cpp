@@ -53,7 +53,7 @@ void LineDepths::combine_blocks() {
 
 void LineDepths::add(const WholeLine& line, double slack) {
     const float least = std::nextafter(static_cast<float>(line.lowest_in(0, 1) - slack), -kNoLine);
-    // Ends of lines that are cut lie about the guard band's border, as exactly as the line is long.
+    // Ends of lines that are cut lie about where the guard band ends, as exactly as the line is long.
     const auto whole = [](glm::dvec2 p) { return glm::ivec2(glm::clamp(p, -kFarthest, kFarthest)); };
     const Blocks b =
         blocks_of(whole(glm::floor(glm::min(line.from, line.to))), whole(glm::ceil(glm::max(line.from, line.to))));

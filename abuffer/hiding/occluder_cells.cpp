@@ -9,7 +9,7 @@ namespace {
 
 /// Lines are looked up in a cell by parts no longer than an eighth of it. 1/256 pixel for each of its pixels.
 constexpr double kPartOfCell = 256.0 / 8;
-/// More than what rounding does to places. 1/256 pixel.
+/// A margin greater than what rounding does to places. 1/256 pixel.
 constexpr float kRounding = 4;
 constexpr float kFar = 1e30f;
 

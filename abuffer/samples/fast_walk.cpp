@@ -24,7 +24,7 @@ class FastWalker::Way {
           origin_((pair.down ? pair.y : pair.x) + (backwards ? pair.pitch : 0)),
           per_unit_((backwards ? -1.0 : 1.0) / pair.pitch) {}
 
-    /// False where it reaches off the screen.
+    /// Returns false where the triangle reaches off the screen.
     bool look_at(std::uint32_t triangle) {
         const std::uint32_t* const corners = mesh_.corners + 3 * static_cast<std::size_t>(triangle);
         bool is_on = true;
@@ -61,13 +61,13 @@ class FastWalker::Way {
         return glm::mix(nearness_at(before.exit), nearness_at(step.exit),
                         (fraction_of_way - before.left) / (step.left - before.left));
     }
-    /// Through the triangle that is entered over half-edge `entry`.
+    /// The step through the triangle that is entered over half-edge `entry`.
     FastWalk::Step step_from(HalfEdge entry, double entered) const {
         const std::uint32_t t = entry / 3, k = entry - 3 * t, n = next(k), apex = next(n);
         const std::uint32_t exit = side_[apex] == side_[k] ? n : apex;
         return {t, 3 * t + exit, entered, fraction(exit)};
     }
-    /// Through the triangle in which the walk begins.
+    /// The step through the triangle in which the walk begins.
     FastWalk::Step first_step(std::uint32_t t) const {
         constexpr double kBefore = FastWalk::kBefore;
         FastWalk::Step step{t, kNoHalfEdge, kBefore, kBefore};
@@ -82,7 +82,7 @@ class FastWalker::Way {
         }
         return step;
     }
-    /// In 1/256 pixel.
+    /// The place on the way, in 1/256 pixel.
     glm::dvec2 at(double fraction_of_way) const {
         const double along = origin_ + fraction_of_way / per_unit_;
         return down_ ? glm::dvec2(across_, along) : glm::dvec2(along, across_);

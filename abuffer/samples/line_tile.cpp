@@ -156,8 +156,8 @@ void LineTile::find_crossings() {
     }
 }
 
-/// The crossings of outlines before the background, which most lines are: mesh by mesh. Returns how many of the pairs
-/// that are asked are left.
+/// Finds the crossings of outlines before the background, which most lines are, mesh by mesh. Returns how many of the
+/// pairs that are asked are left.
 std::size_t LineTile::find_outlines(std::size_t asked) {
     if (outlines_.size() < asked) outlines_.resize(2 * asked);
     std::size_t count = 0, left = 0;

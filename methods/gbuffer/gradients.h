@@ -8,6 +8,8 @@
 #include "methods/gbuffer/profile.h"
 #include "methods/gbuffer/raster.h"
 
+// The length of gradients tells where depth or normals change.
+
 namespace burin {
 
 /// Length of the gradient per sample by Sobel's operator (Irwin Sobel, Gary Feldman, 1968; as an

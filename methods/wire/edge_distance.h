@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+// How dark a pixel is depends on its distance from the edges of its triangle, which papers find in different ways.
+
 namespace burin {
 
 /// Distances from a pixel to the edges of a triangle, in the ways that the papers on wireframes

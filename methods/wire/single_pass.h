@@ -2,6 +2,8 @@
 
 #include "render/method.h"
 
+// The methods `single-pass` and `solid-wireframe` fill triangles once, with lines along their edges.
+
 namespace burin {
 
 /// Single-pass wireframe rendering, J. A. Baerentzen, S. L. Nielsen, M. Gjoel, B. D. Larsen and
