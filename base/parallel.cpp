@@ -41,11 +41,11 @@ void on_workers(std::size_t workers, const Work& work) {
     if (failure) std::rethrow_exception(failure);
 }
 
-/// Indices of which one worker takes from the front, others from the back.
+/// A range of indices from which one worker takes at the front, and others at the back.
 class IndexRange {
   public:
     void set(std::size_t begin, std::size_t end) { bits_ = std::uint64_t{begin} << 32 | end; }
-    /// Whether there was one.
+    /// Takes an index, and says whether there was one.
     bool take(bool from_front, std::size_t& index) {
         std::uint64_t bits = bits_.load(std::memory_order_relaxed), rest;
         do {

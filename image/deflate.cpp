@@ -30,7 +30,7 @@ std::uint64_t load_eight(const std::uint8_t* p) {
 std::size_t common_length(const std::uint8_t* p, const std::uint8_t* q, const std::uint8_t* end) {
     const std::uint8_t* const start = p;
     const auto differ = [](const std::uint8_t* a, const std::uint8_t* b) { return load_eight(a) ^ load_eight(b); };
-    // Long runs, 32 bytes at a time.
+    // Long runs are compared 32 bytes at a time.
     while (end - p >= 32 &&
            (differ(p, q) | differ(p + 8, q + 8) | differ(p + 16, q + 16) | differ(p + 24, q + 24)) == 0) {
         p += 32;
@@ -163,7 +163,7 @@ std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> b
         const std::size_t count = std::min(kBlockSequences, sequences_.size() - first);
         const auto sequences = std::span(sequences_).subspan(first, count);
         const DeflateBlock block(sequences, from);
-        // No more memory than is needed, for it is fresh at first.
+        // There is no more memory than is needed, for it is fresh at first.
         const auto used = static_cast<std::size_t>(out.place() - out_.data());
         out_.resize(std::max(out_.size(), used + block.most_bytes() + kRest));
         out.move_to(out_.data() + used);

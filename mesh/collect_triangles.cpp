@@ -52,7 +52,7 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
                        const std::vector<std::uint32_t>& welded, bool in_spatial_order, Mesh& mesh) {
     constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
     const std::size_t count = soup.polygon_count();
-    // Numbers in the object, of the first ones of vertices that fall together; and the other way round.
+    // The numbers in the object of the first ones of vertices that fall together, and the other way round.
     std::vector<std::uint32_t> local = large_vector(positions.size(), kUnused);
     UnfilledVector<std::uint32_t> used(positions.size() + 1);
     reserve_large(mesh.triangles, count);

@@ -39,7 +39,7 @@ class HeaderReader {
         is_good_ = is_good_ && bytes <= static_cast<std::uint64_t>(end_ - at_);
         at_ = is_good_ ? at_ + bytes : end_;
     }
-    /// Seven bits per byte, the lowest first.
+    /// Reads a number of seven bits per byte, the lowest first.
     std::uint64_t number() {
         std::uint64_t value = 0;
         for (int shift = 0; shift < 64 && at_ < end_; shift += 7) {

@@ -33,11 +33,11 @@ struct Bounds {
     }
     glm::dvec3 center() const { return 0.5 * (low + high); }
     double half_size() const { return largest_of(0.5 * (high - low)); }
-    /// How far from a place it reaches along an axis.
+    /// How far a box reaches from a place along an axis.
     double reach_from(const glm::dvec3& p) const { return std::max(largest_of(low - p), largest_of(high - p)); }
 };
 
-/// Around vertices that polygons or marked edges have.
+/// The box around vertices that polygons or marked edges have.
 Bounds bounds_of(const PolygonSoup& soup) {
     std::vector<std::uint8_t> is_used(soup.positions.size(), 0);
     for (const std::uint32_t v : soup.corners) is_used[v] = 1;

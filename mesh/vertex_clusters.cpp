@@ -119,7 +119,7 @@ bool VertexClusters::is_needle(const Positions& moved, std::uint32_t triangle) c
     return lengths[0] <= kNeedleMoves * farthest && lengths[0] <= kNeedleEndPart * lengths[1];
 }
 
-/// Lets clusters fall apart where triangles turn too far. Whether there were any.
+/// Lets clusters fall apart where triangles turn too far, and says whether there were any.
 bool VertexClusters::undo_turned(const Positions& moved) {
     std::vector<std::uint32_t> undone;
     for (const auto& members : members_) {

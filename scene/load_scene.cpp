@@ -88,8 +88,8 @@ class SceneLoader {
     }
 
   private:
-    /// What has no polygon has marks only: they are drawn unless the scene file wants other classes than those by
-    /// default.
+    /// A scene without polygons has marks only: they are drawn unless the scene file wants other classes than the
+    /// default ones.
     void draw_lines_without_polygons() {
         const bool has_polygons = std::any_of(scene_.meshes.begin(), scene_.meshes.end(),
                                               [](const Mesh& mesh) { return !mesh.triangles.empty(); });

@@ -69,7 +69,7 @@ SampleSpan ScanConverter::columns_in(int first, int end) const {
         low = std::min({low, at_top, at_bottom});
         high = std::max({high, at_top, at_bottom});
     }
-    // Rounding is off by far less than a sample, and a covered one lies at a whole number from `low` on and before
+    // Rounding is off by far less than a sample, and a covered sample lies at a whole number from `low` on and before
     // `high`.
     if (low > high) return {};
     const int left = static_cast<int>(low), right = static_cast<int>(high);
