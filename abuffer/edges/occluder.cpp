@@ -83,7 +83,7 @@ bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm:
            clip_where_positive(high.y - line_from.y, high.y - line_to.y, begin, end);
 }
 
-void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle) {
+void set_up_occluder(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle) {
     const ScreenMesh& mesh = screen.mesh(s.instance);
     const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
     const ScreenVertex &a = mesh.vertices[corner[0]], &first = mesh.vertices[corner[1]],
@@ -115,7 +115,7 @@ void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint3
 
 Occluder occluder_of(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
     Occluder triangle;
-    set_up_layer_triangle(screen, s, number, triangle);
+    set_up_occluder(screen, s, number, triangle);
     return triangle;
 }
 

@@ -44,7 +44,7 @@ inline bool clip_to_rect(const WholeLine& line, glm::dvec2 low, glm::dvec2 high,
 /// A triangle whose corners are all on the screen.
 Occluder occluder_of(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
 /// Makes the same occluder in place, but for its transmission.
-void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle);
+void set_up_occluder(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle);
 /// What the near plane and the guard band leave of any other one.
 std::vector<Occluder> clipped_occluders(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
 

@@ -104,8 +104,8 @@ void HidingTile::set_up(std::uint32_t i) {
     const std::uint32_t number = cells_[i].number;
     const SurfaceId s = screen_.surface_of(number);
     set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
-    set_up_layer_triangle(screen_, s, number,
-                          triangles_.emplace_back());  // where it stays: copies would wait for its parts
+    set_up_occluder(screen_, s, number,
+                    triangles_.emplace_back());  // where it stays: copies would wait for its parts
     triangles_.back().transmission = transmission_of(s);
 }
 
