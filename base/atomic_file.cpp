@@ -197,7 +197,7 @@ void AtomicFile::write(const void* data, std::size_t size) {
 
 void AtomicFile::seek(std::size_t position) { position_ = position; }
 
-/// Its own one, if it is free, else a temporary one.
+/// Gives the file its own name, if that is free, else a temporary one.
 void AtomicFile::give_name() {
     const std::string from = name_of_descriptor(fd_);
     const auto link_to = [&](const std::string& path) {

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+// Exceptions say what is wrong with an input or a command line, where, and what to do; each stands for an exit status.
+
 namespace burin {
 
 /// A place in an input file, for error messages. Line and column count from 1; 0 = unknown.

@@ -19,7 +19,7 @@ void keep_freed_memory([[maybe_unused]] int threads) noexcept {
     constexpr int kThreadsPerHeap = 4;
     ::mallopt(M_ARENA_MAX, (resolve_thread_count(threads) + kThreadsPerHeap - 1) / kThreadsPerHeap);
     ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-    // The heap grows by this now, and so much of it stays, in huge pages. It is backed by memory when it is written.
+    // The heap grows by this, and as much of it stays, in huge pages. It is backed by memory when it is written.
     constexpr std::size_t kAtFirst = std::size_t{256} << 20;
     void* const heap = std::malloc(kAtFirst);
     if (heap == nullptr) return;

@@ -68,7 +68,7 @@ class HelperThread {
 
 namespace {
 
-/// Those that nobody uses.
+/// The helper threads that nobody uses at present.
 class IdleHelpers {
   public:
     /// The process's own. Never destroyed: they wait on when it ends.

@@ -1,5 +1,7 @@
 #pragma once
 
+// Kernels ask here which vector instructions they may use, so that tests can draw with each set on one machine.
+
 namespace burin {
 
 /// The sets of vector instructions that some kernels are compiled for, from the least to the most.

@@ -1,5 +1,7 @@
 #pragma once
 
+// Signals that ask the program to stop become an exception that long loops throw, so that no partial file is left.
+
 namespace burin {
 
 /// From now on SIGINT, SIGTERM, SIGHUP (the terminal is gone), SIGQUIT and SIGXCPU (a limit of CPU time) ask the

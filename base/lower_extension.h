@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+// Readers and writers are chosen by the extension of a path.
+
 namespace burin {
 
 /// The extension of a path in lower case, with its dot: what kind of file it names. Empty if it has none.

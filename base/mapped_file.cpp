@@ -139,7 +139,7 @@ void MappedFile::on_bus_error(int signal_number, void* info) {
             ::_exit(1);
         }
     }
-    // Something else, which ends the process once this returns.
+    // The signal has another cause, which ends the process once this returns.
     std::signal(signal_number, SIG_DFL);
     ::raise(signal_number);
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+// Readers see a file as bytes in memory, and learn of it if another program cuts the file meanwhile.
+
 namespace burin {
 
 /// Knows how long a file was.
@@ -43,7 +45,7 @@ class MappedFile {
     /// page, and SIGBUS behind that.
     void copy(std::size_t place, std::span<char> to) const;
 
-    /// As FileLength has it.
+    /// Throws InputError if the file has become shorter since, as FileLength does.
     void check_is_whole() const { length_.check(); }
 
     /// From now on the process ends with exit status 1 and a message that names the file, instead of a signal, when it
@@ -58,7 +60,7 @@ class MappedFile {
     const char* data_ = nullptr;
     std::size_t size_ = 0;
     FileLength length_;
-    // All that are mapped, for the signal handler.
+    // A list of all files that are mapped, for the signal handler.
     MappedFile* next_ = nullptr;
     MappedFile* previous_ = nullptr;
 };

@@ -7,7 +7,7 @@
 namespace burin {
 namespace {
 
-/// As --memory-model takes it, rounded up.
+/// A size as --memory-model takes it, rounded up.
 std::string option_text(std::uint64_t bytes) {
     constexpr int kMega = 20, kGiga = 30;
     const int shift = bytes >> kGiga < 16 ? kMega : kGiga;

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+// A budget counts what a few words of a file will take, before anything is made, and refuses what is too much.
+
 namespace burin {
 
 /// A size as messages say it: "1.5 GB", "700 MB". 1 GB is 1024 MB, as for --memory.

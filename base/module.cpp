@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The program's own path. Without /proc the one that it was started by.
+/// The program's own path; without /proc it is the path by which the program was started.
 fs::path program_path() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);

@@ -1,5 +1,7 @@
 #pragma once
 
+// Libraries that few pictures need lie in modules, which are loaded at their first use.
+
 namespace burin {
 
 /// A function of a module: a shared object that stands beside the program, or where it was

@@ -18,7 +18,7 @@ std::size_t count_workers(std::size_t count, int threads) {
     return std::min(count, static_cast<std::size_t>(resolve_thread_count(threads)));
 }
 
-/// Calls work(worker, stop) once on each of so many threads, or fewer, one of them this one. The first exception sets
+/// Calls work(worker, stop) once on each of `workers` threads, or fewer, one of them this one. The first exception sets
 /// `stop` and is rethrown.
 template <typename Work>
 void on_workers(std::size_t workers, const Work& work) {
@@ -41,11 +41,11 @@ void on_workers(std::size_t workers, const Work& work) {
     if (failure) std::rethrow_exception(failure);
 }
 
-/// Indices of which one worker takes from the front, others from the back.
+/// A range of indices from which one worker takes at the front, and others at the back.
 class IndexRange {
   public:
     void set(std::size_t begin, std::size_t end) { bits_ = std::uint64_t{begin} << 32 | end; }
-    /// Whether there was one.
+    /// Takes an index, and says whether there was one.
     bool take(bool from_front, std::size_t& index) {
         std::uint64_t bits = bits_.load(std::memory_order_relaxed), rest;
         do {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 
+// Work on many indices is handed out to threads; nothing may depend on which thread does what.
+
 namespace burin {
 
 /// Number of threads to use for a request of `threads`; 0 asks for all cores.
@@ -21,9 +23,9 @@ constexpr std::size_t kMostInARow = 8;
 /// throws `Interrupted`.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t index, int worker)>& work);
 
-/// The same in any order, count < 2^32: each worker begins with its own part of the indices, the same one whenever
-/// there are as many, so that what it wrote at an index is mostly in its own caches when it reads there. Then it helps
-/// the others, from the ends of their parts.
+/// parallel_for() in any order of the indices, for a count below 2^32: each worker begins with its own part of the
+/// indices, the same one whenever there are as many, so that what it wrote at an index is mostly in its own caches when
+/// it reads there. Then it helps the others, from the ends of their parts.
 void parallel_for_parts(std::size_t count, int threads, const std::function<void(std::size_t index, int worker)>& work);
 
 /// Calls work(i) once for every i in [0, count), many in a row on one thread: for work that is little by itself.

@@ -6,6 +6,8 @@
 #include <mutex>
 #include <string>
 
+// Long jobs tell the user on a terminal how far they are.
+
 namespace burin {
 
 /// How progress is shown.

@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+// Stages of a render are timed by wall clock.
+
 namespace burin {
 
 /// Wall-clock seconds since construction or since the last lap().

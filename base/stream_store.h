@@ -10,10 +10,12 @@
 #include <iterator>
 #include <type_traits>
 
+// Large results that nobody reads soon are written past the caches, so that they push nothing else out.
+
 namespace burin {
 
-/// For memory that is filled long before it is read: written past the caches, it need not be fetched first and
-/// pushes nothing else out. On processors without such stores, ordinary ones.
+/// Stores for memory that is filled long before it is read: written past the caches, it need not be fetched first and
+/// pushes nothing else out. On processors without such stores they are ordinary ones.
 ///
 /// Other threads may miss what was written until the writing one has called finish_stream_stores().
 

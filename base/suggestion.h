@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+// Messages about an unknown word name the known one that was probably meant.
+
 namespace burin {
 
 /// How many characters must be put in, taken out or exchanged to make one word of another (Levenshtein 1966).

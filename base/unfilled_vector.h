@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+// Large arrays that are filled once begin without values, since zeroing them first would cost as much as filling them.
+
 namespace burin {
 
-/// As std::allocator, but what a vector grows by is left as the memory was.
+/// An allocator like std::allocator, but what a vector grows by is left as the memory was.
 template <typename T>
 struct UnfilledAllocator : std::allocator<T> {
     static_assert(std::is_trivial_v<T>);
@@ -30,7 +32,7 @@ struct UnfilledAllocator : std::allocator<T> {
     }
 };
 
-/// For memory that is filled once, and large.
+/// A vector for memory that is filled once, and large.
 template <typename T>
 using UnfilledVector = std::vector<T, UnfilledAllocator<T>>;
 

@@ -3,6 +3,8 @@
 #include "compare/comparison.h"
 #include "compare/test_chart.h"
 
+// What a method drew of the test chart becomes values and curves.
+
 namespace burin {
 
 /// The classes to ask a method for on the chart: interior edges as creases, or as polygon edges if

@@ -8,6 +8,8 @@
 #include "compare/metrics_profile.h"
 #include "render/method.h"
 
+// A comparison has all that was measured, method by method.
+
 namespace burin {
 
 /// What the test chart shows as curves.

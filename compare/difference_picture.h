@@ -5,6 +5,8 @@
 #include "compare/plane.h"
 #include "image/image_io.h"
 
+// A picture shows where a method has ink that the truth has not, and the reverse.
+
 namespace burin {
 
 /// sRGB, 0..1: ink that the truth does not have, and ink that is missing.

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+// Notes say what the figures of a method do not tell.
+
 namespace burin {
 
 /// What a reader of a comparison should know about a method.

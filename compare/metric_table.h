@@ -6,6 +6,8 @@
 #include <span>
 #include <string_view>
 
+// Each metric has a row: its key with its unit, its group, and which values are better.
+
 namespace burin {
 
 /// Everything that is measured, in the order of the tables. docs/compare.md defines each.

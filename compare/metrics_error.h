@@ -5,6 +5,8 @@
 
 #include "compare/plane.h"
 
+// Line coverage of a result is compared with the truth's, pixel by pixel.
+
 namespace burin {
 
 /// How far the line coverage of a result is from the truth, over the *line pixels*: those where
@@ -15,11 +17,11 @@ struct CoverageError {
     double max_error = 0;
     /// 20 log10(1 / rmse). Nothing if the pictures are equal.
     std::optional<double> psnr_db;
-    /// The same without the worst 2 % of the line pixels.
+    /// PSNR without the worst 2 % of the line pixels.
     std::optional<double> psnr98_db;
 };
 
-/// Nothing if there is no line pixel at all.
+/// Compares the coverage of two pictures. Nothing if there is no line pixel at all.
 std::optional<CoverageError> coverage_error(const Plane& result, const Plane& truth);
 
 /// Lines that one of the two pictures has, and the other has nothing like it nearby, as a share of

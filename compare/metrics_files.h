@@ -4,6 +4,8 @@
 
 #include "compare/comparison.h"
 
+// A comparison becomes metrics.json and metrics.csv.
+
 namespace burin {
 
 /// metrics.json: what was compared, what the metrics mean, and per method all values; what does not

@@ -4,6 +4,8 @@
 
 #include "compare/plane.h"
 
+// Two pictures are compared as eyes see them, by FLIP.
+
 namespace burin {
 
 /// An sRGB-encoded picture, 0..1 per channel.

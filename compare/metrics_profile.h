@@ -7,6 +7,8 @@
 
 #include "compare/plane.h"
 
+// The profile of a line is measured across it, where the true line is known.
+
 namespace burin {
 
 /// The centre line of a true stroke, in pixels.
@@ -73,7 +75,7 @@ struct Modulation {
     std::optional<double> mtf50;               ///< cycles per pixel where it falls to one half
     double energy_above_nyquist = 0;           ///< share of the energy beyond .5 cycles per pixel
 };
-/// Nothing for a spread without any coverage.
+/// The modulation of a line spread; nothing if it has no coverage.
 std::optional<Modulation> modulation(const LineSpread& spread);
 
 }  // namespace burin

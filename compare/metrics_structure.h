@@ -4,6 +4,8 @@
 
 #include "compare/plane.h"
 
+// Two pictures are compared by their structure, at one scale or several.
+
 namespace burin {
 
 /// Structural similarity of two pictures with values 0..1: Wang, Bovik, Sheikh, Simoncelli, Image

@@ -5,6 +5,8 @@
 
 #include "compare/plane.h"
 
+// Frames of a moving camera are compared with the truth's frames.
+
 namespace burin {
 
 /// What changes from frame to frame that should not, while the camera moves by parts of a pixel.
@@ -19,8 +21,8 @@ struct Flicker {
     double pop = 0;
 };
 
-/// Both have a picture per frame, all of one size. Nothing for fewer than two frames or a truth
-/// without lines.
+/// Measures the flicker of a result against the truth, which both have a picture per frame, all of one size. Nothing
+/// for fewer than two frames or a truth without lines.
 std::optional<Flicker> flicker(const std::vector<Plane>& result, const std::vector<Plane>& truth);
 
 /// Sum of all values.

@@ -2,6 +2,8 @@
 
 #include "compare/render_lines.h"
 
+// A method's frames and the truth's are drawn for a camera that moves by parts of a pixel.
+
 namespace burin {
 
 /// The view of frame j: the camera moved by j / 32 of a pixel along (1, .618), pixels as they are

@@ -3,6 +3,8 @@
 #include "compare/metric_table.h"
 #include "compare/plane.h"
 
+// All metrics of a scene's picture are measured here.
+
 namespace burin {
 
 /// The metrics of the group "scene": a result's line coverage against the truth's.

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+// Metrics work on pictures of one number per pixel.
+
 namespace burin {
 
 /// A picture of one number per pixel, row by row from the top.

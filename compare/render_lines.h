@@ -7,6 +7,8 @@
 #include "image/image.h"
 #include "render/method.h"
 
+// A method draws a frame, and its line coverage, time and memory are kept.
+
 namespace burin {
 
 /// What a method made of a frame.

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+// The report's page is compiled into the program.
+
 namespace burin {
 
 /// The report's text, style and script (compare/page). The text has the marks {{style}},

@@ -76,7 +76,7 @@ class ComparisonRunner {
         c_.chart_width_px = chart_ ? width_px_ : 0;
     }
 
-    /// The chart is drawn as the scene is, but for what the scene says about itself.
+    /// The chart is drawn with the scene's settings, but for what the scene says about itself.
     void copy_method_settings() {
         Scene& chart = chart_->scene;
         chart.abuffer = scene_.abuffer;
@@ -195,7 +195,7 @@ class ComparisonRunner {
         bool is_known = false;      ///< else there is no such row: the chart would tell the widths
     };
 
-    /// Both rows' chart metrics.
+    /// Measures the chart metrics of both rows.
     EqualWidth measure_on_chart(const Method& method, MethodResult& result) {
         ComparisonRow& published = result.published;
         ComparisonRow& equal = result.equal_width;

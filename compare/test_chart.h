@@ -5,6 +5,8 @@
 #include "compare/metrics_profile.h"
 #include "scene/scene.h"
 
+// The test chart is a scene whose lines are known exactly, so that widths and profiles can be measured.
+
 namespace burin {
 
 /// A built-in scene whose lines are known exactly: what a method does to lines of every direction,
@@ -26,9 +28,9 @@ struct TestChart {
     std::vector<Segment> star;
     /// Edges whose two faces both slope the same way, by 20 and by 65 degrees.
     std::vector<Segment> slopes;
-    /// Ridges at various gaps behind a cover: of 45 and of 75 degrees behind a level one; behind one
-    /// of 60 and one of 75 degrees, as near the limb of a round object, with a face parallel to it.
-    /// Lines of equal gap follow each other.
+    /// Ridges at various gaps behind a cover: of 45 and of 75 degrees behind one that faces the eye; behind one of 60
+    /// and one of 75 degrees, as near the limb of a round object, with a face parallel to it. Lines of equal gap follow
+    /// each other.
     std::vector<HiddenLine> hidden;
     /// Outlines of pyramids in front of the background.
     std::vector<Segment> silhouettes;

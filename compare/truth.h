@@ -5,6 +5,8 @@
 
 #include "compare/render_lines.h"
 
+// One method stands for the truth; its pictures are drawn once and remembered.
+
 namespace burin {
 
 /// The method that the others are compared with.

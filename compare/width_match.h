@@ -2,6 +2,8 @@
 
 #include <functional>
 
+// Methods are compared at equal width, so each is asked for the width at which its lines have it.
+
 namespace burin {
 
 /// Which width to ask a method for so that its strokes have the width that is wanted.

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+// A zlib stream ends with a checksum, which is computed here as bytes come.
+
 namespace burin {
 
 /// The checksum at the end of a zlib stream (RFC 1950, 8.2), of bytes that come piece by piece: in its low half the sum

@@ -6,13 +6,15 @@
 #include <cstring>
 #include <span>
 
+// Codes of any length are put together to bytes.
+
 namespace burin {
 
 /// Bits from the lowest on, into memory that is large enough.
 class BitWriter {
   public:
     explicit BitWriter(std::uint8_t* out) : out_(out) {}
-    /// At most 57 bits between two calls of flush().
+    /// Puts bits; there may be at most 57 between two calls of flush().
     void put(std::uint64_t bits, std::uint32_t count) {
         pending_ |= bits << count_;
         count_ += count;
@@ -30,7 +32,7 @@ class BitWriter {
         out_ = std::copy(bytes.begin(), bytes.end(), finish());
         pending_ = count_ = 0;
     }
-    /// Where whole bytes end.
+    /// The place where whole bytes end.
     std::uint8_t* place() const { return out_; }
     /// Goes on elsewhere, for the memory has moved.
     void move_to(std::uint8_t* out) { out_ = out; }

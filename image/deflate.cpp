@@ -14,9 +14,9 @@ namespace {
 constexpr std::ptrdiff_t kMaxDistance = 32768;
 constexpr std::ptrdiff_t kLongRun = 512;       // is not summed byte by byte
 constexpr std::size_t kBlockSequences = 8192;  // that are coded together
-/// After so many misses it is noise, and only searched for runs. Not sooner: planes of noise may be copies of each
-/// other, as those of grey lines are, which are met only if enough places in a plane are entered into the table and
-/// searched.
+/// After this many misses bytes are taken for noise, and only searched for runs. Not sooner: planes of noise may be
+/// copies of each other, as those of grey lines are, which are met only if enough places in a plane are entered into
+/// the table and searched.
 constexpr std::uint32_t kMissesOfNoise = 64;
 
 std::uint64_t load_eight(const std::uint8_t* p) {
@@ -30,7 +30,7 @@ std::uint64_t load_eight(const std::uint8_t* p) {
 std::size_t common_length(const std::uint8_t* p, const std::uint8_t* q, const std::uint8_t* end) {
     const std::uint8_t* const start = p;
     const auto differ = [](const std::uint8_t* a, const std::uint8_t* b) { return load_eight(a) ^ load_eight(b); };
-    // Long runs, 32 bytes at a time.
+    // Long runs are compared 32 bytes at a time.
     while (end - p >= 32 &&
            (differ(p, q) | differ(p + 8, q + 8) | differ(p + 16, q + 16) | differ(p + 24, q + 24)) == 0) {
         p += 32;
@@ -105,7 +105,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
     const std::uint8_t* summed = begin;    // those before are in the sum
     const std::uint8_t* p = begin;
     std::uint32_t misses = 0;
-    // As run_length(), which begins near the end of a run that is known.
+    // run_length(), begun near the end of a run that is known.
     const auto behind_run = [&](const std::uint8_t* at) {
         const auto place = static_cast<std::size_t>(at - begin);
         while (!runs.empty() && runs.front().end < place + 8) runs = runs.subspan(1);
@@ -119,7 +119,7 @@ void Deflater::find_sequences(std::span<const std::uint8_t> bytes, std::span<con
         if (is_run) {
             from = p - 2;
         } else if (misses < kMissesOfNoise) {
-            // Of six bytes: shorter copies are found in noise, and coding them takes longer than it saves.
+            // The hash is of six bytes: shorter copies are found in noise, and coding them takes longer than it saves.
             const auto hash = static_cast<std::uint32_t>((here << 16) * 0x9E3779B97F4A7C15u >> (64 - kHashBits));
             const std::uint32_t place = newest_[hash];
             newest_[hash] = static_cast<std::uint32_t>(p - begin) + 1;
@@ -163,7 +163,7 @@ std::span<const std::uint8_t> Deflater::compress(std::span<const std::uint8_t> b
         const std::size_t count = std::min(kBlockSequences, sequences_.size() - first);
         const auto sequences = std::span(sequences_).subspan(first, count);
         const DeflateBlock block(sequences, from);
-        // No more memory than is needed, for it is fresh at first.
+        // There is no more memory than is needed, for it is fresh at first.
         const auto used = static_cast<std::size_t>(out.place() - out_.data());
         out_.resize(std::max(out_.size(), used + block.most_bytes() + kRest));
         out.move_to(out_.data() + used);

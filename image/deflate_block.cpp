@@ -11,9 +11,9 @@ namespace {
 constexpr std::uint32_t kMaxLength = 258;
 constexpr std::uint32_t kEndOfBlock = 256;
 constexpr std::uint32_t kLastBlock = 1, kStored = 0 << 1, kFixedCodes = 1 << 1, kOwnCodes = 2 << 1;  // bits of a header
-constexpr std::uint32_t kManyLiterals = 64;  // so many at once may be stored
+constexpr std::uint32_t kManyLiterals = 64;  // as many at once, or more, may be stored
 constexpr std::size_t kMaxStored = 65535;    // in one block
-/// About what the lengths of own codes take, and what is beside the bytes of a stored block.
+/// How many bits, about, the lengths of own codes take, and what stands beside the bytes of a stored block.
 constexpr std::uint64_t kOwnCodesBits = 600, kStoredBlockBits = 50;
 
 /// A symbol of an alphabet and bits that follow it.
@@ -95,7 +95,7 @@ void put_code_lengths(BitWriter& out, const LiteralCode& literals, const Distanc
     }
 }
 
-/// What symbols that occur so often take.
+/// How many bits symbols take that occur as often as counted.
 template <typename Counts, typename Code>
 std::uint64_t bits_of(const Counts& counts, const Code& code) {
     std::uint64_t bits = 0;
@@ -103,7 +103,8 @@ std::uint64_t bits_of(const Counts& counts, const Code& code) {
     return bits;
 }
 
-/// What they take at least with any code. Whole bits, so that rounding cannot make it more than a code takes.
+/// How many bits symbols take at least with any code. It is in whole bits, so that rounding cannot make it more than a
+/// code takes.
 template <typename Counts>
 std::uint64_t least_bits_of(const Counts& counts) {
     double all = 0, bits = 0;
@@ -151,7 +152,7 @@ void put_copy(BitWriter& out, const Codes& codes, std::uint32_t length, std::uin
 
 }  // namespace
 
-/// RFC 1951, 3.2.6.
+/// The fixed codes of RFC 1951, 3.2.6.
 const DeflateBlock::Codes& DeflateBlock::fixed_codes() {
     static const Codes codes = [] {
         std::array<std::uint8_t, 288> literals;

@@ -7,6 +7,8 @@
 #include "image/bit_writer.h"
 #include "image/huffman.h"
 
+// Sequences of literals and copies become blocks of a deflate stream: the second half of Deflater.
+
 namespace burin {
 
 /// Literal bytes, and then a copy of `length` bytes from `distance` bytes before.
@@ -38,8 +40,8 @@ class DeflateBlock {
     };
     static const Codes& fixed_codes();
 
-    /// So many literals at once or more are stored, between blocks of the same codes, which must be the fixed ones
-    /// then.
+    /// Puts all sequences with these codes. `stored_from`: as many literals at once, or more, are stored between blocks
+    /// of the codes, which must be the fixed ones then.
     void put_sequences(BitWriter& out, const Codes& codes, std::uint32_t stored_from) const;
 
     std::span<const DeflateSequence> sequences_;

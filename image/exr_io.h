@@ -32,7 +32,7 @@ class ExrWriter {
     /// are. They are within `part`, which has those channels, in that order, and the data window's columns. Each chunk
     /// once, in any order, at once on as many threads as one likes.
     void write_chunk(const ImageStrip& part, int y);
-    /// After all chunks.
+    /// Finishes the file after all chunks, and gives it its name.
     void finish();
 
   private:

@@ -3,6 +3,8 @@
 #include <bit>
 #include <cstdint>
 
+// EXR channels of type half need numbers of 16 bits, converted one by one or many at once.
+
 namespace burin {
 
 /// IEEE 754 half precision numbers as bit patterns: 1 sign, 5 exponent and 10 mantissa bits.

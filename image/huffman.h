@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+// Deflate blocks need codes that fit the frequencies of their symbols.
+
 namespace burin {
 
 /// A canonical Huffman code (RFC 1951, 3.2.2) for symbols that occur with given frequencies. At

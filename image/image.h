@@ -10,6 +10,8 @@
 
 #include "base/unfilled_vector.h"
 
+// An image is a rectangle of pixels with typed channels: what is written to an EXR and read back.
+
 namespace burin {
 
 enum class PixelType : std::uint8_t { float16, float32, uint32 };

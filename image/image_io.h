@@ -7,6 +7,8 @@
 
 #include "image/image.h"
 
+// A film over paper becomes a picture for the screen, and that a PNG or a TIFF.
+
 namespace burin {
 
 /// A picture for the screen: rows from the top, 3 or 4 values per pixel, sRGB-encoded, 0..65535,

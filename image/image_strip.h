@@ -6,6 +6,8 @@
 
 #include "image/image.h"
 
+// A strip hands some rows of a film to the writer without copying them, and says which blocks are background.
+
 namespace burin {
 
 /// Rows of a picture as blocks side by side. Blocks may be missing: all of their pixels are background.

@@ -10,7 +10,7 @@
 namespace burin {
 namespace {
 
-/// Bytes of even and of odd number.
+/// A pair of bytes, the one of even and the one of odd number.
 struct Pair {
     std::uint8_t even, odd;
 };
@@ -20,7 +20,7 @@ std::uint8_t difference(std::uint8_t value, std::uint8_t before) {
     return static_cast<std::uint8_t>(value - before + 128);
 }
 
-/// Where pairs of bytes go to.
+/// The places where pairs of bytes go to.
 struct PairPlace {
     std::uint8_t *even, *odd;
 };
@@ -72,7 +72,7 @@ void put_turns(std::uint8_t* to, std::size_t count, std::uint8_t a, std::uint8_t
     std::memcpy(to + i, turns, count - i);
 }
 
-/// Puts so many pairs of pixels of 2 or 4 bytes that are all the same.
+/// Puts `pairs` pairs of pixels of 2 or 4 bytes that are all the same.
 void put_repeated(PairPlace to, std::size_t pairs, std::span<const std::uint8_t> pixel, Pair before) {
     const Pair first{pixel[0], pixel[1]}, second = last_pair(pixel);  // may be the same
     put_turns(to.even, pairs, first.even, second.even, before.even);
@@ -152,7 +152,7 @@ void RowPacker::packed(UnfilledVector<std::uint8_t>& bytes, std::vector<Deflater
     }
     const std::size_t count = runs.size();
     for (std::size_t i = 0; i < count; ++i) runs.push_back({size() / 2 + runs[i].begin, size() / 2 + runs[i].end});
-    // Part by part, for in memory a part's rows follow each other.
+    // Rows are taken part by part, for in memory a part's rows follow each other.
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
         if (part.block == nullptr) continue;
@@ -160,7 +160,7 @@ void RowPacker::packed(UnfilledVector<std::uint8_t>& bytes, std::vector<Deflater
             const PartRows rows = rows_of(part, planes_[k]),
                            next = rows_of(part, planes_[std::min(k + 1, planes_.size() - 1)]);
             for (std::size_t y = 0; y < rows_; ++y) {
-                // The processor cannot tell where the next plane is.
+                // The next plane is prefetched, for the processor cannot tell where it is.
                 for (std::size_t at = 0; at < next.size; at += 64) __builtin_prefetch(next.row(y).data() + at);
                 const std::size_t place = place_of(part, planes_[k], y);
                 put({even + place, odd + place}, rows.row(y), last_pair(row_before(i, k, y)));

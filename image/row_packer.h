@@ -9,6 +9,8 @@
 #include "image/deflate.h"
 #include "image/image_strip.h"
 
+// EXR compresses bytes in an order of its own, into which rows of a film are brought here.
+
 namespace burin {
 
 /// Rows of a strip as an EXR has them in a chunk: one after the other, each of them channel by channel.
@@ -22,8 +24,9 @@ class RowPacker {
     std::size_t size() const { return row_size_ * rows_; }
     /// The bytes as they are.
     void raw(std::vector<std::uint8_t>& bytes) const;
-    /// As they are compressed (OpenEXR's "zip" with its predictor): first all bytes of even number and then the others,
-    /// of each the difference to the byte before, plus 128. `runs` are those of missing blocks.
+    /// Puts the bytes in the order in which they are compressed (OpenEXR's "zip" with its predictor): first all bytes
+    /// of even number and then the others, each as the difference to the byte before, plus 128. `runs` are those of
+    /// missing blocks.
     void packed(UnfilledVector<std::uint8_t>& bytes, std::vector<Deflater::Run>& runs) const;
 
   private:

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <new>
 
+// Arrays that kernels read begin with a cache line.
+
 namespace burin {
 
-/// For vectors that begin with a cache line: wide loads from them need not touch two.
+/// An allocator for vectors that begin with a cache line: wide loads from them need not touch two.
 template <typename T>
 struct CacheLineAllocator {
     using value_type = T;

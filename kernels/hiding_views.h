@@ -7,7 +7,7 @@
 
 namespace burin {
 
-/// A rectangle on the screen in 1/256 pixel, borders included, and a range of nearness.
+/// A rectangle on the screen in 1/256 pixel, its sides included, and a range of nearness.
 struct ScreenBox {
     float x0, y0, x1, y1, low, high;
 };
@@ -17,8 +17,8 @@ struct BoxView {
     const float *x0, *y0, *x1, *y1, *low, *high;
 };
 
-/// Boxes of triangles on the screen, borders included, in 1/256 pixel, and the nearness of their nearest corners: an
-/// array per number.
+/// Boxes of triangles on the screen, their sides included, in 1/256 pixel, and the nearness of their nearest corners:
+/// an array per number.
 struct FrontBoxes {
     const float *x0, *y0, *x1, *y1, *highest;
 };
@@ -27,7 +27,7 @@ struct FrontBoxes {
 struct ScreenLine {
     float ax, ay, bx, by, low;
     bool is_exact = false;  ///< it is no longer than kLongestExact, and its ends are whole numbers
-    float reach = 0;        ///< so far beside it counts, too; it is not exact then
+    float reach = 0;        ///< how far beside it counts, too, in 1/256 pixel; it is not exact then
 };
 /// Along both axes together.
 constexpr float kLongestExact = 2048;
@@ -44,7 +44,7 @@ struct HidingGrid {
     static constexpr std::int32_t kShift = 11, kCellShift = kShift - 1;  ///< log2 of widths in 1/256 pixel
     std::int32_t first_x, first_y;                                       ///< of the upper left block, in 1/256 pixel
     std::int32_t columns, rows;
-    std::int32_t reach;  ///< so far from a block triangles touch it, too; they lie beside the cells at its end then
+    std::int32_t reach;  ///< triangles this far from a block touch it, too; they lie beside the cells at its end then
     /// Blocks row by row, for each the least nearness in any rectangle of its cells.
     const float* farthest;
     static constexpr std::size_t kPlaces = 16;
@@ -100,7 +100,7 @@ struct StepBox {
 struct StepBoxes {
     enum Number { begins_x, begins_y, ends_x, ends_y, nearest };
     static constexpr std::size_t kNumbers = 5, kLows = 2, kSteps = 256;  // the first ones are least values
-    static constexpr std::size_t kAtOnce = 64;                           ///< arrays have room for a multiple of so many
+    static constexpr std::size_t kAtOnce = 64;                           ///< arrays have room for a multiple of this
     static constexpr std::size_t rounded_up(std::size_t count) { return (count + kAtOnce - 1) / kAtOnce * kAtOnce; }
     struct Axis {
         float from = 0, steps_per_unit = 0;
@@ -111,7 +111,7 @@ struct StepBoxes {
     std::uint8_t* around[kNumbers] = {};  ///< each kAtOnce of them
 };
 
-/// How far away something is in a picture: square blocks, row by row.
+/// DepthGrid says how far away lines are in a picture: square blocks, row by row.
 struct DepthGrid {
     /// Four pages, each with all blocks: the least nearness in a block; in it and the one to the right; in it and the
     /// one below; and in all four.

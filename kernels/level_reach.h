@@ -1,10 +1,12 @@
 #pragma once
 
+// Kernels leave out what lies behind all that is drawn, except what may still be level with it.
+
 namespace burin {
 
-/// Of two surfaces the nearer one says how much they may differ and still be level, see SampleView. So the farther one
-/// may be level with one that is nearer than what itself allows, up to so many times that. Always inline, for kernels
-/// use it.
+/// How much a surface may be nearer than another one and still be level with it, as a multiple of what the farther one
+/// allows: of two surfaces the nearer one says how much they may differ (see SampleView), which may be more. Always
+/// inline, for kernels use it.
 __attribute__((always_inline)) constexpr float level_reach(float level_per_nearness) {
     constexpr float kAny = 1e30f;
     return level_per_nearness < 0.5f ? 1 + 2 * level_per_nearness : kAny;  // at least 1 / (1 - level_per_nearness)

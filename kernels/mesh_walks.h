@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+// Kernels take many walks over a mesh together; what they read and write is here.
+
 namespace burin {
 
 /// What walk_over_mesh() compares with. Lengths are parts of the way from one sample to the other.
@@ -22,13 +24,13 @@ struct MeshWalks {
     static constexpr std::size_t kMost = 256, kRoom = kMost + 8;
     static constexpr std::size_t kMostSteps = 22;
 
-    // Where they begin. Coordinates in 1/256 pixel.
+    // Where walks begin, with coordinates in 1/256 pixel.
     std::uint32_t triangle[kRoom];
     std::int32_t across[kRoom];                   ///< of the row or column
     std::int32_t origin[kRoom];                   ///< of the sample, along it
     std::uint32_t down[kRoom], backwards[kRoom];  ///< all bits or none
 
-    // Those that ended, in no order; of others nothing is known.
+    // The walks that ended, in no order; nothing is known of others.
     static constexpr std::uint32_t kFolds = 1;          ///< the surface turns away, else the walk arrives
     static constexpr std::uint32_t kMayCrossLines = 2;  ///< it went over a sharp edge, or through what may be a sliver
     std::size_t ended_count;

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+// A polygon is drawn row by row from its edges on the grid of samples.
+
 namespace burin {
 
 /// An edge of a polygon on a grid of samples (see ScanConverter), from its upper to its lower end, in units of

@@ -5,12 +5,15 @@
 
 #include "kernels/tile_kernels.h"
 
+// Boxes lie in an array per number, so that as many are compared at once as vectors hold.
+
 namespace burin {
 
-/// Boxes on the screen, or in space with nearness as the third axis, an array per number as the kernels want them.
+/// ScreenBoxes keeps boxes on the screen, or in space with nearness as the third axis, in an array per number, as the
+/// kernels want them.
 class ScreenBoxes {
   public:
-    /// Those before stay; the others mean nothing until they are set.
+    /// Boxes that were there before stay; the others mean nothing until they are set.
     void resize(std::size_t count) {
         count_ = count;
         if (count + kPadding > x0_.size()) {

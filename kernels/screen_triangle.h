@@ -6,6 +6,8 @@
 
 #include "kernels/subpixel.h"
 
+// Vertices and triangles of a mesh on the screen are what most kernels read.
+
 namespace burin {
 
 /// A vertex on the screen: snapped position in 1/256 pixel and nearness, less a constant of the
@@ -37,7 +39,7 @@ inline double extended_nearness(const ScreenTriangle& t, double x, double y) {
                     static_cast<double>(doubled_area(a, b, c));
 }
 
-/// Of ScreenMesh::sharp: the triangle may be a sliver.
+/// A bit of ScreenMesh::sharp: the triangle may be a sliver.
 constexpr std::uint8_t kMayBeSliver = 8;
 
 /// The triangles of one instance of a mesh on the screen.
@@ -52,7 +54,7 @@ struct ScreenMesh {
     const std::uint8_t* facing = nullptr;
     /// Per triangle, bit k: edge k may be a line. 0: the triangle is plain (see SampleTile).
     const std::uint8_t* line_edges = nullptr;
-    /// So many bytes behind the last facing and the last line edges kernels may read.
+    /// Kernels may read this many bytes behind the last facing and the last line edges.
     static constexpr std::size_t kPadding = 3;
 };
 

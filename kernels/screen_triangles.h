@@ -9,10 +9,12 @@
 #include "kernels/screen_triangle.h"
 #include "kernels/tile_kernels.h"
 
+// Triangles that may hide lines, and the boxes around them, are made from vertices on the screen.
+
 namespace burin {
 
-/// A triangle whose corners all lie on the screen, from the picture's corner. `facing`: the way they are wound,
-/// clockwise or counterclockwise.
+/// Makes a triangle that lines may cross from corners that all lie on the screen; places count from the picture's
+/// corner. `facing`: the way they are wound, clockwise or counterclockwise.
 inline CrossedTriangle crossed_triangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
                                         Facing facing, std::uint32_t number) {
     const ScreenVertex &p = facing == clockwise ? b : c, &q = facing == clockwise ? c : b;
@@ -26,7 +28,7 @@ inline CrossedTriangle crossed_triangle(const ScreenVertex& a, const ScreenVerte
 /// The boxes of triangles, an array per number as the kernels want them.
 class TriangleBoxes {
   public:
-    /// Those before stay; the others mean nothing until they are set.
+    /// Boxes that were there before stay; the others mean nothing until they are set.
     void resize(std::size_t count) {
         for (auto& list : numbers_) list.resize(std::max(list.size(), count + kPadding));
     }
@@ -36,7 +38,7 @@ class TriangleBoxes {
         for (std::size_t k = 0; k < kNumbers; ++k) numbers[k] = numbers_[k].data();
         kernels.box_triangles(triangles.data(), triangles.size(), numbers);
     }
-    /// Those of `others` with the numbers listed, one after the other.
+    /// Sets the boxes of `others` with the numbers listed, one after the other.
     void set_listed(const TriangleBoxes& others, std::span<const std::uint32_t> listed) {
         resize(listed.size());
         for (std::size_t k = 0; k < kNumbers; ++k) {

@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 
+// Strokes are sampled at 16 x 32 places of a pixel, which are staggered so that no direction is in step with them.
+
 namespace burin {
 
-/// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Of these places
-/// they are staggered, or a stroke in step with them would be too wide or too narrow all along.
+/// Where the samples of strokes lie: 16 rows of 32 in a pixel, in the middle of 1/16 x 1/32 of it each. Samples are
+/// staggered around these places, or a stroke in step with them would be too wide or too narrow all along.
 constexpr int kStrokeRows = 16, kStrokeColumns = 32;
-/// Masks of pixels behind those of a canvas, which are read and written as they are. A multiple of eight.
+/// How many masks of pixels behind those of a canvas are read, and written as they are. A multiple of eight.
 constexpr std::size_t kRoomBehindMasks = 8;
 
 /// Rows are shifted by less than half a column, and again so after this many of the picture: 8 pixels.
@@ -36,14 +38,14 @@ constexpr double stroke_row_shift(std::int32_t row) {
     return kStrokeRowShifts[static_cast<std::uint32_t>(row) % kStrokeShiftRows];
 }
 
-/// Boundaries that are level, which cross less than a row in a pixel, are sampled at a height of its own by every
-/// eighth column: by so many rows further down. In the order of van der Corput's sequence.
+/// Boundaries that are nearly horizontal, which cross less than a row in a pixel, are sampled at eight heights: each
+/// set of every eighth column lies a part of a row further down. The order is van der Corput's sequence.
 constexpr int kStrokeColumnSets = 8;
 constexpr std::array<double, kStrokeColumnSets> kStrokeColumnShifts = {-7.0 / 16, 1.0 / 16, -3.0 / 16, 5.0 / 16,
                                                                        -5.0 / 16, 3.0 / 16, -1.0 / 16, 7.0 / 16};
 /// The columns of a set, a bit each.
 constexpr std::uint32_t columns_of_set(int set) { return 0x01010101u << set; }
-/// Whether a boundary along (x, y) is level; a dot's is.
+/// Whether a boundary along (x, y) is nearly horizontal; a dot's is.
 constexpr bool is_level(double x, double y) {
     const double across = x < 0 ? -x : x, down = y < 0 ? -y : y;
     return down * kStrokeRows <= across;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
+// Positions on the screen are whole numbers of 1/256 pixel.
+
 namespace burin {
 
 /// Screen positions are snapped once, to 1/256 pixel, and exact from then on (24.8 fixed point).

@@ -16,7 +16,7 @@ struct MeshWalks;
 struct WalkOutlines;
 struct WalkLimits;
 
-/// A round pen's stroke along a segment, in pixels: all that is closer than `radius`.
+/// A round pen's stroke along a straight piece, in pixels: all that is closer than `radius`.
 struct PenStroke {
     double from[2], to[2];
     double radius;
@@ -54,16 +54,16 @@ struct RowRays {
     double first_x_px, y_px, focal_px;
 };
 
-/// Layers of pixels side by side, each with room for a multiple of four of them.
+/// Depth, normals and ids of pixels side by side, each with room for a multiple of four of them.
 struct GeometryRow {
     float* distance;  ///< along the view axis
     float* normal[3];
     std::uint32_t* ids[3];  ///< object, material, polygon
 };
 
-/// The inner loops of the production A-buffer. There is one set per instruction set; all give equal
-/// results to the bit: they are one source, but for what is one instruction in some of them, and floating point is not
-/// contracted.
+/// TileKernels has the inner loops of the production A-buffer: they take arrays of vertices, triangles, samples or
+/// pieces, and fill in other arrays. There is one set per instruction set; all give equal results to the bit: they are
+/// one source, but for what is one instruction in some of them, and floating point is not contracted.
 struct TileKernels {
     std::string_view name;
     /// Projects and snaps vertices; `positions` are three numbers each.
@@ -76,19 +76,19 @@ struct TileKernels {
     void (*cull)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const TileGrid& grid,
                  std::uint8_t* facing, CulledTriangles& found);
     /// Lists where keys differ from those before them, beginning with the first one, and behind them the end. Returns
-    /// their number without the end. Needs room for kRoomBehindCulled more than there are keys, and reads so many keys
+    /// their number without the end. Needs room for kRoomBehindCulled more than there are keys, and reads as many keys
     /// more.
     std::size_t (*find_runs)(const std::uint32_t* keys, std::size_t count, std::uint32_t* starts);
     /// Puts culled triangles to `to`, each where `next` says for its key, which is the next one's place then. `starts`:
     /// from find_runs(). Behind each list up to kRoomBehindRun places are written to, too.
     void (*put_runs)(const CulledTriangles& from, const std::uint32_t* starts, std::size_t run_count,
                      std::uint32_t* next, TileTriangle* to);
-    /// Once the facing of all triangles is known: sets ScreenMesh::line_edges for triangles [begin, end) of a
-    /// mesh (`line_edges`: that of the mesh's first one). Other bits of `sharp` are kept there.
+    /// Sets ScreenMesh::line_edges for triangles [begin, end) of a mesh, once the facing of all its triangles is known
+    /// (`line_edges`: that of the mesh's first one). Other bits of `sharp` are kept there.
     void (*find_line_edges)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint8_t* line_edges);
     /// Lists the triangles [begin, end) of a mesh that are nearer than what is noted where they are, once for each tile
     /// in which they are, and some that need be looked at: those that touch more than two by two blocks or are not all
-    /// on the screen. Of those `tiles` is kSeveralTiles. Returns how many; both need room for 4 * (end - begin) +
+    /// on the screen. For the latter `tiles` is kSeveralTiles. Returns how many; both need room for 4 * (end - begin) +
     /// kRoomBehindCulled.
     std::size_t (*find_in_front)(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end, const DepthGrid& grid,
                                  std::uint32_t* found, std::uint32_t* tiles);
@@ -126,19 +126,19 @@ struct TileKernels {
     /// triangles off the screen, slivers, and depths that have to be looked at; then it is unsure. The mesh must have
     /// `sharp`.
     void (*walk_over_mesh)(const ScreenMesh& mesh, const WalkLimits& limits, MeshWalks& walks, std::size_t count);
-    /// Of walks over a mesh that ended, finds those that did at folds that are not sharp, and where that is. `pitch`:
-    /// from one sample to the other. `farthest_nearness`: what nearness of vertices is relative to.
+    /// Finds the walks over a mesh that ended at folds that are not sharp, and where that is. `pitch`: from one sample
+    /// to the other. `farthest_nearness`: what nearness of vertices is relative to.
     void (*find_outlines)(const ScreenMesh& mesh, const MeshWalks& walks, std::int32_t pitch, double farthest_nearness,
                           WalkOutlines& found);
-    /// For pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to
-    /// seven counts more than asked for may be written.
+    /// Counts, for pixels side by side, how many of their samples are covered. `ids`: of the first sample. Up to seven
+    /// counts more than asked for may be written.
     void (*count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,
                           std::int32_t pixels, std::uint8_t* counts);
     /// Fills in all but the ids of triangles that are polygons of their own; none may be off screen.
     void (*look)(const ScreenTransform& transform, const float* positions, const ScreenMesh& mesh,
                  const std::uint32_t* triangles, std::size_t count, TriangleLook* looks);
-    /// Fills in the layers of pixels in the planes of the looks with numbers `look_at`; where a plane is not met, or
-    /// beyond its triangle, it is the triangle's nearest or farthest distance.
+    /// Fills in depth, normals and ids of pixels in the planes of the looks with numbers `look_at`; where a plane is
+    /// not met, or beyond its triangle, it is the triangle's nearest or farthest distance.
     void (*put_geometry)(const RowRays& rays, const TriangleLook* looks, const std::uint16_t* look_at,
                          std::size_t count, const GeometryRow& row);
     /// Adds to masks what a stroke covers. In single precision; equal in any canvas.
@@ -159,25 +159,25 @@ struct TileKernels {
     /// the line is exact and the triangle no longer. Returns their number. `found` may be `listed`.
     std::size_t (*find_hiding)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count,
                                const ScreenLine& line, std::uint32_t* found);
-    /// Where a triangle is in front of a line, by more than `least` and by more than `slack`, which is no less.
+    /// Says where a triangle is in front of a line, by more than `least` and by more than `slack`, which is no less.
     void (*clip_twice)(const TrianglePlane& triangle, const PlaneLine& line, double least, double slack,
                        HiddenParts& parts);
-    /// Of triangles of a mesh, which must be small, finds those that are nearer than the farthest thing in the cells
-    /// they touch: in up to two by two blocks, once for each, in no particular order. Returns how many; `found` needs
-    /// room for four of each. Those that touch more are added to `others`.
+    /// Finds the triangles of a mesh, which must be small, that are nearer than the farthest thing in the cells they
+    /// touch: in up to two by two blocks, once for each, in no particular order. Returns how many; `found` needs room
+    /// for four of each. Those that touch more are added to `others`.
     std::size_t (*sort_hiding)(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count,
                                const HidingGrid& grid, HidingInBlock* found, std::uint32_t* others,
                                std::size_t* other_count);
     /// The boxes of triangles, an array per number of FrontBoxes. Up to seven more may be written of each.
     void (*box_triangles)(const CrossedTriangle* triangles, std::size_t count, float* const numbers[5]);
-    /// Those of a mesh with the `numbers` of their surfaces, from (x, y) on; all of their corners must be on the
-    /// screen. Up to seven more may be written.
+    /// Makes triangles that lines may cross from those of a mesh with the `numbers` of their surfaces; places count
+    /// from (x, y), and all corners must be on the screen. Up to seven more may be written.
     void (*put_crossed)(const ScreenMesh& mesh, const std::uint32_t* numbers, std::size_t count, std::int32_t x,
                         std::int32_t y, CrossedTriangle* to);
     /// Fills in the boxes of the triangles `listed`, as many as `boxes` says.
     void (*box_in_steps)(const CrossedTriangle* triangles, const std::uint32_t* listed, const StepBoxes& boxes);
-    /// Lists those whose boxes touch any of some boxes, and reach its `low`, by their `numbers` and in their order.
-    /// Returns how many.
+    /// Lists the triangles whose boxes touch any of some boxes, and reach its `low`, by their `numbers` and in their
+    /// order. Returns how many.
     std::size_t (*list_in_boxes)(const StepBoxes& boxes, const StepBox* any_of, std::size_t any_count,
                                  const std::uint32_t* numbers, std::uint32_t* listed);
     /// Lists those of the triangles `listed` that may hide a part of a line: with a corner nearer than its farther end,
@@ -185,8 +185,8 @@ struct TileKernels {
     /// triangle no longer. Returns their number. Up to 15 more are read of `listed`, and written of `found`.
     std::size_t (*find_crossed)(const CrossedTriangle* triangles, const std::uint32_t* listed, std::size_t count,
                                 const ScreenLine& line, std::uint32_t* found);
-    /// Where triangles are in front of a line: of those that are, or may be level with it, in their order. Returns
-    /// their number.
+    /// Says where triangles are in front of a line: lists those that are, or may be level with it, in their order.
+    /// Returns their number.
     std::size_t (*clip_hidden)(const TrianglePlane* const* triangles, std::size_t count, const PlaneLine& line,
                                HiddenPart* parts);
     /// Puts numbers in order: for few of them. Up to three numbers more are read.
@@ -195,15 +195,16 @@ struct TileKernels {
     /// enough: bit 8 i + k for box a + i and box b + k. Up to seven numbers more are read of each array.
     std::uint64_t (*find_overlaps)(const BoxView& boxes, std::size_t a, std::size_t a_count, std::size_t b,
                                    std::size_t b_count);
-    /// Of such pairs of triangles, those that have no corner in common. `corners`: an array for each corner.
+    /// Which of the pairs that find_overlaps() returned are of triangles without a corner in common. `corners`: an
+    /// array for each corner.
     std::uint64_t (*find_unconnected)(const std::uint32_t* const corners[3], std::size_t a, std::size_t b,
                                       std::uint64_t pairs);
     /// The normals of triangles, of unit length, four numbers each, the last one 0. `is_thin`, 0 or 1: whether the
     /// square of twice the area is at most `thin_square` of the longest edge's fourth power.
     void (*triangle_normals)(const float* positions, const std::uint32_t* corners, std::size_t count,
                              double thin_square, float* normals, std::uint8_t* is_thin);
-    /// The same in units of 1 / kRoughUnit, off by less than 3 of them in all. `slivers`: kMayBeSliver where a triangle
-    /// is thin. Numbers of vertices must be below 2^29.
+    /// The normals of triangles in units of 1 / kRoughUnit, off by less than 3 of them in all. `slivers`: kMayBeSliver
+    /// where a triangle is thin. Numbers of vertices must be below 2^29.
     void (*rough_normals)(const float* positions, const std::uint32_t* corners, std::size_t count, double thin_square,
                           std::int16_t* normals, std::uint8_t* slivers);
     /// Which edges of triangles from `first` on are not plainly smooth: joined to one other triangle, wound like it, at
@@ -222,9 +223,9 @@ constexpr std::uint32_t kMostToWalk = (1u << 29) / 3;
 /// A tile's key for triangles of one kind.
 constexpr std::uint32_t tile_key(std::uint32_t tile, TriangleKind kind) { return kTriangleKinds * tile + kind; }
 constexpr std::uint32_t kSeveralTiles = 0xFFFFFFFFu;
-/// In 1/256 pixel. Products of such lengths fit 32 bits.
+/// The width and height from which triangles are large, in 1/256 pixel. Products of smaller lengths fit 32 bits.
 constexpr std::int32_t kLargestSmallTriangle = 1 << 14;
-/// Of normals in 16 bits.
+/// The length of a normal in 16 bits.
 constexpr float kRoughUnit = 32767;
 
 const TileKernels& baseline_kernels();

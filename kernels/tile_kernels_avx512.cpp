@@ -2,7 +2,8 @@
 #include "kernels/mesh_walks.h"
 #include "kernels/tile_kernels.h"
 
-// As tile_kernels_avx2.cpp. Most vectors stay eight wide; what helps are comparisons into mask registers.
+// The same source as in tile_kernels_avx2.cpp, for AVX-512. Most vectors stay eight wide; what helps are comparisons
+// into mask registers.
 #ifdef __AVX512VL__
 
 #include "kernels/tile_kernels.inc"

@@ -14,15 +14,16 @@ struct Contest {
     float nearness;        ///< the loser's
 };
 
-/// A SampleTile as the kernels see it.
+/// SampleView is a SampleTile as the kernels see it: the nearest surface at each sample of a tile, which they read and
+/// draw into.
 struct SampleView {
     float* nearness;
     std::uint32_t* ids;
     std::int32_t first_column, first_row, columns, rows, stride, samples_per_pixel;
     /// Surfaces whose nearness differs by at most `level + level_per_nearness * nearness` are level.
     float level, level_per_nearness;
-    /// Where what is level competes for a sample; nullptr: not noted. `contest_count` goes on counting beyond the
-    /// capacity.
+    /// The list of contests for samples between level surfaces; nullptr: they are not noted. `contest_count` goes on
+    /// counting beyond the capacity.
     Contest* contests;
     std::uint32_t* contest_count;
     std::uint32_t contest_capacity;
@@ -62,14 +63,14 @@ struct SamplePair {
 
 constexpr std::size_t kRoomBehindPairs = 15;  ///< where kernels may write
 
-/// What a smooth surface is: find_smooth().
+/// SmoothLimits says what a smooth surface is: find_smooth().
 struct SmoothLimits {
     float level, level_per_nearness;  ///< see SampleView: what is less deep is no wall
-    double snapping;                  ///< by so much a corner may move a deep triangle's edges, in 1/256 pixel
+    double snapping;                  ///< how far snapping of a corner may move a deep triangle's edges, in 1/256 pixel
 };
 
-/// The tiles of a picture, all of one size but the last ones. A tile also gets the samples next to its
-/// right and lower border.
+/// The tiles of a picture, all of one size but the last ones. A tile also gets the samples next to its right and lower
+/// sides.
 struct TileGrid {
     static constexpr std::int32_t kTileSamples = 128;  ///< along either side: the most, and the best
     std::int32_t first_column, first_row;              ///< of the upper left sample on the image's grid
@@ -83,9 +84,9 @@ struct TileGrid {
 constexpr std::int32_t kBlockShift = 3;
 constexpr std::int32_t kBlockSamples = 1 << kBlockShift;
 
-/// Numbers of a tile's blocks of kBlockSamples x kBlockSamples samples: first one per block, row by row, kPitch to a
-/// row; then, kPage further each, those of a block and the next one to the right together, of a block and the one
-/// below, of two by two.
+/// BlockTable says where the numbers of a tile's blocks of kBlockSamples x kBlockSamples samples stand: first one per
+/// block, row by row, kPitch to a row; then, kPage further each, one for a block and the next one to the right
+/// together, for a block and the one below, for two by two.
 struct BlockTable {
     static constexpr std::int32_t kPitch = 32, kPage = kPitch * kPitch;
     static constexpr std::size_t kSize = 4 * static_cast<std::size_t>(kPage);
@@ -124,10 +125,10 @@ struct CulledTriangles {
     std::size_t other_count;
 };
 
-/// So many triangles are on their way from memory while others are drawn.
+/// This many triangles are on their way from memory while others are drawn.
 constexpr std::size_t kTrianglesAhead = 64;
 
-/// So much room behind them kernels may read and write.
+/// Kernels may read and write this much behind lists of culled triangles, and behind runs of a tile.
 constexpr std::size_t kRoomBehindCulled = 16, kRoomBehindRun = 7;
 
 /// What a tile lists separately. `thin` ones have no column or no row of samples in their box.

@@ -4,16 +4,19 @@
 
 #include "kernels/tile_kernels.h"
 
+// Lines are compared with the triangles near them only, which an index of boxes finds.
+
 namespace burin {
 
-/// Which of some triangles touch boxes on the screen: by their own boxes, cut into steps of a byte.
+/// Finds the triangles that touch boxes on the screen, so that lines are compared with few of them: by the boxes around
+/// triangles, cut into steps of a byte.
 class TriangleIndex {
   public:
     TriangleIndex() = default;
     TriangleIndex(TriangleIndex&&) = default;  // not copied: boxes are told by where they lie
     TriangleIndex& operator=(TriangleIndex&&) = default;
 
-    /// Of the triangles `listed`. What lies beyond `bounds` is taken to be at its border.
+    /// Indexes the triangles `listed`. What lies beyond `bounds` is taken to be at its rim.
     void make(const TileKernels& kernels, const CrossedTriangle* triangles, const std::uint32_t* listed,
               std::size_t count, const ScreenBox& bounds) {
         kernels_ = &kernels;
@@ -47,7 +50,7 @@ class TriangleIndex {
     static StepBoxes::Axis axis(float begin, float end) {
         return {begin, end > begin ? static_cast<float>(StepBoxes::kSteps) / (end - begin) : 0};
     }
-    /// As the kernel has it.
+    /// The step of a value, as the kernel computes it.
     static std::uint8_t step(const StepBoxes::Axis& axis, float v) {
         const float steps = (v - axis.from) * axis.steps_per_unit;
         constexpr float kLast = StepBoxes::kSteps - 1;

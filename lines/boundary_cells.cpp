@@ -7,7 +7,7 @@ namespace burin {
 namespace {
 
 constexpr std::size_t kFew = 48;
-/// More than strokes reach.
+/// Pieces farther away are in the outermost cells: this is more than strokes reach.
 constexpr double kFarPx = 1200;
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+// The pieces near a place are looked up by cells of the screen, from the nearest ring outwards.
+
 namespace burin {
 
 /// The ends of a straight piece on the screen, in pixels.
@@ -12,8 +14,8 @@ struct PieceEnds {
     glm::dvec2 from{0.0}, to{0.0};
 };
 
-/// Straight pieces in square cells of the screen, to be looked at ring by ring around another one. Buffers are used
-/// again.
+/// BoundaryCells sorts straight pieces into square cells of the screen, to be looked at ring by ring around another
+/// piece. Buffers are used again.
 class BoundaryCells {
   public:
     /// Some cells: columns [x0, x1) and rows [y0, y1).
@@ -21,20 +23,20 @@ class BoundaryCells {
         int x0, y0, x1, y1;
     };
 
-    /// They are numbered as they come. Few are in one cell. Those farther than 1200 pixels from a place are in the
-    /// outermost cells.
+    /// Sorts the pieces, which are numbered as they come. Few are in one cell. Pieces farther than 1200 pixels from
+    /// `place` are in the outermost cells.
     void set(std::span<const PieceEnds> pieces, glm::dvec2 place);
 
     bool is_one() const { return columns_ == 1 && rows_ == 1; }
-    /// The cells that a piece lies in; of one beyond all, the outermost ones.
+    /// The cells that a piece lies in; the outermost ones if it lies beyond all.
     Box cells_of(const PieceEnds& piece) const;
-    /// Whether there are none so many steps away, or farther.
+    /// Whether there are no cells `ring` steps away, or farther.
     bool is_beyond(const Box& middle, int ring) const {
         return ring > middle.x0 && ring > middle.y0 && middle.x1 + ring > columns_ && middle.y1 + ring > rows_;
     }
     /// All pieces that are not in this ring or in one before it are as far away from what is in the middle, or farther.
     static double distance_px(int ring) { return kCellPx * ring; }
-    /// Calls visit(number) for the pieces in the cells so many steps from those in the middle. A piece may lie in
+    /// Calls visit(number) for the pieces in the cells `ring` steps from those in the middle. A piece may lie in
     /// several.
     template <typename Visit>
     void for_ring(const Box& middle, int ring, const Visit& visit) const {

@@ -21,7 +21,8 @@ std::optional<glm::dvec2> meeting_point(glm::dvec2 a, glm::dvec2 along_a, glm::d
     return a + along_a * (cross(b - a, along_b) / area);
 }
 
-/// Into the cell, from the side on which a crossing lies. Pieces may be too short to tell front from back.
+/// The direction into the cell, from the side on which a crossing lies. Pieces may be too short to tell front from
+/// back.
 glm::dvec2 inwards(const LineCrossing& c, glm::dvec2 center) {
     const glm::dvec2 way = center - c.pixel;
     return c.towards_front.x != 0 ? glm::dvec2(0, way.y) : glm::dvec2(way.x, 0);
@@ -42,7 +43,7 @@ void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 c
     // y runs down: what is to the left of the way has a negative cross product.
     const glm::dvec2 in = inwards(style, center);
     const double side = cross(in, style.towards_front);
-    // A corner beyond the cell: the piece runs back to it.
+    // The corner lies beyond the cell: the piece runs back to it.
     constexpr double kBack = 1e-6;
     const bool runs_back = glm::dot((to == style.pixel ? from : to) - style.pixel, in) < -kBack * glm::length(in);
     segment.front_on_left = ((to == style.pixel) != runs_back ? -side : side) < 0;
@@ -89,7 +90,7 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
             }
             if (!has_bridges && (a.occludes || b.occludes) && runs_through(a) && runs_through(b) && !are_one(a, b))
                 return;
-            // No corner: half of the way looks like one, half like the other.
+            // There is no corner: half of the way looks like one line, half like the other.
             const glm::dvec2 middle = 0.5 * (a.pixel + b.pixel);
             add(a, a.pixel, middle, center, segments);
             add(b, middle, b.pixel, center, segments);
@@ -97,7 +98,7 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
         }
         add(a, a.pixel, b.pixel, center, segments, &b);
     };
-    /// From a crossing to the line between two others.
+    /// Ends a crossing's line at the line between two others.
     const auto end_at = [&](const LineCrossing& c, glm::dvec2 from, glm::dvec2 to) {
         const glm::dvec2 along = to - from;
         const double length = glm::dot(along, along);
@@ -130,7 +131,7 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
         default:
             break;
     }
-    // Nearest first; those of one line together.
+    // Crossings are sorted: the nearest first, those of one line together.
     std::array<const LineCrossing*, 4> sorted{};
     std::copy(crossings.begin(), crossings.end(), sorted.begin());
     const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(crossings.size());

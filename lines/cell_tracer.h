@@ -6,6 +6,8 @@
 #include "lines/line_crossing.h"
 #include "lines/line_piece.h"
 
+// Crossings between samples become pieces of lines, cell by cell.
+
 namespace burin {
 
 /// Connects the crossings on the four sides of a cell, a square between 2 x 2 neighbouring samples,

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+// A walk that comes back to where it was would go on for ever, so it is told to end.
+
 namespace burin {
 
 /// Tells when something that goes from state to state, each of which follows from the one before, goes round in
@@ -13,7 +15,7 @@ namespace burin {
 template <typename State>
 class CircleFinder {
   public:
-    /// To be called with each state in turn. Whether it has been there before.
+    /// Whether a state has been there before; to be called with each state in turn.
     bool is_closed_by(const State& state) {
         if (earlier_ && *earlier_ == state) return true;
         if (++steps_ == next_) {

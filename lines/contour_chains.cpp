@@ -28,7 +28,7 @@ glm::dvec3 on_cubic(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
     return a * (s * s * s) + b * (3 * s * s * t) + c * (3 * s * t * t) + d * (t * t * t);
 }
 
-/// Of the edge between two vertices with unit normals.
+/// A point of the cubic that stands for the edge between two vertices with unit normals.
 glm::dvec3 on_edge(const glm::dvec3& a, const glm::dvec3& normal_a, const glm::dvec3& b, const glm::dvec3& normal_b,
                    double share) {
     const glm::dvec3 way = b - a;
@@ -37,7 +37,7 @@ glm::dvec3 on_edge(const glm::dvec3& a, const glm::dvec3& normal_a, const glm::d
     return on_cubic(a, from_a, from_b, b, share);
 }
 
-/// What a cubic needs to leave an end at the tangent there.
+/// The handle that lets a cubic leave an end along the tangent there.
 glm::dvec2 handle(glm::dvec2 along, glm::dvec2 chord) {
     const double length = glm::length(chord), cosine = glm::dot(along, chord) / length;
     if (!(std::abs(cosine) >= kCosLargestTurn)) return chord / 3.0;

@@ -6,6 +6,8 @@
 #include "lines/corner_normals.h"
 #include "view/surface_set.h"
 
+// The contour of a smooth surface is found on the triangles around a fold, as chains of points.
+
 namespace burin {
 
 /// A part of a smooth contour on the screen, in pixels. Its first point is its last one again if it
@@ -31,8 +33,8 @@ class ContourFinder {
     ContourFinder(const SurfaceSet& surfaces, std::uint32_t instance, const SmoothMesh& smooth)
         : surfaces_(surfaces), mesh_(*surfaces.instances[instance].mesh), instance_(instance), smooth_(smooth) {}
 
-    /// On the triangles around a smooth edge: those that have a vertex in common with one at the
-    /// edge's ends.
+    /// The chains on the triangles around a smooth edge: those that have a vertex in common with one at the edge's
+    /// ends.
     std::vector<ContourChain> chains_around(HalfEdge h) const;
 
   private:

@@ -9,20 +9,20 @@
 namespace burin {
 namespace {
 
-/// Lines met that were no farther apart.
+/// Lines that were no farther apart than this met.
 constexpr double kMetPx = 0.25;
-/// What is so near is joined.
+/// Ends no farther apart than this are joined.
 constexpr double kJoinedPx = 1.0 / 256;
 constexpr double kCellPx = 4;
 
-/// What lies in cells of the picture.
+/// Ends by place, in cells of the picture.
 class Cells {
   public:
     void add(glm::dvec2 low, glm::dvec2 high, std::uint32_t number) {
         for_cells(low, high, [&](std::uint64_t cell) { entries_.push_back({cell, number}); });
     }
     void sort() { std::sort(entries_.begin(), entries_.end()); }
-    /// Some that are near come more than once.
+    /// Visits what is near; some ends come more than once.
     template <typename Visit>
     void visit(glm::dvec2 place, const Visit& visit) const {
         for_cells(place - kMetPx, place + kMetPx, [&](std::uint64_t cell) {
@@ -116,7 +116,7 @@ class Joiner {
         const auto& points = lines_[end / 2].points;
         return end % 2 == 0 ? points.front() : points.back();
     }
-    /// Of those that met, the others are joined to the first one: one that stayed, if any did.
+    /// Orders ends that met: the others are joined to the first one, which is one that stayed, if any did.
     std::tuple<bool, double, double> key(std::uint32_t end) const {
         const glm::dvec2 p = moved(end);
         return {lines_[end / 2].is_moved, p.x, p.y};

@@ -7,9 +7,11 @@
 
 #include "lines/line_piece.h"
 
+// Lines that met before some of them were moved are joined again.
+
 namespace burin {
 
-/// A visible line where a surface ends, and where it was moved to: two points or more.
+/// A visible piece where a surface ends, and where it was moved to: two points or more.
 struct MovedLine {
     const LinePiece* given;
     std::vector<glm::dvec2> points;
@@ -22,8 +24,8 @@ struct LeadIn {
     glm::dvec2 place;
 };
 
-/// What joins lines again that met before they were moved, at their ends or where one ends beside
-/// another: outlines stay closed. The order of the lines does not matter.
+/// What joins lines again that met before they were moved, at their ends or where one ends beside another, so that
+/// outlines stay closed. The order of the lines does not matter.
 struct Joints {
     std::vector<LinePiece> pieces;
     std::vector<LeadIn> to_lines_that_stay;

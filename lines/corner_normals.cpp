@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-/// Of 60 degrees: whatever the crease angle, no surface is smooth that turns by more around a vertex.
+/// The cosine of 60 degrees: whatever the crease angle, no surface is smooth that turns by more around a vertex.
 constexpr double kCosBluntestTip = 0.5;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }

@@ -5,9 +5,11 @@
 
 #include "lines/surface_walk.h"
 
+// Smooth contours need normals at vertices, which are made from the polygons around.
+
 namespace burin {
 
-/// Where a mesh is smooth, and its normals there.
+/// SmoothMesh says where a mesh is smooth, and has its normals there.
 struct SmoothMesh {
     /// Per triangle, bit k: the surface is not smooth over half-edge k: a border, a crease, marked, of more
     /// than two triangles, or where a surface with one side only comes back to itself.
@@ -19,10 +21,10 @@ struct SmoothMesh {
     bool is_sharp(HalfEdge h) const { return (sharp[h / 3] >> h % 3 & 1) != 0; }
 };
 
-/// Normals at vertices: the mean of the normals of the polygons around that are not beyond a crease,
-/// weighted by their angles at the vertex (Thürmer and Wüthrich 1998). The order of triangles does not matter.
-/// Where a polygon's own normal differs from that by more than the crease angle, as at the tip of a cone, the
-/// surface has none.
+/// Makes the normals at the vertices of a mesh, for smooth contours: each is the mean of the normals of the polygons
+/// around that are not beyond a crease, weighted by their angles at the vertex (Thürmer and Wüthrich 1998). The order
+/// of triangles does not matter. Where a polygon's own normal differs from that by more than the crease angle, as at
+/// the tip of a cone, the surface has none.
 SmoothMesh make_smooth(const Mesh& mesh, double cos_crease_angle);
 
 /// Calls visit(corner) for `corner` and all others at its vertex that can be reached over smooth edges.

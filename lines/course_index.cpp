@@ -7,8 +7,8 @@
 namespace burin {
 namespace {
 
-/// Nearly the same way: the sine of the angle between, at most. For the shortest ones, how far the end may be off:
-/// snapping turns them.
+/// Two courses run nearly the same way if the sine of the angle between them is at most this. For the shortest ones it
+/// is how far the end may be off: snapping turns them.
 constexpr double kMostTurned = 1.0 / 8, kMostOffPx = 1.0 / 32;
 constexpr int kSmallestCellPx = 4;
 constexpr std::int64_t kMostCells = 1 << 20;
@@ -41,7 +41,7 @@ void CourseIndex::for_cells(glm::dvec2 from, glm::dvec2 to, double around_px, co
     const glm::dvec2 origin(picture_.x0, picture_.y0);
     glm::dvec2 a = (from - origin) / double(cell_px_), b = (to - origin) / double(cell_px_);
     const double around = around_px / cell_px_;
-    // Along the axis that it is longer in, column by column (or row by row).
+    // The way is followed along the axis in which it is longer, column by column (or row by row).
     const int major = std::abs(b.x - a.x) >= std::abs(b.y - a.y) ? 0 : 1, minor = 1 - major;
     if (b[major] < a[major]) std::swap(a, b);
     const int count[2] = {columns_, rows_};
@@ -88,7 +88,7 @@ void CourseIndex::add_overlap(const Course& way, std::uint32_t course) {
     overlaps_.push_back({begin, end, course});
 }
 
-/// From overlaps to covers: at every place the first course.
+/// Makes covers of overlaps: at every place the first course counts.
 void CourseIndex::choose_first_courses() {
     struct Change {
         double at;

@@ -7,10 +7,12 @@
 
 #include "image/image.h"
 
+// Lines that lie on each other on the screen are found by place, so that they share their dashes.
+
 namespace burin {
 
-/// Straight courses of lines on the screen, by place: finds those that another line lies on. Only what is in the
-/// picture counts.
+/// CourseIndex keeps straight courses of lines on the screen by place, and finds those that another line lies on, so
+/// that both share their dashes. Only what is in the picture counts.
 ///
 /// A place of a line lies on a course if it is beside it, within the reach, and both run nearly the same way: lines
 /// that merely cross do not.
@@ -36,7 +38,7 @@ class CourseIndex {
     /// added first.
     std::span<const Cover> find(glm::dvec2 from, glm::dvec2 to);
 
-    /// Those that may come within the reach of a place, in any order, some of them more than once.
+    /// The courses that may come within the reach of a place, in any order, some of them more than once.
     std::span<const std::uint32_t> around(glm::dvec2 place);
 
   private:

@@ -7,11 +7,12 @@
 
 #include "lines/line_class.h"
 
+// Creases may fade in between two angles, so that they do not pop in an animation.
+
 namespace burin {
 
-/// How opaque a crease is drawn: not at all where its polygons' normals differ by `from_deg`, fully from
-/// `to_deg` on, in between linear in the angle. So a crease that opens or closes in an animation does
-/// not pop.
+/// CreaseFade says how opaque a crease is drawn: not at all where its polygons' normals differ by `from_deg`, fully
+/// from `to_deg` on, in between linear in the angle. So a crease that opens or closes in an animation does not pop.
 struct CreaseFade {
     double from_deg = 0, to_deg = 0;  ///< equal: creases do not fade
 

@@ -7,7 +7,7 @@
 namespace burin {
 namespace {
 
-/// An edge is looked at in steps of this, or in so many.
+/// An edge is looked at in steps of kStepPx, or in kMostSteps steps if these are longer.
 constexpr double kStepPx = 0.25, kMostSteps = 2048;
 /// A contour is followed from one foot to the next one unless that is more than this many times as long as the
 /// straight way, and longer than this: then it goes elsewhere, and comes back.
@@ -106,7 +106,7 @@ FoldMap::FoldMap(glm::dvec2 from, glm::dvec2 to, std::span<const ContourChain> c
             if (i > 0) over = std::max(over, glm::distance(feet[i - 1].place, place(i)));
             if (end < feet.size()) over = std::max(over, glm::distance(feet[end].place, place(end - 1)));
             const bool is_short = rest <= kShortRest * over;
-            // Beside contours on both sides nothing of a short one is left.
+            // A short edge beside contours on both sides leaves nothing over.
             if (i == 0 || !is_short) stops_.push_back({share(i), place(i), true});
             if (end == feet.size() || !is_short) stops_.push_back({share(end - 1), place(end - 1), true});
         }
@@ -171,7 +171,7 @@ std::vector<glm::dvec2> FoldMap::moved(glm::dvec2 from, glm::dvec2 to) const {
         std::swap(first, last);
         std::swap(from, to);
     }
-    // The place of a share: of two, the one that comes first or last.
+    // The place to which a share of the edge is moved: if there are two, the one that comes first or last.
     const auto between = [&](const Stop& a, const Stop& b, double share, glm::dvec2 given) {
         if (a.is_on_edge && b.is_on_edge) return given;
         const double range = b.share - a.share;

@@ -6,11 +6,13 @@
 
 #include "lines/contour_chains.h"
 
+// An edge at which a smooth surface folds is moved to the contour beside it.
+
 namespace burin {
 
-/// Where the places of an edge, at which a smooth surface folds, are moved to: to the nearest
-/// points of the smooth contours around, and along these from one to the next. What has none beside
-/// it stays. The way is never broken, so what lines enclose they go on to enclose.
+/// FoldMap says where the places of an edge, at which a smooth surface folds, are moved to: to the nearest points of
+/// the smooth contours around, and along these from one to the next. What has none beside it stays. The way is never
+/// broken, so what lines enclose they go on to enclose.
 class FoldMap {
   public:
     /// An edge that stays where it is.
@@ -20,10 +22,9 @@ class FoldMap {
     FoldMap(glm::dvec2 from, glm::dvec2 to, std::span<const ContourChain> chains, double farthest_px);
 
     bool is_moved() const { return !stops_.empty(); }
-    /// Leads to the end of the edge that is at a place, where other lines stay: slantwise, not by a
-    /// step.
+    /// Leads the way back to the end of the edge that is at `place`, where other lines stay: slantwise, not by a step.
     void lead_to_end(glm::dvec2 place);
-    /// Where a part of the edge goes, given by its ends: all points of it, at least two.
+    /// The points that a part of the edge, given by its ends, is moved to, at least two.
     std::vector<glm::dvec2> moved(glm::dvec2 from, glm::dvec2 to) const;
 
   private:

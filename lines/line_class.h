@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+// Each line has classes, of which the first one asked for names it.
+
 namespace burin {
 
 /// The classes of lines, in order of priority: where several fall together, the first one among
@@ -63,7 +65,7 @@ constexpr LineClassSet kDefaultLineClasses = LineClassSet(LineClass::silhouette)
 /// The class with this name, if there is one.
 std::optional<LineClass> line_class_named(std::string_view name);
 
-/// Names joined by commas.
+/// The names of the classes, joined by commas.
 std::string to_string(LineClassSet classes);
 
 }  // namespace burin

@@ -8,15 +8,17 @@
 #include "lines/whole_line.h"
 #include "view/surface_set.h"
 
+// Lines of the mesh get their dashes along whole chains, seen or not.
+
 namespace burin {
 
-/// Whether a line of the mesh is one from anywhere.
+/// Whether an edge of the mesh is a line from anywhere.
 bool is_feature(const WholeLine& line);
 
-/// Where the dashes of lines of the mesh are, laid out along their chains.
+/// LineDashes lays out the dashes of lines of the mesh along their chains, and says which parts of a line are drawn.
 class LineDashes {
   public:
-    /// After those that `shared` has laid out already.
+    /// Lays out dashes after those that `shared` has laid out already.
     LineDashes(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px, SharedDashes& shared);
 
     /// Calls visit(part) for the parts of a line.

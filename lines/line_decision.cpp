@@ -43,7 +43,7 @@ class Decider {
             in_front[i] = gap[i] >= -tolerance_at_end(i);
         }
         if (in_front[0] && in_front[1]) {
-            // In contact, or nearly: an end that is behind the other surface for certain is not seen.
+            // The surfaces are in contact, or nearly: an end that is behind the other surface for certain is not seen.
             const bool is_behind[2] = {is_certainly_behind(0, gap[0]), is_certainly_behind(1, gap[1])};
             if (is_behind[0] != is_behind[1]) return end_at(is_behind[0] ? 1 : 0, gap);
             return end_at(std::abs(gap[0]) <= std::abs(gap[1]) ? 0 : 1, gap);
@@ -51,7 +51,7 @@ class Decider {
         for (const int i : {0, 1}) {
             if (in_front[i]) return passes_through_before_end(i, gap[i]) ? overlap() : end_at(i, gap);
         }
-        // One ends behind the other: they change places before that.
+        // One surface ends behind the other: they change places before that.
         return overlap();
     }
 
@@ -71,7 +71,7 @@ class Decider {
         return distance_of(surfaces_.projection, surfaces_.plane(s).extended_to(at));
     }
 
-    /// From where point i's surface ends: how much farther is the other surface there?
+    /// How much farther the other surface is where point i's surface ends.
     double gap_behind_end(int i) {
         const glm::dvec2 end = place(i, walks_[i].fraction);
         const double own = distance(walks_[i].surface, end);
@@ -91,7 +91,7 @@ class Decider {
 
     /// Whether point i's surface ends behind the other for certain, though within the tolerance.
     bool is_certainly_behind(int i, double gap) const { return gap < -tolerance_at_end(i, kCertainlyApartPx); }
-    /// The same for a surface that begins in front of the other.
+    /// Whether point i's surface, which begins in front of the other, ends behind it for certain.
     bool passes_through_before_end(int i, double gap) const {
         if (!is_certainly_behind(i, gap)) return false;
         const glm::dvec2 at = points_[i].pixel;
@@ -135,7 +135,7 @@ class Decider {
 
     LineDecision end_at(int i, const double (&gap)[2]) const {
         const bool touching = gap[i] <= tolerance_at_end(i);
-        // It ends in the plane of the other, or has left it before and ends behind that.
+        // Whether the surface ends in the plane of the other, or has left it before and ends behind it.
         const auto ends_in_plane = [&] {
             const SurfaceId own = walks_[i].surface;
             return gap[i] <= 0 || surfaces_.coincide(own, behind_[i]) || surfaces_.coincide(own, other(i).surface) ||
@@ -161,13 +161,14 @@ class Decider {
     bool goes_on_beneath(int i) const {
         return walks_[i].end == WalkEnd::arrived && are_flush(walks_[i].surface, other(i).surface);
     }
-    /// Whether that is so for a narrow strip beyond the end of point i's surface alone.
+    /// Whether it does so for a narrow strip beyond the end of point i's surface alone.
     bool laps_narrowly(int i) const {
         const SurfaceWalk& w = walks_[i];
         return burin::laps_narrowly(surfaces_, w.surface, w.half_edge, {walks_[1 - i].surface, points_[i].pixel},
                                     place(i, w.fraction));
     }
-    /// Both points lie in one plane, that of the other's surface, and point i's leaves it on the way, at an edge.
+    /// Decides where both points lie in one plane, that of the other's surface, and point i's surface leaves it on the
+    /// way, at an edge.
     std::optional<LineDecision> leaves_plane(int i) const {
         const SurfaceWalk& w = walks_[i];
         LineDecision decision;
@@ -189,7 +190,7 @@ class Decider {
         return criteria_.classes.has(LineClass::mark) && surfaces_.mesh_of(w.surface).is_marked(w.half_edge);
     }
 
-    /// Point i's surface ends, in front of the other or (`touching`) in contact with it.
+    /// Decides where point i's surface ends, in front of the other or (`touching`) in contact with it.
     LineDecision end_of_surface(int i, double gap, bool touching) const {
         const SurfaceWalk& w = walks_[i];
         const SurfaceEdge edge{w.surface, w.half_edge};
@@ -222,14 +223,14 @@ class Decider {
         return gap / surfaces_.projection.pixel_size(at);
     }
 
-    /// Both surfaces go on behind each other (or could not be followed).
+    /// Decides where both surfaces go on behind each other (or could not be followed).
     LineDecision overlap() {
         double gap[2];
         double tolerance[2];
         bool coincident = true;
         bool followed = true;
         for (const int i : {0, 1}) {
-            // The other's surface, at point i.
+            // Distance of the other's surface at point i.
             const SurfaceWalk& w = walks_[1 - i];
             const DepthPlane plane = surfaces_.plane(w.surface);
             const glm::dvec2 at = points_[i].pixel;
@@ -367,8 +368,8 @@ LineDecision decide_line(const SurfaceSet& surfaces, const VisiblePoint& a, cons
     if (a.surface == b.surface) return LineDecision{};
     const bool in_order = a.pixel.x != b.pixel.x ? a.pixel.x < b.pixel.x : a.pixel.y < b.pixel.y;
     if (in_order) return Decider(surfaces, a, b, criteria).decide();
-    // One order of the two, so that swapping them cannot change the answer. It is the screen's, so that
-    // neither can the order of triangles.
+    // The two points are taken in one order, so that swapping them cannot change the answer. It is the screen's, so
+    // that neither can the order of triangles.
     LineDecision decision = Decider(surfaces, b, a, criteria).decide();
     decision.front = 1 - decision.front;
     decision.fraction = 1 - decision.fraction;

@@ -6,6 +6,8 @@
 
 #include "lines/surface_walk.h"
 
+// Two visible points are decided: is there a line between them, of which classes, and why?
+
 namespace burin {
 
 /// What is visible at a position on the screen.

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kStraightPx = 1.0 / 2048;
 
-/// From left to right, or downwards. Without a branch: which way pieces run is a guess.
+/// Turns a piece round so that it runs from left to right, or downwards. Which way it runs would be an unpredictable
+/// branch, so there is none.
 void put_in_order(LinePiece& s) {
     const bool turns = !((s.from.x < s.to.x) | ((s.from.x == s.to.x) & (s.from.y < s.to.y)));
     const glm::dvec2 ends[2] = {s.from, s.to};
@@ -54,10 +55,10 @@ void PieceMerger::sort(std::span<std::uint32_t> order, std::span<const LinePiece
               [pieces](std::uint32_t a, std::uint32_t b) { return is_before(pieces[a], pieces[b]); });
 }
 
-/// Those of one block of an ordinary picture, by numbers that say nearly all: without branches, for what comes before
-/// what is a guess. False where they cannot.
+/// Sorts the pieces of one block of an ordinary picture by numbers that say nearly all, without branches: these would
+/// be unpredictable. Returns false where the numbers cannot.
 bool PieceMerger::sort_few(std::span<std::uint32_t> order, std::span<const LinePiece> pieces) const {
-    // The line, where on it, and which piece: 32, 23 and 6 bits behind the exponent's first one.
+    // A number says the line, where on it, and which piece: in 32, 23 and 6 bits behind the exponent's first one.
     constexpr int kIndexBits = 6, kPlaceBits = 23;
     constexpr std::size_t kFew = std::size_t{1} << kIndexBits;
     constexpr std::uint64_t kExponent = std::uint64_t{1} << 62;
@@ -148,7 +149,7 @@ void PieceIndex::set(std::span<const LinePiece> merged) {
     for (; bucket <= kBuckets; ++bucket) begin_[bucket] = static_cast<std::uint32_t>(merged.size());
 }
 
-/// Without branches on what keys are: they would be guesses.
+/// There are no branches on what keys are: they would be unpredictable.
 std::size_t PieceIndex::first_not_before(std::uint32_t block, LineId line) const {
     const std::size_t bucket = bucket_of(block);
     std::size_t first = begin_[bucket];

@@ -8,16 +8,18 @@
 #include "kernels/tile_kernels.h"
 #include "lines/line_piece.h"
 
+// Many short pieces become few long ones, which are drawn faster.
+
 namespace burin {
 
-/// Joins pieces of one line and block that continue each other, as far as they lie on one straight line to
-/// within 1/2048 pixel: strokes of long pieces are drawn faster than those of many short ones.
+/// PieceMerger joins pieces of one line and block that continue each other, as far as they lie on one straight line
+/// to within 1/2048 pixel: strokes of long pieces are drawn faster than those of many short ones.
 class PieceMerger {
   public:
     explicit PieceMerger(const TileKernels& kernels) : kernels_(kernels) {}
 
-    /// Puts them behind what `merged` has, block by block, and in each block line by line. Turns some of the pieces
-    /// round.
+    /// Puts the merged pieces behind what `merged` has, block by block, and in each block line by line. Turns some of
+    /// the pieces round.
     void merge(std::span<LinePiece> pieces, std::vector<LinePiece>& merged);
 
   private:
@@ -28,7 +30,7 @@ class PieceMerger {
     std::vector<std::uint32_t> order_;  // numbers of pieces
 };
 
-/// Finds those of one line in a block, or all in the block, among pieces that a PieceMerger left.
+/// PieceIndex finds the pieces of one line in a block, or all in the block, among pieces that a PieceMerger left.
 class PieceIndex {
   public:
     /// `merged` must stay. Buffers are used again.

@@ -47,7 +47,7 @@ class StraightWay {
     double low_ = -std::numeric_limits<double>::infinity(), high_ = std::numeric_limits<double>::infinity();
 };
 
-/// With its ends in the order of their chain.
+/// The piece with its ends in the order of their chain.
 DashPiece forwards(const DashPiece& p) {
     return p.at_from <= p.at_to ? p : DashPiece{p.to, p.from, p.at_to, p.at_from};
 }

@@ -7,6 +7,9 @@
 
 #include "lines/course_index.h"
 
+// Chains of pieces become dashes, and lines that lie on each other get the same ones
+// (docs/decisions/0020-one-dashed-line.md).
+
 namespace burin {
 
 /// A straight piece of a line that is drawn in dashes, in pixels, and where its ends stand along its chain.
@@ -50,12 +53,12 @@ class SharedDashes {
   public:
     /// `reach_px`: lines as close as that lie on each other.
     SharedDashes(PixelRect picture, double reach_px) : index_(picture, reach_px) {}
-    /// For a pen of a width: a quarter of it, where two lines cannot be told apart, and not less than a quarter of a
-    /// pixel.
+    /// The reach for a pen of a width: a quarter of it, where two lines cannot be told apart, and not less than a
+    /// quarter of a pixel.
     static double reach_of_pen_px(double width_px);
 
     /// Chains of pieces that follow each other, in the order of precedence: piece i of a chain ends where piece i + 1
-    /// begins, each either way round. `chain_ends`: how many pieces there are up to the end of each chain. Those of
+    /// begins, each either way round. `chain_ends`: how many pieces there are up to the end of each chain. Chains of
     /// earlier calls come first and keep the dashes that they have.
     DashPlaces lay_out(std::vector<DashPiece> pieces, std::span<const std::size_t> chain_ends);
 

@@ -69,10 +69,11 @@ UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
     return normals;
 }
 
-/// Of cosines by rough normals, for both may be off by 3 units of 1 / kRoughUnit.
+/// How far a cosine of rough normals may be off, for both may be off by 3 units of 1 / kRoughUnit.
 constexpr double kDoubt = 2e-4;
 
-/// Where nothing but creases is looked for, between triangles. Rough normals tell nearly always: half of the memory.
+/// Finds creases between triangles, where nothing else is looked for. Rough normals, which take half of the memory,
+/// tell nearly always.
 void find_creases(const Mesh& mesh, float cos_crease, std::vector<std::uint8_t>& sharp, int threads) {
     constexpr double kSquare = double{kRoughUnit} * double{kRoughUnit};
     const double cosine{cos_crease};
@@ -129,7 +130,8 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
         if (by_polygon || (by_material && mesh.polygon_material[p] != mesh.polygon_material[q])) return true;
         return by_crease && is_crease(normals[p], normals[q], cos_crease);
     };
-    // Both half-edges of a pair find the same: guessing which of them comes first would take longer.
+    // Both half-edges of a pair find the same: a branch on which of them comes first would be unpredictable and take
+    // longer.
     const auto find = [&](const auto& is_sharp_pair) {
         const std::uint32_t* const begins = mesh.triangles.front().data();  // of half-edges, vertices
         const HalfEdge* const next = mesh.next_on_edge.data();

@@ -6,6 +6,8 @@
 #include "kernels/screen_triangle.h"
 #include "lines/surface_walk.h"
 
+// Which edges may be lines in some view is found once per mesh, so that frames look at few.
+
 namespace burin {
 
 constexpr std::uint8_t kThinTriangle = kMayBeSliver;

@@ -75,7 +75,7 @@ FoldMap SmoothContours::map_of(LineId edge) const {
         ends[0] = corners[side % 3];
         ends[1] = corners[(side + 1) % 3];
     }
-    // In one order, whichever triangle comes first.
+    // The ends are put in one order, whichever triangle comes first.
     if (std::tie(ends[1].x, ends[1].y) < std::tie(ends[0].x, ends[0].y)) std::swap(ends[0], ends[1]);
     const SmoothMesh& smooth = *smooth_of_[instance];
     const bool stays_at_ends =

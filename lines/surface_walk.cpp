@@ -18,9 +18,9 @@ namespace {
 constexpr double kSliverHeightPx = 1.0 / 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an
-/// orthographic view. Linear in view space, also behind the eye. Corners are snapped as the rasterizer snaps them: not
-/// those of triangles that are cut, for what snapping moves grows beyond a corner on the way to one behind the eye.
+/// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an orthographic view. It is
+/// linear in view space, also behind the eye. Corners are snapped as the rasterizer snaps them, but not those of
+/// triangles that are cut: what snapping moves grows beyond a corner on the way to one behind the eye.
 glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view, bool is_snapped) {
     const double w = p.orthographic ? 1.0 : -view.z;
     if (!is_snapped) return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
@@ -58,7 +58,7 @@ class Walker {
         Place farthest = current;      // where the walk got farthest
         Place before_wall = current;   // where it last got farther at all
         SurfaceId last_solid = start;  // the last triangle that is more than a sliver
-        int slivers = 0;               // there were so many others since
+        int slivers = 0;               // how many slivers came since
         const double negligible_fold = kNegligibleFoldPx / length_, snapping = kSnappingPx / length_;
         CircleFinder<State> circle;  // polygons that pass an edge several times make some
 
@@ -251,7 +251,7 @@ class Walker {
         return is_border(from) ? continue_over_seam(from) : best;
     }
 
-    /// The same for a border edge: another patch of the mesh may have its border there.
+    /// Continues a walk over a border edge: another patch of the mesh may have its border there.
     Continuation continue_over_seam(const Place& from) const {
         Continuation none;
         const Mesh& mesh = surfaces_.mesh_of(from.surface);
@@ -294,7 +294,7 @@ class Walker {
         if (!needs_no_clipping(p, a) || !needs_no_clipping(p, b)) return std::nullopt;
         return part_of_way(along_, p.to_pixel(a) - from_, p.to_pixel(b) - from_);
     }
-    /// On the way from where one triangle is left to where the next one is.
+    /// The distance on the way from where one triangle is left to where the next one is.
     double distance_between(const Place& entry, const Place& exit, double fraction) const {
         const Projection& p = surfaces_.projection;
         const double from = entry.exit.fraction, to = exit.exit.fraction;
@@ -307,7 +307,7 @@ class Walker {
     bool is_level(double a, double b, SurfaceId steep) const {
         return std::abs(a - b) <= depth_tolerance(surfaces_, a, surfaces_.plane(steep));
     }
-    /// Whether the planes of two triangles are.
+    /// Whether the planes of two triangles are one, as far as lines care.
     bool is_level_at(double fraction, SurfaceId a, SurfaceId b) const {
         const auto distance = [&](SurfaceId s) {
             return distance_of(surfaces_.projection, surfaces_.plane(s).nearness(at(fraction)));

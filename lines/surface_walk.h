@@ -9,6 +9,8 @@
 #include "lines/line_class.h"
 #include "view/surface_set.h"
 
+// A walk follows the surface from one visible point towards another, and says how it ended and which edges it crossed.
+
 namespace burin {
 
 /// What makes an edge between two polygons a line.
@@ -23,10 +25,11 @@ struct SurfaceEdge {
     HalfEdge half_edge = kNoHalfEdge;  ///< of surface's mesh; kNoHalfEdge: none
 };
 
-/// A walk goes over so many triangles at most. Only meshes with thousands of them along a pixel have more between two
+/// A walk goes over at most this many triangles. Only meshes with thousands of them along a pixel have more between two
 /// samples.
 constexpr int kMostTrianglesOfWalk = 1024;
-/// And over so many of walls that are seen edge-on, which may have many rows and bring it nowhere.
+/// A walk goes over at most this many triangles of walls that are seen edge-on, which may have many rows and bring it
+/// nowhere.
 constexpr int kMostTrianglesOfWall = 1 << 12;
 
 /// How a walk over a surface ended.

@@ -9,16 +9,18 @@
 #include "lines/line_class.h"
 #include "lines/line_id.h"
 
+// Hidden lines and dashes need lines as wholes, whatever is seen of them.
+
 namespace burin {
 
-/// A straight line on the screen, seen or not: an edge of a mesh, or where two triangles pass through
-/// each other.
+/// WholeLine is a straight line on the screen, seen or not: an edge of a mesh, or where two triangles pass through each
+/// other.
 struct WholeLine {
     /// An end that no other line has in common.
     static constexpr std::uint64_t kNoNode = ~std::uint64_t{0};
 
     glm::dvec2 from{0.0}, to{0.0};  ///< in 1/256 pixel
-    /// At either end, less SurfaceSet::farthest_nearness.
+    /// Nearness at either end, less SurfaceSet::farthest_nearness.
     double nearness_from = 0, nearness_to = 0;
     /// Numbers of the triangles that the line lies on; they do not hide it. A loose edge has none.
     std::array<std::uint32_t, 2> owners{};
@@ -26,14 +28,15 @@ struct WholeLine {
     bool is_loose() const { return owners[0] == kNoOwner; }
     bool is_wire = false;  ///< the edge in front of a wire, or of a strip as narrow, whose triangles say nothing about
                            ///< what is in front
-    /// Surfaces hide it only where they are in front for certain, and not where they touch it, unless it is flush with
-    /// them.
+    /// Whether surfaces hide it only where they are in front for certain, and not where they touch it, unless it is
+    /// flush with them.
     bool is_by_itself() const { return is_wire || is_loose(); }
     /// Others have the edge's two vertices in common, too.
     bool has_more_owners = false;
-    /// Of a contour, on which side of the way the surface in front is, as side_of_edge() counts. 0: elsewhere.
+    /// On which side of a contour the surface in front is, as side_of_edge() counts. 0: the line is no contour.
     std::int8_t front_side = 0;
-    /// Of a border that is a seam elsewhere, the part of edge_on_screen() that the line is, as shares.
+    /// The part of edge_on_screen() that the line is, as shares: less than all of it where a border is a seam
+    /// elsewhere.
     double edge_begin = 0, edge_end = 1;
     LineId id;
     bool is_edge() const { return id.is_edge(); }
@@ -46,11 +49,12 @@ struct WholeLine {
         return std::uint64_t{instance} << 32 | vertex;
     }
 
-    /// Opacity of a line behind what lets through so much, 255 = all.
+    /// Opacity of the line behind surfaces that let `transmission` through, 255 = all.
     std::uint8_t opacity_behind(std::uint8_t transmission) const {
         return static_cast<std::uint8_t>((opacity * transmission + 127) / 255);
     }
-    /// Of a level line all places are exactly on it; and those of one that runs the other way are the same.
+    /// A place of the line, by its share of the way. Places of a horizontal line are exactly on it, and those of a line
+    /// that runs the other way are the same.
     glm::dvec2 at(double t) const { return t < 0.5 ? from + (to - from) * t : to - (to - from) * (1 - t); }
     double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
     /// The least nearness in a part of it.
@@ -63,13 +67,13 @@ struct WholeLine {
     }
 };
 
-/// A part of a line with the same surfaces in front of it all along.
+/// LinePart is a part of a line with the same surfaces in front of it all along.
 struct LinePart {
     std::uint32_t line = 0;     ///< number of the line
     double begin = 0, end = 1;  ///< as shares of the way from `from` to `to`
-    /// Quantitative invisibility (Appel 1967): how many opaque layers are in front. 255: so many or more.
+    /// Quantitative invisibility (Appel 1967): how many opaque surfaces are in front. 255: 255 or more.
     std::uint8_t invisibility = 0;
-    /// What transparent layers in front let through, 255 = all.
+    /// What transparent surfaces in front let through, 255 = all.
     std::uint8_t transmission = 255;
 };
 

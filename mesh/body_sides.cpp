@@ -46,7 +46,7 @@ std::vector<std::int8_t> find_body_sides(const Mesh& mesh) {
                 body.push_back(g / 3);
             }
         }
-        // As seen from the middle, which matters where the body is open.
+        // The volume is counted as seen from the middle, which matters where the body is open.
         if (area > 0) volume -= glm::dot(moment / area, area_vector);
         const double least = kLeastVolume * 6 * std::pow(0.5 * area, 1.5);
         // A face between edges of more than two triangles is a part of a body: it is believed as it is wound.

@@ -8,14 +8,17 @@
 
 #include "mesh/mesh.h"
 
+// Faces of one plane are told apart by the side on which their body is, which is found from volumes, since winding
+// carries no meaning.
+
 namespace burin {
 
 /// On which side of each triangle its body is, whichever way it is wound: -1 = behind the side from which it is seen
 /// counterclockwise, 1 = in front of that side, 0 = the triangle belongs to no body, but to a sheet.
 ///
-/// Triangles that share an edge of two are of one body; it lies where the volume that they enclose is. Of those that
-/// enclose nothing, between edges of more than two triangles, it lies behind the first one as that is wound. Time grows
-/// with the number of triangles.
+/// Triangles that share an edge of two are of one body; it lies where the volume that they enclose is. Where triangles
+/// between edges of more than two enclose nothing, it lies behind the first one as that is wound. Time grows with the
+/// number of triangles.
 std::vector<std::int8_t> find_body_sides(const Mesh& mesh);
 
 /// Whether two triangles are near each other on one body, and wound alike: then its side is the same for both. False

@@ -22,7 +22,7 @@ constexpr double kWidestReachPart = 0.05;
 
 glm::dvec3 direction_of(const BorderIndex::Segment& s) { return s.b - s.a; }
 
-/// Of the angle between two edges that run along each other, at least.
+/// The least cosine of the angle between two edges that run along each other.
 constexpr double kCosParallel = 0.9;
 
 bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderIndex::Segment& other) {
@@ -89,11 +89,11 @@ std::vector<SegmentPiece> pieces_of(std::span<const BorderIndex::Segment> segmen
     return pieces;
 }
 
-/// Some numbers, each once.
+/// A set of some numbers.
 class NumberSet {
   public:
     std::size_t count() const { return count_; }
-    /// False if it was there already. Not more than half as many as there are places.
+    /// Returns false if the number was there already. There must not be more than half as many as there are places.
     bool add(std::uint32_t number) {
         constexpr std::uint32_t kSpread = 2654435769u;
         for (std::uint32_t i = number * kSpread >> (32 - kShift);; i = (i + 1) % kPlaces) {
@@ -231,9 +231,9 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
     Nearest nearest{reach_part_ * length, {}};
-    // What is nearly parallel to the edge, passes within `reach` of the place, and within `radius` of the line of
-    // sight, does so at a distance of at most (reach + radius) / sine from the place: the sine of the least angle
-    // between it and the line of sight.
+    // A segment that is nearly parallel to the edge, passes within `reach` of the place, and within `radius` of the
+    // line of sight, does so at a distance of at most (reach + radius) / sine from the place: the sine of the least
+    // angle between it and the line of sight.
     constexpr double kLeastSine = 1.0 / 8, kSineOfParallel = 0.436;  // a trifle more than sqrt(1 - kCosParallel^2)
     const double cosine = std::min(std::abs(glm::dot(along, sight.direction)) / length, 1.0);
     const double sine = std::sqrt(1 - cosine * cosine) * kCosParallel - cosine * kSineOfParallel;
@@ -255,7 +255,7 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
         nearest.offer(other, at);
         farthest = (nearest.reach + radius) / sine + radius;
     });
-    // One that is seen elsewhere may be nearer.
+    // A segment that is seen elsewhere may be nearer.
     if (nearest.partner) find_nearest(*own, at, nearest);
     return nearest.partner;
 }

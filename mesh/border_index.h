@@ -9,6 +9,8 @@
 
 #include "mesh/segment_tree.h"
 
+// Walks over seams, and the closing of cracks, ask which borders are near a place.
+
 namespace burin {
 
 using HalfEdge = std::uint32_t;
@@ -47,15 +49,15 @@ class BorderIndex {
         glm::dvec3 direction{0.0};  ///< its length is 1
         double radius = 0, growth = 0;
     };
-    /// The same for whoever has no use for a partner that is not seen near the place: nothing, if it is not; it may be
-    /// nothing only then. Where borders lie in a heap, that is much faster: of all borders in reach, few are seen near
+    /// Finds the seam partner for a caller that has no use for one that is not seen near the place: returns nothing
+    /// only if it is not. Where borders lie in a heap, that is much faster: of all borders in reach, few are seen near
     /// the place.
     std::optional<HalfEdge> seam_partner(HalfEdge half_edge, const glm::dvec3& at, const Sight& sight) const;
 
     /// How near a partner must be, in lengths of the edge.
     double reach_part() const { return reach_part_; }
 
-    /// The same with what it says of places near `at`.
+    /// The seam partner at a place, with what it says of places near `at`.
     class Neighbourhood;
     Neighbourhood neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const;
     /// Whether segments lie over each other by the dozen, so that many come near an edge.
@@ -72,11 +74,11 @@ class BorderIndex {
         double reach_ = 0;
         std::vector<Segment> segments_;
     };
-    /// Those whose boxes are that near to the box of the edge. False, and none, if there are more than `most` segments
-    /// there, of any direction.
+    /// Lists the candidates whose boxes are within reach of the box of the edge. Returns false, and lists none, if
+    /// there are more than `most` segments there, of any direction.
     bool find_candidates(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
-    /// Those that are that near to the edge itself. False, and none, if there are more than `most`, at most kMostNear,
-    /// of any direction.
+    /// Lists the candidates that are within reach of the edge itself. Returns false, and lists none, if there are more
+    /// than `most` segments there, of any direction; `most` is at most kMostNear.
     static constexpr std::size_t kMostNear = 256;
     bool find_near(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
 
@@ -98,8 +100,7 @@ class BorderIndex {
     SegmentTree pieces_;  // of short pieces, where boxes around whole ones lie over each other by the dozen; else empty
 };
 
-/// Of one edge: the segments nearest to a place on it, of which one may be its partner, and how near all others are at
-/// least.
+/// The segments nearest to a place on one edge, of which one may be its partner, and how near all others are at least.
 class BorderIndex::Neighbourhood {
   public:
     /// The edge's seam_partner() at a place near that; has_answer is false where others may be as near.

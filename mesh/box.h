@@ -8,6 +8,8 @@
 
 #include "mesh/mesh.h"
 
+// Bounds of points are wanted everywhere: of meshes, of polygons, of views.
+
 namespace burin {
 
 /// The smallest box around points; empty without any.

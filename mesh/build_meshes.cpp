@@ -122,7 +122,7 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh, st
     return mesh;
 }
 
-/// The same for a mesh that has nothing but triangles and has them already.
+/// Finishes a mesh that has nothing but triangles and has them already.
 Mesh finish_triangles(const MeshOptions& options, Mesh mesh) {
     check_triangle_count(mesh.name, mesh.triangles.size());
     bool has_duplicates = false;
@@ -194,7 +194,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
     const bool is_subdivided = options.subdivision_levels > 0;  // which numbers polygons anew
     if (has_only_triangles(soup) && rounded.residuals.empty()) {
         Mesh mesh = empty_mesh(0);
-        // What is done with makes room: fresh memory costs more than the work on it.
+        // Memory that is done with is given back at once: fresh memory costs more than the work on it.
         release(soup.positions);
         const bool is_large = soup.polygon_count() >= kWorthSpatialOrder;
         collect_triangles(soup, positions, welded, is_large && !is_subdivided, mesh);

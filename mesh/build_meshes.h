@@ -7,6 +7,8 @@
 #include "mesh/polygon_soup.h"
 #include "mesh/subdivide.h"
 
+// Polygons as they stand in a file become meshes, in one order of steps.
+
 namespace burin {
 
 struct MeshOptions {

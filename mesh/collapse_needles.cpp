@@ -48,7 +48,7 @@ std::vector<std::uint32_t> connected_parts(const Mesh& mesh) {
     return part;
 }
 
-/// What is nothing but needles, such as a tube or a cone that is open and thin, would be lost.
+/// A body of nothing but needles, such as a tube or a cone that is open and thin, would be lost.
 void keep_thin_parts(const Mesh& mesh, std::vector<Needle>& needles) {
     const std::vector<std::uint32_t> part = connected_parts(mesh);
     std::vector<std::uint32_t> size(part.size()), count(part.size());
@@ -70,7 +70,7 @@ std::optional<Mesh> collapse_needles(const Mesh& mesh, const CrackReach& reach) 
     }
     if (!needles.empty()) keep_thin_parts(mesh, needles);
     if (needles.empty()) return std::nullopt;
-    // The shortest first, whatever the order of the triangles.
+    // The shortest come first, whatever the order of the triangles.
     std::sort(needles.begin(), needles.end(), [](const Needle& a, const Needle& b) {
         if (a.length != b.length) return a.length < b.length;
         if (a.low != b.low) return is_less(a.low, b.low);

@@ -52,12 +52,13 @@ void collect_triangles(const PolygonSoup& soup, const std::vector<glm::vec3>& po
                        const std::vector<std::uint32_t>& welded, bool in_spatial_order, Mesh& mesh) {
     constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
     const std::size_t count = soup.polygon_count();
-    // Numbers in the object, of the first ones of vertices that fall together; and the other way round.
+    // The numbers in the object of the first ones of vertices that fall together, and the other way round.
     std::vector<std::uint32_t> local = large_vector(positions.size(), kUnused);
     UnfilledVector<std::uint32_t> used(positions.size() + 1);
     reserve_large(mesh.triangles, count);
     std::uint32_t used_count = 0;
-    // Half of the triangles meet a new vertex, and no guess at which is right: each is noted as if it were new.
+    // Half of the triangles meet a new vertex, and a branch on that would be unpredictable: each is noted as if it were
+    // new.
     const auto number_of = [&used_count, local = local.data(), used = used.data(),
                             welded = welded.data()](std::uint32_t v) {
         const std::uint32_t first = welded[v], known = local[first], is_new = known == kUnused ? 1 : 0;

@@ -7,12 +7,13 @@ namespace {
 
 /// How wide a crack may be, in lengths of its sides: at full reach, and at kNarrowPart of it.
 constexpr double kWidestPart = 1.0 / 20, kWidestNarrowPart = 1.0 / 3, kNarrowPart = 1.0 / 4;
-/// Also in parts of the reach, and of the height of the triangle beside it.
+/// A crack may also be as wide as these parts: of the reach, and of the height of the triangle beside it.
 constexpr double kNegligiblePart = 1.0 / 8, kWidestOfHeight = 1.0 / 2;
 constexpr double kShortestSide = 1.0 / 64;  // in parts of the reach
 /// The short end of a needle: in parts of the reach, and of the needle's other edges.
 constexpr double kNeedleEnd = 1.0 / 8, kNeedleEndPart = 1.0 / 3;
-/// Of the directions from the edge into the polygons on both sides: beyond that one folds back on the other.
+/// The greatest cosine between the directions from the edge into the polygons on both sides: beyond it one folds back
+/// on the other.
 constexpr double kCosLeastAngle = 0.94;
 /// A triangle ends where it has a border behind it, by rounding too.
 constexpr double kBarely = 1.01;
@@ -38,7 +39,7 @@ CrackSides::CrackSides(const Mesh& mesh, const CrackReach& reach) : mesh_(mesh),
 
 double CrackSides::widest(std::uint32_t segment, double length) const {
     const double reach = reach_[segment];
-    // Of specks there may be thousands in one place.
+    // Specks have no cracks: there may be thousands of them in one place.
     if (is_end_of_needle_[segment] || lengths_[segment] < kShortestSide * reach) return 0;
     const double by_length =
         std::max(std::min(reach, kWidestPart * length), std::min(kNarrowPart * reach, kWidestNarrowPart * length));
@@ -58,14 +59,14 @@ std::uint32_t CrackSides::apex_vertex(std::uint32_t segment) const {
 }
 glm::dvec3 CrackSides::apex(std::uint32_t segment) const { return mesh_.local_position(apex_vertex(segment)); }
 
-/// From the edge to that, at a right angle.
+/// The vector from the edge to its apex, at a right angle to the edge.
 glm::dvec3 CrackSides::across(std::uint32_t segment) const {
     const BorderIndex::Segment& s = segments_[segment];
     const glm::dvec3 a = s.a, along = s.b - a, to_apex = apex(segment) - a;
     return to_apex - along * (glm::dot(to_apex, along) / std::max(glm::dot(along, along), 1e-300));
 }
 
-/// From the edge into the polygon.
+/// The direction from the edge into the polygon.
 glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
     const glm::dvec3 way = across(segment);
     return way / std::max(glm::length(way), 1e-300);

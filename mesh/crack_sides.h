@@ -7,6 +7,8 @@
 
 #include "mesh/mesh.h"
 
+// Closing cracks needs to know which borders are the two sides of one, and how wide it may be.
+
 namespace burin {
 
 /// How far apart the two sides of a crack may be at a place, in units of the mesh; 0 or less: not at all.

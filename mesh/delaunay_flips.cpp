@@ -10,7 +10,7 @@ namespace burin {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-/// Of more flips than this for each triangle, rounding is the cause.
+/// If there are more flips than this for each triangle, rounding is the cause.
 constexpr std::size_t kMostFlips = 64;
 /// Coordinates are exact to this, for a polygon of size 1.
 constexpr double kFlatHeight = 1e-6;
@@ -71,7 +71,7 @@ class Flipper {
         const glm::dvec2 a = points_[start(side)], b = points_[start(next(side))];
         const glm::dvec2 c = points_[apex(side)], d = points_[apex(twins_[side])];
         if (!(turn(a, d, c) > 0) || !(turn(d, b, c) > 0)) return false;
-        // What turns right by more than rounding is of a polygon that crosses itself.
+        // A triangle that turns right by more than rounding is of a polygon that crosses itself.
         const double least = -kFlatHeight * glm::distance(a, b);
         if (turn(a, b, c) < least || turn(b, a, d) < least) return false;
         const double sine_c = cross(a - c, b - c), sine_d = cross(b - d, a - d);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+// The digits of plain numbers in a text are read eight at a time.
+
 namespace burin {
 
 /// Digits of a text, eight at a time (Lemire 2021, "Number Parsing at a Gigabyte per Second"), for
@@ -35,7 +37,7 @@ inline std::uint32_t value_of_digits(std::uint64_t eight, int count) {
     return static_cast<std::uint32_t>(eight * 10000 + (eight >> 32));
 }
 
-/// Those that a double holds exactly.
+/// The powers of ten that a double holds exactly.
 inline constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                           1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 inline constexpr std::uint64_t kIntegerPowersOfTen[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};

@@ -16,7 +16,7 @@ class HeaderReader {
     HeaderReader(const void* bytes, std::uint64_t size)
         : at_(static_cast<const unsigned char*>(bytes)), end_(at_ + size) {}
 
-    /// Whether the data say to be a mesh of so many triangles (and, if it is known so early,
+    /// Says what is wrong if the data do not claim to be a mesh of this many triangles (and, where the header tells,
     /// points).
     const char* check(std::uint64_t points, std::uint64_t triangles) {
         if (end_ - at_ < 11 || std::memcmp(at_, "DRACO", 5) != 0) return "this is not Draco's";
@@ -39,7 +39,7 @@ class HeaderReader {
         is_good_ = is_good_ && bytes <= static_cast<std::uint64_t>(end_ - at_);
         at_ = is_good_ ? at_ + bytes : end_;
     }
-    /// Seven bits per byte, the lowest first.
+    /// Reads a number of seven bits per byte, the lowest first.
     std::uint64_t number() {
         std::uint64_t value = 0;
         for (int shift = 0; shift < 64 && at_ < end_; shift += 7) {
@@ -53,7 +53,7 @@ class HeaderReader {
     void skip_name() {
         if (at_ < end_) skip(1 + std::uint64_t{*at_});
     }
-    /// Those of attributes, each after its id, and those of the mesh.
+    /// Skips the metadata of attributes, each after its id, and those of the mesh.
     void skip_all_metadata() {
         for (std::uint64_t left = number(); left > 0 && is_good_; --left) {
             number();

@@ -106,8 +106,8 @@ class DuplicateFinder {
     std::vector<bool> compared_;  // per half-edge of a long ring; empty: there is none
 };
 
-/// The same for triangles in short rings. Triangles on one edge are duplicates if their third
-/// vertices are one. Returns false if there is a long ring.
+/// Finds duplicates among triangles in short rings. Triangles on one edge are duplicates if their third vertices are
+/// one. Returns false if there is a long ring.
 bool find_duplicate_triangles(const Mesh& mesh, std::vector<std::uint32_t>& duplicates) {
     const auto vertices = [&](std::uint32_t t) {
         const auto& [a, b, c] = mesh.triangles[t];

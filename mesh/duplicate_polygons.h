@@ -6,6 +6,8 @@
 #include "mesh/mesh.h"
 #include "mesh/polygon_mesh.h"
 
+// Polygons that a file has twice are found, so that each surface is there once.
+
 namespace burin {
 
 /// The polygons with the same edges as an earlier one, whatever their winding and first corner, in

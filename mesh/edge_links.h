@@ -7,6 +7,8 @@
 
 #include "mesh/mesh.h"
 
+// Triangles learn of their neighbours: half-edges on one edge are linked to a ring.
+
 namespace burin {
 
 /// Links the half-edges of triangles that join the same two vertices into rings, in increasing

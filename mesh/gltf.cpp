@@ -97,7 +97,7 @@ class GltfReader {
         return pose;
     }
 
-    /// In which poses nodes show each mesh. One that no node shows is read as it is.
+    /// Plans in which poses nodes show each mesh. A mesh that no node shows is read as it is.
     void plan_poses() {
         for (const GltfMeshNode& shown : nodes_.mesh_nodes) {
             const std::uint32_t mesh = first_like_[shown.mesh];

@@ -9,6 +9,8 @@
 #include "mesh/gltf_nodes.h"
 #include "mesh/polygon_soup.h"
 
+// A glTF file becomes a Model: meshes where their nodes put them, materials, cameras.
+
 namespace burin {
 
 /// A node that shows a mesh, or one of its instances: an object.

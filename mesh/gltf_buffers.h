@@ -12,6 +12,8 @@
 #include "base/model_budget.h"
 #include "mesh/gltf_json.h"
 
+// Accessors of a glTF file become checked numbers in memory, whatever their type, sparse or compressed.
+
 namespace burin {
 
 /// One accessor (glTF 2.0, 3.6.2), resolved to memory: `count` elements of `components` numbers.
@@ -45,9 +47,8 @@ class GltfBuffers {
     /// Throws InputError if one of them has become shorter since it was opened.
     void check_are_whole() const;
 
-    /// The accessor that `reference` names, as if it had no "sparse" part. `type`: SCALAR, VEC3, VEC4
-    /// or MAT4. It may have up to `known_count` elements that the file has no data for: so many the
-    /// caller has memory for.
+    /// The accessor that `reference` names, as if it had no "sparse" part. `type`: SCALAR, VEC3, VEC4 or MAT4. It may
+    /// have up to `known_count` elements that the file has no data for: the caller has memory for these.
     GltfAccessor without_sparse(const JsonPlace& reference, std::string_view type, std::uint64_t known_count = 0);
     /// The accessor as it is.
     GltfAccessor accessor(const JsonPlace& reference, std::string_view type, std::uint64_t known_count = 0);

@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+// The JSON and the binary chunk of a .gltf or .glb are found and checked.
+
 namespace burin {
 
 /// What a glTF file holds: the two chunks of a GLB (glTF 2.0, 4.4), or the text of a .gltf. They lie in

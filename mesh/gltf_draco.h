@@ -8,6 +8,8 @@
 #include "mesh/gltf_buffers.h"
 #include "mesh/gltf_plan.h"
 
+// Primitives that Draco compressed are decoded by the module burin_draco.so.
+
 namespace burin {
 
 /// What Draco compressed of a primitive.

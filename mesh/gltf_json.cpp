@@ -57,7 +57,7 @@ std::string malformed_at(std::string_view text, std::size_t byte) {
 }  // namespace
 
 nlohmann::json parse_gltf_json(const std::string& path, std::string_view text) {
-    // Not by the parser's callback, which takes time in the square of a list's length.
+    // The depth is not counted by the parser's callback, which takes time in the square of a list's length.
     if (nesting_depth(text) > kMaxJsonDepth) throw InputError(path + ": the JSON is nested too deeply");
     try {
         return nlohmann::json::parse(text.begin(), text.end());

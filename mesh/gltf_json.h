@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "mesh/text_scan.h"
 
+// JSON of a glTF file is read with every access checked, and named as glTF writes it.
+
 namespace burin {
 
 /// A JSON value together with its place in the file, for messages. Every access is checked.

@@ -8,6 +8,8 @@
 #include "mesh/gltf_plan.h"
 #include "mesh/gltf_vertices.h"
 
+// Marked edges of a glTF come from lines, line strips and two extensions.
+
 namespace burin {
 
 /// The vertex numbers of a primitive in order, checked.

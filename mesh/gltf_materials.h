@@ -5,6 +5,8 @@
 #include "mesh/gltf_json.h"
 #include "mesh/polygon_soup.h"
 
+// Colours and opacities of a glTF file become materials of the model.
+
 namespace burin {
 
 /// The materials of a glTF file, and then the default material.

@@ -7,6 +7,9 @@
 #include "base/model_budget.h"
 #include "mesh/gltf_json.h"
 
+// Buffer views that meshoptimizer compressed are decoded here, with filters of our own, which give the same bits
+// everywhere.
+
 namespace burin {
 
 inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";

@@ -63,7 +63,7 @@ class NodeWalk {
         bool is_visible;
     };
 
-    /// Of all nodes without a parent.
+    /// Pushes all nodes without a parent.
     void push_roots() {
         std::vector<bool> is_child(count_, false);
         for (std::size_t i = 0; i < count_; ++i) {

@@ -7,6 +7,8 @@
 
 #include "mesh/gltf_json.h"
 
+// Nodes of a glTF are walked from their roots, and give matrices to meshes and cameras.
+
 namespace burin {
 
 /// A glTF camera where its node puts it. It looks down its own -Z, with +Y up.

@@ -33,7 +33,7 @@ std::string vertex_key(const JsonPlace& place) {
     return key;
 }
 
-/// The same for its polygons and lines.
+/// What its polygons and lines come from, as text.
 std::string primitive_key(const JsonPlace& place, const GltfPrimitive& primitive) {
     std::string key = std::to_string(primitive.vertex_group) + ' ' + std::to_string(primitive.mode) + ' ' +
                       std::to_string(primitive.material);

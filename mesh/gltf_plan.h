@@ -8,6 +8,8 @@
 #include "mesh/gltf_json.h"
 #include "mesh/gltf_materials.h"
 
+// What a glTF will take is known before its accessors are expanded, so that too much can be refused.
+
 namespace burin {
 
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";

@@ -39,8 +39,8 @@ class SkinWeights {
         }
     }
 
-    /// By joint, each once: the order in the file must not matter. They sum to 1, or are empty if
-    /// the vertex depends on none.
+    /// The influences on a vertex, by joint, each once: the order in the file must not matter. They sum to 1, or are
+    /// empty if the vertex depends on none.
     const std::vector<Influence>& of(std::uint64_t element) {
         influences_.clear();
         for (const Set& set : sets_) {

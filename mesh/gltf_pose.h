@@ -9,6 +9,8 @@
 #include "mesh/gltf_nodes.h"
 #include "mesh/gltf_surface.h"
 
+// Morph targets and skins move vertices to where they stand without animation.
+
 namespace burin {
 
 /// Where the joints of a skin take a vertex that depends on one of them alone.

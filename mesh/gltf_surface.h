@@ -6,6 +6,8 @@
 #include "mesh/gltf_vertices.h"
 #include "mesh/polygon_soup.h"
 
+// The polygons, lines and marks of a glTF mesh are taken from its accessors.
+
 namespace burin {
 
 /// A glTF mesh as its accessors have it, before morph targets and skins move it.

@@ -11,6 +11,8 @@
 #include "mesh/gltf_draco.h"
 #include "mesh/gltf_plan.h"
 
+// The vertices of a glTF mesh are read once, however many primitives share them.
+
 namespace burin {
 
 /// Where a run of a mesh's vertices comes from: elements of the accessors of a primitive.

@@ -7,14 +7,16 @@
 
 #include "base/unfilled_vector.h"
 
+// Meshes that were put in spatial order still tell the number that each polygon has in its file.
+
 namespace burin {
 
 /// Where a mesh's polygons stood in the input, if they are in another order now.
 class InputOrder {
   public:
     InputOrder() = default;
-    /// Of each polygon its number in the input, in which those with the numbers `dropped`, in ascending order, were
-    /// left out.
+    /// `numbers`: for each polygon its number in the input. `dropped`: the numbers of those that were left out, in
+    /// ascending order.
     InputOrder(UnfilledVector<std::uint32_t> numbers, std::vector<std::uint32_t> dropped)
         : numbers_(std::move(numbers)), dropped_(std::move(dropped)) {}
 

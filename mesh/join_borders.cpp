@@ -73,7 +73,7 @@ class Middles {
     SegmentTree tree_;
 };
 
-/// All that are narrow enough, the narrowest first.
+/// All cracks that are narrow enough, the narrowest first.
 std::vector<Crack> find_cracks(const CrackSides& sides) {
     std::vector<Crack> cracks, beside;
     std::vector<std::uint32_t> near;

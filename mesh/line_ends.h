@@ -6,6 +6,8 @@
 #include <bit>
 #endif
 
+// Texts of all systems are read, whatever ends their lines.
+
 namespace burin {
 
 /// Lines end in LF, in CR and LF, or, as old Mac programs have it, in CR alone; in one file each

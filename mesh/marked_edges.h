@@ -12,6 +12,8 @@
 #include "mesh/polygon_soup.h"
 #include "mesh/round_positions.h"
 
+// Edges that a file marks become marks of polygons' edges, or loose edges if no polygon has them.
+
 namespace burin {
 
 /// The edges that a file marks, each once, and which of them are an edge of a polygon of any
@@ -37,7 +39,7 @@ class MarkedEdges {
         std::uint32_t object;
         auto operator<=>(const Mark&) const = default;
     };
-    /// Once all polygons are looked at: those that no polygon has, object by object.
+    /// The edges that no polygon has, object by object, once all polygons are looked at.
     std::vector<Mark> loose_edges() const;
 
   private:

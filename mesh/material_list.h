@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+// Objects share the list of their model's materials, since there may be very many objects.
+
 namespace burin {
 
 /// The scene's material for each material number of a mesh. Copies share the numbers, so that
@@ -16,7 +18,7 @@ class MaterialList {
     MaterialList() = default;
     MaterialList(const std::vector<std::uint32_t>& materials) : MaterialList(materials.data(), materials.size()) {}
     MaterialList(std::initializer_list<std::uint32_t> materials) : MaterialList(materials.begin(), materials.size()) {}
-    /// The same one for all of `size` numbers. It takes the memory of one.
+    /// A list with the same material for all of `size` numbers. It takes the memory of one.
     static MaterialList all_alike(std::size_t size, std::uint32_t material) {
         MaterialList list(&material, 1);
         list.mask_ = 0;

@@ -9,6 +9,9 @@
 #include "mesh/border_index.h"
 #include "mesh/input_order.h"
 
+// A mesh is what all else works on: welded vertices, triangles with links across edges, and the polygons that they are
+// parts of.
+
 namespace burin {
 
 /// Half-edge k of triangle t (HalfEdge number 3t + k) runs from corner k to corner (k + 1) % 3.
@@ -78,7 +81,7 @@ struct Mesh {
     bool is_loose(HalfEdge h) const { return h >= 3 * triangles.size(); }
     const std::array<std::uint32_t, 2>& loose_edge(HalfEdge h) const { return loose_edges[h - 3 * triangles.size()]; }
     bool has_residuals() const { return !residuals.empty(); }
-    /// As seen from the origin.
+    /// The place of a vertex, as seen from the origin.
     glm::dvec3 local_position(std::uint32_t vertex) const {
         const glm::dvec3 p(positions[vertex]);
         return residuals.empty() ? p : p + glm::dvec3(residuals[vertex]);

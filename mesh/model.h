@@ -9,6 +9,9 @@
 #include "mesh/mesh.h"
 #include "mesh/polygon_soup.h"
 
+// A model is what a file or a shape gives to a scene: meshes, objects, materials, cameras, and notes about how it was
+// read.
+
 namespace burin {
 
 /// A mesh at its place in the model: an object.

@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+// Files that a model names are read only if they lie in its folder or below.
+
 namespace burin {
 
 /// The path of the file that a model names by `reference`, relative to the model's folder.

@@ -9,6 +9,8 @@
 
 #include "base/huge_pages.h"
 
+// Names of objects and materials stand in front of what they hold for, in a text or in a piece of one.
+
 namespace burin {
 
 /// Names that hold for the polygons and lines behind them, until the next name: in the order of
@@ -24,7 +26,7 @@ class NameUses {
         bool operator==(const Place&) const = default;
     };
 
-    /// From a place on the name is `name`.
+    /// Says that from a place on the name is `name`.
     void use(std::string_view name, Place place) { use(number_of(name), place); }
 
     /// Uses of a text behind this one, whose first polygon and line have the numbers of `first`
@@ -40,7 +42,7 @@ class NameUses {
 
     /// The number of the name of each of `count` polygons.
     std::vector<std::uint32_t> per_polygon(std::size_t count) const { return per_item(count, &Place::polygon); }
-    /// The same of lines.
+    /// The number of the name of each of `count` lines.
     std::vector<std::uint32_t> per_line(std::size_t count) const { return per_item(count, &Place::line); }
 
   private:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
+// Boxes far from a segment are told by one quick test, so that few need an exact one.
+
 namespace burin {
 
 /// Whether a box comes as near to a segment as `margin`; true also for some that do not.
@@ -20,7 +22,7 @@ struct NearSegment {
 
   private:
     static constexpr double kRounding = 1e-9;
-    /// To what lies between two values along one axis.
+    /// Clips a segment to what lies between two values along one axis.
     static void clip(double from, double to, double low, double high, double& begin, double& end) {
         const double way = to - from;
         if (way == 0) {

@@ -10,6 +10,8 @@
 #include "mesh/name_uses.h"
 #include "mesh/polygon_soup.h"
 
+// A piece of an OBJ file is parsed without what stands before it.
+
 namespace burin {
 
 /// What a piece of the text of an OBJ file says, or all of it.

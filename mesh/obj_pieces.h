@@ -7,6 +7,8 @@
 
 #include "mesh/obj_part.h"
 
+// A large OBJ file is parsed in pieces, on all threads, and the pieces are joined in order.
+
 namespace burin {
 
 /// What the pieces of a text say together, each parsed by one of `threads` threads (0 = all cores).

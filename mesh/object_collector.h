@@ -12,6 +12,8 @@
 #include "mesh/polygon_mesh.h"
 #include "mesh/polygon_soup.h"
 
+// Polygons of any kind become objects: sorted by object, welded, cleaned and counted.
+
 namespace burin {
 
 /// Polygons of the soup, object by object, in their order.

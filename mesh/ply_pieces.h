@@ -14,6 +14,8 @@
 #include "mesh/ply_values.h"
 #include "mesh/text_pieces.h"
 
+// Rows of a PLY text are read in pieces, on all threads.
+
 namespace burin {
 
 /// Reads rows of positions in any form into `rows`, from here on, until one has something else than numbers or one

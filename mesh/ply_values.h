@@ -17,6 +17,8 @@
 #include "mesh/row_scan.h"
 #include "mesh/text_scan.h"
 
+// The body of a PLY file is a sequence of values, as text or as bytes.
+
 namespace burin {
 
 /// A real that stands for an integer, as some writers put vertex numbers.
@@ -36,7 +38,7 @@ inline bool is_coordinate(const glm::dvec3& p) {
 /// readers everywhere take any white space, so this does too.
 class AsciiValues {
   public:
-    /// `margin`: so many line feeds stand in front of the body and behind it, and may be read.
+    /// `margin`: how many line feeds stand in front of the body and behind it, which may be read.
     AsciiValues(std::string_view body, std::size_t first_line, std::size_t margin = 0)
         : p_(body.data()),
           end_(p_ + body.size()),
@@ -88,7 +90,7 @@ class AsciiValues {
         return p_ == end_;
     }
     std::size_t line() const { return line_; }
-    /// All that is left.
+    /// All of the text that is left.
     std::string_view rest() const { return {p_, static_cast<std::size_t>(end_ - p_)}; }
 
     /// Reads rows of plain numbers from here on, as many as `rows` holds, and returns how many.
@@ -133,7 +135,8 @@ class AsciiValues {
         return true;
     }
 
-    /// The same for triangles, each of them a row of the number 3 and three vertex numbers on one line.
+    /// Reads plain rows of triangles, each of them the number 3 and three vertex numbers on one line, and returns how
+    /// many there were.
     std::size_t plain_triangles(std::span<std::uint32_t> corners) {
         const std::size_t max_count = corners.size() / 3;
         const auto read_some = [&](std::size_t row) {
@@ -286,7 +289,7 @@ class BinaryValues {
     std::size_t line() const { return 0; }
 
   private:
-    /// For a value that the file has only a part of.
+    /// Ends reading at a value that the file has only a part of.
     bool reach_end() {
         p_ = end_;
         return false;

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+// Subdivision works on polygons that are welded and cleaned, but not yet cut into triangles.
+
 namespace burin {
 
 /// One object's polygons after welding and dropping, before triangulation: what subdivision works

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+// A reader delivers a soup: polygons, marks, names and materials as they stand in the file.
+
 namespace burin {
 
 /// What a polygon looks like when it is shaded and how much it hides.

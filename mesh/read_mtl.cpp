@@ -99,7 +99,7 @@ class MaterialFiles {
         if (const auto obj = file_at(obj_path)) outcomes_[*obj] = false;
     }
 
-    /// False if there is no such file, or it is none to be read.
+    /// Reads a file; returns false if there is no such file, or it is none to be read.
     bool read(std::string_view name) {
         if ((++tries_ & 0xFF) == 0) throw_if_interrupted();
         if (const auto known = names_.find(name); known != names_.end()) return known->second;

@@ -6,6 +6,8 @@
 
 #include "mesh/polygon_soup.h"
 
+// An OBJ names material files, from which colours and opacities are read.
+
 namespace burin {
 
 /// Colours (`Kd`) and opacities (`d`, `Tr`) from the MTL files that an OBJ names. Where `d` and

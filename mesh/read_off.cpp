@@ -34,7 +34,7 @@ class OffParser {
         throw InputError({path_, std::max<std::size_t>(1, lines_.line_number())}, message);
     }
 
-    /// The next line that has more than a comment.
+    /// Goes to the next line that has more than a comment.
     LineScanner next_line(const char* expected) {
         std::string_view line;
         while (lines_.next(line)) {

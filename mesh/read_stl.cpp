@@ -44,7 +44,7 @@ void add_corner(PolygonSoup& soup, const glm::dvec3& position) {
 
 constexpr const char* kNotFinite = "a coordinate is not finite or beyond 1e30";
 
-/// What is left when triangles without finite coordinates are left out.
+/// Notes how many triangles without finite coordinates are left out. Throws InputError if no triangle is left.
 void note_non_finite(const SourcePosition& place, PolygonSoup& soup, const std::string& first) {
     if (soup.non_finite_polygons == 0) return;
     if (soup.corners.empty()) throw InputError(place, std::string("no triangle has finite coordinates") + kRepair);
@@ -52,7 +52,7 @@ void note_non_finite(const SourcePosition& place, PolygonSoup& soup, const std::
                          first + ": " + kNotFinite);
 }
 
-/// Text of any kind that is no STL. Triangles have zero bytes, nearly always.
+/// Whether a file is a text of any kind that is no STL. Triangles have zero bytes, nearly always.
 bool is_plain_text(std::string_view bytes) {
     return std::all_of(bytes.begin(),
                        bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 4096)),

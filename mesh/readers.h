@@ -7,6 +7,8 @@
 
 #include "mesh/polygon_soup.h"
 
+// Each format has a reader, which takes the path of a file and returns its polygons as they stand there.
+
 namespace burin {
 
 /// Readers of the single-mesh formats. Each takes the path of a file and returns its polygons.
@@ -25,7 +27,7 @@ namespace burin {
 /// on `threads` threads (0 = all cores), which changes nothing else. `material_files`: gets the paths of those that
 /// were read.
 PolygonSoup read_obj(const std::string& path, int threads = 1, std::vector<std::string>* material_files = nullptr);
-/// The same for the text of the file, in pieces of at least `piece_size` bytes, which changes nothing either.
+/// Reads the text of an OBJ file, in pieces of at least `piece_size` bytes, which changes nothing either.
 PolygonSoup read_obj_text(const std::string& path, std::string_view text, int threads, std::size_t piece_size,
                           std::vector<std::string>* material_files = nullptr);
 

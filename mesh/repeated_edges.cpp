@@ -86,7 +86,7 @@ void remove_spikes(std::vector<std::uint32_t>& corners) {
             corners[end++] = v;
         }
     }
-    // The same where the end meets the start.
+    // Repetitions and spikes go where the end meets the start, too.
     std::size_t first = 0;
     while (end - first > 1) {
         if (corners[first] == corners[end - 1] || corners[first + 1] == corners[end - 1]) {

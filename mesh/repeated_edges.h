@@ -5,6 +5,8 @@
 
 #include "mesh/polygon_soup.h"
 
+// Polygons that pass an edge more than once in one direction are cut into polygons that pass each edge once.
+
 namespace burin {
 
 /// Takes repetitions in a row and spikes (from a corner and straight back to it) out of a polygon's

@@ -2,6 +2,8 @@
 
 #include <glm/glm.hpp>
 
+// Files that single precision would blur keep the rest of each coordinate beside it.
+
 namespace burin {
 
 /// What single precision leaves of a place that it has rounded, in single precision again.

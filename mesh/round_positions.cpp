@@ -17,7 +17,7 @@ namespace {
 /// side is blurred: of what fills 1000 pixels single precision then moves corners by 1/64 pixel.
 constexpr double kLargestReach = 256;
 constexpr std::size_t kMostSamples = 1024;
-/// Of the largest coordinate. Programs leave noise in the last digits of double precision, which
+/// Bits that are kept of the largest coordinate. Programs leave noise in the last digits of double precision, which
 /// must not keep vertices apart.
 constexpr int kBitsWithResiduals = 46;
 
@@ -33,11 +33,11 @@ struct Bounds {
     }
     glm::dvec3 center() const { return 0.5 * (low + high); }
     double half_size() const { return largest_of(0.5 * (high - low)); }
-    /// How far from a place it reaches along an axis.
+    /// How far a box reaches from a place along an axis.
     double reach_from(const glm::dvec3& p) const { return std::max(largest_of(low - p), largest_of(high - p)); }
 };
 
-/// Around vertices that polygons or marked edges have.
+/// The box around vertices that polygons or marked edges have.
 Bounds bounds_of(const PolygonSoup& soup) {
     std::vector<std::uint8_t> is_used(soup.positions.size(), 0);
     for (const std::uint32_t v : soup.corners) is_used[v] = 1;
@@ -84,7 +84,7 @@ bool is_blurred(const PolygonSoup& soup, double reach) {
     return size > 0 && reach > kLargestReach * size * std::sqrt(static_cast<double>(soup.polygon_count()));
 }
 
-/// In each coordinate, of some corners. Where most of the model is, it is there, too.
+/// The median of some corners, in each coordinate. Where most of the model is, it is there, too.
 glm::dvec3 median_corner(const PolygonSoup& soup) {
     std::vector<double> values[3];
     const std::size_t step = soup.corners.size() / kMostSamples + 1;
@@ -130,8 +130,8 @@ RoundedPositions round_positions(const PolygonSoup& soup) {
 std::vector<std::uint32_t> weld_vertices(const RoundedPositions& rounded) {
     std::vector<std::uint32_t> first = weld_vertices(rounded.positions);
     if (rounded.residuals.empty()) return first;
-    // Of those that are one in single precision, the ones that are one altogether, the first one in
-    // front.
+    // Vertices that are one in single precision are put in order, so that those that are one altogether stand together,
+    // the first one in front.
     const auto key = [&](std::uint32_t v) {
         const glm::vec3& r = rounded.residuals[v];
         return std::tuple(first[v], r.x, r.y, r.z);

@@ -5,6 +5,8 @@
 
 #include "mesh/polygon_soup.h"
 
+// Coordinates in double precision become positions in single precision, relative to an origin that fits the file.
+
 namespace burin {
 
 /// The places of a soup's vertices as meshes keep them: origin + position + residual.

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+// Rows of plain numbers, which most lines of model files are, are read by kernels for vector instructions.
+
 namespace burin {
 
 /// Rows of three plain numbers, each row a line: many at once. There is a set of them per instruction set; all read

@@ -68,7 +68,7 @@ constexpr unsigned kMostDigits = 15;
 constexpr double kPowers[kMostDigits] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
                                          1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
 
-/// Leaves the point out of sixteen characters, of which so many stand behind it.
+/// Leaves the point out of sixteen characters, for each number of them that may stand behind it.
 struct PointShuffles {
     signed char of[kMostDigits][16] = {};
     constexpr PointShuffles() {
@@ -125,7 +125,7 @@ std::size_t positions(const char*& p, const char* limit, std::size_t max_rows, d
         const __m128i ten_thousands = _mm_set1_epi32(1 << 16 | 10000);
         const __m128i xy = _mm_madd_epi16(_mm_packus_epi32(fours[0], fours[1]), ten_thousands);
         const __m128i z = _mm_madd_epi16(_mm_packus_epi32(fours[2], fours[2]), ten_thousands);
-        // So many digits fit a double, so each division is the only rounding.
+        // Fifteen digits fit a double, so each division is the only rounding.
         const __m256d part = _mm256_set_pd(1, 1e8, 1, 1e8);
         const __m256d magnitudes = _mm256_hadd_pd(_mm256_mul_pd(_mm256_cvtepi32_pd(xy), part),
                                                   _mm256_mul_pd(_mm256_cvtepi32_pd(z), part));  // x z y z

@@ -112,7 +112,7 @@ std::size_t positions(const char*& p, const char* limit, std::size_t max_rows, d
         if ((minus & ~begins & _blsmsk_u64(feeds)) != 0) break;
         const auto negative = static_cast<__mmask8>(_pext_u64(minus, begins));
         const __m512i places = places_of(others);
-        // Of each number, in 64 bits.
+        // Where the point and the end of each number are, in 64 bits each.
         const __m256i point_and_end = _mm256_cvtepu16_epi64(_mm512_castsi512_si128(places)),
                       end = _mm256_srli_epi64(point_and_end, 8);
         const __m256i point = _mm256_and_si256(point_and_end, _mm256_set1_epi64x(0xFF)), one = _mm256_set1_epi64x(1);
@@ -144,7 +144,7 @@ std::size_t positions(const char*& p, const char* limit, std::size_t max_rows, d
         const __m256d by = _mm512_castpd512_pd256(_mm512_permutex2var_pd(
             _mm512_setr_pd(1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7), _mm512_castsi256_si512(behind),
             _mm512_setr_pd(1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15)));
-        // So many digits fit a double, so the division is the only rounding.
+        // Fifteen digits fit a double, so the division is the only rounding.
         const __m256d magnitudes = _mm256_div_pd(_mm256_cvtepi64_pd(xyz), by);
         _mm256_mask_storeu_pd(values, 0b111,
                               _mm256_mask_xor_pd(magnitudes, negative, magnitudes, _mm256_set1_pd(-0.0)));

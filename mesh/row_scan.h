@@ -9,6 +9,8 @@
 
 #include "mesh/digit_scan.h"
 
+// A row of three plain numbers is read as a whole, with SSE2.
+
 namespace burin {
 
 /// Rows of three plain numbers with one space between them, which most rows of model files are. Where

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+// Border segments near a place are found by a tree of boxes.
+
 namespace burin {
 
 /// A straight part of a segment, as the box around it.
@@ -54,7 +56,7 @@ class SegmentTree {
         visit_nearest(
             at, reach, [](const glm::vec3&, const glm::vec3&) { return true; }, visit);
     }
-    /// The same for pieces in boxes that also may_be_near(low, high).
+    /// Visits the nearest pieces in boxes for which may_be_near(low, high) says yes.
     template <typename MayBeNear, typename Visit>
     void visit_nearest(const glm::dvec3& at, const double& reach, const MayBeNear& may_be_near,
                        const Visit& visit) const {

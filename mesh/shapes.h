@@ -7,6 +7,8 @@
 
 #include "mesh/polygon_soup.h"
 
+// Built-in shapes are made as polygon soups, like models from files.
+
 namespace burin {
 
 /// The built-in shapes, all around the origin with +Y up, all made of the fewest polygons that

@@ -15,8 +15,9 @@ constexpr std::int32_t kCellsAlong =
     16;  // cells of some hundred triangles in a mesh of a million; 32 are as good, and take longer
 constexpr std::size_t kCells = std::size_t{kCellsAlong} * kCellsAlong * kCellsAlong;
 
-/// Numbers below `count` by their cells, and in a cell in ascending order. Both halves of them are counted and put to
-/// their places at the same time: many that follow each other are in one cell, and each has to wait for the one before.
+/// Sorts the numbers below `count` by their cells, and in a cell in ascending order. Both halves of them are counted
+/// and put to their places at the same time: many that follow each other are in one cell, and each has to wait for the
+/// one before.
 template <typename CellOf>
 UnfilledVector<std::uint32_t> order_by_cell(std::size_t count, const CellOf& cell_of) {
     UnfilledVector<std::uint16_t> cells;
@@ -61,7 +62,7 @@ SpatialOrder::SpatialOrder(std::span<const glm::vec3> positions, std::span<const
         low = glm::min(low, positions[corners[i]]);
         high = glm::max(high, positions[corners[i]]);
     }
-    // Halves, for the whole size may be too large for a number.
+    // Halves are taken, for the whole size may be too large for a number.
     const glm::vec3 half = 0.5f * high - 0.5f * low;
     const float largest = std::max({half.x, half.y, half.z});
     constexpr float kLeast = 1e-30f;  // the quotient is to be a number

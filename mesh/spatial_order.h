@@ -8,9 +8,12 @@
 #include "base/unfilled_vector.h"
 #include "mesh/polygon_soup.h"
 
+// Large meshes are put in an order in which neighbours lie near each other in memory
+// (docs/decisions/0014-spatial-order.md).
+
 namespace burin {
 
-/// Meshes of so many polygons and more are put in spatial order; smaller ones fit the caches in any.
+/// Meshes of this many polygons and more are put in spatial order; smaller ones fit the caches in any.
 constexpr std::size_t kWorthSpatialOrder = std::size_t{1} << 16;
 
 /// Puts polygons together that are near each other: by the first cell that has a corner of theirs, of 16 x 16 x 16
@@ -24,7 +27,7 @@ class SpatialOrder {
 
     /// The numbers of all triangles. `corners`: three vertices per triangle.
     UnfilledVector<std::uint32_t> of_triangles(std::span<const std::uint32_t> corners) const;
-    /// Of some polygons of a soup their places in `polygons`, which has their numbers.
+    /// The order of some polygons of a soup, as places in `polygons`, which has their numbers.
     UnfilledVector<std::uint32_t> of_polygons(const PolygonSoup& soup, std::span<const std::uint32_t> polygons) const;
 
   private:

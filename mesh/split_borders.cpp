@@ -159,7 +159,7 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
     auto cut = cuts.begin();
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         parts.assign(1, {mesh.triangles[t], {0, 1, 2}});
-        // The longest edge first, whichever corner the triangle begins with.
+        // The longest edge comes first, whichever corner the triangle begins with.
         const auto first = cut;
         while (cut != cuts.end() && cut->half_edge / 3 == t) ++cut;
         const auto corner = [&](HalfEdge h) { return mesh.local_position(mesh.triangles[t][h % 3]); };

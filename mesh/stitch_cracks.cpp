@@ -18,7 +18,7 @@ std::optional<Mesh> stitch_cracks(const Mesh& mesh, const CrackReach& reach) {
     take(join_borders);
     take(split_borders);
     take(join_borders);
-    // What is one then may be all that held other needles.
+    // Corners that have become one may be all that held other needles.
     constexpr int kMostRounds = 4;
     for (int round = 0; round < kMostRounds && take(collapse_needles); ++round) take(join_borders);
     return result;

@@ -88,7 +88,7 @@ template <typename OmMesh>
 void subdivide_once(OmMesh& om) {
     if constexpr (std::is_same_v<OmMesh, TriangleMesh>) {
         OpenMesh::Subdivider::Uniform::LoopT<OmMesh, double> subdivider;
-        // Its table of weights ends at valence 50 unless told otherwise, and is read beyond.
+        // OpenMesh's table of weights ends at valence 50 unless told otherwise, and is read beyond.
         std::size_t largest_valence = 0;
         for (const auto v : om.vertices()) {
             largest_valence = std::max<std::size_t>(largest_valence, om.valence(v));

@@ -6,6 +6,8 @@
 #include "base/model_budget.h"
 #include "mesh/polygon_mesh.h"
 
+// Subdivision turns a control mesh into the finer mesh of its smooth surface, by Catmull and Clark or by Loop.
+
 namespace burin {
 
 enum class SubdivisionScheme : std::uint8_t {

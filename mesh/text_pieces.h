@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+// A text is cut into pieces at line ends, for threads to read.
+
 namespace burin {
 
 /// Whole lines of a text, copied. kMargin line feeds stand in front of and behind them.
@@ -27,7 +29,7 @@ class LineCutter {
 
     LineCutter(std::size_t text_size, std::size_t first_line, std::size_t piece_size, Copy copy);
 
-    /// Of a size that leaves something to do for each of so many threads, and fits into their caches.
+    /// The size of pieces that leaves something to do for each of `threads` threads, and fits into their caches.
     static std::size_t size_for(std::size_t text_size, int threads);
 
     /// The next piece, which is put into `buffer`; nothing behind the last one.

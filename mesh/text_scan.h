@@ -11,6 +11,8 @@
 #include "mesh/digit_scan.h"
 #include "mesh/line_ends.h"
 
+// Numbers and lines of a text are read here, with the line numbers that messages need.
+
 namespace burin {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }

@@ -130,7 +130,7 @@ class EarClipper {
         }
         triangles.push_back({previous_[at], at, next_[at]});
     }
-    /// In the polygon's plane.
+    /// The corners in the polygon's plane.
     std::span<const glm::dvec2> points() const { return points_; }
 
   private:
@@ -188,7 +188,7 @@ class EarClipper {
     ReflexGrid grid_;
 };
 
-/// Of the triangles of a polygon with n corners, brings one to the front that begins with a side of it.
+/// Brings one of the triangles of a polygon with n corners to the front that begins with a side of the polygon.
 void begin_with_a_side(std::span<Triangle> triangles, std::uint32_t n) {
     for (Triangle& t : triangles) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+// Polygons of any shape are cut into triangles, without lines along the cuts.
+
 namespace burin {
 
 /// Area vector of a polygon: normal times twice the area (Newell's method). For polygons that are

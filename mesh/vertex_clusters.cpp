@@ -11,13 +11,13 @@
 namespace burin {
 namespace {
 
-/// Of a triangle's normals before and after.
+/// The least cosine between a triangle's normals before and after.
 constexpr double kCosLargestTurn = 0.5;
 /// The end of a needle: in parts of its next longer edge, and of what its corners are moved by.
 constexpr double kNeedleEndPart = 1.0 / 3, kNeedleMoves = 4;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-/// The same mark on all half-edges of an edge.
+/// Marks all half-edges of an edge if one is marked.
 void spread_marks(Mesh& mesh) {
     for (HalfEdge h = 0; h < mesh.marked.size(); ++h) {
         if (!mesh.marked[h]) continue;
@@ -81,7 +81,7 @@ void VertexClusters::join(Pair pair) {
     members_[b].clear();
 }
 
-/// Of all vertices once clusters are one each.
+/// The positions of all vertices once each cluster is one.
 VertexClusters::Positions VertexClusters::positions() const {
     Positions result = given_, places;
     for (const auto& members : members_) {
@@ -119,7 +119,7 @@ bool VertexClusters::is_needle(const Positions& moved, std::uint32_t triangle) c
     return lengths[0] <= kNeedleMoves * farthest && lengths[0] <= kNeedleEndPart * lengths[1];
 }
 
-/// Lets clusters fall apart where triangles turn too far. Whether there were any.
+/// Lets clusters fall apart where triangles turn too far, and says whether there were any.
 bool VertexClusters::undo_turned(const Positions& moved) {
     std::vector<std::uint32_t> undone;
     for (const auto& members : members_) {

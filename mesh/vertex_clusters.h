@@ -6,6 +6,8 @@
 
 #include "mesh/mesh.h"
 
+// Closing cracks moves vertices together, without turning or collapsing the triangles around them.
+
 namespace burin {
 
 /// Some coordinate decides; an order that does not depend on how vertices are numbered.

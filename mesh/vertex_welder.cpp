@@ -17,7 +17,8 @@ std::uint32_t hash(const glm::vec3& p) {
     return static_cast<std::uint32_t>(h >> 32);
 }
 
-/// A set of numbers, which are taken modulo a power of two, 16 at least for each of so many.
+/// A set of numbers, which are taken modulo a power of two: at least 16 for each of the `count` numbers that it will
+/// have.
 class SmallSet {
   public:
     explicit SmallSet(std::size_t count)

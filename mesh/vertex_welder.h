@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+// Vertices in one place become one, for files write every polygon with corners of its own.
+
 namespace burin {
 
 /// For every position the number of the first one with equal coordinates. There must be no -0 and

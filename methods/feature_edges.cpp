@@ -36,7 +36,7 @@ class InstanceEdges {
 
     LineClassSet classes_of(HalfEdge h) const {
         if (PolygonOutlines::across_diagonal(mesh_, h) != kNoHalfEdge) return {};
-        // Of all who share the edge, so that they agree on it where they are more than two.
+        // The classes of all triangles that share the edge, so that they agree on it where they are more than two.
         LineClassSet classes = edge_classes(surfaces_, {{instance_, h / 3}, h}, frame_.criteria);
         for (HalfEdge g = mesh_.next_on_edge[h]; g != h; g = mesh_.next_on_edge[g]) {
             classes |= edge_classes(surfaces_, {{instance_, g / 3}, g}, frame_.criteria);
@@ -113,7 +113,7 @@ class InstanceEdges {
         return classes;
     }
     glm::dvec3 third_corner(HalfEdge h) const { return view(mesh_.triangles[h / 3][(h % 3 + 2) % 3]); }
-    /// As the eye sees it.
+    /// Whether two points are on one side of an edge, as the eye sees it.
     bool same_side_of_edge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p, const glm::dvec3& q) const {
         const glm::dvec3 towards_eye = surfaces_.projection.orthographic ? glm::dvec3(0, 0, 1) : -a;
         const glm::dvec3 side = glm::cross(b - a, towards_eye);

@@ -6,6 +6,8 @@
 #include "methods/polygon_outlines.h"
 #include "render/frame.h"
 
+// Methods that draw mesh edges ask here which edges are lines in a view, and of which classes.
+
 namespace burin {
 
 /// The classes that an edge of a mesh can have by itself. Where surfaces of different objects meet or
@@ -13,7 +15,7 @@ namespace burin {
 constexpr LineClassSet kEdgeClasses = LineClassSet(LineClass::mark) | LineClass::border | LineClass::silhouette |
                                       LineClass::material | LineClass::crease | LineClass::polygon;
 
-/// Which edges of the polygons of a frame are lines in this view: for methods that draw mesh edges.
+/// FeatureEdges says which edges of the polygons of a frame are lines in this view, for methods that draw mesh edges.
 ///
 /// mark, material, crease and polygon are those of edge_classes(); across a seam of two patches
 /// that are not stitched they are those of the contact. border: one polygon, and no other patch goes
@@ -26,8 +28,8 @@ class FeatureEdges {
   public:
     FeatureEdges(const Frame& frame, int threads);
 
-    /// Those of the requested classes that the edge `half_edge` (0, 1, 2) of a triangle has. Empty for
-    /// diagonals within a polygon.
+    /// The requested classes that the edge `half_edge` (0, 1, 2) of a triangle has. Empty for diagonals within a
+    /// polygon.
     LineClassSet classes(SurfaceId s, HalfEdge half_edge) const {
         return classes_[s.instance][3 * std::size_t{s.triangle} + half_edge];
     }

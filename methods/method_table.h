@@ -5,6 +5,8 @@
 
 #include "render/method.h"
 
+// The table has every way to draw lines, by its name on the command line.
+
 namespace burin {
 
 /// All methods of this version; the first one is the default.

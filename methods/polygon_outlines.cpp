@@ -32,7 +32,7 @@ PolygonOutlines::PolygonOutlines(const Mesh& mesh) {
                 while (!taken[h]) {
                     taken[h] = true;
                     half_edges_.push_back(h);
-                    // Around the corner at its end, over the diagonals, to the next outline edge.
+                    // Goes around the corner at its end, over the diagonals, to the next outline edge.
                     h = next_in_triangle(h);
                     for (std::size_t i = 0; i < own.size(); ++i) {
                         const HalfEdge across = across_diagonal(mesh, h);

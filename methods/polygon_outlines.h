@@ -6,6 +6,8 @@
 
 #include "mesh/mesh.h"
 
+// Methods that draw polygons need their outlines, which meshes keep as triangles only.
+
 namespace burin {
 
 /// The polygons of a mesh, put together again from their triangles.

@@ -10,8 +10,8 @@ ProjectedCorner project(const Projection& p, const DepthRange& depth, const glm:
     return {p.to_pixel(view), depth.z(-view.z), -view.z};
 }
 
-/// Where the line from `inner`, in front of the near plane, to `outer`, behind it, meets it. Always
-/// computed from the inner end, so that all who share the edge get the same.
+/// Where the line from `inner`, in front of the near plane, to `outer`, behind it, meets it. It is always computed from
+/// the inner end, so that all polygons that share the edge get the same.
 glm::dvec3 cut_at_near(double near_distance, const glm::dvec3& inner, const glm::dvec3& outer) {
     const double part = (-inner.z - near_distance) / (outer.z - inner.z);
     glm::dvec3 cut = inner + (outer - inner) * part;

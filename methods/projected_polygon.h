@@ -7,6 +7,9 @@
 
 #include "methods/feature_edges.h"
 
+// A polygon of the scene becomes a polygon on the screen with its edges and depths, for methods that stand for graphics
+// hardware.
+
 namespace burin {
 
 /// The depth of z-buffers: 0 at `near_distance` from the eye, 1 at `far_distance`, and affine on the

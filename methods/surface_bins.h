@@ -7,6 +7,8 @@
 #include "image/image.h"
 #include "view/surface_set.h"
 
+// Triangles are sorted to the tiles of a picture that they touch, so that tiles can be drawn by themselves.
+
 namespace burin {
 
 /// The surfaces that touch each tile of a picture, in the order of SurfaceId.

@@ -26,7 +26,7 @@ double farthest_along(const glm::dvec3& axis, const Box& box) {
 }
 /// The largest coordinates within a box, without sign.
 glm::dvec3 largest_in(const Box& box) { return glm::max(glm::abs(box.low), glm::abs(box.high)); }
-/// What rounding may add to sums of so large products.
+/// What rounding may add to sums of products as large as these.
 constexpr double kRounding = 1e-12;
 
 /// Where the front of a model usually is: +Z if it stands along Y, -Y if it stands along Z.
@@ -35,7 +35,8 @@ glm::dvec3 front_of(const glm::dvec3& up) {
     return size.z > std::max(size.x, size.y) ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 0, 1);
 }
 
-/// Three quarters from the right, a little from above: what shows most of an unknown model.
+/// The direction to a camera that looks from three quarters to the right, a little from above, which shows most of an
+/// unknown model.
 glm::dvec3 default_direction(const glm::dvec3& up) {
     glm::dvec3 front = front_of(up);
     front = glm::normalize(front - up * glm::dot(front, up));

@@ -10,6 +10,8 @@
 #include "mesh/box.h"
 #include "view/projection.h"
 
+// Camera settings become a camera: what they leave open is chosen so that the scene fills the picture.
+
 namespace burin {
 
 /// What is said about a camera, in a scene or on the command line. What is not said is chosen so

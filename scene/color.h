@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+// Colours of scene files are read here.
+
 namespace burin {
 
 /// A colour typed as "#rgb" or "#rrggbb" (sRGB), in linear RGB; nothing if it is no such text.

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+// Method `gbuffer` reads these settings of a scene.
+
 namespace burin {
 
 /// The image operators of method `gbuffer`; docs/methods/gbuffer.md says what each computes.
@@ -65,7 +67,7 @@ struct GBufferSettings {
 
     double depth_scale = 1;         ///< multiplies depth
     double reference_distance = 0;  ///< where depth is in samples, world units; 0: middle of the scene
-    int depth_bits = 0;             ///< 8, 16, 24: depth is stored in so many bits; 0: as it is
+    int depth_bits = 0;             ///< depth is stored in 8, 16 or 24 bits; 0: as it is
 
     double jump_limit = 4;           ///< k_g: first-order differential that is a depth jump
     double profile_limit = 2;        ///< k_p: variation of it that makes a line black

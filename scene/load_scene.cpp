@@ -88,8 +88,8 @@ class SceneLoader {
     }
 
   private:
-    /// What has no polygon has marks only: they are drawn unless the scene file wants other classes than those by
-    /// default.
+    /// A scene without polygons has marks only: they are drawn unless the scene file wants other classes than the
+    /// default ones.
     void draw_lines_without_polygons() {
         const bool has_polygons = std::any_of(scene_.meshes.begin(), scene_.meshes.end(),
                                               [](const Mesh& mesh) { return !mesh.triangles.empty(); });
@@ -133,7 +133,7 @@ class SceneLoader {
         count_polygons(object.instances.size(), counts.polygons);
     }
 
-    /// Counts what instances of an object take that has so many parts.
+    /// Counts what instances of an object take that has `parts` parts.
     void count_instances(const ObjectDescription& object, std::uint64_t instances, std::uint64_t parts,
                          std::uint64_t name_bytes) {
         constexpr std::uint64_t kBytesPerPart = 600;  // here and in a frame; measured

@@ -11,6 +11,8 @@
 #include "scene/gbuffer_settings.h"
 #include "scene/wire_settings.h"
 
+// Single methods read these settings of a scene.
+
 namespace burin {
 
 /// Which samples are a step away. Patel's halo takes the four to the sides, which makes strokes

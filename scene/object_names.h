@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
+// Objects are meant by names, on the command line and in scene files.
+
 namespace burin {
 
 /// Names by which users mean objects. A name means the object that has it, its parts ("engine"

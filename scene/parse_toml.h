@@ -5,6 +5,8 @@
 
 #include "scene/toml_reader.h"
 
+// A TOML text becomes tables, with a limit on how deep they are nested.
+
 namespace burin {
 
 /// The tables of a TOML text, which may be long: throws Interrupted soon after the user asks the

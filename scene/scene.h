@@ -16,6 +16,8 @@
 #include "shading/surface_shader.h"
 #include "view/surface_set.h"
 
+// A scene is what a picture is made of: meshes, objects, materials, cameras and settings; it computes nothing.
+
 namespace burin {
 
 /// The picture as a whole.
@@ -36,8 +38,8 @@ enum class Contours : std::uint8_t {
 struct LineSettings {
     LineClassSet classes = kDefaultLineClasses;
     double crease_angle_deg = 40;
-    /// Over so many degrees, half of them below that angle, creases fade in. Only method `abuffer`; the
-    /// others draw a crease or none.
+    /// Creases fade in over this many degrees, half of them below that angle. Only method `abuffer`; the others draw a
+    /// crease or none.
     double crease_fade_deg = 0;
     Contours contours = Contours::mesh;  ///< only method `abuffer`
     LineStyle style;

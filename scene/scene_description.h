@@ -12,6 +12,8 @@
 #include "mesh/shapes.h"
 #include "scene/scene.h"
 
+// A scene description is what a scene file says, before any model is loaded.
+
 namespace burin {
 
 /// One object of a scene file: a model file or a built-in shape, and where it stands.

@@ -81,7 +81,7 @@ Box transformed(const glm::dmat4& m, const Box& box) {
 }  // namespace
 
 PointSource scene_points(const Scene& scene) {
-    // Of each mesh, once they are needed: a camera's fit runs twice over all points.
+    // The trees of each mesh, made once they are needed: a camera's fit runs twice over all points.
     const auto trees = std::make_shared<std::vector<std::unique_ptr<const BoxTree>>>(scene.meshes.size());
     return [&scene, trees](const PointVisitor& visit) {
         std::array<glm::dvec3, kPointBlock> some;

@@ -358,7 +358,7 @@ class SceneReader {
 constexpr const char* kTooDeep = "tables and lists are nested more than 64 deep; scenes need six levels";
 static_assert(kMaxTomlDepth == 64);
 
-/// For messages about an override; TomlReader recognises it.
+/// The place of an override for messages; TomlReader recognises it.
 std::string override_place(const Override& o) {
     return std::string(TomlReader::kCommandLine) + printable(o.key) + "=" + printable(o.value);
 }
@@ -412,7 +412,7 @@ std::optional<std::string> numbers_in_toml(std::string_view key, std::string_vie
         while (part.starts_with(' ')) part.remove_prefix(1);
         while (part.ends_with(' ')) part.remove_suffix(1);
         if (part.starts_with('+')) part.remove_prefix(1);
-        // 001122 is rather a colour.
+        // A text such as 001122 is rather a colour.
         if (part.size() > 1 && part[0] == '0' && part.find_first_not_of("0123456789") == std::string_view::npos)
             return std::nullopt;
         const auto [last, error] = std::from_chars(part.data(), part.data() + part.size(), value);

@@ -63,7 +63,7 @@ class DepthScanner {
         }
     }
 
-    /// Behind the string that begins at `i`.
+    /// The place behind the string that begins at `i`.
     std::size_t end_of_string(std::size_t i) {
         const char quote = text_[i];
         const std::string_view three = quote == '"' ? "\"\"\"" : "'''";

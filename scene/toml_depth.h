@@ -4,16 +4,17 @@
 #include <optional>
 #include <string_view>
 
+// Text that is nested too deeply is found before it is parsed.
+
 namespace burin {
 
 /// How deep tables and lists may be nested: scenes need six levels. toml++ builds and frees trees
 /// with calls that are nested as deep, so that a limit for the text saves the stack.
 constexpr std::size_t kMaxTomlDepth = 64;
 
-/// The first line on which the tree that a TOML text stands for gets deeper than kMaxTomlDepth,
-/// whatever makes it so: parts of dotted keys, headers, inline tables, lists, or all of them
-/// together. Of a text that is no TOML, the part up to its first error counts; what follows may be
-/// judged wrongly. Nothing if there is no such line.
+/// The first line on which the tree that a TOML text stands for gets deeper than kMaxTomlDepth, whatever makes it so:
+/// parts of dotted keys, headers, inline tables, lists, or all of them together. If the text is no TOML, the part up to
+/// its first error counts; what follows may be judged wrongly. Nothing if there is no such line.
 std::optional<std::size_t> line_nested_too_deep(std::string_view text);
 
 }  // namespace burin

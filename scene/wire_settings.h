@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+// The wireframe methods read these settings of a scene.
+
 namespace burin {
 
 /// How dark a line is at a distance from it (methods/wire_profile.h has the formulas).

@@ -8,6 +8,8 @@
 
 #include "lines/line_class.h"
 
+// A line style says how lines look: width, side, filter, colours, dashes, hidden lines.
+
 namespace burin {
 
 /// Which side of the boundary a stroke is drawn on.
@@ -29,7 +31,7 @@ constexpr int reach_px(PixelFilter filter) { return filter == PixelFilter::box ?
 
 enum class HiddenStyle : std::uint8_t { none, solid, dashed };
 
-/// How lines look that opaque surfaces hide.
+/// HiddenLineStyle says how lines look that opaque surfaces hide.
 struct HiddenLineStyle {
     HiddenStyle style = HiddenStyle::none;
     std::optional<double> width_px;                ///< as visible lines where not set
@@ -37,7 +39,7 @@ struct HiddenLineStyle {
     glm::vec3 color{0.21586f};                     ///< linear RGB; sRGB #808080
 };
 
-/// How lines look.
+/// LineStyle says how lines look.
 struct LineStyle {
     double width_px = 1;  ///< full width of a stroke
     StrokeSide side = StrokeSide::both;

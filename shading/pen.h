@@ -6,6 +6,8 @@
 #include "kernels/stroke_samples.h"
 #include "shading/line_style.h"
 
+// A width becomes the radius and the strength that a stroke is drawn with.
+
 namespace burin {
 
 /// What a stroke of a given width is drawn with.
@@ -19,7 +21,7 @@ struct Pen {
     double radius_px;
     float strength;
 
-    /// For a stroke on one side, the half of the width that is drawn counts.
+    /// Makes the pen for a width; for a stroke on one side, the half of the width that is drawn counts.
     explicit Pen(double width_px, StrokeSide side = StrokeSide::both, double opacity = 1) {
         const double share = side == StrokeSide::both ? 1.0 : 0.5;
         const double wanted = share * width_px;

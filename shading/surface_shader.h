@@ -5,6 +5,8 @@
 
 #include "mesh/polygon_soup.h"
 
+// A surface shader gives a flat surface its colour.
+
 namespace burin {
 
 /// How surfaces are filled.

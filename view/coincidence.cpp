@@ -14,9 +14,9 @@
 namespace burin {
 namespace {
 
-/// Planes that meet at an angle drift apart by more than kCoincidentPx within so many pixels, or are taken for one.
+/// Planes that meet at an angle drift apart by more than kCoincidentPx within this many pixels, or are taken for one.
 constexpr double kAroundPx = 2;
-/// Programs round coordinates on the way to a file. By less than this, in pixels, nothing is in front for certain,
+/// Programs round coordinates on the way to a file. Nothing is in front for certain by less than this, in pixels,
 /// unless that is more than single precision loses anywhere in the scene.
 constexpr double kLeastCertainPx = 1.0 / 2048;
 
@@ -34,7 +34,7 @@ class Region {
         if (area < 0) std::reverse(corners_.begin(), corners_.begin() + count_);
     }
 
-    /// No wider than what snapping does to edges.
+    /// Whether the region is no wider than what snapping does to edges.
     bool is_sliver() const {
         constexpr double kSnappedPx = 1.0 / 128;
         double area = 0, around = 0;
@@ -47,7 +47,7 @@ class Region {
     }
     std::span<const glm::dvec2> corners() const { return {corners_.data(), count_}; }
 
-    /// What lies to the right of the way from one point to another.
+    /// Keeps what lies to the right of the way from one point to another.
     void clip(glm::dvec2 from, glm::dvec2 to) {
         std::array<double, kMost> side;
         bool is_all = true;
@@ -80,7 +80,7 @@ class Region {
     std::size_t count_ = 0;
 };
 
-/// Whether there is a row or a column between two polygons. Not asked of those that are a point, or nothing.
+/// Whether there is a row or a column between two polygons. Polygons that are a point, or nothing, are not asked about.
 bool are_beside(const ScreenPolygon& a, const ScreenPolygon& b) {
     struct Box {
         std::int32_t x0 = std::numeric_limits<std::int32_t>::max(), y0 = x0, x1 = -x0, y1 = -x0;
@@ -99,7 +99,7 @@ bool are_beside(const ScreenPolygon& a, const ScreenPolygon& b) {
     return p.is_wide() && q.is_wide() && (p.x1 < q.x0 || q.x1 < p.x0 || p.y1 < q.y0 || q.y1 < p.y0);
 }
 
-/// Where both are in the picture, or anywhere if they are not.
+/// The region where both are in the picture, or anywhere if they are not.
 Region common_region(const Projection& projection, const ScreenPolygon& a, const ScreenPolygon& b) {
     Region common(a);
     common.clip(Region(b));

@@ -2,6 +2,9 @@
 
 #include "view/projection.h"
 
+// Two triangles are compared in depth wherever both are: the answer says which is in front, or that they lie in one
+// plane, and is one for all places.
+
 namespace burin {
 
 /// Planes nearer to each other than this, in pixels, cannot be told apart.
@@ -17,12 +20,12 @@ struct SurfaceOrder {
     /// and corners are snapped.
     bool has_front = false, has_behind = false, has_level = false;
     bool is_apart = false;  ///< places where the planes are farther apart than kCoincidentPx, or soon will be
-    /// The same three of the corners where they are, not snapped: coordinates alone have errors.
+    /// Whether there are such places for the corners where they are, not snapped: only coordinates have errors then.
     bool has_nearer = false, has_farther = false, has_equal = false;
     bool is_far = false;  ///< places where the planes are farther apart than kCopiesApartPx
     /// How far the first is in front of the second, in pixels, at least and at most.
     double least_gap_px = 0, greatest_gap_px = 0;
-    /// They are parts of surfaces that pass through each other, and that are nowhere around farther apart than
+    /// The two are parts of surfaces that pass through each other, and that are nowhere around farther apart than
     /// kCopiesApartPx.
     bool is_of_copies = false;
 
@@ -40,7 +43,7 @@ struct SurfaceOrder {
     bool is_behind() const { return (is_wholly_behind() || (has_behind && !has_front)) && !are_coincident(); }
 
   private:
-    /// By however little; snapping may hide it.
+    /// Whether the first is in front, or behind, wherever both are, by however little; snapping may hide it.
     bool is_wholly_in_front() const { return has_nearer && !has_farther && !has_equal; }
     bool is_wholly_behind() const { return has_farther && !has_nearer && !has_equal; }
 };
@@ -55,11 +58,11 @@ struct CoordinateErrors {
     CoordinateErrors(double everywhere, double a, double b) : any(everywhere), of_a(a), of_b(b) {}
 };
 
-/// Of two triangles, with corners in view space. Where the two may not be one plane, as the two sides of a thin sheet
-/// are none, nothing but errors of coordinates counts.
+/// Compares two triangles, with corners in view space, wherever both are. Where the two may not be one plane, as the
+/// two sides of a thin sheet are none, nothing but errors of coordinates counts.
 SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
                               bool may_be_one_plane, const CoordinateErrors& errors);
-/// The same of their planes at one place, in pixels.
+/// Compares their planes at one place, in pixels.
 SurfaceOrder compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
                             glm::dvec2 place, bool may_be_one_plane, const CoordinateErrors& errors);
 

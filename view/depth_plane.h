@@ -6,6 +6,8 @@
 
 #include "view/projection.h"
 
+// The depth of a triangle is a plane on the screen, by which samples and lines are compared.
+
 namespace burin {
 
 /// The nearness (see Projection) of a triangle as an affine function of the screen position, with

@@ -12,6 +12,8 @@
 #include "kernels/subpixel.h"
 #include "view/polygon_rows.h"
 
+// A picture is cut into square tiles, and what touches each tile is kept in lists.
+
 namespace burin {
 
 /// Some rows of tiles: [begin, end).
@@ -31,14 +33,14 @@ class PixelTiles {
           rows_{0, (region.height() + tile_px - 1) / tile_px},
           chosen_(rows_) {}
 
-    /// Only these rows of the same tiles, which are numbered from 0 again.
+    /// Chooses some rows of the same tiles, which are numbered from 0 again.
     PixelTiles only(TileRows rows) const {
         PixelTiles part = *this;
         part.chosen_ = rows;
         return part;
     }
 
-    /// All rows of them.
+    /// Chooses all rows.
     PixelTiles all_rows() const { return only(rows_); }
 
     TileRows rows() const { return chosen_; }
@@ -57,7 +59,7 @@ class PixelTiles {
         return {region_.x0, region_.y0 + chosen_.begin * tile_px_, region_.x1,
                 std::min(region_.y0 + chosen_.end * tile_px_, region_.y1)};
     }
-    /// Calls visit(tile, rectangle) for the tiles that touch the box from `low` to `high`, in pixels.
+    /// Calls visit(tile) for the tiles that touch the box from `low` to `high`, in pixels.
     template <typename Visit>
     void visit(glm::dvec2 low, glm::dvec2 high, const Visit& visit) const {
         if (!(high.x >= region_.x0 && high.y >= region_.y0 && low.x <= region_.x1 && low.y <= region_.y1)) return;
@@ -69,8 +71,8 @@ class PixelTiles {
         }
     }
 
-    /// The same, but for tiles that a polygon within the box passes by, farther than a pixel. Its corners are in units
-    /// of which there are `per_px` in a pixel.
+    /// Calls visit(tile) for the tiles that touch the box, without those that a polygon within the box passes by,
+    /// farther than a pixel. The polygon's corners are in units of which there are `per_px` in a pixel.
     template <typename Visit>
     void visit(glm::dvec2 low, glm::dvec2 high, const PolygonRows& polygon, double per_px, const Visit& visit) const {
         if (!(high.x >= region_.x0 && high.y >= region_.y0 && low.x <= region_.x1 && low.y <= region_.y1)) return;
@@ -79,7 +81,7 @@ class PixelTiles {
         const int y0 = std::max(index_along(low.y - region_.y0, rows_.end), chosen_.begin);
         const int y1 = std::min(index_along(high.y - region_.y0, rows_.end), chosen_.end - 1);
         for (int y = y0; y <= y1; ++y) {
-            // Tiles at the border stand for what is beyond it.
+            // Tiles at the rim of the picture stand for what is beyond it.
             const double top = y == 0 ? -kFarPx : region_.y0 + y * tile_px_,
                          bottom = y == rows_.end - 1 ? kFarPx : region_.y0 + (y + 1) * tile_px_;
             const PolygonRows::Range range = polygon.between((top - kBesidePx) * per_px, (bottom + kBesidePx) * per_px);
@@ -90,7 +92,7 @@ class PixelTiles {
         }
     }
 
-    /// The same for a box in 1/256 pixel.
+    /// Calls visit(tile) for the tiles that touch a box in 1/256 pixel.
     template <typename Visit>
     void visit(glm::ivec2 low, glm::ivec2 high, const Visit& visit) const {
         const glm::ivec2 first = glm::ivec2(region_.x0, region_.y0) * kSubpixelsPerPixel;

@@ -6,7 +6,7 @@
 
 namespace burin {
 
-/// Where a polygon lies within a row of tiles: long ones touch few of the tiles that their boxes touch.
+/// Tells where a polygon lies within a row of tiles: long polygons touch few of the tiles that their boxes touch.
 class PolygonRows {
   public:
     struct Corner {
@@ -18,17 +18,17 @@ class PolygonRows {
         bool is_empty() const { return low > high; }
     };
 
-    /// The corners must stay.
+    /// The corners must stay where they are.
     explicit PolygonRows(std::span<const Corner> corners) : corners_(corners) {}
 
-    /// The least and the greatest x of the polygon between two values of y, borders included, but for rounding.
+    /// The least and the greatest x of the polygon between two values of y, both included, but for rounding.
     Range between(double top, double bottom) const {
         Range range;
         const auto reach = [&range](double x) {
             range.low = std::min(range.low, x);
             range.high = std::max(range.high, x);
         };
-        // They lie on its border, whatever its shape.
+        // The extremes lie on its boundary, whatever its shape.
         for (std::size_t k = 0; k < corners_.size(); ++k) {
             const Corner a = corners_[k], b = corners_[k + 1 == corners_.size() ? 0 : k + 1];
             const auto [low, high] = std::minmax(a.y, b.y);

@@ -6,6 +6,8 @@
 
 #include "view/screen_polygon.h"
 
+// Tiles that a long polygon does not touch, though its box does, are told by the sides of the polygon.
+
 namespace burin {
 
 /// The half planes beside the edges of a convex polygon, which tell rectangles that lie beside it though within its
@@ -30,7 +32,7 @@ class PolygonSides {
         }
     }
 
-    /// Whether a rectangle lies beside the polygon, with all of its border, for certain. 1/256 pixel, no farther than
+    /// Whether a rectangle lies beside the polygon, with all of its boundary, for certain. 1/256 pixel, no farther than
     /// the guard band.
     bool leave_out(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) const {
         return std::any_of(sides_.begin(), sides_.begin() + count_,

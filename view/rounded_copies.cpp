@@ -8,23 +8,23 @@
 namespace burin {
 namespace {
 
-/// So many pairs of triangles are looked at in a search at most. One that climbs to where surfaces are farthest apart
-/// finds in some steps whether they drift apart.
+/// A search looks at no more pairs of triangles than this. One that climbs to where surfaces are farthest apart finds
+/// in some steps whether they drift apart.
 constexpr std::size_t kMostPairs = 48;
 /// Planes at a greater angle have no more than a strip in common where surfaces run along each other: at an edge, where
-/// one of two copies has gone on to the next facet. Of 6 degrees.
+/// one of two copies has gone on to the next facet. The cosine of 6 degrees.
 constexpr double kCosAlong = 0.9945;
-/// What two copies may be apart there.
+/// How far two copies may be apart there, in pixels.
 constexpr double kMostAtEdgePx = 2 * kCopiesApartPx;
 
-/// Pairs of triangles, one of either surface, that overlap on the screen, from neighbour to neighbour.
+/// Searches pairs of triangles, one of either surface, that overlap on the screen, from neighbour to neighbour.
 class PairSearch {
   public:
     PairSearch(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b)
         : surfaces_(surfaces), start_{std::min(a, b), std::max(a, b)} {}
 
-    /// Whether they are near each other all over. Goes where they are farthest apart. `place`: on both, if that is
-    /// known.
+    /// Whether the surfaces are near each other all over: the search goes where they are farthest apart. `place`: on
+    /// both, if that is known.
     bool are_near(const glm::dvec2* place = nullptr) {
         begin();
         if (place != nullptr && !has_left_ && open_.empty()) add_at(*place);
@@ -33,7 +33,7 @@ class PairSearch {
                search([](const Pair& p) { return std::max(std::abs(p.least_gap_px), std::abs(p.greatest_gap_px)); },
                       [](const PairSearch&) { return false; });
     }
-    /// Whether the first is in front here and behind there. Goes where the one is in front that was not yet.
+    /// Whether the first is in front here and behind there: the search goes where the one is in front that was not yet.
     bool pass_through() {
         begin();
         const double sign = has_front_ ? -1 : 1;
@@ -54,7 +54,7 @@ class PairSearch {
         has_front_ = has_behind_ = false;
         has_left_ = !add(start_[0], start_[1]);
     }
-    /// Two that have no more than a sliver in common.
+    /// Adds the pair in question at a place, where the two have no more than a sliver in common.
     void add_at(glm::dvec2 place) {
         const SurfaceOrder order = surfaces_.order_at(start_[0], start_[1], place);
         const double gap_px = order.least_gap_px;
@@ -62,7 +62,7 @@ class PairSearch {
             open_.push_back({start_[0], start_[1], gap_px, gap_px});
     }
 
-    /// False where two surfaces are too far apart.
+    /// Goes from the best pair to its neighbours; returns false where the two surfaces are too far apart.
     template <typename Rank, typename IsDone>
     bool search(const Rank& rank, const IsDone& is_done) {
         for (std::size_t count = 0; count < kMostPairs && !open_.empty() && !is_done(*this); ++count) {
@@ -88,7 +88,7 @@ class PairSearch {
         return true;
     }
 
-    /// A pair that is looked at later, if it is one of this place. False if it is too far apart.
+    /// Adds a pair that is looked at later, if it is one of this place. Returns false if it is too far apart.
     bool add(SurfaceId a, SurfaceId b) {
         if (std::find(known_.begin(), known_.end(), std::pair(a, b)) != known_.end()) return true;
         known_.emplace_back(a, b);
@@ -105,7 +105,7 @@ class PairSearch {
         return true;
     }
 
-    /// Those beyond edges of two triangles at which the surface does not turn away from the eye.
+    /// The neighbours of a triangle beyond edges of two triangles at which the surface does not turn away from the eye.
     std::vector<SurfaceId> neighbours(SurfaceId s) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         std::vector<SurfaceId> found;

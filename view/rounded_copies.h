@@ -2,13 +2,15 @@
 
 #include "view/surface_set.h"
 
+// Surfaces that are one surface, rounded in two ways, are told from surfaces that pass through each other.
+
 namespace burin {
 
 /// Whether two triangles that overlap at a place on the screen belong to surfaces that stay so near each other around
 /// them that nobody sees where they pass through each other (docs/decisions/0017-rounded-copies.md).
 bool run_along(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 place);
-/// Whether they do, and pass through each other as well: here the one is in front, there the other one, as of a surface
-/// and its copy with rounded coordinates.
+/// Whether two triangles run along each other and pass through each other as well: here the one is in front, there the
+/// other one, as of a surface and its copy with rounded coordinates.
 bool are_rounded_copies(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b);
 
 }  // namespace burin

@@ -10,7 +10,7 @@ namespace {
 std::int64_t ceil_divide(std::int64_t a, std::int64_t positive_b) {
     return a >= 0 ? (a + positive_b - 1) / positive_b : -(-a / positive_b);
 }
-/// The same, from about 1 / b: a division takes longer than all else.
+/// ceil_divide() by means of a number that is about 1 / b: a division takes longer than all else.
 std::int64_t ceil_divide(std::int64_t a, std::int64_t positive_b, double per_b) {
     auto quotient = static_cast<std::int64_t>(static_cast<double>(a) * per_b);
     while (quotient * positive_b < a) ++quotient;
@@ -69,7 +69,7 @@ SampleSpan ScanConverter::columns_in(int first, int end) const {
         low = std::min({low, at_top, at_bottom});
         high = std::max({high, at_top, at_bottom});
     }
-    // Rounding is off by far less than a sample, and a covered one lies at a whole number from `low` on and before
+    // Rounding is off by far less than a sample, and a covered sample lies at a whole number from `low` on and before
     // `high`.
     if (low > high) return {};
     const int left = static_cast<int>(low), right = static_cast<int>(high);

@@ -6,6 +6,8 @@
 #include "kernels/scan_edge.h"
 #include "view/screen_polygon.h"
 
+// A polygon on the screen becomes the samples it covers, row by row, so that neighbours share none and miss none.
+
 namespace burin {
 
 /// Samples [begin, end) of one row.

@@ -6,6 +6,8 @@
 #include "kernels/subpixel.h"
 #include "view/projection.h"
 
+// A triangle in view space becomes a polygon on the screen: clipped, projected and snapped.
+
 namespace burin {
 
 /// Positions farther than this from the centre of the view are clipped away, so that snapped

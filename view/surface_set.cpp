@@ -9,7 +9,8 @@
 namespace burin {
 namespace {
 
-/// Of more, only the two triangles are compared: time would grow with the square of the corners.
+/// The most pairs of triangles that two polygons are compared by. If there are more, only the two triangles are
+/// compared: time would grow with the square of the corners.
 constexpr std::uint64_t kMostComparisons = 16;
 
 /// The triangles [first, second) of the polygon that a triangle belongs to, or some of them if there are many.
@@ -34,7 +35,7 @@ SurfaceOrder SurfaceSet::order(SurfaceId a, SurfaceId b) const {
 
 SurfaceOrder SurfaceSet::order_of_polygons(SurfaceId a, SurfaceId b) const {
     if (are_of_one_polygon(a, b)) return {};
-    // The triangles in question first: they tell for most.
+    // The triangles in question are compared first: they tell for most.
     SurfaceOrder order = compare(a, b, nullptr);
     const auto [begin_a, end_a] = triangles_of_polygon(mesh_of(a), a.triangle);
     const auto [begin_b, end_b] = triangles_of_polygon(mesh_of(b), b.triangle);

@@ -13,6 +13,8 @@
 #include "view/projection.h"
 #include "view/screen_polygon.h"
 
+// The surfaces of a frame are meshes with a matrix each; corners, planes and order of any triangle are asked for here.
+
 namespace burin {
 
 /// A triangle of an instance. Ordered by instance (that is, by object), then by triangle.
@@ -37,7 +39,7 @@ struct SurfaceInstance {
     const Mesh* mesh = nullptr;
     glm::dmat4 to_view{1.0};         ///< takes Mesh::local_position() (the origin included) to view space
     glm::dmat3 normal_to_view{1.0};  ///< takes area vectors to view space
-    /// Of the mesh, see find_sharp_edges(); nullptr: not made yet.
+    /// find_sharp_edges() of the mesh; nullptr: not made yet.
     const std::uint8_t* sharp_edges = nullptr;
     std::shared_ptr<const BodySides> body_sides;  ///< of the mesh
     std::uint32_t object_id = 0;                  ///< from 1
@@ -52,8 +54,9 @@ struct SurfaceSet {
     Projection projection;
     glm::dmat3 view_to_world{1.0};  ///< rotation, for normals
     std::vector<SurfaceInstance> instances;
-    /// Of the scene's bounding box: all is at least as near. Where nearness would lose its precision for things that
-    /// are not on the screen, of the vertices that are; what is farther than these is below it.
+    /// The nearness of the farthest corner of the scene's bounding box: all is at least as near. Where nearness would
+    /// lose its precision for things that are not on the screen, it is that of the farthest vertex that is; what is
+    /// farther has less.
     double farthest_nearness = 0;
     double coordinate_error = 0;  ///< how exact coordinates are, in world units
 
@@ -78,9 +81,9 @@ struct SurfaceSet {
         return snapped_depth_plane(projection, corners);
     }
     /// How the polygons of two triangles lie to each other, or the two triangles, if the polygons have many corners.
-    /// Not all places are looked at where they are apart. Nothing for triangles of one polygon.
+    /// Not all places are looked at where they are apart. For triangles of one polygon all is false.
     SurfaceOrder order(SurfaceId a, SurfaceId b) const;
-    /// The same of the planes of the two triangles at a place on the screen, in pixels.
+    /// How the planes of the two triangles lie to each other at a place on the screen, in pixels.
     SurfaceOrder order_at(SurfaceId a, SurfaceId b, glm::dvec2 place) const { return compare(a, b, &place); }
     /// order(), or order_at() if the polygons have no place in common.
     SurfaceOrder order_near(SurfaceId a, SurfaceId b, glm::dvec2 place) const {
@@ -116,7 +119,7 @@ struct SurfaceSet {
     std::uint32_t polygon_id(SurfaceId s) const {
         return s.is_background() ? 0 : instance_of(s).first_polygon_id + mesh_of(s).input_place_of(s.triangle);
     }
-    /// Whether their ids are equal, without looking them up far away in memory.
+    /// Whether the polygon ids of two triangles are equal, without looking them up far away in memory.
     bool are_of_one_polygon(SurfaceId a, SurfaceId b) const {
         return a == b ||
                (a.instance == b.instance && mesh_of(a).polygon_of(a.triangle) == mesh_of(a).polygon_of(b.triangle));
@@ -134,7 +137,7 @@ struct SurfaceSet {
     SurfaceOrder order_of_polygons(SurfaceId a, SurfaceId b) const;
     /// How far a triangle's plane may be off, as its corners are rounded to single precision. In world units.
     double rounding_error(SurfaceId s, const glm::dvec3 (&corners)[3]) const;
-    /// Of two triangles, at one place or wherever both are.
+    /// Compares two triangles at one place, or wherever both are.
     SurfaceOrder compare(SurfaceId s, SurfaceId t, const glm::dvec2* place) const;
 };
 

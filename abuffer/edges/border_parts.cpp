@@ -12,14 +12,14 @@ namespace {
 
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = kWidestCrackPx * kSubpixelsPerPixel;
-/// In heaps of borders only those are told apart that come near: where a mesh has more than kMostPairs pairs of a
-/// border and one about it. Where more than kMostNear come near, the border lies in a crowd.
+/// A mesh with more than kMostPairs pairs of a border and one about it has heaps of borders: there only borders that
+/// come near are told apart. Where more than kMostNear come near, the border lies in a crowd.
 constexpr std::size_t kMostPairs = std::size_t{1} << 24, kFewAbout = 256, kMostNear = 32;
 /// What runs along a border in a crowd is looked up at this many places, and at fewer in meshes of more than 2^13
 /// borders, so that all lookups of a mesh are limited.
 constexpr std::size_t kPartsInCrowd = 8, kPlacesInCrowd = std::size_t{1} << 16;
 
-/// As walks over a seam ask it.
+/// Whether two borders are at one depth, as walks over a seam ask it.
 bool is_level(const ScreenSurfaces& screen, double nearness_a, double nearness_b, SurfaceId steep) {
     const auto distance = [&](double nearness) {
         return distance_of(screen.surfaces().projection, screen.surfaces().farthest_nearness + nearness);
@@ -95,7 +95,7 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     for (std::size_t k = 1; is_crowd && k < part_count; ++k)
         ends.push_back(static_cast<double>(k) / static_cast<double>(part_count));
     std::sort(ends.begin(), ends.end());
-    // Of those about it, few come near. Where these are many, each place is looked up by itself.
+    // Few of the segments about the border come near it. Where many do, each place is looked up by itself.
     constexpr std::size_t kFew = 32;
     const bool has_few = about.segments().size() <= kFew && !is_crowd;
     const bool has_few_near = !has_few && mesh.borders.find_near(h, kFew, near);

@@ -6,6 +6,8 @@
 #include "abuffer/screen/edge_on_screen.h"
 #include "abuffer/screen/screen_surfaces.h"
 
+// A border is cut where other patches begin and end along it: its parts are seams or ends of the surface.
+
 namespace burin {
 
 /// A part of a border, as shares of edge_on_screen() from its start, and what runs along it.

@@ -9,10 +9,12 @@
 #include "kernels/screen_boxes.h"
 #include "kernels/tile_kernels.h"
 
+// Pairs of triangles that may meet are found by a tree of their boxes.
+
 namespace burin {
 
-/// Boxes in space, in an order that keeps neighbours together, eight to a leaf, eight leaves to a node and so on:
-/// finds all pairs that overlap. The third axis is ScreenBox's range of nearness.
+/// BoxTree takes boxes in space, in an order that keeps neighbours together, eight to a leaf, eight leaves to a node
+/// and so on, and finds all pairs that overlap. The third axis is ScreenBox's range of nearness.
 class BoxTree {
   public:
     BoxTree(std::span<const ScreenBox> boxes, const TileKernels& kernels, int threads);
@@ -53,7 +55,7 @@ class BoxTree {
         const std::uint32_t a = nodes.a * kFan, b = nodes.b * kFan;
         const std::uint64_t found =
             kernels_.find_overlaps(parts.view(), a, std::min(kFan, end - a), b, std::min(kFan, end - b));
-        // In one node, every pair once; a box overlaps itself, which says nothing.
+        // Bits of the pairs within one node: every pair once; a box overlaps itself, which says nothing.
         constexpr std::uint64_t kBehind = 0x0080C0E0F0F8FCFEu, kBehindOrSame = 0x80C0E0F0F8FCFEFFu;
         return a == b ? found & (level == 1 ? kBehind : kBehindOrSame) : found;
     }

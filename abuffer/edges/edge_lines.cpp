@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
 
-/// Of both triangles at an edge.
+/// Prefetches the vertices of both triangles at an edge.
 void ask_for_vertices(const ScreenMesh& mesh, HalfEdge h) {
     for (const HalfEdge side : {h, mesh.partners[h]}) {
         const std::uint32_t* const corners = mesh.corners + (side - side % 3);
@@ -35,7 +35,7 @@ constexpr unsigned rank_of_side(std::uint8_t facing) {
 }
 
 /// The sides of edges of some triangles that may be lines in this view: that are sharp, or whose triangles do not face
-/// one way. Of a contour, one side may be missing. The facing of all triangles must be known. Returns how many there
+/// one way. One side of a contour may be missing. The facing of all triangles must be known. Returns how many there
 /// are, the first ones of `sides`.
 std::size_t find_sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t begin, std::uint32_t end,
                                          UnfilledVector<HalfEdge>& sides) {
@@ -57,7 +57,7 @@ std::size_t find_sides_of_possible_lines(const ScreenMesh& mesh, std::uint32_t b
             with_edges |= (has_any * kToOneByte >> 56) << k;
         }
         if (sides.size() < count + 3 * kGroup) sides.resize(2 * count + 3 * kGroup);
-        for (; with_edges != 0; with_edges &= with_edges - 1) {  // without other branches: they would be guesses
+        for (; with_edges != 0; with_edges &= with_edges - 1) {  // without other branches, which would be unpredictable
             const std::uint32_t t = first + static_cast<std::uint32_t>(std::countr_zero(with_edges));
             const bool is_found_from_behind = has_sharp & (rank_of_side(mesh.facing[t]) == 2) & (sharp[t] == 0);
             const unsigned edges = mesh.line_edges[t] & (is_found_from_behind - 1u);
@@ -86,7 +86,7 @@ std::vector<HalfEdge> possible_lines(const ScreenMesh& mesh, std::uint32_t begin
         const bool is_pair = is_surely_pair(mesh, h) || (g != h && mesh.partners[g] == h);
         const unsigned own = rank_of_side(mesh.facing[h / 3]), other = rank_of_side(mesh.facing[g / 3]);
         const bool is_found_from_other =
-            is_pair & ((own > other) | ((own == other) & (g < h)));  // a branch would be a guess
+            is_pair & ((own > other) | ((own == other) & (g < h)));  // a branch would be unpredictable
         sides[count] = is_pair ? std::min(h, g) : h;                 // no side that is still to be looked at
         count += is_found_from_other ? 0 : 1;
     }
@@ -269,7 +269,7 @@ class EdgeLineFinder::Rules {
             const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
             auto solid_h = sides_.past_sliver(s.instance, h), solid_g = sides_.past_sliver(s.instance, *part.partner);
             if (solid_h && solid_g && sides_.are_neighbours(s.instance, *solid_h, *solid_g)) {
-                // Both sides of one narrow strip, which ends here all the same.
+                // The two borders are sides of one narrow strip, which ends here all the same.
                 solid_h = h;
                 solid_g = part.partner;
             }
@@ -338,7 +338,7 @@ class EdgeLineFinder::Rules {
         const std::uint8_t opacity = fade_.opacity(classes, crease_cosine);
         if (opacity == 0) return;
         const Mesh& mesh = surfaces_.mesh_of(s);
-        // One direction, whichever triangle asks.
+        // The line gets one direction, whichever triangle asks.
         const auto vertices = ends_in_order(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
         WholeLine* const added = add_on_screen(s.instance, vertices, lines);
         if (added == nullptr) return;

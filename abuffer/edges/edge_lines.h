@@ -10,6 +10,8 @@
 #include "lines/whole_line.h"
 #include "render/frame.h"
 
+// Edges of meshes become whole lines if they are lines in this view, whatever is in front of them.
+
 namespace burin {
 
 /// Whether an edge belongs to exactly two triangles, as its side alone tells: an edge that is not sharp does. False for
@@ -37,7 +39,7 @@ class EdgeLineFinder {
 
     /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
     void find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const;
-    /// The same of a loose edge of an instance, by its number (Mesh::loose_number()).
+    /// Adds a loose edge of an instance, by its number (Mesh::loose_number()), if it touches the region.
     void find_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const;
 
     /// What counts where a border of triangle `s` is in contact with another surface: the triangle, or behind a sliver
@@ -49,13 +51,13 @@ class EdgeLineFinder {
     std::unique_ptr<const Rules> rules_;
 };
 
-/// Where edges can be on the screen at all: dashes must not begin at the picture's border.
+/// The region in which edges can be on the screen at all: dashes must not begin at the rim of the picture.
 constexpr PixelRect anywhere_on_screen() {
     constexpr int kFarPx = 1 << 20;
     return {-kFarPx, -kFarPx, kFarPx, kFarPx};
 }
 
-/// Of the mesh of an instance, the loose edges [begin, end), by their numbers.
+/// The loose edges [begin, end) of the mesh of an instance, by their numbers.
 struct LooseChunk {
     std::uint32_t instance;
     HalfEdge begin, end;

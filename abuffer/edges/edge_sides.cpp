@@ -17,14 +17,14 @@ namespace {
 constexpr double kThinSubpixels = 4;
 /// Shorter edges are no part of a wire: of meshes with very many triangles in a pixel nearly all are. 1/16 pixel.
 constexpr std::int64_t kShortestOfWireSubpixels = 16;
-/// So far beyond a wall nothing is left to be asked. Pixels.
+/// A walk that is this far beyond a wall need not go on. Pixels.
 constexpr double kPastWallPx = 1.0 / 16;
 /// Where there are more on the way to a wall, it is one of very many in a pixel.
 constexpr int kMostTrianglesToWall = 96;
 
 bool is_off_screen(const ScreenVertex& v) { return v.x == ScreenVertex::kOffScreen; }
 
-/// Of the way between two vertices on the screen.
+/// The square of the distance between two vertices on the screen.
 std::int64_t square(const ScreenVertex& a, const ScreenVertex& b) {
     const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
     return dx * dx + dy * dy;

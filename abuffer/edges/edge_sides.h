@@ -7,6 +7,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "lines/line_decision.h"
 
+// Whether an edge is a contour depends on which side of it its triangles lie, as the eye sees them.
+
 namespace burin {
 
 /// Vertices of a half-edge, and of its triangle the third one.
@@ -21,7 +23,7 @@ class EdgeSides {
     EdgeSides(const ScreenSurfaces& screen, const LineCriteria& criteria)
         : surfaces_(screen.surfaces()), screen_(screen), criteria_(criteria) {}
 
-    /// Of most edges of two triangles, their sides as side_at() tells them: where neither is thin or off the screen,
+    /// The sides of the two triangles of most edges, as side_at() tells them: where neither is thin or off the screen,
     /// each counts on its side, and neither is a wall to the other.
     struct PlainPair {
         bool is_plain = false;
@@ -40,8 +42,8 @@ class EdgeSides {
     bool is_negligible_fold(std::uint32_t instance, HalfEdge h) const;
     /// Whether an edge of two triangles is the one in front of a wire (ring_around()).
     bool is_front_of_wire(std::uint32_t instance, HalfEdge h) const;
-    /// Of a border: the half-edge itself, or that of the triangle behind its sliver, whose normal says nothing. Nothing
-    /// if there is none: a needle that stands by itself or on an edge of others is no surface.
+    /// The half-edge that counts at a border: itself, or that of the triangle behind its sliver, whose normal says
+    /// nothing. There is none at a needle that stands by itself or on an edge of others, which is no surface.
     std::optional<HalfEdge> past_sliver(std::uint32_t instance, HalfEdge h) const;
     /// Whether two half-edges' triangles are one, or meet at an edge.
     bool are_neighbours(std::uint32_t instance, HalfEdge h, HalfEdge g) const;
@@ -49,10 +51,10 @@ class EdgeSides {
     bool is_needle_on_edge(SurfaceId s, HalfEdge h) const;
     /// Whether the triangle of a half-edge is a sliver. Most are none in any view, which is told at once.
     bool is_sliver_at(SurfaceId s, HalfEdge h) const;
-    /// From an edge into its triangle, in view space: a unit vector.
+    /// The unit vector from an edge into its triangle, in view space.
     glm::dvec3 across_edge(std::uint32_t instance, HalfEdge h) const;
-    /// Of the angle at an edge between its triangle and the way to the eye: of several triangles on one side, the
-    /// greatest is the one in front.
+    /// The cosine of the angle at an edge between its triangle and the way to the eye: of several triangles on one
+    /// side, the one with the greatest is in front.
     double cosine_to_eye(std::uint32_t instance, HalfEdge h) const;
 
   private:

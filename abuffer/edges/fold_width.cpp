@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-/// docs/conventions.md
+/// A fold that turns back by no more than this is no contour (docs/conventions.md).
 constexpr double kNegligibleFoldSubpixels = kNegligibleFoldPx * kSubpixelsPerPixel;
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
@@ -30,7 +30,7 @@ enum class Reach { narrow, comes_back, goes_on };
 glm::dvec2 place_of(const ScreenVertex* v) { return {v->x, v->y}; }
 double nearness_of(const ScreenVertex* v) { return static_cast<double>(v->nearness); }
 
-/// A triangle from the beginning of one of its edges on.
+/// A triangle with its corners counted from the beginning of one of its edges on.
 struct EnteredTriangle {
     HalfEdge second, third;  ///< its other edges
     const ScreenVertex *a, *b, *c;
@@ -59,14 +59,14 @@ class FoldWalk {
         return (-across(place_of(t.b) - place_of(t.a)) < 0) != (side < 0) ? -1 : 1;
     }
 
-    /// How far the surface goes on into a triangle: comes_back is to the edge, at another nearness. `is_level`: and
-    /// stays at its nearness.
+    /// How far the surface goes on into a triangle. comes_back: it comes back to the edge, at another nearness.
+    /// `is_level`: it has to stay at the edge's nearness, too.
     Reach go(EnteredTriangle t, double sign, double least, bool is_level = false) const {
         const auto differs = [&](double nearness) { return std::abs(nearness - from_.nearness) > from_.level; };
         double entered = 0, nearness_there = from_.nearness;
         for (int step = 0; step < kMaxTriangles; ++step) {
             if (t.is_cut) return Reach::goes_on;
-            // Out by one of the two other edges: the one whose ends lie on either side of the way.
+            // The way leaves by one of the two other edges: the one whose ends lie on either side of it.
             const bool is_first =
                 (sign * across(place_of(t.c) - from_.at) < 0) == (sign * across(place_of(t.a) - from_.at) < 0);
             const ScreenVertex *const begin = is_first ? t.b : t.c, *const end = is_first ? t.c : t.a;
@@ -119,7 +119,7 @@ class FoldWalk {
     }
 
   private:
-    /// The cross product of the way forwards and another.
+    /// The cross product of the way forwards and another way.
     static double across(glm::dvec2 v) { return along_x ? v.y : -v.x; }
 
     const ScreenMesh& mesh_;
@@ -161,7 +161,7 @@ Ring ring_along(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& f
     return Ring::none;
 }
 
-/// Along rows where the edge is steep, else along columns.
+/// The way goes along rows where the edge is steep, else along columns.
 Ring cut_from(const ScreenMesh& mesh, HalfEdge half_edge, const PlaceOnEdge& place, HalfEdge& border) {
     const ScreenVertex &from = mesh.vertices[mesh.corners[half_edge]],
                        &to = mesh.vertices[mesh.corners[half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1]];
@@ -185,7 +185,7 @@ OpenRange range_of_way(const ScreenMesh& mesh, EnteredTriangle t, glm::dvec2 at,
             (p[axis] < place ? range.low : range.high) =
                 p[axis] < place ? std::max(range.low, p[axis]) : std::min(range.high, p[axis]);
         }
-        // Out by the edge whose ends lie on either side.
+        // The way leaves by the edge whose ends lie on either side of it.
         const bool is_first = (place_of(t.c)[axis] < place) == (place_of(t.a)[axis] < place);
         const ScreenVertex *const begin = is_first ? t.b : t.c, *const end = is_first ? t.c : t.a;
         if ((place_of(begin)[axis] < place) == (place_of(end)[axis] < place)) return {};

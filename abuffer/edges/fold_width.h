@@ -6,6 +6,8 @@
 #include "kernels/screen_triangle.h"
 #include "mesh/mesh.h"
 
+// Folds too narrow to be seen are no contours, so their width is measured.
+
 namespace burin {
 
 /// Whether a contour at an edge turns back by more than a negligible fold, along rows or columns as samples would see

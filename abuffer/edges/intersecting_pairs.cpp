@@ -16,10 +16,11 @@ namespace {
 using Triangle = IntersectionTest::Triangle;
 
 constexpr std::size_t kMostTriangles = std::size_t{1} << 23, kMostPairs = std::size_t{1} << 24;
-// Pairs whose boxes overlap: scans have one for each triangle, assemblies a few dozen. Of long slanted facets all may.
+// Pairs whose boxes overlap: scans have one for each triangle, assemblies a few dozen. The boxes of long slanted facets
+// may all overlap.
 constexpr std::uint64_t kMostTestsPerTriangle = 64, kLeastTests = 1 << 20;
 constexpr double kLargestExtent = 1e30;  // boxes have single precision
-// Of a coordinate, as a part of the scene's extent.
+// How far a coordinate may be off, as a part of the scene's extent.
 constexpr double kRounding = 0x1p-50;
 
 /// How far the corners of a triangle are on one side or the other of another one's plane, multiplied by the length

@@ -40,7 +40,7 @@ class IntersectionTest {
     }
     /// The diagonal of the box of all vertices.
     double extent() const { return extent_; }
-    /// In single precision, and no smaller for it; nearness is the third axis.
+    /// The box around a triangle, in single precision and no smaller for it; nearness is the third axis.
     static ScreenBox box_of(const Triangle& t);
 
   private:
@@ -57,8 +57,8 @@ class IntersectionTest {
 };
 
 /// All pairs of triangles without a vertex in common that may intersect, in ascending order, the smaller one first.
-/// Nothing if there are too many triangles or pairs to be worth their memory, if so many boxes overlap that a view
-/// would have fewer to look at, or if the scene is too large to calculate with.
+/// Nothing if there are too many triangles or pairs to be worth their memory, if more boxes overlap than a view would
+/// have to look at, or if the scene is too large to calculate with.
 std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& scene, const TileKernels& kernels,
                                                                 int threads);
 

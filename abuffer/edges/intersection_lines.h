@@ -20,7 +20,8 @@ class IntersectionLines {
 
     /// Adds the line of two triangles, the one with the smaller number first, if there is one.
     void add(const Occluder& a, const Occluder& b, std::vector<WholeLine>& lines) const;
-    /// Those of many, in order, each once. All instances must be shown and the facing of their triangles known.
+    /// The lines of many pairs, in order, each once. All instances must be shown and the facing of their triangles
+    /// known.
     std::vector<WholeLine> of_pairs(std::span<const SurfacePair> pairs, int threads) const;
 
     /// Orders lines by their triangles and ends.

@@ -8,8 +8,9 @@
 namespace burin {
 namespace {
 
-/// What is nearer to a limit may be on its other side by rounding, within so many pixels of the origin and where edges
-/// are no more nearly along the way. 1/256 pixel.
+/// What is nearer to a limit than this may be on its other side by rounding, as long as places are within
+/// kFarthestPlace of the origin and edges are at most kMostAlongPerSide times as long along the way as across it. 1/256
+/// pixel.
 constexpr double kMargin = 1.0 / 16;
 constexpr double kFarthestPlace = 8192 * kSubpixelsPerPixel;
 constexpr double kMostAlongPerSide = 256;
@@ -18,7 +19,7 @@ constexpr double kNegligibleFoldSubpixels = kNegligibleFoldPx * kSubpixelsPerPix
 constexpr double kSnappingSubpixels = kSnappingPx * kSubpixelsPerPixel;
 /// depth_tolerance() is 2 pixels' widths, or more.
 constexpr double kSurelyLevelPx = 1.5;
-/// Of nearness, and of the share of an edge where the way crosses it.
+/// What rounding may do to nearness, and to the share of an edge where the way crosses it.
 constexpr double kNearnessRounding = 0x1p-22, kShareRounding = 0x1p-10;
 constexpr int kMostSteps = 24;
 
@@ -40,7 +41,7 @@ class LevelWalk {
 
     Exit at_edge(HalfEdge h) const { return exit_at(h, corner(mesh_.corners[h]), corner(mesh_.corners[next(h)])); }
 
-    /// Through the triangle of a half-edge, from an edge with the same ends.
+    /// Goes through the triangle of a half-edge, from an edge with the same ends.
     Exit through(HalfEdge entry, const Exit& from) const {
         const HalfEdge second = next(entry), third = next(second);
         const std::size_t first = mesh_.corners[entry] == from.ends[0].vertex ? 0 : 1;
@@ -85,7 +86,7 @@ bool surely_goes_on(const ScreenSurfaces& screen, std::uint32_t instance, HalfEd
     const LevelWalk walk(mesh, from, out);
     LevelWalk::Exit exit = walk.at_edge(h);
     if (exit.half_edge == kNoHalfEdge || std::abs(exit.ends[0].side) < kMargin) return false;
-    // It comes from the triangle itself.
+    // The walk comes from the triangle itself.
     const LevelWalk::Exit own = walk.through(h, exit);
     if (own.half_edge == kNoHalfEdge || own.reached > -kMargin) return false;
     const SurfaceSet& surfaces = screen.surfaces();
@@ -94,7 +95,7 @@ bool surely_goes_on(const ScreenSurfaces& screen, std::uint32_t instance, HalfEd
         return high - low <= kSurelyLevelPx / surfaces.projection.focal_px * scale -
                                  kNearnessRounding * (std::abs(low) + std::abs(high));
     };
-    // Of the places since it last surely got farther: compared in depth is only what lies within these.
+    // The range of nearness since the walk last surely got farther: only what lies within it is compared in depth.
     double lowest = exit.lowest, highest = exit.highest, farthest = 0;
     bool is_one = true;
     for (int step = 0; step < kMostSteps; ++step) {

@@ -5,6 +5,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "mesh/mesh.h"
 
+// Most walks past an edge go on over surfaces that are plainly level, which a quick walk over snapped vertices tells.
+
 namespace burin {
 
 /// Whether a walk over the edge of two triangles at `h`, from a place on it in the direction `out`, surely gets so far

@@ -8,14 +8,14 @@ namespace {
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// The top-left rule, for an edge of a triangle whose corners run clockwise as seen.
+/// Whether points on an edge belong to the triangle, by the top-left rule; its corners run clockwise as seen.
 bool owns_edge(double along_x, double along_y) { return (along_y < 0) | ((along_y == 0) & (along_x > 0)); }
 
 /// Sets what follows from the corners: winding, the top-left rule (see ScanConverter), slack. False for
 /// triangles without area.
 bool set_corners(Occluder& triangle, const glm::dvec2 (&corners)[3]) {
     const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    // Without a branch: it would be a guess.
+    // Chosen without a branch, which would be unpredictable.
     const std::size_t second = area < 0 ? 2 : 1;
     const glm::dvec2 p[3] = {corners[0], corners[second], corners[3 - second]};
     triangle.vertices = {triangle.vertices[0], triangle.vertices[second], triangle.vertices[3 - second]};
@@ -83,14 +83,14 @@ bool clip_to_rect(glm::dvec2 line_from, glm::dvec2 line_to, glm::dvec2 low, glm:
            clip_where_positive(high.y - line_from.y, high.y - line_to.y, begin, end);
 }
 
-void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle) {
+void set_up_occluder(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle) {
     const ScreenMesh& mesh = screen.mesh(s.instance);
     const std::uint32_t* const corner = mesh.corners + 3 * static_cast<std::size_t>(s.triangle);
     const ScreenVertex &a = mesh.vertices[corner[0]], &first = mesh.vertices[corner[1]],
                        &second = mesh.vertices[corner[2]];
     const auto area = static_cast<double>(doubled_area(a, first, second));
-    // Which way it is wound is a guess, so without a branch. The plane is the same to the bit: both factors change
-    // their signs.
+    // Which way it is wound would be an unpredictable branch, so there is none. The plane is the same to the bit: both
+    // factors change their signs.
     const std::size_t turned = area < 0 ? 1 : 0;
     const ScreenVertex &b = mesh.vertices[corner[1 + turned]], &c = mesh.vertices[corner[2 - turned]];
     triangle.number = number;
@@ -115,7 +115,7 @@ void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint3
 
 Occluder occluder_of(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number) {
     Occluder triangle;
-    set_up_layer_triangle(screen, s, number, triangle);
+    set_up_occluder(screen, s, number, triangle);
     return triangle;
 }
 

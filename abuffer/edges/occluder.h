@@ -9,6 +9,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "lines/whole_line.h"
 
+// An occluder is a triangle that may hide a line, set up so that lines can be clipped against it.
+
 namespace burin {
 
 /// A triangle on the screen as something that hides lines.
@@ -41,12 +43,12 @@ inline bool clip_to_rect(const WholeLine& line, glm::dvec2 low, glm::dvec2 high,
 
 /// A triangle whose corners are all on the screen.
 Occluder occluder_of(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
-/// The same where it is wanted, but for its transmission.
-void set_up_layer_triangle(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle);
+/// Makes the same occluder in place, but for its transmission.
+void set_up_occluder(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number, Occluder& triangle);
 /// What the near plane and the guard band leave of any other one.
 std::vector<Occluder> clipped_occluders(const ScreenSurfaces& screen, SurfaceId s, std::uint32_t number);
 
-/// Of a triangle on the screen, the other half-edge on the edge after a corner, if exactly two triangles meet there.
+/// The other half-edge on the edge after a corner of a triangle on the screen, if exactly two triangles meet there.
 std::optional<HalfEdge> partner_over(const ScreenSurfaces& screen, const Occluder& triangle, std::size_t corner);
 
 inline bool is_owner(const WholeLine& line, std::uint32_t triangle) {
@@ -58,7 +60,7 @@ bool lies_on(const WholeLine& line, const Occluder& triangle);
 /// Whether a triangle that has a vertex in common with a line covers only a rim of it narrower than vertices are
 /// snapped, 1/256 pixel, where its surface ends or folds: a fold so narrow may lie on either side of its edge.
 bool is_grazed_at_end(const ScreenSurfaces& screen, const WholeLine& line, const Occluder& triangle);
-/// The same of any triangle.
+/// is_grazed_at_end() for any triangle, with an end in common or not.
 inline bool only_grazes(const ScreenSurfaces& screen, const WholeLine& line, const Occluder& t) {
     bool has_end = false;
     for (const std::uint32_t v : t.vertices) {
@@ -75,11 +77,12 @@ constexpr double kCertainPx = kLevelPx / 64;
 /// Surfaces no farther apart than this are in contact: depth_tolerance().
 constexpr double kContactPx = 2;
 
-/// So many pixels' widths as a step in nearness, at a nearness less farthest_nearness, and what coordinates are off by.
+/// What `level_px` pixels' widths are as a step in nearness, at a nearness less farthest_nearness, with what
+/// coordinates are off by.
 double level_slack(const SurfaceSet& surfaces, double nearness, double level_px = kLevelPx);
 /// What snapping does to the nearness of a line.
 double snapping_slack(const WholeLine& line);
-/// Both together for the part [begin, end] of a line.
+/// Both slacks together for the part [begin, end] of a line.
 double line_slack(const SurfaceSet& surfaces, const WholeLine& line, double begin, double end,
                   double level_px = kLevelPx);
 

@@ -8,6 +8,9 @@
 #include "lines/line_class.h"
 #include "lines/whole_line.h"
 
+// Parts of lines that lie behind drawn ones on the same straight line of the picture are left out, for their strokes
+// would be the same.
+
 namespace burin {
 
 /// Parts of lines that are drawn in one block, to leave out what lies behind them on the same straight line of the
@@ -29,7 +32,7 @@ class DrawnParts {
     bool cover(const WholeLine& line, double begin, double end, Kind kind, double level) const;
 
   private:
-    /// Of a line, from a place to another one along x or y, whichever changes more.
+    /// A part of a line, from a place to another one along x or y, whichever changes more.
     struct Part {
         glm::dvec2 from, to;  ///< of the whole line
         double begin, end;

@@ -13,9 +13,9 @@ namespace burin {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-/// A border asks what is behind it, too. As a multiple of level_slack(): 4 pixels' widths.
+/// A border asks what is behind it, too, as far as this multiple of level_slack(): 4 pixels' widths.
 constexpr double kBehindBorder = 64;
-/// So far beside a line triangles are asked for, with what rounding may do to places. 1/256 pixel.
+/// How far beside a line triangles are asked for, with what rounding may do to places. 1/256 pixel.
 constexpr int kReach = kBeyondSubpixels + 1;
 /// 1/256 pixel. Four times as far as any place on the screen.
 constexpr float kFar = 1 << 24;
@@ -48,8 +48,8 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     add_beyond(tile);
 }
 
-/// From the tiles around it, where a border lies so close to the end of this one that what it is in contact with may
-/// not touch it.
+/// Adds triangles of the tiles around, where a border lies so close to the end of this tile that what it is in contact
+/// with may not touch it.
 void FineBlocks::add_beyond(std::size_t tile) {
     const glm::ivec2 low = kSubpixelsPerPixel * glm::ivec2(rect_.x0, rect_.y0) + grid_.half_pitch;
     const glm::ivec2 high = kSubpixelsPerPixel * glm::ivec2(rect_.x1, rect_.y1) + grid_.half_pitch;
@@ -118,7 +118,7 @@ void FineBlocks::sort_candidates(std::span<const FineCandidate> candidates) {
     }
 }
 
-/// From single cells to rectangles of them.
+/// Combines the numbers of single cells to those of rectangles of them.
 void FineBlocks::combine_cells() {
     for (std::size_t i = 0; i < count_; ++i) {
         float* const farthest = &farthest_[HidingGrid::kPlaces * block_at(places_[i].x, places_[i].y)];
@@ -133,7 +133,7 @@ void FineBlocks::combine_cells() {
     }
 }
 
-/// In all blocks of samples that a triangle may be listed in that touches the box, see TileTriangle.
+/// Notes a nearness in all blocks of samples in which a triangle that touches the box may be listed, see TileTriangle.
 void FineBlocks::note_least(glm::ivec2 low, glm::ivec2 high, float lowest) {
     const int pitch = 2 * grid_.half_pitch, per_pixel = kSubpixelsPerPixel / pitch;
     const int pitch_shift = std::countr_zero(static_cast<unsigned>(pitch));
@@ -160,7 +160,7 @@ void FineBlocks::add_small(const TriangleRun& run) {
     constexpr float kNoLevel = 0;
     listed_ +=
         kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data() + listed_);
-    // Of several runs: of one, too few are left to ask memory for the next ones meanwhile.
+    // Triangles of several runs are taken together: one run leaves too few to prefetch the next ones meanwhile.
     constexpr std::size_t kEnough = 4 * kAtOnce;
     if (listed_ >= kEnough) sort_listed();
 }
@@ -197,7 +197,7 @@ void FineBlocks::add(const CrossedTriangle& triangle, const Box& box, std::span<
     const int left = grid_.at(box.x0 - kReach) - first_x_, right = grid_.at(box.x1 + kReach) - first_x_;
     const int top = grid_.at(box.y0 - kReach) - first_y_, bottom = grid_.at(box.y1 + kReach) - first_y_;
     const bool fills_box = left == right || top == bottom;
-    // A long one touches few of the blocks in its box.
+    // A long triangle touches few of the blocks in its box.
     const auto touches = [&](glm::ivec2 block) {
         constexpr int kAround = kReach + 1;  // with rounding
         const int y = first_y_ + block.y, x = first_x_ + block.x;
@@ -215,7 +215,7 @@ void FineBlocks::add(const CrossedTriangle& triangle, const Box& box, std::span<
 
 bool FineBlocks::hides_something(const Box& box, float highest, int block_x, int block_y) const {
     const int origin_x = kCells * (first_x_ + block_x), origin_y = kCells * (first_y_ + block_y);
-    // Those beyond the block lie beside the cells at its end.
+    // Triangles beyond the block lie beside the cells at its end.
     const auto cell = [&](std::int32_t subpixel, int origin) {
         return std::clamp(cell_of(subpixel) - origin, 0, kCells - 1);
     };

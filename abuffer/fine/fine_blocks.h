@@ -9,9 +9,11 @@
 #include "lines/whole_line.h"
 #include "view/polygon_rows.h"
 
+// Triangles that may hide the lines of a tile that samples miss are sorted to its blocks.
+
 namespace burin {
 
-/// A surface that covers a place so far beyond a border is in contact there. 1/64 pixel.
+/// A surface that covers a place this far beyond a border is in contact with it. 1/64 pixel.
 constexpr int kBeyondSubpixels = 4;
 
 /// A part of an edge that is a line if it is visible. The part's begin and end are shares of `line`, which may be a
@@ -42,15 +44,15 @@ class FineBlocks {
     std::size_t count() const { return count_; }
     /// Numbers of candidates.
     std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_[block]; }
-    /// In no particular order. Some from beyond the tile may be listed twice. Those clipped by the near plane or the
-    /// guard band cover the whole screen.
+    /// The triangles of a block, in no particular order. Some from beyond the tile may be listed twice. Triangles that
+    /// are clipped by the near plane or the guard band cover the whole screen.
     const std::vector<CrossedTriangle>& triangles(std::size_t block) const { return triangles_[block]; }
 
   private:
-    /// A block is cut into so many cells along each side, for a triangle beside all candidates to be left out.
+    /// A block is cut into this many cells along each side, for a triangle beside all candidates to be left out.
     static constexpr int kCells = SampleBlocks::kShift - HidingGrid::kCellShift + 1;
     static_assert(SampleBlocks::kShift == HidingGrid::kShift && kCells == 2);
-    /// So many triangles are sorted at once.
+    /// This many triangles are sorted at once.
     static constexpr std::size_t kAtOnce = 256;
 
     struct Box {
@@ -85,7 +87,7 @@ class FineBlocks {
     std::vector<float> least_;                   // the same as a BlockTable
     int sample_blocks_ = 0;                      // along each side
     glm::ivec2 beyond_low_{0}, beyond_high_{0};  // where borders may be in contact
-    std::vector<std::uint32_t> nearer_;  // of one instance's triangles, those that are still to be sorted: so many
+    std::vector<std::uint32_t> nearer_;  // of one instance's triangles, the `listed_` ones that are still to be sorted
     std::size_t listed_ = 0;
     std::uint32_t listed_instance_ = 0;
     std::vector<std::vector<std::uint32_t>> candidates_;  // per block

@@ -9,13 +9,13 @@
 namespace burin {
 namespace {
 
-/// A block is cut into so many cells along each side, at most, that about so many triangles are in one: fewer where
-/// there are very many pairs of a line and a triangle.
+/// A block is cut into at most kMostCells cells along each side, so that about kTrianglesPerCell triangles are in one,
+/// or kFewTrianglesPerCell where there are more than kManyPairs pairs of a line and a triangle.
 constexpr int kMostCells = 32;
 constexpr std::size_t kTrianglesPerCell = 512, kFewTrianglesPerCell = 128, kManyPairs = std::size_t{1} << 18;
-/// For so few lines it is not worth it.
+/// For no more lines than kFewLines cells are not worth it, unless there are more than kMostForFewLines triangles.
 constexpr std::size_t kFewLines = 12, kMostForFewLines = 1024;
-/// In so many cells a triangle may be, on average.
+/// A triangle may be in this many cells, on average.
 constexpr std::size_t kMostPlaces = 4;
 /// What single precision may do to places, 1/256 pixel: near the picture, and from some distance on.
 struct Rounding {
@@ -68,7 +68,8 @@ void FineCells::sort_to_cells() {
     }
 }
 
-/// Calls visit(cell) for those that a triangle touches, but for rounding: of its box, not those that it passes by.
+/// Calls visit(cell) for the cells of its box that a triangle touches, but for rounding, without those that it passes
+/// by.
 template <typename Visit>
 void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Visit& visit) const {
     const Range cells = range_of(box);
@@ -80,7 +81,7 @@ void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Vis
     const glm::ivec2 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
     const int around = std::max(farthest.x, farthest.y) < near ? margin : far_margin;
     for (int y = cells.y0; y <= cells.y1; ++y) {
-        // Cells at the block's border stand for what is beyond it.
+        // Cells at the rim of the block stand for what is beyond it.
         const int top = y == 0 ? box.low.y : corner_.y + (y << cell_shift_),
                   bottom = y == cells_ - 1 ? box.high.y : corner_.y + ((y + 1) << cell_shift_);
         const PolygonRows::Range range = rows.between(top - around, bottom + around);

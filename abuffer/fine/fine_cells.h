@@ -9,6 +9,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "kernels/screen_triangles.h"
 
+// In a block of many triangles each line is compared with those near it only.
+
 namespace burin {
 
 /// The triangles that may hide lines in a block, as kernels want them: where there are many for many lines, cell by
@@ -17,7 +19,8 @@ class FineCells {
   public:
     FineCells(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels) {}
 
-    /// `triangles` must stay. `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
+    /// `triangles` must stay. `corner`: of the block, in 1/256 pixel. `line_count`: how many lines will be looked at
+    /// there.
     void set(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count);
     /// How many triangles are in a cell, on average. Cells are as small as they can be where there are very many pairs
     /// of a line and a triangle.

@@ -46,7 +46,7 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible
             nearest = std::nextafter(static_cast<float>(std::max(cut->nearness_from, cut->nearness_to)), kInfinity);
         }
         if (a == b) return;
-        // From the region's first square of samples.
+        // Places count from the region's first square of samples.
         const int x0 = std::min(a.x, b.x) - origin_x, x1 = std::max(a.x, b.x) - origin_x;
         const int y0 = std::min(a.y, b.y) - origin_y, y1 = std::max(a.y, b.y) - origin_y;
         if (x1 < 0 || y1 < 0 || x0 >= width || y0 >= height) return;
@@ -76,7 +76,7 @@ FineEdges::FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible
     parallel_for_parts(chunk_count, threads, [&](std::size_t c, int) {
         const std::uint32_t instance = possible->chunks[c].instance;
         const ScreenMesh mesh = screen.mesh(instance);
-        // First all edges, then their vertices, which take longer to come from memory.
+        // All edges are prefetched first, then their vertices, which take longer to come from memory.
         std::vector<EdgeEnds> edges;
         for (const HalfEdge h : possible->edges[c]) {
             if (!is_surely_pair(mesh, h) && mesh.partners[mesh.partners[h]] != h) continue;

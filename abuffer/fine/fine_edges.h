@@ -4,6 +4,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "view/pixel_tiles.h"
 
+// All edges that may be lines in a view are sorted to tiles, for the search of lines that samples miss.
+
 namespace burin {
 
 /// An edge of the mesh of an instance.
@@ -12,7 +14,7 @@ struct FineEdge {
     HalfEdge half_edge;
 };
 
-/// The same in a tile, with what tells that it cannot be seen there.
+/// Such an edge in a tile, with what tells that it cannot be seen there.
 struct TileEdge {
     static constexpr int kAreaShift = kBlockShift + 2;  ///< log2 of an area's width in samples
 
@@ -42,7 +44,7 @@ class FineEdges {
     FineEdges(const ScreenSurfaces& screen, const PossibleLines* possible, std::span<const LooseChunk> loose,
               const PixelTiles& tiles, int samples_per_pixel, int threads);
 
-    /// Those that touch squares of samples of a tile.
+    /// The edges that touch squares of samples of a tile.
     std::span<const TileEdge> in(std::size_t tile) const { return lists_.of(tile); }
     /// The loose edges that do, which no sample sees.
     std::span<const TileEdge> loose_in(std::size_t tile) const { return loose_lists_.of(tile); }

@@ -22,11 +22,11 @@ constexpr double kShortestPiecePx = 1.0 / 32;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFar = 1e300;
-/// Pairs of an edge and a triangle near it in one block: of more, as in a heap of very many layers, lines are left to
-/// the samples, for time would grow with the square.
+/// The most pairs of an edge and a triangle near it in one block: if there are more, as in a heap of very many
+/// surfaces, lines are left to the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 22;
-/// Where so many triangles lie over each other that cells do not tell them apart, each pair is looked at more closely,
-/// and far fewer are too many: meshes of small triangles and piles of a few hundred large ones stay far below.
+/// Where more than kManyInCell triangles lie over each other, cells do not tell them apart; each pair is looked at more
+/// closely, and far fewer are too many: meshes of small triangles and piles of a few hundred large ones stay far below.
 constexpr std::size_t kManyInCell = 256, kMostLooksInHeap = std::size_t{1} << 18;
 /// In a block with more candidates, those behind others on the same straight line are left out.
 constexpr std::size_t kFewCandidates = 12;
@@ -47,7 +47,7 @@ class FineLines::BlockClipper {
           criteria_(criteria),
           cells_(screen, kernels) {}
 
-    /// `corner`: of the block, in 1/256 pixel. So many lines will be looked at there.
+    /// `corner`: of the block, in 1/256 pixel. `line_count`: how many lines will be looked at there.
     void set_triangles(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count) {
         given_ = &triangles;
         cells_.set(triangles, corner, line_count);
@@ -57,7 +57,8 @@ class FineLines::BlockClipper {
     }
     std::size_t triangles_per_cell() const { return cells_.triangles_per_cell(); }
 
-    /// add_visible() of all, but for what is surely covered by strokes of others that are nearer: those first.
+    /// Calls add_visible() for all candidates, the nearest first, but for those that strokes of nearer ones surely
+    /// cover.
     void add_not_covered(std::span<const FineCandidate> candidates, std::span<const std::uint32_t> numbers,
                          std::vector<LinePiece>& segments) {
         order_.clear();
@@ -86,7 +87,7 @@ class FineLines::BlockClipper {
         const bool is_border = line.owners[0] == line.owners[1], is_by_itself = line.is_by_itself();
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         hidden_.clear();
-        double reached = begin;  // as far as no piece is left
+        double reached = begin;  // up to here all is hidden
         bool is_hidden = false;
         const glm::dvec2 a = line.at(begin), b = line.at(end);
         const PlaneLine clipped{{line.from.x, line.to.x, a.x, b.x},
@@ -322,12 +323,12 @@ class FineLines::BlockClipper {
         return double{kBeyondSubpixels} * (is_front_on_left(candidate) ? right : -right);
     }
 
-    /// Of the way from the line's beginning to its end.
+    /// Whether the front is on the left of the way from the line's beginning to its end.
     bool is_front_on_left(const FineCandidate& candidate) const {
         const WholeLine& line = candidate.line;
         const int side = line.front_side != 0 || line.is_loose() ? line.front_side : owner_side(candidate);
-        // Of a loose edge, or a surface that is seen edge-on, either side will do, but the same one
-        // whichever way the line runs.
+        // For a loose edge, or a surface that is seen edge-on, either side will do, but the same one whichever way the
+        // line runs.
         if (side == 0) return line.from.x != line.to.x ? line.from.x < line.to.x : line.from.y < line.to.y;
         return side < 0;  // y runs down
     }
@@ -392,7 +393,7 @@ void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& segment
         for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], segments);
         return;
     }
-    // Of loose edges samples tell nothing: where they alone are too many, all of them are drawn.
+    // Samples tell nothing about loose edges: where these alone are too many, all of them are drawn.
     const auto is_loose_one = [&](std::uint32_t i) { return candidates_[i].line.is_loose(); };
     const bool are_few_loose =
         are_few(static_cast<std::size_t>(std::count_if(numbers.begin(), numbers.end(), is_loose_one)));
@@ -432,7 +433,7 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
     }
 }
 
-/// Those that an edge is, until the next call.
+/// The lines that an edge is; they are good until the next call.
 std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
     constexpr std::size_t kKnownBorders = 1 << 17;
     const SurfaceId s{instance, h / 3};

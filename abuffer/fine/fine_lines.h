@@ -9,6 +9,8 @@
 #include "lines/line_piece.h"
 #include "render/frame.h"
 
+// Candidates of lines that samples miss become pieces, where nothing is in front of them.
+
 namespace burin {
 
 /// The lines that samples miss: features thinner than a sample, and meshes with several triangles to a

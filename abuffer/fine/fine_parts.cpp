@@ -13,7 +13,7 @@ namespace {
 
 /// What is left beside a line that was found is looked at if it is as long as this.
 constexpr double kShortestRestSubpixels = 16;
-/// The same at a vertex: lines that meet there are to do so.
+/// The shortest part that counts at a vertex: lines that meet there are to do so.
 constexpr double kShortestTipSubpixels = 4;
 /// Pieces of a line are nearer to its edge than this.
 constexpr double kOffSubpixels = 8;
@@ -21,7 +21,7 @@ constexpr double kOffSubpixels = 8;
 constexpr double kSlackSubpixels = 1;
 /// Something is clearly in front if it is nearer by this many pixels' widths.
 constexpr double kClearlyInFrontPx = 2;
-/// No surface beside an edge is so steep that a sample on it is in front by so many times that.
+/// No surface beside an edge is so steep that a sample on it is in front by this many times kClearlyInFrontPx.
 constexpr double kFarInFront = 8;
 
 int floor_to_int(double v) {
@@ -223,7 +223,7 @@ int FineParts::side_at(FineEdge edge, HalfEdge h) const {
     return side_of_edge(screen_, edge.instance, first, second, corner(h, 2));
 }
 
-/// Of an edge at which the surface ends or turns away: on which side it is. 0: it goes on.
+/// On which side the surface is at an edge where it ends or turns away. 0: it goes on.
 int FineParts::inner_side(FineEdge edge) const {
     const int own = side_at(edge, edge.half_edge);
     return own != 0 ? own : side_at(edge, screen_.mesh(edge.instance).partners[edge.half_edge]);
@@ -333,7 +333,7 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
                                [&](std::uint32_t n) { return n != a && n != b; });
         const int inner = inner_side(owners.edge);
         if (inner == 0) return false;
-        // Of two lines with a narrow gap between them the samples tell of one only. Whether what they see beyond is in
+        // Where two lines have a narrow gap between them, samples tell of one only. Whether what they see beyond is in
         // contact instead, its triangles tell.
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec2 corner(square.x + static_cast<int>(k % 2), square.y + static_cast<int>(k / 2));

@@ -8,6 +8,8 @@
 #include "abuffer/screen/edge_on_screen.h"
 #include "lines/merge_pieces.h"
 
+// What of a tile's edges its samples do not settle is listed, block by block.
+
 namespace burin {
 
 /// A part of an edge within one block that may be a line though the samples do not tell.

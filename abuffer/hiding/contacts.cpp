@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-/// So far from a line its triangles are compared with others at its depth. 2 pixels.
+/// How far from a line its triangles are compared with others at its depth. 2 pixels.
 constexpr double kBesideSubpixels = 512;
 
 /// Doubled areas are off by less than this, (1/256 pixel)^2.
@@ -263,7 +263,7 @@ std::optional<glm::dvec2> Contacts::touching_place(const WholeLine& line, double
     return line.at(at_begin < at_end ? begin : end);
 }
 
-/// On a triangle at a line, beside a place on it. Nothing if the triangle is seen edge-on.
+/// A place on a triangle at a line, beside a place on the line. Nothing if the triangle is seen edge-on.
 std::optional<glm::dvec2> Contacts::place_beside(SurfaceId s, std::uint32_t owner, glm::dvec2 at) const {
     if (screen_.facing(owner) == edge_on) return std::nullopt;
     const auto centre = centre_of(s, owner);

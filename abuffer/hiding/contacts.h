@@ -9,14 +9,16 @@
 #include "lines/narrow_lap.h"
 #include "lines/whole_line.h"
 
+// Where a line lies in the plane of a surface, the order of both decides which is seen.
+
 namespace burin {
 
-/// So far to one side of a line something covers what ends at the line there. 1/64 pixel.
+/// How far to one side of a line a place lies at which something covers what ends at the line. 1/64 pixel.
 constexpr double kToOneSideSubpixels = 4;
 
 /// What is seen where a line lies in the plane of a surface that it is no edge of, as the foot of a wall does on a
-/// floor. Of surfaces in one plane the first one is seen (docs/decisions/0009-one-plane-one-answer.md). For parts
-/// [begin, end] of a line, as shares; `level` is how near things at one depth are, in nearness.
+/// floor. Of surfaces in one plane the first one is seen (docs/decisions/0009-one-plane-one-answer.md). All questions
+/// are about a part [begin, end] of a line, as shares; `level` is how near things at one depth are, in nearness.
 class Contacts {
   public:
     explicit Contacts(const ScreenSurfaces& screen) : screen_(screen) {}

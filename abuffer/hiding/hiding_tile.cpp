@@ -7,9 +7,9 @@
 namespace burin {
 namespace {
 
-/// Cells are made so small that about so many triangles begin in one.
+/// Cells are made so small that about this many triangles begin in one.
 constexpr double kTrianglesPerCell = 4096;
-/// Between contacts, what is left of a line is at least so long.
+/// What is left of a line between contacts is at least this long.
 constexpr double kShortestRestPx = 1.0 / 32;
 
 }  // namespace
@@ -104,8 +104,8 @@ void HidingTile::set_up(std::uint32_t i) {
     const std::uint32_t number = cells_[i].number;
     const SurfaceId s = screen_.surface_of(number);
     set_up_[i] = static_cast<std::uint32_t>(triangles_.size());
-    set_up_layer_triangle(screen_, s, number,
-                          triangles_.emplace_back());  // where it stays: copies would wait for its parts
+    set_up_occluder(screen_, s, number,
+                    triangles_.emplace_back());  // where it stays: copies would wait for its parts
     triangles_.back().transmission = transmission_of(s);
 }
 
@@ -169,7 +169,7 @@ void HidingTile::find_parts(const WholeLine& line, std::uint32_t line_number, st
     drop_contacts(line, first_piece, pieces);
 }
 
-/// Where a border ends in contact with a surface that goes on beyond it without any line.
+/// Finds where a border ends in contact with a surface that goes on beyond it without any line.
 void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
     if (line.classes.has(LineClass::mark)) return;
     const double slack = line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx);
@@ -182,7 +182,7 @@ void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
         contact.makes_line = !classes->empty();
         contacts_of_line_.push_back(contact);
     });
-    // Of several the nearest counts.
+    // If there are several, the nearest counts.
     const auto is_behind_another = [&](const Contact& c) {
         const double middle = 0.5 * (c.begin + c.end);
         const glm::dvec2 at = line.at(middle);
@@ -198,7 +198,7 @@ void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
     std::erase_if(contacts_of_line_, [](const Contact& c) { return c.makes_line || c.begin >= c.end; });
 }
 
-/// Cuts them out of the pieces of a line, from `first` on. What is left is no dot: contacts with neighbours meet but
+/// Cuts contacts out of the parts of a line, from `first` on. What is left is no dot: contacts with neighbours meet but
 /// for rounding.
 void HidingTile::drop_contacts(const WholeLine& line, std::size_t first, std::vector<LinePart>& pieces) {
     if (contacts_of_line_.empty()) return;

@@ -16,8 +16,8 @@
 
 namespace burin {
 
-/// All layers of surfaces in one tile, found by place: the tile is cut into square cells, and each has
-/// a list of the triangles that touch it. Buffers are used again from tile to tile.
+/// Has all triangles of one tile by place, seen or not, and finds what is in front of lines: the tile is cut into
+/// square cells, and each has a list of the triangles that touch it. Buffers are used again from tile to tile.
 class HidingTile {
   public:
     /// `finds_pairs`: find_intersections() is wanted, too.
@@ -37,7 +37,7 @@ class HidingTile {
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
-    /// Of a line, with its ends as WholeLine has them.
+    /// A part of a line, with its ends as WholeLine has them.
     struct PartInTile {
         double begin, end;
         glm::dvec2 from, to;

@@ -53,12 +53,12 @@ void LineDepths::combine_blocks() {
 
 void LineDepths::add(const WholeLine& line, double slack) {
     const float least = std::nextafter(static_cast<float>(line.lowest_in(0, 1) - slack), -kNoLine);
-    // Ends of lines that are cut lie about the guard band's border, as exactly as the line is long.
+    // Ends of lines that are cut lie about where the guard band ends, as exactly as the line is long.
     const auto whole = [](glm::dvec2 p) { return glm::ivec2(glm::clamp(p, -kFarthest, kFarthest)); };
     const Blocks b =
         blocks_of(whole(glm::floor(glm::min(line.from, line.to))), whole(glm::ceil(glm::max(line.from, line.to))));
     if (b.x1 - b.x0 <= 1 || b.y1 - b.y0 <= 1) return note(b, least);
-    // Row by row, the part of the line in it, and a bit; what is beside the picture is in the row at its border.
+    // Row by row, the part of the line in it, and a bit; what is beside the picture is in the row at its rim.
     const glm::dvec2 along = line.to - line.from;
     for (int y = b.y0; y <= b.y1; ++y) {
         const double top = first_.y + (y << kBlockShift) - 1.0, bottom = top + (1 << kBlockShift) + 2.0;

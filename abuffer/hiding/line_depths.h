@@ -15,8 +15,8 @@
 
 namespace burin {
 
-/// Where on the screen lines are, and how far away: only what is in front of one can hide any.
-/// The tiles of a picture are cut into square blocks; each has the least nearness of the lines there.
+/// Tells where on the screen lines are, and how far away: only what is in front of one can hide any. The tiles of a
+/// picture are cut into square blocks; each has the least nearness of the lines there.
 class LineDepths {
   public:
     /// `slack_of`: how much farther than a line, in nearness, something may be that is in front of it all the same.
@@ -29,7 +29,8 @@ class LineDepths {
     void for_tiles(glm::ivec2 low, glm::ivec2 high, float highest, const Visit& visit) const {
         for_tiles(low, high, highest, nullptr, visit);
     }
-    /// The same, but for tiles that a polygon within the box passes by, farther than a pixel. nullptr: none.
+    /// Calls visit(tile) in the same way, without tiles that a polygon within the box passes by, farther than a pixel.
+    /// nullptr: no polygon.
     template <typename Visit>
     void for_tiles(glm::ivec2 low, glm::ivec2 high, float highest, const PolygonRows* polygon,
                    const Visit& visit) const {
@@ -52,7 +53,7 @@ class LineDepths {
         }
     }
 
-    /// The same by pairs of blocks along both axes, so that few triangles need be asked for one by one.
+    /// What for_tiles() asks, by pairs of blocks along both axes, so that few triangles need be asked for one by one.
     DepthGrid grid() const {
         return {of_blocks_.data(),     first_.x,  first_.y, last_.x, last_.y, kBlockShift, columns_, begin_row_,
                 end_row_ - begin_row_, kTileShift};
@@ -74,7 +75,8 @@ class LineDepths {
                 column_at(high.x), std::min((high.y - first_.y) >> kBlockShift, end_row_ - 1)};
     }
     static constexpr int kBeside = 256;  // 1 pixel
-    /// In the row of tiles with a row of blocks. Those at the picture's border stand for what is beyond it.
+    /// The range of a polygon in the row of tiles that has a row of blocks. Rows at the rim of the picture stand for
+    /// what is beyond it.
     PolygonRows::Range in_row_of_tiles(const PolygonRows& polygon, int y) const {
         constexpr double kFar = 1e9;
         const int begin = y & ~kLast, end = (y | kLast) + 1;

@@ -4,14 +4,16 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "view/pixel_tiles.h"
 
+// Triangles are sorted to tiles for hidden lines, seen or not.
+
 namespace burin {
 
-/// The numbers of all triangles that touch each tile, be they seen or not; of the instances that are shown, instance by
-/// instance, and in ascending order if no lines are given. Triangles that are seen exactly edge-on hide nothing and are
-/// left out, as are those in front of none of the lines, if these are given.
+/// OccluderBins lists the numbers of all triangles that touch each tile, be they seen or not: those of the instances
+/// that are shown, instance by instance, and in ascending order if no lines are given. Triangles that are seen exactly
+/// edge-on hide nothing and are left out, as are those in front of none of the lines, if these are given.
 class OccluderBins {
   public:
-    /// In front of the number of a triangle that is cut by the near plane or the guard band.
+    /// This bit marks the number of a triangle that is cut by the near plane or the guard band.
     static constexpr std::uint32_t kClipped = 1u << 31;
 
     OccluderBins() = default;

@@ -9,7 +9,7 @@ namespace {
 
 /// Lines are looked up in a cell by parts no longer than an eighth of it. 1/256 pixel for each of its pixels.
 constexpr double kPartOfCell = 256.0 / 8;
-/// More than what rounding does to places. 1/256 pixel.
+/// A margin greater than what rounding does to places. 1/256 pixel.
 constexpr float kRounding = 4;
 constexpr float kFar = 1e30f;
 
@@ -100,7 +100,7 @@ void OccluderCells::make_indices() {
     }
 }
 
-/// Of a cell's triangles, those that may hide the part of a line in it. Returns their number in found_.
+/// Finds the cell's triangles that may hide the part of a line in it. Returns how many are in found_.
 std::size_t OccluderCells::find_crossed(std::size_t cell, const WholeLine& line, double from, double to, double slack,
                                         float reach) {
     const glm::dvec2 corner(corner_), along = line.to - line.from;

@@ -12,6 +12,8 @@
 #include "kernels/triangle_index.h"
 #include "lines/whole_line.h"
 
+// Triangles near a part of a line are found by place.
+
 namespace burin {
 
 /// The triangles of a square on the screen by place: where there are very many it is cut into square cells, and each
@@ -28,15 +30,17 @@ class OccluderCells {
     void clear(PixelRect rect);
     /// Where triangles are measured from, in 1/256 pixel.
     glm::ivec2 corner() const { return corner_; }
-    /// So many more, which are set where they stay, until the next ones come. Kernels may write kRoom beyond them.
+    /// Adds `count` triangles, which the caller sets where they stay, before the next ones come. Kernels may write
+    /// kRoom beyond them.
     CrossedTriangle* add(std::size_t count) {
         count_ += count;
         if (triangles_.size() < count_ + kRoom) triangles_.resize(2 * count_ + kRoom);
         return triangles_.data() + (count_ - count);
     }
-    /// After all were added. Cells are made so small that about `per_cell` triangles begin in one.
+    /// Sorts the triangles into cells after all were added. Cells are made so small that about `per_cell` triangles
+    /// begin in one.
     void sort(double per_cell);
-    /// What for_crossed() needs, after that.
+    /// Makes what for_crossed() needs, after sort().
     void make_indices();
     const CrossedTriangle& operator[](std::size_t i) const { return triangles_[i]; }
     static ScreenBox box_of(const CrossedTriangle& triangle);
@@ -95,7 +99,7 @@ class OccluderCells {
     int cell_px_ = 1, columns_ = 0, rows_ = 0;
     float cells_per_subpixel_ = 0;
     std::size_t count_ = 0;
-    std::vector<CrossedTriangle> triangles_;  // so many, and room for more
+    std::vector<CrossedTriangle> triangles_;  // `count_` of them, and room for more
     std::vector<std::uint32_t> cell_end_, places_;
     std::vector<TriangleIndex> indices_;         // per cell
     std::vector<StepBox> boxes_;                 // around parts of a line

@@ -9,13 +9,13 @@
 namespace burin {
 namespace {
 
-/// Cells are made so small that about so many triangles begin in one: pairs are looked for one by one.
+/// Cells are made so small that about this many triangles begin in one: pairs are looked for one by one.
 constexpr double kTrianglesPerCell = 80;
 constexpr float kFar = 1e30f;
 
 }  // namespace
 
-/// Places of those that touch a box.
+/// The places of the triangles that touch a box.
 std::span<const std::uint32_t> OccluderPairs::touching(std::size_t begin, std::size_t end, const ScreenBox& box,
                                                        float least_x0, float least_y0) {
     return {found_.data(), kernels_.find_touching(boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
@@ -44,8 +44,8 @@ std::span<const OccluderPairs::Pair> OccluderPairs::find(const OccluderCells& tr
 }
 
 void OccluderPairs::find_in_cell(int column, int row) {
-    // Of all cells that both triangles touch, the one with the corner where their boxes begin to overlap
-    // is responsible.
+    // A pair counts in one of the cells that both triangles touch: the one with the corner where their boxes begin to
+    // overlap.
     const float left = column == 0 ? -kFar : cells_.pitch() * static_cast<float>(column);
     const float top = row == 0 ? -kFar : cells_.pitch() * static_cast<float>(row);
     const auto from = [](float begin, float border) { return begin >= border ? -kFar : border; };

@@ -9,6 +9,8 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "kernels/screen_boxes.h"
 
+// Under a cap for memory, each tile looks for triangles that may pass through each other.
+
 namespace burin {
 
 /// Pairs of a tile's triangles that may pass through each other. Buffers are used again.
@@ -23,7 +25,7 @@ class OccluderPairs {
         : screen_(screen), kernels_(kernels), cells_(kernels) {}
 
     void clear() { entries_.clear(); }
-    /// For each entry of the tile's cells. `lowest`: the nearness of its farthest corner.
+    /// Adds what is known of the next entry of the tile's cells. `lowest`: the nearness of its farthest corner.
     void add(float lowest, const Corners& vertices) { entries_.push_back({lowest, vertices}); }
     std::span<const Pair> find(const OccluderCells& triangles, PixelRect rect);
 

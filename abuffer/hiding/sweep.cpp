@@ -9,7 +9,7 @@ namespace {
 
 /// Shorter parts of lines belong to the part before. Pixels.
 constexpr double kShortestPiecePx = 1.0 / 32;
-/// Behind the last value: kernels read so many more.
+/// Kernels read this many values behind the last one.
 constexpr std::size_t kReadMore = 3;
 
 }  // namespace
@@ -27,7 +27,8 @@ void HidingSweep::clear(double begin, double end, std::size_t most, bool joins_p
     }
 }
 
-/// Joins what the parts of a clipped triangle hide, which is one layer. In order, for shares of light are multiplied.
+/// Joins what the parts of a clipped triangle hide: they count once. They are taken in order, for shares of light are
+/// multiplied.
 void HidingSweep::merge_intervals() {
     std::sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) {
         return a.triangle != b.triangle ? a.triangle < b.triangle : a.begin < b.begin;
@@ -53,7 +54,7 @@ void HidingSweep::sort(std::vector<double>& values, std::size_t count) {
     values.swap(sorted_);
 }
 
-/// Where layers begin and end within the part, in order.
+/// Lists in order where surfaces begin and end within the part.
 void HidingSweep::find_events() {
     events_.clear();
     for (const Interval& i : intervals_) {

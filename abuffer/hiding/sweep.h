@@ -8,13 +8,13 @@
 
 namespace burin {
 
-/// The layers in front of a line, counted from one end to the other. Buffers are used again.
+/// Counts the surfaces in front of a line, from one end to the other, and makes parts of it. Buffers are used again.
 class HidingSweep {
   public:
     explicit HidingSweep(const TileKernels& kernels) : kernels_(kernels) {}
 
-    /// For the part [begin, end] of a line, with up to `most` triangles in front. `joins_parts`: triangles may be added
-    /// in several parts, which are one layer, or be transparent.
+    /// Begins with the part [begin, end] of a line, with up to `most` triangles in front. `joins_parts`: triangles may
+    /// be added in several parts, which count once, or be transparent.
     void clear(double begin, double end, std::size_t most, bool joins_parts);
     bool is_empty() const { return count_ == 0; }
     /// A triangle, by its number, is in front of the line between two shares of it. `transmission`: 0 = opaque.
@@ -24,7 +24,7 @@ class HidingSweep {
         intervals_.push_back({triangle, begin, end, transmission});
         has_transparent_ = has_transparent_ || transmission > 0;
     }
-    /// Adds the pieces of the part that something is in front of.
+    /// Adds the parts of it that something is in front of.
     void find_parts(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces);
 
   private:
@@ -38,7 +38,7 @@ class HidingSweep {
         int opaque;
     };
     void add_opaque(double begin, double end) {
-        // Whether layers begin and end within the part is a guess, so without branches.
+        // Whether surfaces begin and end within the part would be an unpredictable branch, so there is none.
         opaque_ += begin <= begin_ ? 1 : 0;
         begins_[begin_count_] = begin;
         begin_count_ += begin <= begin_ ? 0 : 1;
@@ -53,10 +53,10 @@ class HidingSweep {
     double begin_ = 0, end_ = 1;
     std::size_t count_ = 0;
     bool joins_parts_ = false, has_transparent_ = false;
-    std::vector<Interval> intervals_;  // if parts are joined
+    std::vector<Interval> intervals_;  // if `joins_parts`
     int opaque_ = 0;                   // in front where the part begins
     std::size_t begin_count_ = 0, end_count_ = 0;
-    std::vector<double> begins_, ends_, sorted_;  // of opaque layers, within the part, and room for more
+    std::vector<double> begins_, ends_, sorted_;  // of opaque surfaces, within the part, and room for more
     std::vector<Event> events_;
 };
 

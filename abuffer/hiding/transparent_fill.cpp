@@ -15,11 +15,11 @@ namespace burin {
 namespace {
 
 /// A transparent triangle at a sample.
-struct LayerSample {
+struct TransparentSample {
     std::uint32_t sample;
     float nearness;
     std::uint32_t number;
-    bool operator<(const LayerSample& o) const {
+    bool operator<(const TransparentSample& o) const {
         if (sample != o.sample) return sample < o.sample;
         if (nearness != o.nearness) return nearness > o.nearness;
         return number < o.number;
@@ -27,7 +27,7 @@ struct LayerSample {
 };
 
 /// A polygon on the screen and its plane.
-struct Layer {
+struct PlacedPolygon {
     ScreenPolygon polygon;
     SpanPlane plane;
 };
@@ -44,14 +44,14 @@ class TransparentTile {
         rect_ = grid_.tile(tile);
         const int s = samples_per_pixel_of(frame_);
         samples_.reset(rect_.x0 * s, rect_.y0 * s, rect_.width() * s, rect_.height() * s, s);
-        layers_.clear();
+        transparent_.clear();
         for (const std::uint32_t n : numbers) {
             if (opacity(n) == 1) draw_opaque(n);
         }
         for (const std::uint32_t n : numbers) {
             if (opacity(n) < 1) draw_transparent(n);
         }
-        std::sort(layers_.begin(), layers_.end());
+        std::sort(transparent_.begin(), transparent_.end());
         composite(film);
     }
 
@@ -74,23 +74,23 @@ class TransparentTile {
                 0};
     }
 
-    Layer layer(std::uint32_t value) const {
+    PlacedPolygon placed(std::uint32_t value) const {
         const SurfaceSet& surfaces = frame_.surfaces;
         const SurfaceId s = surface(value);
-        Layer layer;
-        layer.polygon = surfaces.screen_polygon(s);
+        PlacedPolygon placed;
+        placed.polygon = surfaces.screen_polygon(s);
         const DepthPlane plane = surfaces.plane(s);
-        const SubpixelPoint at = layer.polygon.corners[0];
+        const SubpixelPoint at = placed.polygon.corners[0];
         const double zero = surfaces.farthest_nearness;
-        layer.plane = {at.x,
-                       at.y,
-                       static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero),
-                       static_cast<float>(plane.per_x / kSubpixelsPerPixel),
-                       static_cast<float>(plane.per_y / kSubpixelsPerPixel),
-                       static_cast<float>(plane.lowest - zero),
-                       static_cast<float>(plane.highest - zero),
-                       (value & ~OccluderBins::kClipped) << 1};
-        return layer;
+        placed.plane = {at.x,
+                        at.y,
+                        static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero),
+                        static_cast<float>(plane.per_x / kSubpixelsPerPixel),
+                        static_cast<float>(plane.per_y / kSubpixelsPerPixel),
+                        static_cast<float>(plane.lowest - zero),
+                        static_cast<float>(plane.highest - zero),
+                        (value & ~OccluderBins::kClipped) << 1};
+        return placed;
     }
 
     /// Calls visit(row, first column, end column), counted in the tile.
@@ -108,32 +108,32 @@ class TransparentTile {
     }
 
     void draw_opaque(std::uint32_t value) {
-        const Layer l = layer(value);
-        for_spans(l.polygon,
-                  [&](int row, int begin, int end) { kernels_.draw_span(view(), row, begin, end, l.plane); });
+        const PlacedPolygon p = placed(value);
+        for_spans(p.polygon,
+                  [&](int row, int begin, int end) { kernels_.draw_span(view(), row, begin, end, p.plane); });
     }
 
     void draw_transparent(std::uint32_t value) {
-        const Layer l = layer(value);
+        const PlacedPolygon p = placed(value);
         const std::int32_t pitch = kSubpixelsPerPixel / samples_.samples_per_pixel;
-        for_spans(l.polygon, [&](int row, int begin, int end) {
-            const auto y = static_cast<float>((samples_.first_row + row) * pitch + pitch / 2 - l.plane.y);
+        for_spans(p.polygon, [&](int row, int begin, int end) {
+            const auto y = static_cast<float>((samples_.first_row + row) * pitch + pitch / 2 - p.plane.y);
             for (int column = begin; column < end; ++column) {
-                const auto x = static_cast<float>((samples_.first_column + column) * pitch + pitch / 2 - l.plane.x);
+                const auto x = static_cast<float>((samples_.first_column + column) * pitch + pitch / 2 - p.plane.x);
                 const float nearness =
-                    std::clamp(x * l.plane.per_x + l.plane.nearness + y * l.plane.per_y, l.plane.low, l.plane.high);
+                    std::clamp(x * p.plane.per_x + p.plane.nearness + y * p.plane.per_y, p.plane.low, p.plane.high);
                 const auto i = static_cast<std::uint32_t>(row * samples_.stride + column);
                 const float gap = nearness - samples_.nearness[i];
                 const double level = level_slack(frame_.surfaces, static_cast<double>(nearness));
                 const bool is_level = static_cast<double>(std::abs(gap)) <= level;
-                const bool is_seen = is_level ? is_in_front(l.plane.id >> 1, samples_.ids[i] >> 1, gap) : gap > 0;
-                if (is_seen) layers_.push_back({i, nearness, l.plane.id >> 1});
+                const bool is_seen = is_level ? is_in_front(p.plane.id >> 1, samples_.ids[i] >> 1, gap) : gap > 0;
+                if (is_seen) transparent_.push_back({i, nearness, p.plane.id >> 1});
             }
         });
     }
 
-    /// Of two surfaces at about one depth, of which the first is nearer by `gap` at a sample. Asked of the same two for
-    /// one sample after the other.
+    /// Whether the first of two surfaces at about one depth is in front; it is nearer by `gap` at a sample. It is asked
+    /// about the same two for one sample after the other.
     bool is_in_front(std::uint32_t number, std::uint32_t opaque, float gap) {
         if (compared_[0] != number || compared_[1] != opaque) {
             compared_[0] = number;
@@ -146,7 +146,7 @@ class TransparentTile {
 
     void composite(Film& film) {
         const int s = samples_.samples_per_pixel;
-        // Where each row of pixels begins in layers_; sorted by sample, so rows of samples follow each other.
+        // Where each row of pixels begins in transparent_; sorted by sample, so rows of samples follow each other.
         for (int y = std::max(rect_.y0, frame_.crop.y0); y < std::min(rect_.y1, frame_.crop.y1); ++y) {
             for (int x = std::max(rect_.x0, frame_.crop.x0); x < std::min(rect_.x1, frame_.crop.x1); ++x) {
                 glm::vec4 sum(0.0f);
@@ -163,11 +163,11 @@ class TransparentTile {
     }
 
     glm::vec4 sample_color(std::uint32_t sample, int x, int y, bool& any) {
-        auto at = std::lower_bound(layers_.begin(), layers_.end(), sample,
-                                   [](const LayerSample& l, std::uint32_t i) { return l.sample < i; });
+        auto at = std::lower_bound(transparent_.begin(), transparent_.end(), sample,
+                                   [](const TransparentSample& l, std::uint32_t i) { return l.sample < i; });
         glm::vec4 color(0.0f);
         float left = 1;
-        for (; at != layers_.end() && at->sample == sample; ++at) {
+        for (; at != transparent_.end() && at->sample == sample; ++at) {
             any = true;
             const float o = opacity(at->number);
             color += surface_at(at->number, x, y) * (left * o);
@@ -201,7 +201,7 @@ class TransparentTile {
     const TileKernels& kernels_;
     PixelRect rect_;
     SampleTile samples_;
-    std::vector<LayerSample> layers_;
+    std::vector<TransparentSample> transparent_;
     std::uint32_t compared_[2] = {~0u, ~0u};
     SurfaceOrder order_;  // of these two
     std::uint32_t last_number_ = ~0u;

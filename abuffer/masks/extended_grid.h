@@ -2,6 +2,8 @@
 
 #include <glm/glm.hpp>
 
+// Extended masks of all pixels are windows of one grid of samples.
+
 namespace burin {
 
 /// Where the samples of extended masks lie.
@@ -26,7 +28,7 @@ struct ExtendedGrid {
         return {(first_sample(pixel_x) + column + 0.5) / s + kTrifleX,
                 (first_sample(pixel_y) + row + 0.5) / s + kTrifleY};
     }
-    /// Width of a stroke along an axis-parallel border, one apron on either side. Pixels.
+    /// Width of a stroke along an axis-parallel boundary, one apron on either side. Pixels.
     constexpr double stroke_width_px() const { return 2.0 * apron / samples_per_pixel(); }
 };
 

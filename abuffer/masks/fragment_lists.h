@@ -10,6 +10,8 @@
 #include "abuffer/masks/mask_grid.h"
 #include "view/scan_convert.h"
 
+// Triangles leave a fragment in each pixel they touch, and the fragments of a tile are sorted to pixels.
+
 namespace burin {
 
 /// The part of one surface that falls on one pixel and its apron.

@@ -5,6 +5,8 @@
 #include "abuffer/masks/mask_grid.h"
 #include "scene/method_settings.h"
 
+// Halos may grow by other steps than Patel's, which makes strokes of more even width.
+
 namespace burin {
 
 /// The mask and its eight neighbours.

@@ -6,6 +6,8 @@
 
 #include "abuffer/coverage_mask.h"
 
+// Masks of 4 x 4, 8 x 8 and 16 x 16 samples are used by the same code.
+
 namespace burin {
 
 /// Access to masks of any size by row and column.
@@ -68,7 +70,7 @@ constexpr Mask sample_bit(int row, int column) {
     return mask;
 }
 
-/// The samples at least `apron` away from the border: a pixel's own.
+/// The samples at least `apron` away from the rim of the mask: a pixel's own.
 template <typename Mask>
 constexpr Mask inner_samples(int apron) {
     Mask mask{};

@@ -3,6 +3,8 @@
 #include "scene/method_settings.h"
 #include "shading/line_style.h"
 
+// Settings of a scene say how masks become strokes.
+
 namespace burin {
 
 /// How strokes are made from masks.

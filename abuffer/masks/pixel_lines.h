@@ -11,6 +11,8 @@
 #include "abuffer/masks/visibility.h"
 #include "lines/line_decision.h"
 
+// Fragments of a pixel become lines: pairs that touch are decided, surfaces grouped, and strokes made from masks.
+
 namespace burin {
 
 /// Two fragments of a pixel whose visible samples are neighbours, and whether that is a line.
@@ -35,8 +37,8 @@ struct PixelLines {
 /// Finds the lines of a pixel from the masks of its visible fragments: steps 2 and 3 of Patel's
 /// method (2000).
 ///
-/// Fragments that continue each other are grouped to surfaces; where two surfaces border on each
-/// other and the border deserves a line, edge_between() of their masks is the stroke.
+/// Fragments that continue each other are grouped to surfaces; where two surfaces meet and their boundary deserves a
+/// line, edge_between() of their masks is the stroke.
 template <typename Mask>
 class PixelLineFinder {
   public:

@@ -13,6 +13,8 @@
 #include "view/depth_plane.h"
 #include "view/projection.h"
 
+// Fragments of a pixel become visible masks: the nearest one wins at each sample.
+
 namespace burin {
 
 /// Which fragment is in front at every sample of a pixel's extended mask.
@@ -22,7 +24,7 @@ struct VisibleSamples {
     /// Per sample (side * row + column) the number of the front fragment in the pixel's list, or the
     /// list's length for the background.
     std::array<std::uint32_t, static_cast<std::size_t>(kSamples)> owner;
-    /// Per fragment, and last for the background, the samples it owns. They are disjoint.
+    /// Per fragment, and last for the background, the samples at which it is in front. They are disjoint.
     std::vector<Mask> masks;
 };
 
@@ -75,7 +77,7 @@ void resolve_visibility(std::span<const Fragment<Mask>> fragments, const Extende
             visible.owner[sample] = i;
         });
     }
-    // Goes through the list and lets fragments take the places of those that own a sample.
+    // Goes through the list and lets fragments take the places of those that are in front at a sample.
     const auto settle = [&](const auto& takes_place) {
         for (std::uint32_t i = 0; i < background; ++i) {
             const DepthPlane& plane = plane_of(fragments[i]);

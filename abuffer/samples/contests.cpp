@@ -10,13 +10,13 @@ namespace burin {
 
 namespace {
 
-/// Near ones first, of equally near ones the one with the smaller number. Ids have a bit more,
-/// which does not count.
+/// Orders contests: near ones first, of equally near ones the one with the smaller number. Ids have a bit more, which
+/// does not count.
 bool is_nearer(const Contest& a, const Contest& b) {
     return a.nearness != b.nearness ? a.nearness > b.nearness : a.loser >> 1 < b.loser >> 1;
 }
 
-/// Leaves those of one sample that take part, in no order. Returns where they end.
+/// Leaves the contests of one sample that take part, in no order. Returns where they end.
 template <typename Iterator>
 Iterator select_nearest(Iterator begin, Iterator end) {
     constexpr auto kMost = static_cast<std::ptrdiff_t>(Contests::kMostAtSample);
@@ -35,7 +35,7 @@ void Contests::begin_selecting(std::size_t sample_count) {
     last_ids_.assign(sample_count, ~0u);
 }
 
-/// Forgets those that take no part.
+/// Forgets contests that take no part.
 void Contests::keep_nearest() {
     first_of_sample_.assign(last_ids_.size() + 1, 0);
     for (std::uint32_t i = 0; i < count_; ++i) ++first_of_sample_[noted_[i].sample + 1];
@@ -60,7 +60,7 @@ void Contests::keep_nearest() {
 
 void Contests::settle(SampleTile& samples) {
     if (is_selecting_) keep_nearest();
-    // Mostly nothing is to be done: those of samples where nothing takes the winner's place are left out.
+    // Mostly nothing is to be done: contests of samples where nothing takes the winner's place are left out.
     if (is_open_.size() < samples.ids.size()) is_open_.assign(samples.ids.size(), 0);
     bool has_open = false;
     for (std::uint32_t i = 0; i < count_; ++i) {
@@ -72,7 +72,7 @@ void Contests::settle(SampleTile& samples) {
     if (!has_open) return;
     const auto end_of_open = std::remove_if(noted_.begin(), noted_.begin() + count_,
                                             [&](const Contest& c) { return is_open_[c.sample] == 0; });
-    // After keep_nearest() those of a sample follow each other.
+    // After keep_nearest() the contests of a sample follow each other.
     const auto is_before = [](const Contest& a, const Contest& b) {
         return std::tie(a.sample, a.loser) < std::tie(b.sample, b.loser);
     };
@@ -108,7 +108,7 @@ void Contests::settle(SampleTile& samples) {
     }
 }
 
-/// Mostly asked of the same two for one sample after the other.
+/// The same two are mostly asked about for one sample after the other.
 const Contests::Relation& Contests::relation(std::uint32_t loser, std::uint32_t winner) {
     constexpr std::size_t kAtFirst = 512, kMost = std::size_t{1} << 16;
     // In a heap of nearly equal surfaces each is asked about each, for every sample: room for all saves most of the

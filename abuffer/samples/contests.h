@@ -10,6 +10,8 @@
 #include "kernels/tile_kernels.h"
 #include "view/surface_set.h"
 
+// Where surfaces are level at a sample, more than nearness decides which of them is seen.
+
 namespace burin {
 
 /// Samples of a tile where surfaces are level, noted while they are drawn, and which of them is seen. Buffers are used
@@ -19,25 +21,25 @@ class Contests {
     /// Where more are level with what is seen at a sample, the nearest of them take part, and of
     /// equally near ones the first. Six were the most in all scenes and models tried.
     static constexpr std::size_t kMostAtSample = 32;
-    /// So many of a tile are noted before they are selected, unless more are allowed: 3 MB. While
-    /// they are selected, 13 MB, and as much again to sort them.
+    /// At most this many of a tile are noted before they are selected, unless more are allowed: 3 MB. While they are
+    /// selected they take 13 MB, and as much again to sort them.
     static constexpr std::size_t kMostNoted = std::size_t{1} << 18;
 
     explicit Contests(const ScreenSurfaces& screen, std::size_t most = kMostNoted)
         : screen_(screen), most_(most), noted_(std::min(std::size_t{1} << 14, most)) {}
 
-    /// Before a tile is drawn. All that are level are noted.
+    /// Begins a tile, before it is drawn. All that are level are noted.
     void clear() {
         count_ = 0;
         is_selecting_ = false;
     }
-    /// The same of a tile with so many samples where that are too many: from now on those that take
-    /// part are kept.
+    /// Draws a tile again that has too many of them, with `sample_count` samples: from now on only those that take part
+    /// are kept.
     void begin_selecting(std::size_t sample_count);
     bool is_selecting() const { return is_selecting_; }
     std::size_t count() const { return count_; }
     std::size_t room() const { return noted_.size(); }
-    /// Where kernels note them.
+    /// Tells kernels where to note contests.
     void put_into(SampleView& view) {
         view.contests = noted_.data();
         view.contest_count = &count_;
@@ -53,7 +55,7 @@ class Contests {
         noted_ = {};
         noted_.resize(std::size_t{count_} + count_ / 8);
     }
-    /// While it is selecting: room for so many more, at most as many as the tile has samples.
+    /// While it is selecting: makes room for `more`, which is at most the number of the tile's samples.
     void make_room_for(std::size_t more) {
         if (count_ + more > noted_.size()) keep_nearest();
     }
@@ -65,7 +67,7 @@ class Contests {
     const float* last_nearness() const { return last_nearness_.data(); }
     const std::uint32_t* last_ids() const { return last_ids_.data(); }
     /// On the edge of a surface that ends at another one, and where two faces fold over, both are level, and rounding
-    /// says which is seen. Of those the one in front wins, and of coincident surfaces the first one, as in
+    /// says which is seen. The one in front wins then, and of coincident surfaces the first one, as in
     /// resolve_visibility().
     void settle(SampleTile& samples);
 

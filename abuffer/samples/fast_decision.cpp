@@ -94,8 +94,8 @@ FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i)
     return end;
 }
 
-/// `touched`: what it is in contact with, else nullptr. `decision`: a new one, filled in where it is, for copying would
-/// wait for what was just stored.
+/// `touched`: what the surface that ends is in contact with, else nullptr. `decision`: a new one, filled in where it
+/// is, for copying would wait for what was just stored.
 void FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const FastWalk& walk, const End* touched,
                                   LineDecision& decision) {
     const std::uint32_t instance = pair.surfaces[i].instance;

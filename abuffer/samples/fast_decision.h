@@ -3,6 +3,8 @@
 #include "abuffer/samples/fast_walk.h"
 #include "lines/line_decision.h"
 
+// Pairs of samples are decided on snapped vertices, which answers nearly all of them.
+
 namespace burin {
 
 /// decide_line() for all but rare cases, ten times as fast: surfaces on the screen, edges of two triangles or of
@@ -21,11 +23,11 @@ class FastDecision {
     /// settles most pairs.
     bool is_smooth(const NeighbourSamples& pair) const;
 
-    /// For the same with many pairs at once, TileKernels::find_smooth().
+    /// The limits for many pairs at once, TileKernels::find_smooth().
     SmoothLimits smooth_limits() const { return {level_, level_per_nearness_, kSnappingPx * kSubpixelsPerPixel}; }
 
-    /// For pairs that are not known to be smooth. False where the case is not ordinary; then `decision` means
-    /// nothing. Otherwise `decision` is what decide_line() says, as far as classes asked for go, and `nearness`
+    /// Decides a pair that is not known to be smooth. Returns false where the case is not ordinary; then `decision`
+    /// means nothing. Otherwise `decision` is what decide_line() says, as far as classes asked for go, and `nearness`
     /// that of the line.
     bool decide(const NeighbourSamples& pair, LineDecision& decision, double& nearness, const KnownWalks& known = {});
 

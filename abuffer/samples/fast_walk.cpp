@@ -24,7 +24,7 @@ class FastWalker::Way {
           origin_((pair.down ? pair.y : pair.x) + (backwards ? pair.pitch : 0)),
           per_unit_((backwards ? -1.0 : 1.0) / pair.pitch) {}
 
-    /// False where it reaches off the screen.
+    /// Returns false where the triangle reaches off the screen.
     bool look_at(std::uint32_t triangle) {
         const std::uint32_t* const corners = mesh_.corners + 3 * static_cast<std::size_t>(triangle);
         bool is_on = true;
@@ -44,9 +44,9 @@ class FastWalker::Way {
         const double u = u_[k] + static_cast<double>(across_ - v_[k]) * (u_[n] - u_[k]) / (v_[n] - v_[k]);
         return (u - origin_) * per_unit_;
     }
-    /// The same along the edge: 0 = at corner k.
+    /// Where along the edge that is: 0 = at corner k.
     double along_edge(std::uint32_t k) const { return static_cast<double>(across_ - v_[k]) / (v_[next(k)] - v_[k]); }
-    /// On an edge that the line crosses, of any triangle.
+    /// Nearness on an edge that the line crosses, of any triangle.
     double nearness_at(HalfEdge h) const {
         const auto vertex = [&](HalfEdge k) -> const ScreenVertex& {
             return mesh_.vertices[mesh_.corners[h - h % 3 + k % 3]];
@@ -56,18 +56,18 @@ class FastWalker::Way {
         return glm::mix(static_cast<double>(p.nearness), static_cast<double>(q.nearness),
                         static_cast<double>(across_ - from) / (to - from));
     }
-    /// On the way through a triangle, from where the one before is left to where it is.
+    /// Nearness on the way through a triangle, from where the one before is left to where this one is.
     double nearness_between(const FastWalk::Step& before, const FastWalk::Step& step, double fraction_of_way) const {
         return glm::mix(nearness_at(before.exit), nearness_at(step.exit),
                         (fraction_of_way - before.left) / (step.left - before.left));
     }
-    /// Through the triangle that is entered over half-edge `entry`.
+    /// The step through the triangle that is entered over half-edge `entry`.
     FastWalk::Step step_from(HalfEdge entry, double entered) const {
         const std::uint32_t t = entry / 3, k = entry - 3 * t, n = next(k), apex = next(n);
         const std::uint32_t exit = side_[apex] == side_[k] ? n : apex;
         return {t, 3 * t + exit, entered, fraction(exit)};
     }
-    /// Through the triangle in which the walk begins.
+    /// The step through the triangle in which the walk begins.
     FastWalk::Step first_step(std::uint32_t t) const {
         constexpr double kBefore = FastWalk::kBefore;
         FastWalk::Step step{t, kNoHalfEdge, kBefore, kBefore};
@@ -82,7 +82,7 @@ class FastWalker::Way {
         }
         return step;
     }
-    /// In 1/256 pixel.
+    /// The place on the way, in 1/256 pixel.
     glm::dvec2 at(double fraction_of_way) const {
         const double along = origin_ + fraction_of_way / per_unit_;
         return down_ ? glm::dvec2(across_, along) : glm::dvec2(along, across_);
@@ -140,7 +140,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     for (result.step_count = 1; result.step_count < FastWalk::kMaxSteps; ++result.step_count) {
         if (current->left > 1 || (current->left == 1 && !passes_goal)) {
             end_at(FastWalk::arrived, *current);
-            // Elsewhere nobody asks for lines.
+            // Lines are asked for only at the two surfaces of the pair.
             if (SurfaceId{instance, current->triangle} == pair.surfaces[backwards ? 0 : 1])
                 note_lines(pair, backwards, result);
             return;
@@ -232,7 +232,7 @@ void FastWalker::note_lines(const NeighbourSamples& pair, bool backwards, FastWa
     if (slivers.count > 0) note_contact_at(result.triangle, 1);
 }
 
-/// From a border to another patch of the mesh. `arrived`: it goes on with the step `next`.
+/// Steps from a border to another patch of the mesh. `arrived`: the walk goes on with the step `next`.
 FastWalk::End FastWalker::step_over_seam(const Way& way, std::uint32_t instance, const FastWalk::Step& from,
                                          Way& beyond, FastWalk::Step& next) {
     const auto entry = seam_beyond(instance, from.exit, way.along_edge(from.exit % 3));

@@ -9,6 +9,8 @@
 #include "kernels/mesh_walks.h"
 #include "lines/line_decision.h"
 
+// A walk from one sample to its neighbour goes over snapped vertices, along a row or a column.
+
 namespace burin {
 
 /// A sample exactly on an edge belongs to the polygon below or to the right, so its place is taken a trifle further
@@ -84,12 +86,12 @@ class FastWalker {
     FastWalker(const ScreenSurfaces& screen, const LineCriteria& criteria)
         : screen_(screen), surfaces_(screen.surfaces()), criteria_(criteria) {}
 
-    /// From the first sample to the second, or `backwards`. Unsure where triangles reach off the screen, more than
-    /// two meet at an edge, or there are very many. The steps are good until the next walk in the same direction.
+    /// Walks from the first sample to the second, or `backwards`. Unsure where triangles reach off the screen, more
+    /// than two meet at an edge, or there are very many. The steps are good until the next walk in the same direction.
     /// `passes_goal`: a walk arrives only beyond the other sample, not at it.
     void walk(const NeighbourSamples& pair, bool backwards, FastWalk& result, bool passes_goal = false);
 
-    /// For many walks at once, TileKernels::walk_over_mesh().
+    /// The limits for many walks at once, TileKernels::walk_over_mesh().
     WalkLimits limits(std::int32_t pitch) const;
     /// Notes the lines that a walk crossed that arrived, by its steps.
     void note_lines(const NeighbourSamples& pair, bool backwards, FastWalk& result);

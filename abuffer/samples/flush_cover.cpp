@@ -98,8 +98,8 @@ bool FlushCover::laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm:
     });
 }
 
-/// Whether two triangles lie in one plane without a line between them. Those that have nothing in common on the screen
-/// are compared at one place.
+/// Whether two triangles lie in one plane without a line between them. Triangles that have nothing in common on the
+/// screen are compared at one place.
 bool FlushCover::are_flush(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const {
     if (a.instance != b.instance) return false;
     if (a == b) return true;
@@ -110,7 +110,7 @@ bool FlushCover::are_flush(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const 
            surfaces.order_near(a, b, at).are_coincident();
 }
 
-/// Those that pairs may reach which begin in a block of samples: they end in it or in the next one.
+/// The faces that pairs may reach which begin in a block of samples: these end in it or in the next one.
 const std::vector<FlushCover::Face>& FlushCover::faces_from(glm::ivec2 block) {
     const auto at = static_cast<std::size_t>(block.y * BlockTable::kPitch + block.x);
     if (faces_.empty()) faces_.resize(BlockTable::kSize);
@@ -156,7 +156,8 @@ void FlushCover::add(SurfaceId s, std::vector<Face>& faces) const {
     faces.push_back(face);
 }
 
-/// Of a convex polygon; a corner on the line counts to one side, as samples on an edge belong to one.
+/// The part of the way that lies in a convex polygon; a corner on the line counts to one side, as samples on an edge
+/// belong to one.
 FlushCover::Interval FlushCover::part_within(const NeighbourSamples& pair, SurfaceId s) const {
     const bool is_cut = screen_.facing(screen_.number_of(s)) == off_screen;
     ScreenPolygon polygon;

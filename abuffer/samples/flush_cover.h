@@ -8,6 +8,8 @@
 #include "abuffer/screen/triangle_bins.h"
 #include "lines/line_decision.h"
 
+// Lines between samples of one plane are dropped where flush faces cover the way from one to the other.
+
 namespace burin {
 
 /// Whether faces in one plane, without a line between them, cover the way between two neighbouring samples
@@ -24,8 +26,9 @@ class FlushCover {
         tile_ = tile;
         filled_.clear();
     }
-    /// Of a pair with a line between them, at an edge of their mesh (kNoHalfEdge: none). Few of them lie in one plane,
-    /// and only those take time. `sample`: the first one's column and row in the tile; `nearness`: at both.
+    /// Whether flush faces cover the way between a pair of samples with a line between them, at an edge of their mesh
+    /// (kNoHalfEdge: none). Few pairs lie in one plane, and only those take time. `sample`: the first one's column and
+    /// row in the tile; `nearness`: at both.
     bool covers(const NeighbourSamples& pair, glm::ivec2 sample, const float (&nearness)[2], HalfEdge edge) {
         const SurfaceId first = pair.surfaces[0], second = pair.surfaces[1];
         if (first.instance != second.instance || first.is_background() || meet_at(first, second, edge)) return false;
@@ -39,7 +42,7 @@ class FlushCover {
         SurfaceId surface;
         glm::ivec2 low, high;
     };
-    /// Of the way between the samples, as shares.
+    /// A part of the way between the samples, as shares.
     struct Interval {
         double begin, end;
     };

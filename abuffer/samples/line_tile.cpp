@@ -106,7 +106,7 @@ void LineTile::find_pairs() {
     is_smooth_.assign(pair_count_, 0);
     const auto first_id = [&](std::size_t i) { return samples_.ids[first_of(pairs_[i])]; };
     const bool has_one_mesh = screen_.surfaces().instances.size() == 1;
-    // Those of one mesh after the other.
+    // Pairs are taken mesh by mesh.
     for (std::size_t begin = 0; begin < pair_count_;) {
         if (first_id(begin) == SampleTile::kBackground) {
             ++begin;
@@ -155,12 +155,12 @@ void LineTile::find_crossings() {
     }
 }
 
-/// The crossings of outlines before the background, which most lines are: mesh by mesh. Returns how many of the pairs
-/// that are asked are left.
+/// Finds the crossings of outlines before the background, which most lines are, mesh by mesh. Returns how many of the
+/// pairs that are asked are left.
 std::size_t LineTile::find_outlines(std::size_t asked) {
     if (outlines_.size() < asked) outlines_.resize(2 * asked);
     std::size_t count = 0, left = 0;
-    for (std::size_t i = 0; i < asked; ++i) {  // without branches: which ones are is a guess
+    for (std::size_t i = 0; i < asked; ++i) {  // without branches: which ones are is unpredictable
         const SamplePair pair = pairs_[i];
         const std::uint32_t first = samples_.ids[first_of(pair)], second = samples_.ids[second_of(pair)];
         const bool has_first = first != SampleTile::kBackground,
@@ -189,8 +189,8 @@ std::size_t LineTile::find_outlines(std::size_t asked) {
     return left;
 }
 
-/// Those of one mesh, at most MeshWalks::kMost. Pairs where there is another line, or none, are added to those that are
-/// asked.
+/// Crosses the outlines of pairs of one mesh, at most MeshWalks::kMost. Pairs where there is another line, or none, are
+/// added to those that are asked.
 void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& asked) {
     const std::uint32_t instance = pairs[0].instance;
     const ScreenMesh& mesh = screen_.mesh(instance);
@@ -239,7 +239,7 @@ void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& a
     }
 }
 
-/// Not kept before add_crossing().
+/// The place of the next crossing, which is not kept before add_crossing().
 LineCrossing& LineTile::next_crossing() {
     if (crossings_.size() == crossing_count_) {
         crossings_.resize(2 * crossings_.size() + WalksAhead::kMostPairs);
@@ -287,7 +287,7 @@ void LineTile::trace_cells(std::vector<LinePiece>& segments) {
         const std::uint32_t* const own =
             &between_[2 * (static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column))];
         const std::uint32_t sides[4] = {own[0], own[1], own[3], own[2 * stride]};
-        std::uint32_t numbers[5];  // without branches: which sides have any is a guess
+        std::uint32_t numbers[5];  // without branches: which sides have any is unpredictable
         std::size_t count = 0;
         for (const std::uint32_t side : sides) {
             numbers[count] = side;

@@ -15,6 +15,8 @@
 #include "lines/merge_pieces.h"
 #include "render/frame.h"
 
+// Samples of a tile become pieces of lines: pairs of neighbours are decided, crossings placed, and cells traced.
+
 namespace burin {
 
 /// The lines between the samples of one tile after the other; buffers are used again.

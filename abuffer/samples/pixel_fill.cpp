@@ -60,7 +60,7 @@ void PixelFiller::find_looks(const SampleTile& samples, PixelRect rect) {
     for (int y = rect.y0; y < rect.y1; ++y) {
         const std::uint32_t* sample = &samples.ids[samples.index(rect.x0 * s + s / 2, y * s + s / 2)];
         Pixel left{SampleTile::kBackground, 0};
-        // Without branches, which would guess wrong where triangles are small.
+        // There are no branches: they would be unpredictable where triangles are small.
         for (std::size_t x = 0; x < width; ++x, ++at, sample += s) {
             const std::uint32_t id = *sample;
             const std::uint32_t is_surface = id != SampleTile::kBackground ? 1u : 0u, is_left = id == left.id ? 1u : 0u;
@@ -159,7 +159,7 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
 void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& film) {
     const int s = samples.samples_per_pixel;
     std::uint8_t covered[kWidth + 8] = {};
-    const auto end_of_run = [&](int begin) {  // eight at a time: where it ends is a guess
+    const auto end_of_run = [&](int begin) {  // eight at a time: where it ends is unpredictable
         for (int at = begin; at < rect.width(); at += 8) {
             std::uint64_t eight;
             std::memcpy(&eight, covered + at, sizeof eight);

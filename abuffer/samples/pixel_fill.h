@@ -15,7 +15,7 @@ class PixelFiller {
 
     /// Puts the pixels of a tile that lie in the frame's crop.
     void fill(const SurfaceTile& tile, Film& film);
-    /// Puts the background there.
+    /// Puts the background into a rectangle.
     void clear(PixelRect rect, Film& film) const;
 
   private:
@@ -30,7 +30,7 @@ class PixelFiller {
     TriangleLook look_of(std::uint32_t number) const;
     void fill_ids(std::uint32_t number, TriangleLook& look) const;
 
-    /// The same, of a part that has anything but background.
+    /// Puts the pixels of a part that has anything but background.
     void fill_part(const SampleTile& samples, PixelRect part, Film& film);
     void put_geometry(PixelRect rect, int y, Film& film);
     void put_paper(const SampleTile& samples, PixelRect rect, Film& film);

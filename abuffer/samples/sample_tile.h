@@ -8,6 +8,8 @@
 
 #include "kernels/cache_line.h"
 
+// The nearest surface at each sample is what lines are found from.
+
 namespace burin {
 
 /// What is visible at every sample of a rectangle of an image's sample grid: Patel's resolved

@@ -31,7 +31,7 @@ std::optional<HalfEdge> SeamMemory::partner_in_crowd(Entry& entry, const glm::dv
         entry.neighbourhood = entry.borders->neighbourhood(entry.half_edge, at);
         answer = entry.neighbourhood.partner_at(at);
     }
-    // Of several that are equally near, the first one.
+    // Where several are equally near, seam_partner() chooses the first one.
     return answer.has_answer ? answer.partner : entry.borders->seam_partner(entry.half_edge, at);
 }
 

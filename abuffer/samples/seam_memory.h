@@ -5,6 +5,8 @@
 
 #include "mesh/border_index.h"
 
+// Seam partners are remembered from sample to sample, since looking them up is slow where borders lie in heaps.
+
 namespace burin {
 
 /// BorderIndex::seam_partner() for places that are asked for one after the other along the same few edges: remembers

@@ -11,7 +11,7 @@ namespace burin {
 
 namespace {
 
-/// The nearest that may be level with something of a given nearness.
+/// The greatest nearness that may be level with a given one.
 float highest_level_with(float nearness, const SampleView& tile) {
     return nearness + (nearness * tile.level_per_nearness + tile.level) * level_reach(tile.level_per_nearness);
 }
@@ -92,8 +92,8 @@ void SurfaceTile::draw_all() {
 
 bool SurfaceTile::is_in_vain() const { return contests_.are_too_many() && !contests_.has_room(); }
 
-/// What cannot be seen, by what was drawn so far, and is not level with what is; where there is
-/// enough that is level, what is farther than all that.
+/// Finds what cannot be seen, by what was drawn so far, and is not level with what is; where there is enough that is
+/// level, it is what is farther than all that.
 void SurfaceTile::find_farthest() {
     SampleView samples = view();
     if (contests_.is_selecting()) {
@@ -143,7 +143,7 @@ void SurfaceTile::draw_runs(bool is_worth_a_look) {
     draw_seen();
 }
 
-/// Adds what of a run is not hidden.
+/// Adds the triangles of a run that are not hidden.
 void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
     if (seen_.size() < seen_count_ + run.count) seen_.resize(2 * (seen_count_ + run.count));
     std::uint32_t* const found = seen_.data() + seen_count_;
@@ -154,7 +154,7 @@ void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
     } else {
         for (std::size_t i = 0; i < count; ++i) found[i] = run.triangles[i].triangle;
     }
-    // The rest draw_small() asks for itself.
+    // draw_small() prefetches the rest itself.
     for (std::size_t i = 0; seen_count_ + i < kTrianglesAhead && i < count; ++i)
         prefetch(screen_.mesh(run.instance), found[i]);
     seen_count_ += count;
@@ -175,8 +175,8 @@ void SurfaceTile::draw_seen() {
     seen_count_ = 0;
 }
 
-/// Of a closed surface, the half that is turned to the eye first, whichever way it is wound, and in it
-/// near runs first, by the nearness of one triangle of each.
+/// Puts the half of a closed surface that is turned to the eye first, whichever way it is wound, and in it near runs
+/// first, by the nearness of one triangle of each.
 void SurfaceTile::order_runs(std::size_t tile) {
     runs_.clear();
     double sum[2] = {0, 0}, count[2] = {0, 0};
@@ -192,7 +192,7 @@ void SurfaceTile::order_runs(std::size_t tile) {
     });
 }
 
-/// Near ones first.
+/// Near polygons come first.
 void SurfaceTile::order_large_ones(std::size_t tile) {
     large_.clear();
     for (const std::uint32_t i : bins_.large_in(tile)) {
@@ -249,8 +249,8 @@ float SurfaceTile::highest_in(const SpanPlane& plane, int from, int to, int firs
     return nearness < plane.high ? std::max(nearness, plane.low) : plane.high;  // not a number: the highest
 }
 
-/// In strips of blocks, without those at the strip's ends that hide the polygon; `has_look`: they are known.
-/// Returns how many samples were drawn.
+/// Draws a large polygon in strips of blocks, without blocks at the strip's ends that hide the polygon; `has_look`:
+/// these are known. Returns how many samples were drawn.
 int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look) {
     ++drawn_;
     const ScanConverter scan(large.polygon, per_pixel_);

@@ -8,6 +8,8 @@
 #include "kernels/tile_kernels.h"
 #include "render/frame.h"
 
+// Triangles of a tile become its samples: the nearest surface at each.
+
 namespace burin {
 
 /// What is visible at the samples of one tile after the other; buffers are used again.
@@ -21,7 +23,7 @@ class SurfaceTile {
     void draw(std::size_t tile);
 
     const SampleTile& samples() const { return samples_; }
-    /// The same for kernels. It is good until the next draw().
+    /// The samples as kernels see them. The view is good until the next draw().
     SampleView view();
     PixelRect rect() const { return rect_; }
     SurfaceId surface_at(std::size_t sample) const {
@@ -38,7 +40,7 @@ class SurfaceTile {
     void clear_samples();
     bool is_in_vain() const;
     void find_farthest();
-    /// As find_nearer() has it.
+    /// The highest nearness that is level with what is hidden, as find_nearer() computes it.
     float highest_level_with_hidden(float nearness) const {
         return nearness + (nearness * hidden_level_per_nearness_ + hidden_level_);
     }

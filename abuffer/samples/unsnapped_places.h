@@ -8,6 +8,8 @@
 
 #include "view/surface_set.h"
 
+// Walks over walls that are seen edge-on need vertices where they are, not where they are snapped to.
+
 namespace burin {
 
 /// Where vertices are on the screen before they are snapped. Walks over a wall that is seen edge-on ask for the same

@@ -24,7 +24,7 @@ void WalksAhead::walk(std::span<const NeighbourSamples> pairs) {
     }
     walk_asked();
     asked_.clear();
-    // The other ones are asked for where these do not settle it.
+    // The walks in the other direction are asked for where these do not settle it.
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const SurfaceId* const surfaces = pairs[i].surfaces;
         if (surfaces[0].is_background() || surfaces[1].is_background()) continue;
@@ -43,7 +43,7 @@ void WalksAhead::ask(std::size_t pair, std::size_t from) {
     asked_.push_back({instance, static_cast<std::uint32_t>(pair), static_cast<std::uint32_t>(from)});
 }
 
-/// Mesh by mesh.
+/// Walks are taken mesh by mesh.
 void WalksAhead::walk_asked() {
     const auto is_of_other = [this](const Asked& a) { return a.instance != asked_[0].instance; };
     if (std::any_of(asked_.begin(), asked_.end(), is_of_other)) {

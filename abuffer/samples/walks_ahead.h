@@ -5,6 +5,8 @@
 
 #include "abuffer/samples/fast_walk.h"
 
+// Many walks take each step together, by a kernel, before decisions ask for them.
+
 namespace burin {
 
 /// The walks that decisions between many pairs of samples take, made at once by TileKernels::walk_over_mesh(), where

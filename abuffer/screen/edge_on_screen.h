@@ -6,6 +6,8 @@
 
 #include "abuffer/screen/screen_surfaces.h"
 
+// Edges that pass behind the eye are cut, and all edges get a direction that no order in the file changes.
+
 namespace burin {
 
 /// What the near plane and the guard band leave of an edge: places in 1/256 pixel, snapped where they are vertices, and
@@ -38,7 +40,7 @@ inline std::optional<EdgeOnScreen> edge_on_screen(const ScreenSurfaces& screen, 
 bool comes_first_in_space(const ScreenSurfaces& screen, std::uint32_t instance, std::uint32_t one, std::uint32_t two);
 
 /// The vertices of an edge as it is gone along: to the right on the screen, or downwards, and from one that is off the
-/// screen. Rounding hangs on the direction, which no order in the file may change.
+/// screen. Rounding depends on the direction, which no order in the file may change.
 inline std::pair<std::uint32_t, std::uint32_t> ends_in_order(const ScreenSurfaces& screen, std::uint32_t instance,
                                                              std::uint32_t one, std::uint32_t two) {
     const ScreenVertex &a = screen.vertices(instance)[one], &b = screen.vertices(instance)[two];

@@ -2,6 +2,8 @@
 
 #include "render/frame.h"
 
+// The number of samples per pixel follows from the scene's settings.
+
 namespace burin {
 
 /// At how many samples along each axis masks decide: what the scene asks for. If it does not, 2, which lines that

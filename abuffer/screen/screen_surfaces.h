@@ -12,6 +12,8 @@
 #include "lines/surface_walk.h"
 #include "view/surface_set.h"
 
+// Vertices are projected and snapped once per frame; facings and possible line edges of triangles are kept beside them.
+
 namespace burin {
 
 /// Triangles [begin, end) of the mesh of an instance.
@@ -33,7 +35,7 @@ class ScreenSurfaces {
     /// Whether all are shown, always.
     bool shows_all() const { return shows_all_; }
 
-    /// All triangles of the instances that are shown, in ascending order, cut into pieces.
+    /// All triangles of the instances that are shown, in ascending order, cut into chunks.
     std::vector<TriangleChunk> chunks_of_triangles(std::uint32_t largest) const;
 
     std::uint32_t triangle_count() const { return first_triangle_.back(); }
@@ -55,7 +57,8 @@ class ScreenSurfaces {
         const ScreenVertex* const v = vertices(s.instance);
         return {{v[t[0]], v[t[1]], v[t[2]]}};
     }
-    /// Of a triangle's plane, extended to a place in 1/256 pixel, less farthest_nearness. It must not be edge-on.
+    /// The nearness of a triangle's plane, extended to a place in 1/256 pixel, less farthest_nearness. The triangle
+    /// must not be edge-on.
     double nearness_of(std::uint32_t number, glm::dvec2 subpixel) const;
     /// An instance that is shown, as the kernels see it.
     const ScreenMesh& mesh(std::uint32_t instance) const { return meshes_[instance]; }
@@ -66,11 +69,11 @@ class ScreenSurfaces {
 
     Facing facing(std::uint32_t number) const { return static_cast<Facing>(facing_[number]); }
     void set_facing(std::uint32_t number, Facing f) { facing_[number] = f; }
-    /// Those of an instance.
+    /// The facings of the triangles of an instance.
     std::uint8_t* facings(std::uint32_t instance) { return facing_.get() + first_triangle_[instance]; }
-    /// Once the facing of all triangles of the instance is known: finds which edges may be lines.
+    /// Finds which edges may be lines, once the facing of all triangles of the instance is known.
     void find_line_edges(const TriangleChunk& chunk);
-    /// No edge can be one.
+    /// Whether no edge of a triangle can be a line.
     bool is_plain(std::uint32_t number) const { return line_edges_[number] == 0; }
 
     const SurfaceSet& surfaces() const { return surfaces_; }

@@ -23,7 +23,7 @@ struct Box {  // in 1/256 pixel
 
 struct SampleBox {  // inclusive, relative to the grid
     std::int32_t column0, row0, column1, row1;
-    /// Between samples, the first one lies behind the last one.
+    /// For a triangle between samples, the first one lies behind the last one.
     bool is_thin() const { return column0 > column1 || row0 > row1; }
 };
 
@@ -40,7 +40,7 @@ Box box_of(const Corners& corners, int count) {
     return box;
 }
 
-/// In order, which memory is faster at than at the order of lists.
+/// Prefetches in order, at which memory is faster than at the order of lists.
 void prefetch_to_write(const TileTriangle* first, std::size_t count) {
     const char* const at = reinterpret_cast<const char*>(first);
     for (std::size_t byte = 0; byte < count * sizeof(TileTriangle); byte += 64) __builtin_prefetch(at + byte, 1);
@@ -154,7 +154,7 @@ class Binner {
         return static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(rows);
     }
 
-    /// By counting keys. Neighbours often lie in one tile.
+    /// Sorts by counting keys. Neighbours often lie in one tile.
     void sort(std::uint32_t instance, const CulledTriangles& found, Scratch& scratch, Records& records) const {
         auto& count = scratch.count;
         scratch.used.clear();
@@ -185,13 +185,13 @@ class Binner {
         for (auto* list : {&records.runs, &records.thin_runs}) {
             for (auto& [tile, run] : *list) {
                 run.nearness = run.triangles[run.count / 2].highest;
-                // Of closed surfaces these face away, as a rule; of the others a whole run is seldom hidden.
+                // On closed surfaces these face away, as a rule; a whole run of the others is seldom hidden.
                 if (run.kind == wound_clockwise) sum_up(run);
             }
         }
     }
 
-    /// What is large, not all on the screen, or in many tiles.
+    /// These triangles are large, not all on the screen, or in many tiles.
     void add_other(SurfaceId s, Scratch& scratch, Records& records) const {
         const std::uint32_t number = surfaces_.number_of(s);
         const ScreenTriangle t = surfaces_.triangle(s);
@@ -265,7 +265,8 @@ class Binner {
         if (touches) records.polygons.push_back(large);
     }
 
-    /// What lies less than a pixel from a tile's samples belongs to it, too: what looks for surfaces beside lines.
+    /// What lies less than a pixel from a tile's samples belongs to it, too, for whatever looks for surfaces beside
+    /// lines.
     static constexpr std::int32_t kBeside = kSubpixelsPerPixel;
     bool is_beside(const PolygonSides& sides, std::uint32_t tile) const {
         const auto tiles = static_cast<std::uint32_t>(grid_.columns);
@@ -375,7 +376,7 @@ TriangleBins::TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int sampl
     });
     parallel_for_parts(chunks.size(), threads, [&](std::size_t c, int) { surfaces.find_line_edges(chunks[c]); });
 
-    // Stable, chunk after chunk: the same for any number of threads.
+    // The order is stable, chunk after chunk, and the same for any number of threads.
     std::vector<std::vector<TileLists<TriangleRun>::Record>> runs(chunks.size()), thin_runs(chunks.size());
     std::vector<std::vector<TileLists<std::uint32_t>::Record>> large(chunks.size()), thin_large(chunks.size());
     triangles_.resize(chunks.size());

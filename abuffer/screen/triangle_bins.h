@@ -10,6 +10,8 @@
 #include "kernels/tile_kernels.h"
 #include "view/pixel_tiles.h"
 
+// Triangles are culled and sorted to tiles, as runs of small ones and single large ones.
+
 namespace burin {
 
 /// A triangle that draw_small() cannot draw: large, or cut by the near plane or the guard band.
@@ -33,18 +35,18 @@ struct TriangleRun {
     bool is_behind(const float* least, float high) const;
 };
 
-/// What of the instances that are shown touches each tile of a picture.
+/// Sorts the triangles of the instances that are shown to the tiles of a picture that they touch.
 class TriangleBins {
   public:
     /// Finds the facing of all triangles on the way, and which of their edges may be lines. Tiles cover `region`; a
-    /// tile also gets what lies on the samples next to its right and lower border. `tile_samples`: a tile's width, a
+    /// tile also gets what lies on the samples next to its right and lower sides. `tile_samples`: a tile's width, a
     /// power of two. `keeps_thin`: triangles between samples are kept, too.
     TriangleBins(ScreenSurfaces& surfaces, PixelRect region, int samples_per_pixel, const TileKernels& kernels,
                  int threads, int tile_samples = TileGrid::kTileSamples, bool keeps_thin = false);
 
     std::size_t tile_count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
     PixelRect tile(std::size_t index) const;
-    /// So many tiles farther right and down; nothing where that is none.
+    /// The tile that is `columns` farther right and `rows` farther down; nothing where there is none.
     std::optional<std::size_t> tile_beside(std::size_t index, int columns, int rows) const;
     bool is_empty(std::size_t tile) const { return runs_in(tile).empty() && large_in(tile).empty(); }
     /// The empty tiles side by side from this one on, as one rectangle; nothing if the tile to its left
@@ -54,10 +56,10 @@ class TriangleBins {
     /// Numbers into large().
     std::span<const std::uint32_t> large_in(std::size_t tile) const { return large_in_.of(tile); }
     const LargePolygon& large(std::uint32_t i) const { return large_[i]; }
-    /// The same for what lies between samples.
+    /// The runs and large polygons that lie between samples.
     std::span<const TriangleRun> thin_runs_in(std::size_t tile) const { return thin_runs_.of(tile); }
     std::span<const std::uint32_t> thin_large_in(std::size_t tile) const { return thin_large_in_.of(tile); }
-    /// The tiles, all of one size but for the last ones.
+    /// The width of tiles, all of one size but for the last ones.
     int tile_px() const { return tile_px_; }
 
   private:

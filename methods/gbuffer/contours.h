@@ -5,6 +5,8 @@
 
 #include "methods/gbuffer/raster.h"
 
+// Lines of equal value are drawn over the visible surfaces, as by Saito and Takahashi.
+
 namespace burin {
 
 /// Contour lines and curved hatching of Saito & Takahashi 1990: lines of equal value of a scalar

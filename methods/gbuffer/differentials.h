@@ -4,6 +4,8 @@
 
 #include "methods/gbuffer/raster.h"
 
+// Images of depth and normals are differentiated, as by Saito and Takahashi.
+
 namespace burin {
 
 /// The differential operators of Takafumi Saito and Tokiichiro Takahashi, "Comprehensible Rendering

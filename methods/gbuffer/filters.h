@@ -5,6 +5,8 @@
 
 #include "methods/gbuffer/raster.h"
 
+// Images of lines are widened and smoothed.
+
 namespace burin {
 
 /// Largest value (0 or more) within a disc of `radius` samples. The result is floor(radius) samples

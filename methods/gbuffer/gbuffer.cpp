@@ -77,8 +77,8 @@ Raster<double> GBufferTile::contour_field(ContourField field, PixelRect samples)
     });
 }
 
-/// How much of a sample contour lines or hatching cover. Not beside other objects and jumps, where
-/// the field's gradient means nothing.
+/// How much of a sample contour lines or hatching cover. There are none beside other objects and jumps, where the
+/// field's gradient means nothing.
 float GBufferTile::hatched(int x, int y) const {
     const std::uint32_t object = g_.object.at(x, y);
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {

@@ -2,6 +2,8 @@
 
 #include "render/method.h"
 
+// Method `gbuffer` finds lines by operators on images, which know no mesh.
+
 namespace burin {
 
 /// Lines from images of depth, normal and numbers: Takafumi Saito and Tokiichiro Takahashi,

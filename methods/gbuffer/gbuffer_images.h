@@ -8,6 +8,8 @@
 #include "methods/gbuffer/raster.h"
 #include "render/frame.h"
 
+// The operators of method `gbuffer` work on images of depth, normals and ids, which are made here.
+
 namespace burin {
 
 /// How depth is measured so that the operators' limits have a meaning (Saito & Takahashi 1990

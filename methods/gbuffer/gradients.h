@@ -8,6 +8,8 @@
 #include "methods/gbuffer/profile.h"
 #include "methods/gbuffer/raster.h"
 
+// The length of gradients tells where depth or normals change.
+
 namespace burin {
 
 /// Length of the gradient per sample by Sobel's operator (Irwin Sobel, Gary Feldman, 1968; as an
@@ -23,7 +25,7 @@ inline Raster<double> sobel_magnitude(const Raster<double>& image) {
     });
 }
 
-/// The same over all components of a vector.
+/// sobel_magnitude() over all components of a vector.
 inline Raster<double> sobel_magnitude(const Raster<glm::dvec3>& image) {
     return raster_of(grown(image.rect(), -1), [&](int x, int y) {
         const Block<glm::dvec3> n = block_at(image, x, y);

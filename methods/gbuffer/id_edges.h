@@ -5,6 +5,8 @@
 #include "methods/gbuffer/raster.h"
 #include "scene/gbuffer_settings.h"
 
+// Lines are found where ids of neighbouring samples differ.
+
 namespace burin {
 
 /// Borders in an image of numbers: 1 where a sample's number differs from (or is less or greater

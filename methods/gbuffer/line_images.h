@@ -5,6 +5,8 @@
 #include "lines/surface_walk.h"
 #include "methods/gbuffer/gbuffer_images.h"
 
+// The operators' images become an image of lines for each class.
+
 namespace burin {
 
 /// How strong the line of each class is at each sample, 0..1. Empty: no operator draws that class.

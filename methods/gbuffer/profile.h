@@ -5,6 +5,8 @@
 
 #include "methods/gbuffer/raster.h"
 
+// Jumps of depth become lines.
+
 namespace burin {
 
 struct ProfileParameters {

@@ -6,6 +6,8 @@
 
 #include "image/image.h"
 
+// A raster is an image of one value per sample.
+
 namespace burin {
 
 /// One value per sample of a rectangle; the image that the operators of method gbuffer work on.

@@ -7,6 +7,8 @@
 
 #include "methods/gbuffer/raster.h"
 
+// Lines one sample wide are found by comparing along diagonals.
+
 namespace burin {
 
 /// Roberts' cross (Lawrence Roberts, 1963) looks at the 2x2 samples (x..x+1, y..y+1) and compares

@@ -4,6 +4,8 @@
 
 #include "render/frame.h"
 
+// `burin explain` prints what method `patel` saw in one pixel.
+
 namespace burin {
 
 /// How method patel sees one pixel: its fragments front to back with their masks as pictures, depths,

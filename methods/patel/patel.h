@@ -4,6 +4,8 @@
 #include "abuffer/masks/extended_grid.h"
 #include "render/method.h"
 
+// Method `patel` draws lines by extended masks alone, as its author describes it.
+
 namespace burin {
 
 /// Mayur Patel's hidden-line A-buffer of 2000, to the letter (see PatelTile). The grid of samples

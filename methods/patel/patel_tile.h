@@ -12,6 +12,8 @@
 #include "render/frame.h"
 #include "shading/surface_shader.h"
 
+// A tile is drawn by Patel's method, from triangles to pixels.
+
 namespace burin {
 
 /// Patel's method for a rectangle of pixels. Mayur Patel, "Hidden Line Rendering with a Modified

@@ -173,7 +173,7 @@ std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px, doubl
             if (turn == 0) continue;
             const double ahead = cross(c - b, d - c) / turn, back = cross(c - b, b - a) / turn;
             const glm::dvec2 corner = b + (b - a) * ahead;
-            // Ahead of the first piece's end and before the second one's start.
+            // The corner lies ahead of the first piece's end and before the second one's start.
             if (ahead < 0 || back > 0 || glm::distance(corner, 0.5 * (b + c)) > cell_px) continue;
             simple[i].at = corner;
             simple.erase(simple.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -184,7 +184,7 @@ std::vector<BoundarySegment> BoundaryCurves::segments(double tolerance_px, doubl
         constexpr std::size_t kLongest = 1024;  // bounds the work
         std::size_t first = 0;
         while (first + 1 < chain.size()) {
-            // Doubling, then halving: the straight piece's length in logarithmic time.
+            // The length is doubled, then halved: the straight piece is found in logarithmic time.
             std::size_t good = first + 1, step = 1;
             const auto ok = [&](std::size_t i) {
                 return i < chain.size() && i - first <= kLongest && is_straight(first, i);

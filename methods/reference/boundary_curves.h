@@ -8,6 +8,8 @@
 
 #include "lines/line_class.h"
 
+// Crossings on the sides of cells between samples become boundary segments.
+
 namespace burin {
 
 /// No class asked for: a boundary that is not drawn, but may hide strokes.

@@ -8,6 +8,8 @@
 
 #include "methods/reference/boundary_curves.h"
 
+// Coverage of a stroke follows from the distance to the nearest boundary segment.
+
 namespace burin {
 
 /// The point of a segment that is nearest to p.

@@ -103,7 +103,7 @@ bool RayGeometry::are_one_around(Facet a, Facet b, glm::dvec2 pixel, double erro
     return std::all_of(std::begin(ways), std::end(ways), [&](glm::dvec2 way) {
         const double one = plane_distance(a, pixel + way), other = plane_distance(b, pixel + way);
         if (!std::isfinite(one) || !std::isfinite(other)) return true;  // beyond the horizon
-        // Towards it errors grow with the distance, twice.
+        // Towards the eye errors grow with the distance, twice.
         const double farther = std::max(std::abs(one) / here, 1.0);
         return std::abs(one - other) <= error * farther * farther;
     });

@@ -7,6 +7,8 @@
 
 #include "render/frame.h"
 
+// Rays see the scene's triangles by this geometry, which shares no code with the rasterizers.
+
 namespace burin {
 
 /// A triangle of an object of the scene, as rays see it.
@@ -38,7 +40,7 @@ class RayGeometry {
     /// Distance along the view axis of the facet's plane at a pixel position; infinite where the plane
     /// lies behind the eye or along the ray.
     double plane_distance(Facet f, glm::dvec2 pixel) const;
-    /// The same, kept within the distances of the facet's corners: what a ray hits there.
+    /// plane_distance(), kept within the distances of the facet's corners: what a ray hits there.
     double distance(Facet f, glm::dvec2 pixel) const;
     /// Whether the planes of two facets are one, but for an error of distances, half a pixel from a position to all
     /// sides: where surfaces pass through each other they are not.

@@ -2,6 +2,8 @@
 
 #include "render/method.h"
 
+// Method `reference` stands for the truth: it draws lines by rays and shares no code with the rasterizers.
+
 namespace burin {
 
 /// Ground truth by rays, sharing no code with the rasterizers: n x n rays per pixel decide what is

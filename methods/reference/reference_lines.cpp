@@ -111,8 +111,8 @@ ReferenceLines::Slice ReferenceLines::slice_of(const Way& way, Facet f) const {
     return slice;
 }
 
-/// Where on a way a point of it is seen, both homogeneous. Of one behind the eye: the end of the way to which the
-/// surface between it and `other`, in front of the eye, goes on.
+/// Where on a way a point of it is seen, both homogeneous. For a point behind the eye it is the end of the way to which
+/// the surface between it and `other`, in front of the eye, goes on.
 double ReferenceLines::place_on(const Way& way, const glm::dvec3& point, const glm::dvec3& other) {
     const auto ahead = [&](const glm::dvec3& p) { return glm::dot(glm::dvec2(p) - way.from * p.z, way.along); };
     if (point.z > 0) return ahead(point) / point.z / (way.length * way.length);
@@ -125,7 +125,7 @@ std::optional<ReferenceLines::Transition> ReferenceLines::shared_edge(const Way&
     for (HalfEdge h = 3 * a.triangle; h < 3 * a.triangle + 3; ++h) {
         for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
             if (g / 3 != b.triangle) continue;
-            // It is the one only if the way leaves a and enters b there.
+            // The edge is the one only if the way leaves a and enters b there.
             const Slice slice_a = slice_of(way, a), slice_b = slice_of(way, b);
             if (!slice_a.is_cut || !slice_b.is_cut) return std::nullopt;
             const int out = slice_a.exit(), in = 1 - slice_b.exit();
@@ -289,7 +289,7 @@ SeenCrossing ReferenceLines::decide_touching(const Way& way, const Transition& t
         crossing.classes = classes_of_edge(ways[i].facet, ways[i].edge, at) | contact;
         return crossing;
     }
-    // Both go on behind each other, or lie in one plane.
+    // Here both surfaces go on behind each other, or lie in one plane.
     const bool lost = ways[0].end == Follow::End::lost || ways[1].end == Follow::End::lost;
     if (!lost && run_along(t.a, t.b, at)) return crossing;
     if (coincident || lost) {
@@ -363,7 +363,7 @@ ReferenceLines::Follow ReferenceLines::follow(const Way& way, Facet start, doubl
             result.partner = partner;
             return ended(Follow::End::crack, current, h);
         }
-        // Of several neighbours: one that goes forward, and of those the nearest to the eye.
+        // Among several neighbours it is one that goes forward, and of those the nearest to the eye.
         Facet next;
         Slice next_slice;
         HalfEdge entry = kNoHalfEdge;
@@ -412,7 +412,7 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const auto& t = mesh.triangles[f.triangle];
     const std::uint32_t v = t[border % 3], w = t[(border + 1) % 3];
     const Projection& p = geometry_.projection();
-    // Away from the edge's ends, where the next edge of the same border is as near as the other patch.
+    // The place is away from the edge's ends, where the next edge of the same border is as near as the other patch.
     const double length_px =
         glm::distance(p.to_pixel(geometry_.position(f.object, v)), p.to_pixel(geometry_.position(f.object, w)));
     const double margin = std::min(0.5, 0.5 * kWidestCrackPx / length_px);
@@ -424,7 +424,7 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const auto& u = mesh.triangles[*seam / 3];
     glm::dvec3 c[3];
     for (std::size_t k = 0; k < 3; ++k) c[k] = geometry_.position(f.object, u[(*seam % 3 + k) % 3]);
-    // Of an edge that passes the near plane, what lies in front.
+    // An edge that passes the near plane counts where it lies in front.
     const double before[2] = {-c[0].z - p.near_distance, -c[1].z - p.near_distance};
     if (before[0] <= 0 && before[1] <= 0) return false;
     if (before[0] <= 0 || before[1] <= 0) {

@@ -8,6 +8,8 @@
 #include "lines/line_class.h"
 #include "methods/reference/embree_scene.h"
 
+// Two visible points are asked whether a line passes between them, by rays and the mesh alone.
+
 namespace burin {
 
 /// What is visible at a position of the picture.

@@ -10,7 +10,7 @@ namespace {
 constexpr double kExactPx = 1.0 / 4096;
 /// What is in front by less is level (docs/conventions.md).
 constexpr double kInFrontPx = 1.0 / 1024;
-/// Of a line's and a surface's coordinates.
+/// How many errors of coordinates count: those of a line and of a surface.
 constexpr double kErrors = 4;
 
 /// Keeps the part of [begin, end] where a value that runs from `at_0` at 0 to `at_1` at 1 is not negative.

@@ -6,6 +6,8 @@
 #include "methods/reference/boundary_curves.h"
 #include "methods/reference/embree_scene.h"
 
+// The truth about edges that no polygon has is found by rays along them.
+
 namespace burin {
 
 /// Lines that no polygon has, for method `reference`: where no ray meets a surface in front of them. Independent of the

@@ -11,6 +11,8 @@
 #include "render/film.h"
 #include "render/frame.h"
 
+// A tile is drawn by rays, from what is visible to the coverage of strokes.
+
 namespace burin {
 
 /// Method `reference` for a rectangle of pixels.
@@ -64,7 +66,7 @@ class ReferenceTile {
     int margin_ = 0, rows_ = 0, columns_ = 0;
     std::vector<Facet> samples_;
     std::vector<BoundarySegment> segments_;
-    // Of the pixel at work: shares per cell and class, and which segments are near.
+    // What is known of the pixel at work: shares per cell and class, and which segments are near.
     std::vector<double> cell_total_, cell_class_;
     std::array<double, kLineClassCount> class_sum_{};
     std::vector<Stroke> strokes_;

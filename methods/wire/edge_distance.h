@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+// How dark a pixel is depends on its distance from the edges of its triangle, which papers find in different ways.
+
 namespace burin {
 
 /// Distances from a pixel to the edges of a triangle, in the ways that the papers on wireframes
@@ -64,8 +66,8 @@ inline double linear_distance(const EdgeChannel& channel, const glm::dvec3& lamb
     return glm::dot(channel, lambda);
 }
 
-/// The same through an interpolator that is correct in perspective: each distance multiplied by its
-/// corner's w beforehand, and the result by the 1/w that is linear on the screen.
+/// The distance through an interpolator that is correct in perspective: each distance multiplied by its corner's w
+/// beforehand, and the result by the 1/w that is linear on the screen.
 inline double premultiplied_distance(const EdgeChannel& channel, const glm::dvec3& w, const glm::dvec3& lambda) {
     const glm::dvec3 weight = lambda / w;
     const double one_over_w = weight.x + weight.y + weight.z;
@@ -89,7 +91,7 @@ struct SolidWireframeCase {
     bool has_third;
 };
 
-/// By 4 [corner 0 behind] + 2 [corner 1 behind] + [corner 2 behind]; 1 to 6.
+/// The cases, by 4 [corner 0 behind] + 2 [corner 1 behind] + [corner 2 behind]; 1 to 6.
 constexpr std::array<SolidWireframeCase, 7> kSolidWireframeCases = {{
     {},
     {0, 2, 1, 2, true},

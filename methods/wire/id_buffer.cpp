@@ -49,7 +49,7 @@ class IdBufferTile {
         for_each_pixel(frame_.surfaces.screen_polygon(s), rect_, [&](int x, int y) {
             const double nearness = plane.nearness({x + 0.5, y + 0.5});
             WirePixel& pixel = pixel_at(x, y);
-            // Of equally near surfaces the first one stays.
+            // Where surfaces are equally near, the first one stays.
             if (nearness > pixel.nearness) {
                 pixel.surface = s;
                 pixel.slot = slot;

@@ -2,6 +2,8 @@
 
 #include "render/method.h"
 
+// Method `id-buffer` draws strokes over an image of polygon numbers, which tells which pixels a stroke may cover.
+
 namespace burin {
 
 /// The ID buffer method of J. A. Baerentzen, S. L. Nielsen, M. Gjoel and B. D. Larsen, "Two Methods

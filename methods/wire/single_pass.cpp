@@ -51,7 +51,7 @@ class FillTile {
             const glm::dvec2 at(x + 0.5, y + 0.5);
             WirePixel candidate{surface, slot, triangle.plane().nearness(at)};
             WirePixel& pixel = pixel_at(x, y);
-            // Of equally near surfaces the first one stays.
+            // Where surfaces are equally near, the first one stays.
             if (!(candidate.nearness > pixel.nearness)) return;
             if (triangle.has_edges()) draw_line(triangle, at, candidate);
             if (candidate.line < settings_.alpha_test) return;

@@ -6,6 +6,8 @@
 #include "lines/line_class.h"
 #include "view/surface_set.h"
 
+// Distances to an edge on the screen decide how dark a pixel is.
+
 namespace burin {
 
 /// An edge of a mesh on the screen, in pixels. Its corners are snapped where surfaces' are, so that
@@ -32,7 +34,7 @@ struct WireEdge {
 /// A view position as (x w, y w, w), in pixels: snapped if that is possible.
 glm::dvec3 homogeneous_position(const Projection& projection, const glm::dvec3& view);
 
-/// Nothing if the edge lies wholly behind the near plane.
+/// Projects an edge of a mesh; nothing if it lies wholly behind the near plane.
 std::optional<WireEdge> wire_edge(const SurfaceSet& surfaces, std::uint32_t instance, HalfEdge half_edge,
                                   LineClass line_class);
 

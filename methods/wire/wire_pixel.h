@@ -4,6 +4,8 @@
 #include "render/frame.h"
 #include "view/depth_plane.h"
 
+// The surface and the line of a pixel become what the film gets.
+
 namespace burin {
 
 /// A surface at the centre of a pixel, and the line over it.

@@ -8,6 +8,8 @@
 
 #include "scene/wire_settings.h"
 
+// A profile says how dark a line is at a distance from its middle.
+
 namespace burin {
 
 /// Integral of exp2(-2 u^2) over u in [0, x].

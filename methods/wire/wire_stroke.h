@@ -3,6 +3,8 @@
 #include "methods/wire/wire_edge.h"
 #include "methods/wire/wire_profile.h"
 
+// Lines of the wireframe methods vary along an edge and with depth.
+
 namespace burin {
 
 /// How the lines of the wireframe methods look: a profile, and what varies it along an edge and
@@ -21,7 +23,7 @@ class WireStroke {
     /// Darkness from 0 to 1 at a pixel that lies `distance` pixels from the edge, its foot `along`
     /// pixels from the edge's start. `z` is the depth from 0 to 1 (see DepthRange).
     double intensity(const WireEdge& edge, double distance, double along, double z) const;
-    /// The same, drawn as dots (for diagonals).
+    /// Darkness of a line that is drawn as dots (for diagonals).
     double dots(double distance, double along) const;
 
     const WireProfile& profile() const { return profile_; }

@@ -11,6 +11,8 @@
 #include "render/method.h"
 #include "view/scan_convert.h"
 
+// A frame is drawn tile by tile, each by a renderer of its own.
+
 namespace burin {
 
 /// Calls visit(x, y) for the pixels of `rect` whose centres the polygon covers.

@@ -8,6 +8,8 @@
 #include "view/depth_plane.h"
 #include "view/screen_polygon.h"
 
+// A triangle knows the edges of its polygon that pixels measure their distances to.
+
 namespace burin {
 
 /// How distances to edges are found (see the enumerations).

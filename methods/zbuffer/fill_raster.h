@@ -6,6 +6,8 @@
 #include "image/image.h"
 #include "methods/projected_polygon.h"
 
+// Triangles are filled as graphics hardware fills them, pixel by pixel with their depths.
+
 namespace burin {
 
 /// z over the plane of a triangle on the screen.

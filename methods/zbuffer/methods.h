@@ -2,6 +2,8 @@
 
 #include "methods/zbuffer/render_zbuffer.h"
 
+// Methods for z-buffered machines are put together from passes.
+
 namespace burin {
 
 // Lines over surfaces on a z-buffered machine, polygon edges as vectors. Each has a file that lists

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+// A pass is the state of the z-buffered machine while polygons or edges are drawn.
+
 namespace burin {
 
 /// A fragment passes if its z compares like this with the stored one.

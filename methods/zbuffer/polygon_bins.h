@@ -6,6 +6,8 @@
 
 #include "methods/projected_polygon.h"
 
+// Polygons are sorted to the tiles of a picture that they touch.
+
 namespace burin {
 
 /// A polygon of an instance.

@@ -6,6 +6,8 @@
 #include "methods/zbuffer/zbuffer.h"
 #include "render/method.h"
 
+// A method for a z-buffered machine is run over all polygons of a frame, tile by tile.
+
 namespace burin {
 
 /// A method for a z-buffered machine: what it does with each polygon.

@@ -4,6 +4,8 @@
 
 #include "methods/zbuffer/fill_raster.h"
 
+// Vectors are drawn as graphics hardware draws aliased lines.
+
 namespace burin {
 
 /// How many pixels wide an aliased line of this width is.

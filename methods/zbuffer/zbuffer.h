@@ -7,6 +7,9 @@
 #include "methods/zbuffer/pass.h"
 #include "render/frame.h"
 
+// The z-buffered machine has a frame buffer, depths and one more bit per pixel, and draws polygons and vectors pass by
+// pass.
+
 namespace burin {
 
 /// What the frame buffer holds at a pixel. Colours are looked up when the picture is finished.
@@ -24,15 +27,15 @@ class ZBuffer {
   public:
     explicit ZBuffer(const Frame& frame);
 
-    /// Far depth, background, and this bit everywhere.
+    /// Sets far depth, background, and this bit everywhere.
     void clear(PixelRect rect, bool bit);
 
-    /// The polygon's interior.
+    /// Fills the polygon's interior.
     void fill(const ProjectedPolygon& polygon, const Pass& pass, const DepthOffset& offset = {});
-    /// Those edges of its outline that are lines.
+    /// Draws the edges of its outline that are lines.
     void edges(const ProjectedPolygon& polygon, const Pass& pass, const DepthOffset& offset = {});
-    /// The same edges, as far as they are selected, in the colour of highlights; compares with
-    /// "less or equal" and leaves z as it is.
+    /// Draws these edges, as far as they are selected, in the colour of highlights; compares with "less or equal" and
+    /// leaves z as it is.
     void highlight(const ProjectedPolygon& polygon, const DepthOffset& offset = {});
     /// Sets the bit of all pixels in the bounding box of the polygon's interior.
     void set_bits_of_box(const ProjectedPolygon& polygon, bool bit);
