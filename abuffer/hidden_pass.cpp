@@ -108,7 +108,9 @@ HiddenPass::HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const T
     if (IntersectionLines::are_wanted(frame.criteria.classes) && !knows_pairs()) may_intersect_.emplace(*frame.scene);
 }
 
-bool HiddenPass::knows_pairs() const { return frame_.scene->intersecting_pairs && screen_.shows_all(); }
+bool HiddenPass::knows_pairs() const {
+    return frame_.prepared != nullptr && frame_.prepared->intersecting_pairs && screen_.shows_all();
+}
 
 void HiddenPass::find_lines(TileRows rows, const PossibleLines* possible) {
     const DrawingNeeds& needs = frame_.needs;
@@ -124,7 +126,7 @@ void HiddenPass::find_lines(TileRows rows, const PossibleLines* possible) {
         lines_.insert(lines_.end(), found.begin(), found.end());
     }
     if (!knows_pairs() || !IntersectionLines::are_wanted(frame_.criteria.classes)) return;
-    found = intersections_.of_pairs(*frame_.scene->intersecting_pairs, threads_);
+    found = intersections_.of_pairs(*frame_.prepared->intersecting_pairs, threads_);
     lines_.insert(lines_.end(), found.begin(), found.end());
 }
 

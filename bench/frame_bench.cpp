@@ -60,6 +60,7 @@ void quarter(Mesh& mesh) {
 /// A model, ready to be drawn.
 struct View {
     Scene scene;
+    PreparedScene prepared;
     Frame frame;
 
     View(const std::string& model, int width, int height, bool has_quarters = false)
@@ -72,8 +73,8 @@ struct View {
         settings.fit = 0.95;
         const Camera camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
         close_cracks(scene, camera, width, height);
-        prepare_for_abuffer(scene, 1);
-        frame = make_frame(scene, camera, width, height, {0, 0, width, height});
+        prepared = prepare_for_abuffer(scene, 1);
+        frame = make_frame(scene, camera, width, height, {0, 0, width, height}, &prepared);
     }
     View(const View&) = delete;  // the frame points into the scene
     View& operator=(const View&) = delete;
@@ -239,14 +240,14 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     add("default_ten_in_a_row", in_a_row(drawing(view, picture, kDefault, 2)), false);
     // Once per scene, then any number of frames; "searched" is a frame without it.
     add("prepare_hidden",
-        [&view] { view.scene.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1); });
+        [&view] { view.prepared.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1); });
     add("hidden_solid", drawing(view, picture, kDefault, 1, HiddenStyle::solid));
     const auto searched = drawing(view, picture, kDefault, 1, HiddenStyle::solid);
     add("hidden_solid_searched", [&view, searched] {
         std::optional<std::vector<SurfacePair>> kept;
-        kept.swap(view.scene.intersecting_pairs);
+        kept.swap(view.prepared.intersecting_pairs);
         searched();
-        kept.swap(view.scene.intersecting_pairs);
+        kept.swap(view.prepared.intersecting_pairs);
     });
     std::unique_ptr<View> large, fine;
     std::unique_ptr<Film> large_film;

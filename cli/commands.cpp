@@ -397,8 +397,9 @@ void run_render(const Arguments& a) {
     const Camera camera = camera_of(scene, a);
     empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
-    if (method.name == "abuffer") prepare_for_abuffer(scene, a.threads, a.memory_bytes > 0);
-    const Frame frame = frame_of(scene, camera, a);
+    PreparedScene prepared;
+    if (method.name == "abuffer") prepared = prepare_for_abuffer(scene, a.threads, a.memory_bytes > 0);
+    const Frame frame = frame_of(scene, camera, a, &prepared);
     times.load_s = watch.lap();
     note_limits(a, frame, method, has_hidden_lines, output);
 

@@ -127,11 +127,11 @@ Camera camera_of(const Scene& scene, const Arguments& a) {
     }
 }
 
-Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& a) {
+Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& a, const PreparedScene* prepared) {
     const int width = scene.picture.width, height = scene.picture.height;
     const PixelRect crop = crop_of(a, width, height);
     try {
-        return make_frame(scene, camera, width, height, crop);
+        return make_frame(scene, camera, width, height, crop, prepared);
     } catch (const InputError& error) {
         throw InputError(a.input + ": " + error.what());
     }

@@ -19,6 +19,7 @@ Scene load_input(const Arguments& arguments, const std::vector<OutputFile>& outp
 Camera camera_of(const Scene& scene, const Arguments& arguments);
 
 /// The frame that the arguments ask for. The scene must outlive it. Throws InputError and UsageError.
-Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& arguments);
+Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& arguments,
+               const PreparedScene* prepared = nullptr);
 
 }  // namespace burin

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <tuple>
 
+#include "lines/end_links.h"
+
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kNoEnd = 0xFFFFFFFFu;
-
-/// Lines with their ends linked. End 2i is the start of line i, end 2i + 1 its end.
-class Chains {
+/// Lines with their ends linked.
+class ChainsOfLines {
   public:
-    Chains(std::span<const WholeLine> lines, const SurfaceSet& surfaces)
-        : lines_(lines), surfaces_(surfaces), link_(2 * lines.size(), kNoEnd) {
+    ChainsOfLines(std::span<const WholeLine> lines, const SurfaceSet& surfaces)
+        : lines_(lines), surfaces_(surfaces), links_(lines.size()) {
         std::vector<std::uint32_t> ends;
-        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+        for (std::uint32_t end = 0; end < 2 * lines.size(); ++end) {
             if (node(end) != WholeLine::kNoNode) ends.push_back(end);
         }
         std::sort(ends.begin(), ends.end(),
@@ -38,27 +38,15 @@ class Chains {
     /// first.
     template <typename Visit>
     void for_chains(const Visit& visit) const {
-        std::vector<bool> done(lines_.size(), false);
-        std::vector<std::uint32_t> all, chain;
+        std::vector<std::uint32_t> all;
         std::vector<Chain> chains;
-        const auto follow = [&](std::uint32_t end, bool is_loop) {
-            chain.clear();
-            for (; end != kNoEnd && !done[end / 2]; end = link_[end ^ 1]) {
-                done[end / 2] = true;
-                chain.push_back(end);
-            }
+        links_.for_chains([&](std::vector<std::uint32_t>& chain, bool is_loop) {
             put_in_order(chain, is_loop);
             double length = 0;
             for (const std::uint32_t e : chain) length += length_in_mesh(e);
             chains.push_back({all.size(), all.size() + chain.size(), is_loop, length});
             all.insert(all.end(), chain.begin(), chain.end());
-        };
-        for (std::uint32_t end = 0; end < link_.size(); ++end) {
-            if (link_[end] == kNoEnd && !done[end / 2]) follow(end, false);
-        }
-        for (std::uint32_t end = 0; end < link_.size(); end += 2) {
-            if (!done[end / 2]) follow(end, true);
-        }
+        });
         const auto ends_of = [&](const Chain& c) {
             return std::span<const std::uint32_t>(all).subspan(c.begin, c.end - c.begin);
         };
@@ -105,25 +93,21 @@ class Chains {
     }
 
     void link_node(std::span<const std::uint32_t> ends) {
-        const auto link = [&](std::uint32_t a, std::uint32_t b) {
-            link_[a] = b;
-            link_[b] = a;
-        };
-        if (ends.size() == 2) return link(ends[0], ends[1]);
+        if (ends.size() == 2) return links_.link(ends[0], ends[1]);
         std::vector<std::uint32_t> alone;
         for (const std::uint32_t end : ends) {
-            if (link_[end] != kNoEnd) continue;
+            if (!links_.is_free(end)) continue;
             std::vector<std::uint32_t> same;
             for (const std::uint32_t other : ends) {
                 if (lasting_class(other) == lasting_class(end)) same.push_back(other);
             }
             if (same.size() == 2) {
-                link(same[0], same[1]);
+                links_.link(same[0], same[1]);
             } else {
                 alone.push_back(end);
             }
         }
-        if (alone.size() == 2) link(alone[0], alone[1]);
+        if (alone.size() == 2) links_.link(alone[0], alone[1]);
     }
 
     /// Ends compare by where they are in their mesh; those without a vertex by where they are on the screen, behind the
@@ -156,7 +140,7 @@ class Chains {
 
     std::span<const WholeLine> lines_;
     const SurfaceSet& surfaces_;
-    std::vector<std::uint32_t> link_;
+    EndLinks links_;
 };
 
 }  // namespace
@@ -164,7 +148,7 @@ class Chains {
 LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px) {
     LineChains chains;
     chains.positions.resize(lines.size());
-    Chains(lines, surfaces).for_chains([&](std::span<const std::uint32_t> chain, bool is_loop) {
+    ChainsOfLines(lines, surfaces).for_chains([&](std::span<const std::uint32_t> chain, bool is_loop) {
         double scale = 1;
         if (is_loop) {
             double total = 0;

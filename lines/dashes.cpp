@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lines/dash_pen.h"
+#include "lines/end_links.h"
 #include "lines/line_dashes.h"
 #include "lines/shared_dashes.h"
 #include "lines/whole_line_index.h"
@@ -16,20 +17,21 @@ namespace {
 
 /// Smaller loops come from samples beside a vertex, not from anything to be seen.
 constexpr double kSmallestLoopPx = 1.0 / 16;
-constexpr std::uint32_t kNoEnd = 0xFFFFFFFFu;
 
 /// Higher on the screen, then further left.
 bool is_higher(glm::dvec2 a, glm::dvec2 b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); }
 
-/// The lines' pieces as chains. End 2i is the start of piece i, end 2i + 1 its end.
-class Chains {
+/// Pieces with their ends linked.
+class ChainsOfPieces {
   public:
     struct Chain {
         std::vector<std::uint32_t> ends;  // by which each piece is entered
         bool is_closed = false;
     };
 
-    explicit Chains(std::vector<const LinePiece*> pieces) : pieces_(std::move(pieces)) { link(); }
+    explicit ChainsOfPieces(std::vector<const LinePiece*> pieces) : pieces_(std::move(pieces)), links_(pieces_.size()) {
+        link();
+    }
 
     const LinePiece& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
     double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
@@ -37,23 +39,10 @@ class Chains {
     /// By where they begin.
     std::vector<Chain> all() const {
         std::vector<Chain> chains;
-        std::vector<bool> done(pieces_.size(), false);
-        const auto follow = [&](std::uint32_t end, bool is_closed) {
-            Chain chain;
-            chain.is_closed = is_closed;
-            for (; end != kNoEnd && !done[end / 2]; end = link_[end ^ 1]) {
-                done[end / 2] = true;
-                chain.ends.push_back(end);
-            }
-            put_in_order(chain);
-            chains.push_back(std::move(chain));
-        };
-        for (std::uint32_t end = 0; end < link_.size(); ++end) {
-            if (link_[end] == kNoEnd && !done[end / 2]) follow(end, false);
-        }
-        for (std::uint32_t end = 0; end < link_.size(); end += 2) {  // the rest are loops
-            if (!done[end / 2]) follow(end, true);
-        }
+        links_.for_chains([&](const std::vector<std::uint32_t>& ends, bool is_closed) {
+            chains.push_back({ends, is_closed});
+            put_in_order(chains.back());
+        });
         const auto is_before = [this](std::uint32_t a, std::uint32_t b) { return is_higher(place(a), place(b)); };
         std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
             if (std::lexicographical_compare(a.ends.begin(), a.ends.end(), b.ends.begin(), b.ends.end(), is_before))
@@ -75,7 +64,6 @@ class Chains {
             const glm::dvec2 p = place(a), q = place(b);
             return p != q ? is_higher(p, q) : a < b;
         });
-        link_.assign(ends.size(), kNoEnd);
         for (std::size_t i = 0; i < ends.size();) {
             std::size_t next = i + 1;
             while (next < ends.size() && place(ends[next]) == place(ends[i])) ++next;
@@ -87,7 +75,7 @@ class Chains {
 
     void link_node(std::vector<std::uint32_t> ends) {
         link_pairs(ends, [&](std::uint32_t end) { return piece(end).line; });
-        std::erase_if(ends, [&](std::uint32_t end) { return link_[end] != kNoEnd; });
+        std::erase_if(ends, [&](std::uint32_t end) { return !links_.is_free(end); });
         if (ends.size() != 2) link_pairs(ends, [&](std::uint32_t end) { return piece(end).drawn_as; });
         if (ends.size() == 2) link_pairs(ends, [](std::uint32_t) { return 0; });
     }
@@ -96,14 +84,14 @@ class Chains {
     template <typename Key>
     void link_pairs(const std::vector<std::uint32_t>& ends, const Key& key) {
         for (const std::uint32_t a : ends) {
-            std::uint32_t partner = kNoEnd;
+            std::uint32_t partner = a;
             int count = 0;
             for (const std::uint32_t b : ends) {
                 if (b == a || key(b) != key(a)) continue;
                 partner = b;
                 ++count;
             }
-            if (count == 1) link_[a] = partner;
+            if (count == 1) links_.link(a, partner);
         }
     }
 
@@ -134,7 +122,7 @@ class Chains {
     }
 
     std::vector<const LinePiece*> pieces_;
-    std::vector<std::uint32_t> link_;
+    EndLinks links_;
 };
 
 /// Adds the dashes of a part of a piece.
@@ -169,14 +157,15 @@ void draw_on_feature(const LinePiece& piece, double first, double last, const Li
 }
 
 /// Hooks of facets, and loops from samples beside a vertex.
-bool is_drawn(const Chains& chains, const Chains::Chain& chain, double width_px) {
+bool is_drawn(const ChainsOfPieces& chains, const ChainsOfPieces::Chain& chain, double width_px) {
     double total = 0;
     for (const std::uint32_t end : chain.ends) total += chains.length(end);
     return total >= (chain.is_closed ? kSmallestLoopPx : std::max(1.0, width_px));
 }
 
 /// Adds a chain's pieces with where they stand.
-void add_pieces(const Chains& chains, const Chains::Chain& chain, double period_px, std::vector<DashPiece>& pieces) {
+void add_pieces(const ChainsOfPieces& chains, const ChainsOfPieces::Chain& chain, double period_px,
+                std::vector<DashPiece>& pieces) {
     double total = 0, at = 0;
     for (const std::uint32_t end : chain.ends) total += chains.length(end);
     const double scale = chain.is_closed ? period_px * std::max(1.0, std::round(total / period_px)) / total : 1;
@@ -215,11 +204,11 @@ std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePie
             }
         }
     }
-    const Chains chains(std::move(others));
+    const ChainsOfPieces chains(std::move(others));
     std::vector<const LinePiece*> drawn;
     std::vector<DashPiece> pieces;
     std::vector<std::size_t> chain_ends;
-    for (const Chains::Chain& chain : chains.all()) {
+    for (const ChainsOfPieces::Chain& chain : chains.all()) {
         if (!is_drawn(chains, chain, width_px)) continue;
         add_pieces(chains, chain, pen.period_px(), pieces);
         for (const std::uint32_t end : chain.ends) drawn.push_back(&chains.piece(end));

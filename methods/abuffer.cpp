@@ -39,19 +39,20 @@ void draw_rest(const Frame& frame, LineDrawing drawing, const RunOptions& option
 
 }  // namespace
 
-void prepare_for_abuffer(Scene& scene, int threads, bool saves_memory) {
+PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_memory) {
     const LineCriteria criteria = criteria_of(scene.lines);
-    scene.sharp_edges.resize(scene.meshes.size());
+    PreparedScene prepared;
+    prepared.sharp_edges.resize(scene.meshes.size());
     // A few large meshes, or many.
     const std::size_t count = scene.meshes.size();
     const bool has_many = count >= 4 * static_cast<std::size_t>(resolve_thread_count(threads));
     parallel_for(count, has_many ? threads : 1, [&](std::size_t i, int) {
-        scene.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, has_many ? 1 : threads);
+        prepared.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, has_many ? 1 : threads);
     });
-    scene.intersecting_pairs.reset();
     if (!saves_memory && needs_of(scene).behind() && IntersectionLines::are_wanted(scene.lines.classes)) {
-        scene.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), threads);
+        prepared.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), threads);
     }
+    return prepared;
 }
 
 /// Hidden lines are drawn below visible ones.

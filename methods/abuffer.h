@@ -2,6 +2,7 @@
 
 #include "lines/line_drawing.h"
 #include "render/method.h"
+#include "render/prepared.h"
 
 namespace burin {
 
@@ -24,9 +25,9 @@ void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions
 /// Whether its bands are finished one after the other: not where lines depend on others anywhere in the picture.
 bool abuffer_finishes_in_bands(const Frame& frame);
 
-/// Makes what is the same for all frames of a scene with these line settings. Frames are right without
-/// it, but take longer. Frames made before point to what it replaces: make them after it.
-/// `saves_memory`: makes nothing that a frame rendered under RunOptions::memory_bytes has no use for.
-void prepare_for_abuffer(Scene& scene, int threads, bool saves_memory = false);
+/// Makes what is the same for all frames of a scene; it must outlive these, and be made anew when meshes, objects or
+/// line settings change. `saves_memory`: makes nothing that a frame rendered under RunOptions::memory_bytes has no use
+/// for.
+PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_memory = false);
 
 }  // namespace burin

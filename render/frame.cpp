@@ -22,8 +22,10 @@ glm::dmat3 cofactors(const glm::dmat4& m) {
 
 }  // namespace
 
-Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop) {
+Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop,
+                 const PreparedScene* prepared) {
     Frame frame;
+    frame.prepared = prepared;
     frame.scene = &scene;
     frame.camera = camera;
     frame.width = width;
@@ -55,8 +57,8 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         instance.to_view = world_to_view * object.to_world;
         instance.to_view[3] = instance.to_view * glm::dvec4(mesh.origin, 1.0);
         instance.normal_to_view = cofactors(instance.to_view);
-        if (object.mesh < scene.sharp_edges.size() && !mesh.triangles.empty()) {
-            instance.sharp_edges = scene.sharp_edges[object.mesh].data();
+        if (prepared != nullptr && object.mesh < prepared->sharp_edges.size() && !mesh.triangles.empty()) {
+            instance.sharp_edges = prepared->sharp_edges[object.mesh].data();
         }
         instance.body_sides = body_sides[object.mesh];
         instance.object_id = i + 1;

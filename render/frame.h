@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "lines/drawing_needs.h"
 #include "lines/surface_walk.h"
+#include "render/prepared.h"
 #include "scene/scene.h"
 #include "view/surface_set.h"
 
@@ -13,6 +14,7 @@ namespace burin {
 /// A scene seen through one camera: the one input of every method. Immutable once made.
 struct Frame {
     const Scene* scene = nullptr;
+    const PreparedScene* prepared = nullptr;  ///< of the scene; nullptr: nothing is prepared
     Camera camera;
     int width = 0;  ///< of the whole picture, in pixels
     int height = 0;
@@ -25,6 +27,7 @@ struct Frame {
 };
 
 /// Throws InputError when the scene has more than 4 billion polygons or coordinates out of range.
-Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop);
+Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop,
+                 const PreparedScene* prepared = nullptr);
 
 }  // namespace burin

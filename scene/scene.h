@@ -14,7 +14,6 @@
 #include "scene/method_settings.h"
 #include "shading/line_style.h"
 #include "shading/surface_shader.h"
-#include "view/surface_set.h"
 
 // A scene is what a picture is made of: meshes, objects, materials, cameras and settings; it computes nothing.
 
@@ -69,12 +68,6 @@ struct Scene {
     SurfaceStyle surfaces;
     AbufferSettings abuffer;
     PatelSettings patel;
-    /// Per mesh, see find_sharp_edges(); empty: not made. It saves the method `abuffer` making them
-    /// for every frame, and is for the line classes and the crease angle above.
-    std::vector<std::vector<std::uint8_t>> sharp_edges;
-    /// Triangles that may pass through each other: the only ones that `abuffer` then looks at for hidden
-    /// intersections. For the objects above as they stand. Without it, it searches every frame.
-    std::optional<std::vector<SurfacePair>> intersecting_pairs;
     ReferenceSettings reference;
     GBufferSettings gbuffer;
     ZBufferSettings zbuffer;

@@ -8,6 +8,7 @@
 
 #include "kernels/tile_kernels.h"
 #include "scene/scene.h"
+#include "view/surface_set.h"
 
 namespace burin {
 

@@ -247,8 +247,8 @@ TEST(HiddenContacts, ASheetCloselyInFrontOfAnotherHasNoBorder) {
     const auto hidden_px = [&](const std::vector<PolygonSoup>& sheets) {
         Scene scene = scene_of({joined(sheets), cover});
         scene.lines.style.hidden.style = HiddenStyle::solid;
-        prepare_for_abuffer(scene, 1);  // else no triangles are left out
-        return Layers(scene, pixel_camera(kSize, kSize)).hidden_px(1);
+        const PreparedScene prepared = prepare_for_abuffer(scene, 1);  // else no triangles are left out
+        return Layers(scene, pixel_camera(kSize, kSize), 2, &prepared).hidden_px(1);
     };
     for (const double gap : {0.03, 0.07, 0.4, 1.0, 1.9}) {
         EXPECT_NEAR(hidden_px({square(20, 220, 0), square(80, 160, gap)}), 800, 1) << gap;

@@ -328,9 +328,10 @@ TEST(HiddenLines, SheetsThatCrossBehindAWall) {
 
 /// Length of all lines in which surfaces pass through each other, seen or not; found tile by tile and for the whole
 /// scene.
-double intersections_px(Scene scene, const Camera& camera) {
+double intersections_px(const Scene& scene, const Camera& camera) {
+    PreparedScene prepared;
     const auto length = [&] {
-        const Layers layers(scene, camera);
+        const Layers layers(scene, camera, 2, &prepared);
         double sum = 0;
         for (const WholeLine& line : layers.pass.lines()) {
             if (line.classes.has(LineClass::intersection)) sum += line.length_px();
@@ -338,7 +339,7 @@ double intersections_px(Scene scene, const Camera& camera) {
         return sum;
     };
     const double by_tile = length();
-    scene.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), 1);
+    prepared.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), 1);
     EXPECT_NEAR(length(), by_tile, 1e-6);
     return by_tile;
 }

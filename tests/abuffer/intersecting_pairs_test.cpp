@@ -212,11 +212,9 @@ Scene slanted_facets(std::uint32_t count) {
 
 TEST(IntersectingPairs, AreLeftToTheViewWhereAllBoxesOverlap) {
     Scene few = slanted_facets(100), many = slanted_facets(3000);
-    prepare_for_abuffer(few, 1);
-    EXPECT_TRUE(few.intersecting_pairs.has_value());
+    EXPECT_TRUE(prepare_for_abuffer(few, 1).intersecting_pairs.has_value());
     for (const int threads : {1, 2, 3}) {
-        prepare_for_abuffer(many, threads);
-        EXPECT_FALSE(many.intersecting_pairs.has_value());
+        EXPECT_FALSE(prepare_for_abuffer(many, threads).intersecting_pairs.has_value());
     }
 }
 
@@ -258,8 +256,11 @@ TEST(BoxTree, FindsEachPairOnce) {
 
 constexpr int kWidth = 200, kHeight = 160;
 
-Image draw(const Scene& scene, const Camera& camera, PixelRect crop = {0, 0, kWidth, kHeight}, int threads = 2) {
-    const Frame frame = make_frame(scene, camera, kWidth, kHeight, crop);
+constexpr PixelRect kWhole{0, 0, kWidth, kHeight};
+
+Image draw(const Scene& scene, const Camera& camera, PixelRect crop = kWhole, int threads = 2,
+           const PreparedScene* prepared = nullptr) {
+    const Frame frame = make_frame(scene, camera, kWidth, kHeight, crop, prepared);
     Film film({0, 0, kWidth, kHeight}, crop, LayerSet{true, true, true, true, true, true, true, true},
               frame.criteria.classes);
     RunOptions options;
@@ -284,9 +285,9 @@ TEST(IntersectingPairs, ChangeNoPicture) {
         if (trial % 5 == 0) scene.materials[0].opacity = 0.5f;
         const Camera camera = camera_for(random);
         const Image without = draw(scene, camera);
-        prepare_for_abuffer(scene, 2);
-        ASSERT_TRUE(scene.intersecting_pairs.has_value());
-        const Image with = draw(scene, camera);
+        const PreparedScene prepared = prepare_for_abuffer(scene, 2);
+        ASSERT_TRUE(prepared.intersecting_pairs.has_value());
+        const Image with = draw(scene, camera, kWhole, 2, &prepared);
         ASSERT_TRUE(same_bits(without, with)) << "trial " << trial;
         const Channel* const channel = with.find("lines_hidden.A");
         ASSERT_NE(channel, nullptr);
@@ -302,8 +303,8 @@ struct Found {
     std::vector<WholeLine> lines;
     std::vector<LinePart> pieces;
 
-    Found(const Scene& scene, const Camera& camera, int threads) {
-        const Frame frame = make_frame(scene, camera, kWidth, kHeight, {0, 0, kWidth, kHeight});
+    Found(const Scene& scene, const Camera& camera, int threads, const PreparedScene* prepared = nullptr) {
+        const Frame frame = make_frame(scene, camera, kWidth, kHeight, kWhole, prepared);
         ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), threads);
         const TriangleBins bins(screen, frame.crop, 4, best_kernels(), threads);
         HiddenPass pass(frame, screen, best_kernels(), threads);
@@ -323,8 +324,8 @@ TEST(IntersectingPairs, GiveTheSameLinesAndPieces) {
         scene.lines.style.hidden.style = HiddenStyle::solid;
         const Camera camera = camera_for(random);
         const Found without(scene, camera, 2);
-        prepare_for_abuffer(scene, 2);
-        const Found with(scene, camera, 3);
+        const PreparedScene prepared = prepare_for_abuffer(scene, 2);
+        const Found with(scene, camera, 3, &prepared);
         ASSERT_EQ(with.lines.size(), without.lines.size()) << "trial " << trial;
         for (std::size_t i = 0; i < with.lines.size(); ++i) {
             const WholeLine &a = with.lines[i], &b = without.lines[i];
@@ -373,8 +374,8 @@ TEST(IntersectingPairs, GiveTheSameLinesWhereFoldsLieInPlanes) {
         scene.lines.style.hidden.style = HiddenStyle::solid;
         const Camera camera = perspective_camera(random.real(3, 12) * random.direction(), {0, 0, 0}, 40);
         const Found without(scene, camera, 2);
-        prepare_for_abuffer(scene, 2);
-        const Found with(scene, camera, 1);
+        const PreparedScene prepared = prepare_for_abuffer(scene, 2);
+        const Found with(scene, camera, 1, &prepared);
         ASSERT_EQ(with.lines.size(), without.lines.size()) << "trial " << trial;
         for (std::size_t i = 0; i < with.lines.size(); ++i) {
             ASSERT_TRUE(with.lines[i].from == without.lines[i].from && with.lines[i].to == without.lines[i].to)
@@ -427,17 +428,13 @@ TEST(HiddenLines, WhereOneGoesBehindAWallHangsOnNoCellNorTile) {
 TEST(IntersectingPairs, AreNotMadeWhereNobodyAsksForThem) {
     Random random(1);
     Scene scene = tangle(random);
-    prepare_for_abuffer(scene, 1);
-    EXPECT_FALSE(scene.intersecting_pairs.has_value());
+    EXPECT_FALSE(prepare_for_abuffer(scene, 1).intersecting_pairs.has_value());
     scene.lines.style.hidden.style = HiddenStyle::solid;
-    prepare_for_abuffer(scene, 1, true);
-    EXPECT_FALSE(scene.intersecting_pairs.has_value());
+    EXPECT_FALSE(prepare_for_abuffer(scene, 1, true).intersecting_pairs.has_value());
     scene.lines.classes = LineClass::silhouette;
-    prepare_for_abuffer(scene, 1);
-    EXPECT_FALSE(scene.intersecting_pairs.has_value());
+    EXPECT_FALSE(prepare_for_abuffer(scene, 1).intersecting_pairs.has_value());
     scene.lines.classes = LineClass::intersection;
-    prepare_for_abuffer(scene, 1);
-    EXPECT_TRUE(scene.intersecting_pairs.has_value());
+    EXPECT_TRUE(prepare_for_abuffer(scene, 1).intersecting_pairs.has_value());
 }
 
 TEST(HiddenLines, ACropIsThatPartOfTheWhole) {
@@ -447,11 +444,12 @@ TEST(HiddenLines, ACropIsThatPartOfTheWhole) {
         scene.lines.style.hidden.style = trial % 2 == 0 ? HiddenStyle::dashed : HiddenStyle::solid;
         if (trial % 5 == 0) scene.materials[0].opacity = 0.5f;
         const Camera camera = camera_for(random);
-        if (trial % 3 == 0) prepare_for_abuffer(scene, 2);
-        const Image whole = draw(scene, camera);
+        PreparedScene prepared;
+        if (trial % 3 == 0) prepared = prepare_for_abuffer(scene, 2);
+        const Image whole = draw(scene, camera, kWhole, 2, &prepared);
         const int x0 = random.integer(0, kWidth - 20), y0 = random.integer(0, kHeight - 20);
         const PixelRect crop{x0, y0, random.integer(x0 + 1, kWidth), random.integer(y0 + 1, kHeight)};
-        const Image part = draw(scene, camera, crop);
+        const Image part = draw(scene, camera, crop, 2, &prepared);
         for (const std::string name : {"lines.A", "lines_hidden.A", "R"}) {
             const Channel *const in_whole = whole.find(name), *const in_part = part.find(name);
             ASSERT_TRUE(in_whole != nullptr && in_part != nullptr) << name;

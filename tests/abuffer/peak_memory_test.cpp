@@ -36,8 +36,9 @@ Scene heap_of_tori(std::uint64_t seed) {
 
 /// Bytes at the peak of a render, beyond what was there before. 0: the cap was refused, and `least` is what it names.
 std::size_t peak_of(const Scene& scene, int threads, std::uint64_t cap_bytes, std::uint64_t& least) {
-    const Frame frame =
-        make_frame(scene, perspective_camera({2, 1, 12}, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+    const PreparedScene prepared = prepare_for_abuffer(scene, threads, true);
+    const Frame frame = make_frame(scene, perspective_camera({2, 1, 12}, {0, 0, 0}), kWidth, kHeight,
+                                   {0, 0, kWidth, kHeight}, &prepared);
     Film film(frame.crop, frame.crop, LayerSet{}, frame.criteria.classes);
     RunOptions options;
     options.threads = threads;
@@ -58,7 +59,6 @@ TEST(PeakMemory, StaysBelowTheCap) {
     for (const HiddenStyle hidden : {HiddenStyle::none, HiddenStyle::solid, HiddenStyle::dashed}) {
         Scene scene = heap_of_tori(1);
         scene.lines.style.hidden.style = hidden;
-        prepare_for_abuffer(scene, 2, true);
         for (const int threads : {1, 2}) {
             std::uint64_t least = 0;
             ASSERT_EQ(peak_of(scene, threads, 1, least), 0u);

@@ -89,12 +89,13 @@ TEST(FilmBands, AreRowsOfTheWholeFilm) {
         SCOPED_TRACE(seed);
         Random random(seed);
         Scene scene = styled_scene(random);
-        prepare_for_abuffer(scene, 1);
+        const PreparedScene prepared = prepare_for_abuffer(scene, 1);
         PixelRect crop{0, 0, kWidth, kHeight};
         if (seed % 3 == 0)
             crop = {random.integer(0, 20), random.integer(0, 150), random.integer(40, kWidth),
                     random.integer(151, kHeight)};
-        const Frame frame = make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kWidth, kHeight, crop);
+        const Frame frame =
+            make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kWidth, kHeight, crop, &prepared);
         RunOptions options;
         options.threads = random.integer(1, 4);
         options.tile_samples = 32 << random.integer(0, 2);
@@ -137,11 +138,11 @@ TEST(Film, TakesOnePictureAfterTheOther) {
         Film film(display, crop, layers, LineClassSet::all());
         for (int picture = 0; picture < 4; ++picture) {
             Scene scene = styled_scene(random);
-            prepare_for_abuffer(scene, 1);
+            const PreparedScene prepared = prepare_for_abuffer(scene, 1);
             // Near, far away, and beside the picture.
             const Camera camera =
                 perspective_camera({random.real(-3, 3), random.real(-3, 3), random.real(3, 25)}, random.in_box(2));
-            const Frame frame = make_frame(scene, camera, kWidth, kPictureHeight, crop);
+            const Frame frame = make_frame(scene, camera, kWidth, kPictureHeight, crop, &prepared);
             RunOptions options;
             options.threads = random.integer(1, 3);
             Film fresh(display, crop, layers, LineClassSet::all());
@@ -198,10 +199,10 @@ TEST(Film, ForgetsWhatWasDrawnIntoIt) {
 /// Only what something is drawn into takes memory, also where it is drawn by a line alone.
 TEST(FilmBands, BackgroundIsNotThere) {
     Scene scene = scene_of({make_torus(0.9, 0.4, 40, 25)});
-    prepare_for_abuffer(scene, 1);
+    const PreparedScene prepared = prepare_for_abuffer(scene, 1);
     constexpr int kSide = 640;
     const PixelRect crop{3, 5, kSide, kSide};
-    const Frame frame = make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kSide, kSide, crop);
+    const Frame frame = make_frame(scene, perspective_camera({2, 1, 14}, {0, 0, 0}), kSide, kSide, crop, &prepared);
     Film film = Film::in_bands({0, 0, kSide, kSide}, crop, kAllLayers, frame.criteria.classes);
     Film whole({0, 0, kSide, kSide}, crop, kAllLayers, frame.criteria.classes);
     RunOptions options;

@@ -61,8 +61,8 @@ struct Layers {
     TriangleBins bins;  // finds out which way triangles face
     HiddenPass pass;
 
-    Layers(const Scene& scene, const Camera& camera, int threads = 2)
-        : frame(make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize})),
+    Layers(const Scene& scene, const Camera& camera, int threads = 2, const PreparedScene* prepared = nullptr)
+        : frame(make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize}, prepared)),
           screen(frame.surfaces, frame.criteria, best_kernels(), threads),
           bins(screen, frame.crop, 4, best_kernels(), threads),
           pass(frame, screen, best_kernels(), threads) {

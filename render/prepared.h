@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "view/surface_set.h"
+
+namespace burin {
+
+/// What all frames of a scene have in common, as long as its meshes, objects and line settings stay: made once, it saves
+/// the method `abuffer` making it for every frame. Frames are right without it.
+struct PreparedScene {
+    /// Which edges are sharp, per mesh (find_sharp_edges()); empty: not made.
+    std::vector<std::vector<std::uint8_t>> sharp_edges;
+    /// Triangles that may pass through each other: the only ones that are then looked at for hidden intersections. Not
+    /// set: each frame searches for them.
+    std::optional<std::vector<SurfacePair>> intersecting_pairs;
+};
+
+}  // namespace burin
