@@ -76,7 +76,7 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
     }
     if (extension == ".ply") return model_of(path, read_ply(path, options.threads, options.strict), options);
     if (extension == ".stl") return model_of(path, read_stl(path, options.strict), options);
-    if (extension == ".off") return model_of(path, read_off(path), options);
+    if (extension == ".off") return model_of(path, read_off(path, options.strict), options);
     if (extension == ".gltf" || extension == ".glb") {
         ModelBudget by_default;
         return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict),
