@@ -9,6 +9,7 @@
 #include "base/mapped_file.h"
 #include "mesh/gltf.h"
 #include "mesh/readers.h"
+#include "mesh/self_crossings.h"
 
 namespace burin {
 namespace {
@@ -28,6 +29,8 @@ void add_notes(const std::string& path, const std::vector<std::string>& notes, M
 
 Model model_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     Model model;
+    // A control mesh is what its file says, or none at all.
+    if (options.subdivision_levels == 0) cut_at_self_crossings(path, soup);
     model.materials = std::move(soup.materials);
     model.non_finite_polygons = soup.non_finite_polygons;
     add_notes(path, soup.notes, model);

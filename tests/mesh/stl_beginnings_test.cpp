@@ -26,7 +26,8 @@ class StlBeginnings : public testing::Test {
 };
 
 TEST_F(StlBeginnings, BlanksAMarkAndAnyCaseStandBeforeTheWordSolid) {
-    for (const char* begin : {"solid", "SoLiD", "  solid", "\n\r\n\t Solid", "\xEF\xBB\xBFsolid", "\xEF\xBB\xBF \n SOLID"}) {
+    for (const char* begin :
+         {"solid", "SoLiD", "  solid", "\n\r\n\t Solid", "\xEF\xBB\xBFsolid", "\xEF\xBB\xBF \n SOLID"}) {
         const PolygonSoup soup = read(std::string(begin) + " a\n" + kFacet + kFacet + "endsolid\n");
         EXPECT_EQ(soup.polygon_count(), 2u) << begin;
         EXPECT_EQ(soup.object_names, std::vector<std::string>{"a"}) << begin;

@@ -38,11 +38,12 @@ class Surplus : public testing::Test {
 
 TEST_F(Surplus, OfOffIsNamed) {
     const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    expect_noted(read_off, "a.off", off, "3 2 1 0\n", "lines behind the last polygon left out: 1; the first one is line 7",
-                 ":7: ");
+    expect_noted(read_off, "a.off", off, "3 2 1 0\n",
+                 "lines behind the last polygon left out: 1; the first one is line 7", ":7: ");
     expect_noted(read_off, "a.off", off, "\n# more\r\nx\n\n0 0 0",
                  "lines behind the last polygon left out: 2; the first one is line 9", ":9: ");
-    for (const char* nothing : {"\n\n", " \t\r\n", "# the end\n", "\n  # the end"}) expect_nothing(read_off, "a.off", off + nothing);
+    for (const char* nothing : {"\n\n", " \t\r\n", "# the end\n", "\n  # the end"})
+        expect_nothing(read_off, "a.off", off + nothing);
 }
 
 TEST_F(Surplus, OfPlyIsNamed) {
@@ -58,13 +59,15 @@ TEST_F(Surplus, OfPlyIsNamed) {
 }
 
 TEST_F(Surplus, OfPlyIsNamedBesideLongLines) {
-    const std::string path = folder_.write(
-        "a.ply",
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 9\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n");
-    EXPECT_EQ(read_ply(path).notes,
-              (std::vector<std::string>{"line 10 has more values than the header declares; the rest of the line is left out",
-                                        "lines behind the last element left out: 1; the first one is line 14"}));
+    const std::string path =
+        folder_.write("a.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 9\n1 0 0\n0 1 0\n3 0 "
+                      "1 2\n3 0 1 2\n");
+    EXPECT_EQ(
+        read_ply(path).notes,
+        (std::vector<std::string>{"line 10 has more values than the header declares; the rest of the line is left out",
+                                  "lines behind the last element left out: 1; the first one is line 14"}));
 }
 
 TEST_F(Surplus, OfBinaryPlyIsNamed) {
@@ -76,7 +79,8 @@ TEST_F(Surplus, OfBinaryPlyIsNamed) {
                                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
                                 w.bytes();
         expect_noted(read_ply_file, "a.ply", ply, "abc", "bytes behind the last element left out: 3", " ");
-        expect_noted(read_ply_file, "a.ply", ply, std::string(13, '\0'), "bytes behind the last element left out: 13", " ");
+        expect_noted(read_ply_file, "a.ply", ply, std::string(13, '\0'), "bytes behind the last element left out: 13",
+                     " ");
         expect_nothing(read_ply_file, "a.ply", ply + "\n");
     }
 }

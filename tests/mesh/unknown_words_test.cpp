@@ -37,16 +37,19 @@ TEST_F(UnknownWords, AreTheSameInPieces) {
 }
 
 TEST_F(UnknownWords, AreNotThoseThatTheFormatHas) {
-    EXPECT_TRUE(notes("# v\n#v\n" + kTriangle +
-                      "g a b\no c\ns 1\nS off\nvn 0 0 1\nVT 0 0\nvp 1\nmg 0\nlod 1\nbevel on\nc_interp on\nd_interp on\n"
-                      "usemap x\nmaplib y\nshadow_obj a\ntrace_obj b\nusemtl m\n")
-                    .empty());
+    EXPECT_TRUE(
+        notes("# v\n#v\n" + kTriangle +
+              "g a b\no c\ns 1\nS off\nvn 0 0 1\nVT 0 0\nvp 1\nmg 0\nlod 1\nbevel on\nc_interp on\nd_interp on\n"
+              "usemap x\nmaplib y\nshadow_obj a\ntrace_obj b\nusemtl m\n")
+            .empty());
     const std::string curve =
         "cstype bspline\ndeg 3\nstep 1\nbmat u 1\nctech cparm 1\nstech cparma 1 1\nparm u 0 1\ntrim 0 1 1\nhole 0 1 1\n"
         "scrv 0 1 1\nsp 1\nend\ncon 1 0 1 1 2 0 1 1\nres 1 1\n";
     EXPECT_TRUE(notes(kTriangle + curve).empty());
-    for (const char* shape : {"curv 0 1 1 2 3", "curv2 1 2 3", "surf 0 1 0 1 1 2 3", "bzp 1 2 3", "BSP 1 2 3", "cdc 1 2 3", "cdp 1 2 3"}) {
-        EXPECT_EQ(notes(kTriangle + shape), std::vector<std::string>{"curves and surfaces of higher order left out: 1"});
+    for (const char* shape :
+         {"curv 0 1 1 2 3", "curv2 1 2 3", "surf 0 1 0 1 1 2 3", "bzp 1 2 3", "BSP 1 2 3", "cdc 1 2 3", "cdp 1 2 3"}) {
+        EXPECT_EQ(notes(kTriangle + shape),
+                  std::vector<std::string>{"curves and surfaces of higher order left out: 1"});
     }
 }
 
