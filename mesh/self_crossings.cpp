@@ -19,9 +19,9 @@ namespace burin {
 namespace {
 
 constexpr std::size_t kMostCorners = 256, kMostCrossings = 256;
-constexpr double kFlat = 1e-4;    // how far corners may lie off the polygon's plane, of its extent
-constexpr double kClear = 1e-6;   // how far ends of sides that cross lie beyond each other: no rounding does that
-constexpr double kSame = 1e-12;   // crossings nearer than that, of the extent, are one
+constexpr double kFlat = 1e-4;   // how far corners may lie off the polygon's plane, of its extent
+constexpr double kClear = 1e-6;  // how far ends of sides that cross lie beyond each other: no rounding does that
+constexpr double kSame = 1e-12;  // crossings nearer than that, of the extent, are one
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 /// Twice the signed area of a triangle; positive when it turns left.
@@ -38,7 +38,8 @@ bool may_cross(const std::array<glm::dvec3, 4>& c) {
     return other_way == 2;
 }
 
-/// The corners in the plane of the polygon, scaled to an extent of about 1; false where they lie in no plane, or in a line.
+/// The corners in the plane of the polygon, scaled to an extent of about 1; false where they lie in no plane, or in a
+/// line.
 bool flatten(std::span<const glm::dvec3> corners, std::vector<glm::dvec2>& flat) {
     glm::dvec3 far(0.0), normal(0.0);
     double extent = 0, farthest = 0, largest = 0;
@@ -108,9 +109,9 @@ std::optional<Crossing> crossing_of(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, gl
     const auto differ = [](double x, double y) { return (x < 0 && y > 0) || (x > 0 && y < 0); };
     if (!differ(c_side, d_side) || !differ(a_side, b_side)) return std::nullopt;
     const double first = kClear * glm::distance(a, b), second = kClear * glm::distance(c, d);
-    return Crossing{a_side / (a_side - b_side), c_side / (c_side - d_side),
-                    std::min(std::abs(c_side), std::abs(d_side)) > first &&
-                        std::min(std::abs(a_side), std::abs(b_side)) > second};
+    return Crossing{
+        a_side / (a_side - b_side), c_side / (c_side - d_side),
+        std::min(std::abs(c_side), std::abs(d_side)) > first && std::min(std::abs(a_side), std::abs(b_side)) > second};
 }
 
 /// Whether a large polygon crosses itself, as far as a bounded number of looks tells.
@@ -234,7 +235,9 @@ class SideGraph {
         for (std::uint32_t h = 0; h < half_edges_.size(); ++h) out[half_edges_[h][0]].push_back(h);
         next_.resize(half_edges_.size());
         for (auto& around : out) {
-            const auto direction = [&](std::uint32_t h) { return nodes_[half_edges_[h][1]] - nodes_[half_edges_[h][0]]; };
+            const auto direction = [&](std::uint32_t h) {
+                return nodes_[half_edges_[h][1]] - nodes_[half_edges_[h][0]];
+            };
             const auto is_upper = [](glm::dvec2 d) { return d.y > 0 || (d.y == 0 && d.x > 0); };
             std::sort(around.begin(), around.end(), [&](std::uint32_t g, std::uint32_t h) {
                 const glm::dvec2 a = direction(g), b = direction(h);
@@ -243,8 +246,7 @@ class SideGraph {
                 return c != 0 ? c > 0 : g < h;
             });
             // Coming in by the twin of one, the face goes on along the one that is next clockwise.
-            for (std::size_t i = 0; i < around.size(); ++i)
-                next_[around[(i + 1) % around.size()] ^ 1u] = around[i];
+            for (std::size_t i = 0; i < around.size(); ++i) next_[around[(i + 1) % around.size()] ^ 1u] = around[i];
         }
     }
 
@@ -327,10 +329,10 @@ class Cutter {
             soup_.polygon_material = std::move(result_.polygon_material);
         }
         if (uncut_ > 0) {
-            soup_.notes.push_back("polygons that cross themselves and are not cut where they do: " +
-                                  std::to_string(uncut_) + "; the first one is polygon " +
-                                  std::to_string(first_uncut_ + 1) +
-                                  " (they have more than 256 corners or crossings, or sides that lie on each other)");
+            soup_.notes.push_back(
+                "polygons that cross themselves and are not cut where they do: " + std::to_string(uncut_) +
+                "; the first one is polygon " + std::to_string(first_uncut_ + 1) +
+                " (they have more than 256 corners or crossings, or sides that lie on each other)");
         }
     }
 

@@ -188,7 +188,8 @@ TEST(SelfCrossings, OthersStayAsTheyAre) {
     expect_same({{0, 0, 0}, {1, 1, 0.1}, {1, 0, 0}, {0, 1, 0}});  // not flat
     expect_same({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {0.5, 0.5, 0}});
     expect_same({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
-    expect_same({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}});
+    expect_same(
+        {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}});
     expect_same({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.5, 1e-9, 0}, {0.5, -1e-9, 0}, {0, 1, 0}});  // by rounding alone
 }
 
@@ -206,9 +207,11 @@ TEST(SelfCrossings, OfVeryManyCornersAreNoted) {
     const PolygonSoup large = cut(flower(257, 3));
     EXPECT_EQ(large.polygon_count(), 1u);
     ASSERT_EQ(large.notes.size(), 1u);
-    EXPECT_NE(large.notes[0].find("polygons that cross themselves and are not cut where they do: 1"), std::string::npos);
+    EXPECT_NE(large.notes[0].find("polygons that cross themselves and are not cut where they do: 1"),
+              std::string::npos);
     Outline circle;
-    for (int i = 0; i < 5000; ++i) circle.emplace_back(std::cos(0.001 * i), (i % 2 == 0 ? 1 : 0.9) * std::sin(0.001 * i));
+    for (int i = 0; i < 5000; ++i)
+        circle.emplace_back(std::cos(0.001 * i), (i % 2 == 0 ? 1 : 0.9) * std::sin(0.001 * i));
     EXPECT_TRUE(cut(circle).notes.empty());
 }
 
