@@ -57,6 +57,9 @@ class OffParser {
             item_ = counts;
         }
     }
+    /// Whether vertices share lines and all polygons have an area: then this layout is no misunderstanding, though
+    /// something be left over.
+    bool is_certain() const { return do_vertices_share_lines_ && least_corners_ >= 3; }
     /// What is left behind the last polygon.
     SurplusLines surplus() {
         if (polygon_layout_ == ItemLayout::lines || item_.at_end())
@@ -169,6 +172,7 @@ class OffParser {
         soup_.positions.reserve(vertices_);
         for (std::uint64_t i = 0; i < vertices_; ++i) {
             if ((i & 0xFFFF) == 0) throw_if_interrupted();
+            do_vertices_share_lines_ = do_vertices_share_lines_ || (i > 0 && !item_.at_end());
             begin_item(vertex_layout_, "a vertex");
             glm::dvec3 p;
             for (int axis = 0; axis < 3; ++axis) {
@@ -221,6 +225,7 @@ class OffParser {
             if (soup_.corners.size() + corners.size() > PolygonSoup::kMaxCorners) {
                 fail("more than 4 billion polygon corners; split the model");
             }
+            least_corners_ = std::min(least_corners_, size);
             soup_.add_polygon(corners);
         }
     }
@@ -233,6 +238,8 @@ class OffParser {
     LineScanner item_{std::string_view()};  // what is left of the line that is being read
     std::uint64_t vertices_ = 0, polygons_ = 0;
     int attributes_ = 0;  // numbers of a vertex behind its coordinates
+    bool do_vertices_share_lines_ = false;
+    std::int64_t least_corners_ = 3;  // of a polygon
     PolygonSoup soup_;
 };
 
@@ -256,13 +263,19 @@ PolygonSoup read_text(const std::string& path, std::string_view text, bool stric
     constexpr std::pair<ItemLayout, ItemLayout> kOthers[] = {{values, lines}, {lines, values}, {values, values}};
     for (const auto& [vertices, polygons] : kOthers) {
         OffParser by_value(path, text, vertices, polygons);
+        PolygonSoup other;
         try {
-            PolygonSoup other = by_value.parse();
-            if (by_value.surplus().count == 0) return other;
+            other = by_value.parse();
         } catch (const FileEnds&) {
+            continue;
         } catch (const InputError& e) {
             by_value_error = e.what();
+            continue;
         }
+        const SurplusLines surplus = by_value.surplus();
+        if (surplus.count > 0 && !(error && by_value.is_certain())) continue;
+        note_surplus(other, path, surplus, "the last polygon", strict);
+        return other;
     }
     if (ends_early && !by_value_error.empty()) {
         throw InputError(std::string(error->what()) + " (if items share lines: " + by_value_error + ")");

@@ -263,10 +263,10 @@ PolygonSoup read_stl(const std::string& path, bool strict) {
     PolygonSoup soup;
     if (is_text) {
         soup = AsciiParser(path, text, strict).parse();
-    } else if (has_binary_header) {
+    } else if (has_binary_header && (binary_size == bytes.size() || !is_plain_text(bytes))) {
         soup = read_binary(path, bytes, strict);
     } else {
-        throw InputError(path + ": neither text that starts with 'solid' nor a binary STL of 84 " +
+        throw InputError(path + ": neither text that starts with 'solid' or has facets, nor a binary STL of 84 " +
                          "bytes or more; was it written completely?");
     }
     if (soup.corners.empty()) throw InputError(path + ": the file has no triangles");

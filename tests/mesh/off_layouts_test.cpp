@@ -58,6 +58,18 @@ TEST_F(OffLayouts, ColoursOfPolygonsAreNoPolygons) {
     EXPECT_EQ(test::polygons_of(soup), (test::Polygons{{0, 1, 2}, {2, 1, 0}}));
 }
 
+TEST_F(OffLayouts, WhatIsLeftOverIsNotedInEachLayout) {
+    for (const char* polygons : {"3 0 1 2 3 0 2 3 9\n", "3 0 1 2\n3 0 2 3\nmore\n"}) {
+        const std::string text = std::string("OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1.5 0\n") + polygons;
+        const PolygonSoup soup = read_off(folder_.write("part.off", text));
+        EXPECT_EQ(test::polygons_of(soup), (test::Polygons{{0, 1, 2}, {0, 2, 3}})) << text;
+        ASSERT_EQ(soup.notes.size(), 1u) << text;
+        EXPECT_NE(soup.notes[0].find("lines behind the last polygon left out: 1"), std::string::npos) << soup.notes[0];
+    }
+    EXPECT_TRUE(refuses("OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1.5 0\n3 0 1 2 3 0 2\n3 0 2 3 1 1 1\n",
+                        {"the file ends where a polygon should be"}));
+}
+
 TEST_F(OffLayouts, WhatIsWrongIsNamedInEachLayout) {
     const std::string head = "OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1.5 0\n";
     EXPECT_TRUE(refuses(head + "3 0 1 2 3 0 9 3\n", {"vertex 9 does not exist"}));
