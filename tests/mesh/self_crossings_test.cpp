@@ -9,9 +9,11 @@
 #include <numeric>
 #include <string>
 
+#include "mesh/model.h"
 #include "mesh/triangulate.h"
 #include "tests/mesh/model_files.h"
 #include "tests/support/random.h"
+#include "tests/support/temporary_folder.h"
 
 namespace burin {
 namespace {
@@ -191,6 +193,21 @@ TEST(SelfCrossings, OthersStayAsTheyAre) {
     expect_same(
         {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}});
     expect_same({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.5, 1e-9, 0}, {0.5, -1e-9, 0}, {0, 1, 0}});  // by rounding alone
+}
+
+TEST(SelfCrossings, OfAFileAreCutUnlessItIsSubdivided) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.write("bow.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n");
+    const Model model = read_model(path, {});
+    ASSERT_EQ(model.meshes.size(), 1u);
+    EXPECT_EQ(model.meshes[0].triangles.size(), 2u);
+    EXPECT_EQ(model.meshes[0].positions.size(), 5u);
+    const EdgeCounts edges = count_edges(model.meshes[0]);
+    EXPECT_EQ(edges.edges, 6u);
+    EXPECT_EQ(edges.border, 6u);
+    MeshOptions options;
+    options.subdivision_levels = 1;
+    EXPECT_EQ(read_model(path, options).meshes[0].polygon_count, 4u) << "a quadrilateral becomes four";
 }
 
 TEST(SelfCrossings, OfVeryManyCornersAreNoted) {
