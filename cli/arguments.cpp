@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/suggestion.h"
+#include "cli/option_values.h"
 #include "mesh/text_scan.h"
 #include "methods/method_table.h"
 #include "scene/color.h"
@@ -15,142 +16,9 @@
 namespace burin {
 namespace {
 
-[[noreturn]] void fail(const std::string& option, const std::string& message) {
-    throw UsageError(option + ": " + message);
-}
+using namespace option_values;
+
 [[noreturn]] void fail_version(const std::string& option) { fail(option, "not in this version"); }
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    while (true) {
-        const std::size_t at = text.find(separator);
-        parts.push_back(text.substr(0, at));
-        if (at == std::string_view::npos) return parts;
-        text.remove_prefix(at + 1);
-    }
-}
-
-bool to_number(std::string_view text, double& value) {
-    const char* const end = text.data() + text.size();
-    return scan_number(text.data(), end, value) == end && !text.empty() && std::isfinite(value);
-}
-
-bool to_integer(std::string_view text, int& value) {
-    std::int64_t wide = 0;
-    const char* const end = text.data() + text.size();
-    if (text.empty() || scan_integer(text.data(), end, wide) != end) return false;
-    value = static_cast<int>(std::clamp<std::int64_t>(wide, -2000000000, 2000000000));
-    return true;
-}
-
-double number(const std::string& option, std::string_view text) {
-    double value = 0;
-    if (!to_number(text, value)) fail(option, "'" + printable(text) + "' is no finite number");
-    return value;
-}
-
-int integer(const std::string& option, std::string_view text, int low, int high) {
-    int value = 0;
-    if (!to_integer(text, value)) fail(option, "'" + printable(text) + "' is no whole number");
-    if (value < low || value > high) {
-        fail(option, "must be from " + std::to_string(low) + " to " + std::to_string(high));
-    }
-    return value;
-}
-
-/// Bytes, or with a K, M, G or T behind 1024 times as many for each letter.
-std::uint64_t byte_count(const std::string& option, std::string_view text) {
-    constexpr std::string_view kUnits = "KMGT";
-    std::string_view digits = text;
-    double bytes = 1;
-    const std::size_t unit =
-        text.empty() ? std::string_view::npos : kUnits.find(static_cast<char>(text.back() & ~0x20));
-    if (unit != std::string_view::npos && std::isalpha(static_cast<unsigned char>(text.back())) != 0) {
-        digits.remove_suffix(1);
-        bytes = std::ldexp(1.0, 10 * (static_cast<int>(unit) + 1));
-    }
-    double value = 0;
-    const bool is_plain = digits.find_first_not_of("0123456789.") == std::string_view::npos;
-    if (!is_plain || !to_number(digits, value))
-        fail(option, "must be a size like 200M or 2G, got '" + printable(text) + "'");
-    bytes *= value;
-    if (!(bytes >= 1 && bytes < 0x1p62)) fail(option, "must be from 1 byte to 4000000T");
-    return static_cast<std::uint64_t>(bytes);
-}
-
-glm::dvec3 vector(const std::string& option, std::string_view text) {
-    const auto parts = split(text, ',');
-    glm::dvec3 v;
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        if (parts.size() != 3 || !to_number(parts[k], v[i])) {
-            fail(option, "must be three numbers X,Y,Z, got '" + printable(text) + "'");
-        }
-    }
-    return v;
-}
-
-template <std::size_t N>
-std::array<int, N> integers(const std::string& option, std::string_view text, char separator, const char* form) {
-    const auto parts = split(text, separator);
-    std::array<int, N> values{};
-    for (std::size_t i = 0; i < N; ++i) {
-        if (parts.size() != N || !to_integer(parts[i], values[i])) {
-            fail(option, "must be " + std::string(form) + ", got '" + printable(text) + "'");
-        }
-    }
-    return values;
-}
-
-LineClassSet line_classes(std::string_view text) {
-    LineClassSet classes;
-    for (const std::string_view name : split(text, ',')) {
-        if (name == "all") {
-            classes = LineClassSet::all();
-        } else if (const auto line_class = line_class_named(name)) {
-            classes |= *line_class;
-        } else if (name != "none") {
-            fail("--lines", "unknown line class '" + printable(name) + "'; known are " +
-                                to_string(LineClassSet::all()) + ",all,none");
-        }
-    }
-    return classes;
-}
-
-LayerSet layer_set(std::string_view text) {
-    LayerSet layers{false, false, false, false, false, false, false, false};
-    const std::pair<std::string_view, bool*> names[] = {
-        {"beauty", &layers.beauty},   {"lines", &layers.lines},
-        {"Z", &layers.depth},         {"N", &layers.normal},
-        {"ids", &layers.ids},         {"coverage", &layers.coverage},
-        {"surface", &layers.surface}, {"lines_hidden", &layers.lines_hidden}};
-    for (const std::string_view name : split(text, ',')) {
-        const auto it =
-            std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.first == name; });
-        if (it == std::end(names)) {
-            fail("--layers", "unknown layer '" + printable(name) +
-                                 "'; known are beauty,lines,Z,N,ids,coverage,surface,lines_hidden");
-        }
-        *it->second = true;
-    }
-    return layers;
-}
-
-GBufferOperatorSet gbuffer_operators(std::string_view text) {
-    GBufferOperatorSet set;
-    for (const std::string_view name : split(text, ',')) {
-        const auto found = gbuffer_operator_named(name);
-        if (!found) {
-            std::string known;
-            for (const std::string_view n : kGBufferOperatorNames) {
-                known += (known.empty() ? "" : ",") + std::string(n);
-            }
-            fail("--operator", "unknown operator '" + printable(name) + "'; known are " + known);
-        }
-        set.add(*found);
-    }
-    return set;
-}
 
 /// Options as they were typed.
 struct Texts {

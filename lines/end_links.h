@@ -23,8 +23,8 @@ class EndLinks {
         links_[b] = a;
     }
 
-    /// Calls visit(ends, is_loop) for each chain, those with two free ends first: `ends`, a vector that it may change, are
-    /// those by which each number is entered.
+    /// Calls visit(ends, is_loop) for each chain, those with two free ends first: `ends`, a vector that it may change,
+    /// are those by which each number is entered.
     template <typename Visit>
     void for_chains(const Visit& visit) const {
         std::vector<bool> done(links_.size() / 2, false);

@@ -9,6 +9,7 @@
 #include "base/mapped_file.h"
 #include "mesh/gltf.h"
 #include "mesh/readers.h"
+#include "mesh/self_crossings.h"
 
 namespace burin {
 namespace {
@@ -28,6 +29,8 @@ void add_notes(const std::string& path, const std::vector<std::string>& notes, M
 
 Model model_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     Model model;
+    // A control mesh is what its file says, or none at all.
+    if (options.subdivision_levels == 0) cut_at_self_crossings(path, soup);
     model.materials = std::move(soup.materials);
     model.non_finite_polygons = soup.non_finite_polygons;
     add_notes(path, soup.notes, model);
@@ -76,7 +79,7 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
     }
     if (extension == ".ply") return model_of(path, read_ply(path, options.threads, options.strict), options);
     if (extension == ".stl") return model_of(path, read_stl(path, options.strict), options);
-    if (extension == ".off") return model_of(path, read_off(path), options);
+    if (extension == ".off") return model_of(path, read_off(path, options.strict), options);
     if (extension == ".gltf" || extension == ".glb") {
         ModelBudget by_default;
         return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict),

@@ -22,6 +22,15 @@ bool ends_in_backslash(std::string_view line) {
     return !line.empty() && line.back() == '\\';
 }
 
+/// Keywords of OBJ for what is not drawn, or belongs to a curve or surface that is counted itself.
+bool is_known_to_say_nothing(std::string_view keyword) {
+    static constexpr std::string_view kKeywords[] = {
+        "vn",    "vt",       "s",          "vp",  "bevel", "bmat", "c_interp",  "con",  "cstype",
+        "ctech", "d_interp", "deg",        "end", "hole",  "lod",  "maplib",    "mg",   "parm",
+        "res",   "scrv",     "shadow_obj", "sp",  "stech", "step", "trace_obj", "trim", "usemap"};
+    return std::find(std::begin(kKeywords), std::end(kKeywords), keyword) != std::end(kKeywords);
+}
+
 class ObjParser {
   public:
     ObjParser(const std::string& path, std::string_view text, bool is_whole)
@@ -33,9 +42,11 @@ class ObjParser {
             if ((lines_.line_number() & 0xFFFF) == 0) throw_if_interrupted();
             if (pass_plain_line()) continue;
             if (!lines_.next(line)) break;
+            first_line_ = lines_.line_number();
             const bool goes_on = ends_in_backslash(line) && !is_comment(line);
             parse_line(goes_on ? joined_lines(line) : line);
         }
+        part_.line_count = lines_.line_number();
         return std::move(part_);
     }
 
@@ -99,8 +110,10 @@ class ObjParser {
         if (parse_statement(keyword, scan)) return;
         // Some programs write all in capitals. No keyword means another thing in the other case.
         if (std::any_of(keyword.begin(), keyword.end(), [](char c) { return c >= 'A' && c <= 'Z'; })) {
-            parse_statement(lower_case(keyword), scan);
+            if (parse_statement(lower_case(keyword), scan)) return;
         }
+        if (keyword.empty() || keyword.front() == '#' || is_known_to_say_nothing(lower_case(keyword))) return;
+        if (part_.unknown.count++ == 0) part_.unknown = {1, first_line_, printable(keyword)};
     }
 
     /// False for a keyword that is not known, or says nothing about the surface.
@@ -121,7 +134,8 @@ class ObjParser {
             part_.material_files.emplace_back(scan.rest());
         } else if (keyword == "p") {
             ++part_.points;
-        } else if (keyword == "curv" || keyword == "curv2" || keyword == "surf") {
+        } else if (keyword == "curv" || keyword == "curv2" || keyword == "surf" || keyword == "bsp" ||
+                   keyword == "bzp" || keyword == "cdc" || keyword == "cdp") {
             ++part_.free_forms;
         } else {
             return false;
@@ -204,6 +218,7 @@ class ObjParser {
     const std::string_view text_;
     const bool is_whole_;
     LineReader lines_;
+    std::size_t first_line_ = 0;  // of the statement
     ObjPart part_;
     PolygonSoup& soup_ = part_.soup;
     std::string joined_;

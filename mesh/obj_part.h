@@ -22,7 +22,14 @@ struct ObjPart {
     PolygonSoup soup;
     NameUses objects, groups, materials;
     std::vector<std::string> material_files;
-    std::uint64_t points = 0, free_forms = 0;  ///< `p`; `curv`, `curv2` and `surf`
+    std::uint64_t points = 0, free_forms = 0;  ///< `p`; `curv`, `curv2`, `surf` and what they were before version 3.0
+    /// Lines that begin with a word that OBJ does not have.
+    struct UnknownLines {
+        std::uint64_t count = 0;
+        std::size_t first = 0;  ///< line number, from 1
+        std::string word;       ///< of the first one
+    } unknown;
+    std::size_t line_count = 0;
 
     static constexpr std::uint32_t kMostVertices = 1u << 30, kFirstOfPiece = 3 * kMostVertices;
     static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();

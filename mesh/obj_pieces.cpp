@@ -57,6 +57,11 @@ void append(ObjPart& whole, ObjPart part) {
     add(whole.material_files, part.material_files);
     whole.points += part.points;
     whole.free_forms += part.free_forms;
+    if (whole.unknown.count == 0 && part.unknown.count > 0) {
+        whole.unknown = {0, whole.line_count + part.unknown.first, part.unknown.word};
+    }
+    whole.unknown.count += part.unknown.count;
+    whole.line_count += part.line_count;
     const NameUses::Place first{before.polygons, before.lines};
     whole.objects.append(part.objects, first);
     whole.groups.append(part.groups, first);

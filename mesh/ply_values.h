@@ -287,6 +287,8 @@ class BinaryValues {
     std::uint64_t room() const { return room_bytes(); }
     bool at_end() const { return p_ == end_; }
     std::size_t line() const { return 0; }
+    /// All that is left.
+    std::string_view rest() const { return {p_, room_bytes()}; }
 
   private:
     /// Ends reading at a value that the file has only a part of.

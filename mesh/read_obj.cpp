@@ -54,6 +54,11 @@ PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::str
     };
     note(file.points, "points");
     note(file.free_forms, "curves and surfaces of higher order");
+    if (const auto& unknown = file.unknown; unknown.count > 0) {
+        soup.notes.push_back(
+            "lines left out that begin with a word that is not known: " + std::to_string(unknown.count) +
+            "; the first one is line " + std::to_string(unknown.first) + ", '" + unknown.word + "'");
+    }
     for (const std::string& name : file.materials.names()) {
         const auto found = library.find(name);
         Material material;

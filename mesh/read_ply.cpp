@@ -14,6 +14,7 @@
 #include "mesh/ply_pieces.h"
 #include "mesh/ply_values.h"
 #include "mesh/readers.h"
+#include "mesh/surplus.h"
 #include "mesh/text_scan.h"
 
 namespace burin {
@@ -42,14 +43,16 @@ class BodyReader {
 
     /// Whether anything stands behind what was read.
     bool has_rest() { return !values_.at_end(); }
+    /// What stands there.
+    const Values& values() const { return values_; }
 
     /// Lines with more values than the header declares, of the layout `lines`.
-    struct SurplusLines {
+    struct LongLines {
         std::uint64_t count = 0;
         std::size_t first = 0;                ///< line number
         const PlyElement* element = nullptr;  ///< of the first one
     };
-    const SurplusLines& surplus_lines() const { return surplus_; }
+    const LongLines& long_lines() const { return long_lines_; }
 
     PolygonSoup read() {
         for (const PlyElement& element : header_.elements) {
@@ -125,7 +128,7 @@ class BodyReader {
     void end_item() {
         if constexpr (kIsText) {
             if (layout_ != ItemLayout::lines || !values_.skip_rest_of_line()) return;
-            if (surplus_.count++ == 0) surplus_ = {1, values_.line(), element_};
+            if (long_lines_.count++ == 0) long_lines_ = {1, values_.line(), element_};
         }
     }
 
@@ -421,7 +424,7 @@ class BodyReader {
     std::atomic<std::uint32_t> largest_plain_ = 0;  // of plain rows; there is a vertex 0
     int threads_;
     ItemLayout layout_;
-    SurplusLines surplus_;
+    LongLines long_lines_;
 };
 
 /// The values of an item stand on a line of their own by convention, but files exist that have them
@@ -439,8 +442,14 @@ PolygonSoup read_text(const std::string& path, const MappedFile& file, const Ply
     } catch (const InputError& e) {
         error = e;
     }
+    const auto note_rest = [&](auto& reader) {
+        const bool has_rest = reader.has_rest();  // and goes to the line that it begins on
+        if (!has_rest) return;
+        note_surplus(soup, path, surplus_lines(reader.values().rest(), reader.values().line() - 1), "the last element",
+                     strict);
+    };
     BodyReader by_line(path, file, header, values, threads, ItemLayout::lines);
-    const auto& surplus = by_line.surplus_lines();
+    const auto& surplus = by_line.long_lines();
     try {
         PolygonSoup lines = by_line.read();
         if (error || surplus.count > 0) soup = std::move(lines);
@@ -449,18 +458,21 @@ PolygonSoup read_text(const std::string& path, const MappedFile& file, const Ply
         // is wrong in them.
         if (error && surplus.count > 0 && surplus.element != &header.elements.front()) throw;
         if (error) throw *error;
+        note_rest(by_value);
         return soup;
     }
-    if (surplus.count == 0) return soup;
-    if (strict) {
-        throw InputError({path, surplus.first},
-                         "the line has more values than the header declares; re-export the file, "
-                         "or leave out --strict");
+    if (surplus.count > 0) {
+        if (strict) {
+            throw InputError({path, surplus.first},
+                             "the line has more values than the header declares; re-export the file, "
+                             "or leave out --strict");
+        }
+        soup.notes.push_back((surplus.count == 1 ? "line " + std::to_string(surplus.first) + " has"
+                                                 : std::to_string(surplus.count) + " lines, the first one is line " +
+                                                       std::to_string(surplus.first) + ", have") +
+                             " more values than the header declares; the rest of the line is left out");
     }
-    soup.notes.push_back((surplus.count == 1 ? "line " + std::to_string(surplus.first) + " has"
-                                             : std::to_string(surplus.count) + " lines, the first one is line " +
-                                                   std::to_string(surplus.first) + ", have") +
-                         " more values than the header declares; the rest of the line is left out");
+    note_rest(error || surplus.count > 0 ? by_line : by_value);
     return soup;
 }
 
@@ -475,7 +487,9 @@ PolygonSoup read_ply(const std::string& path, int threads, bool strict) {
         soup = read_text(path, file, header, AsciiValues(body, header.lines + 1), threads, strict);
     } else {
         const bool big_endian = header.encoding == PlyEncoding::big_endian;
-        soup = BodyReader(path, file, header, BinaryValues(body, big_endian), threads).read();
+        BodyReader reader(path, file, header, BinaryValues(body, big_endian), threads);
+        soup = reader.read();
+        note_surplus(soup, path, reader.values().rest(), "the last element", strict);
     }
     soup.object_names = {std::filesystem::path(path).stem().string()};
     soup.materials = {Material{}};

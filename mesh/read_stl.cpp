@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
 #include "mesh/readers.h"
+#include "mesh/surplus.h"
 #include "mesh/text_scan.h"
 
 namespace burin {
@@ -59,6 +60,13 @@ bool is_plain_text(std::string_view bytes) {
                        [](char c) { return static_cast<unsigned char>(c) >= 0x20 || (c >= '\t' && c <= '\r'); });
 }
 
+/// Text that may lack the word 'solid' at its start, but has facets.
+bool is_text_with_facets(std::string_view bytes) {
+    if (!is_plain_text(bytes)) return false;
+    const std::string begin = lower_case(bytes.substr(0, 4096));
+    return begin.find("facet") != std::string::npos && begin.find("loop") != std::string::npos;
+}
+
 /// The number of triangles, which `count` should be. Where it is not and the file holds whole
 /// triangles behind the header, it is their number that counts: some exporters do not go back to
 /// write it.
@@ -66,7 +74,7 @@ std::uint64_t triangle_count(const std::string& path, std::uint64_t count, std::
                              PolygonSoup& soup) {
     const std::uint64_t room = triangles.size() / kBinaryTriangle;
     const bool is_whole = triangles.size() % kBinaryTriangle == 0 && room > 0 && !is_plain_text(triangles);
-    if (count == room || (count < room && !is_whole)) return count;  // what follows the triangles is ignored
+    if (count == room || (count < room && !is_whole)) return count;
     const std::string found = "the header promises " + std::to_string(count) + " triangles, the file has ";
     if (!is_whole || strict) {
         throw InputError(path + ": " + found + (count > room ? "room for " : "") + std::to_string(room) +
@@ -103,6 +111,7 @@ PolygonSoup read_binary(const std::string& path, std::string_view bytes, bool st
         }
         for (const glm::dvec3& corner : corners) add_corner(soup, corner);
     }
+    note_surplus(soup, path, bytes.substr(static_cast<std::size_t>(p - bytes.data())), "the last triangle", strict);
     soup.object_names = {std::filesystem::path(path).stem().string()};
     note_non_finite({path}, soup, "is triangle " + std::to_string(first_non_finite));
     return soup;
@@ -140,6 +149,8 @@ class AsciiParser {
                 end_loop();
             } else if (keyword == "facet" || keyword == "endfacet" || keyword == "outer") {
                 check_loop_is_closed();
+                if (keyword == "facet" && soup_.object_names.empty()) begin_without_solid();
+                if (keyword != "outer") in_facet_ = keyword == "facet";
             } else if (keyword == "solid") {
                 check_loop_is_closed();
                 begin_solid(std::string(scan.rest()));
@@ -150,8 +161,9 @@ class AsciiParser {
                 fail("unknown word '" + printable(keyword) + "'" + kRepair);
             }
         }
-        if (in_solid_) {
-            fail("the file ends in the middle of a solid; was it written completely?");
+        if (in_solid_ && (in_facet_ || in_loop_ || !lacks_solid_)) {
+            fail(std::string("the file ends in the middle of a ") + (lacks_solid_ ? "facet" : "solid") +
+                 "; was it written completely?");
         }
         note_non_finite({path_, first_non_finite_line_}, soup_, "is on line " + std::to_string(first_non_finite_line_));
         return std::move(soup_);
@@ -171,6 +183,16 @@ class AsciiParser {
         if (name.empty()) name = std::filesystem::path(path_).stem().string();
         soup_.object_names.push_back(std::move(name));
         in_solid_ = true;
+        lacks_solid_ = false;
+    }
+    /// Some programs write facets and nothing else.
+    void begin_without_solid() {
+        begin_solid("");
+        lacks_solid_ = true;
+        note_left_out(soup_, {path_, lines_.line_number()},
+                      "the word 'solid' is missing in front of the first facet, which is on line " +
+                          std::to_string(lines_.line_number()),
+                      strict_);
     }
 
     void add_vertex(LineScanner& scan) {
@@ -210,6 +232,8 @@ class AsciiParser {
     PolygonSoup soup_;
     bool strict_;
     bool in_solid_ = false;
+    bool lacks_solid_ = false;  // the solid that is being read
+    bool in_facet_ = false;
     bool in_loop_ = false;
     bool is_finite_ = true;  // the loop so far
     std::size_t first_non_finite_line_ = 0;
@@ -228,17 +252,21 @@ PolygonSoup read_stl(const std::string& path, bool strict) {
     // Binary files may start with "solid" as well; their size gives them away.
     const std::string_view text = without_byte_order_mark(bytes);
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-    const bool starts_as_text = lower_case(text.substr(first, 5)) == "solid";
+    const bool starts_as_text = lower_case(text.substr(first, 5)) == "solid" || is_text_with_facets(text);
     const bool has_zero_bytes = std::memchr(bytes.data(), 0, std::min<std::size_t>(bytes.size(), 512)) != nullptr;
     const bool is_text = starts_as_text && binary_size != bytes.size() && !has_zero_bytes;
 
+    if ((bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) && binary_size != bytes.size() &&
+        bytes.size() % 2 == 0) {
+        throw InputError(path + ": the text is UTF-16; save it as UTF-8 or ASCII");
+    }
     PolygonSoup soup;
     if (is_text) {
         soup = AsciiParser(path, text, strict).parse();
-    } else if (has_binary_header) {
+    } else if (has_binary_header && (binary_size == bytes.size() || !is_plain_text(bytes))) {
         soup = read_binary(path, bytes, strict);
     } else {
-        throw InputError(path + ": neither text that starts with 'solid' nor a binary STL of 84 " +
+        throw InputError(path + ": neither text that starts with 'solid' or has facets, nor a binary STL of 84 " +
                          "bytes or more; was it written completely?");
     }
     if (soup.corners.empty()) throw InputError(path + ": the file has no triangles");

@@ -11,6 +11,8 @@ namespace burin {
 /// How deep tables and lists may be nested: scenes need six levels. toml++ builds and frees trees
 /// with calls that are nested as deep, so that a limit for the text saves the stack.
 constexpr std::size_t kMaxTomlDepth = 64;
+constexpr const char* kTomlTooDeep = "tables and lists are nested more than 64 deep; scenes need six levels";
+static_assert(kMaxTomlDepth == 64);
 
 /// The first line on which the tree that a TOML text stands for gets deeper than kMaxTomlDepth, whatever makes it so:
 /// parts of dotted keys, headers, inline tables, lists, or all of them together. If the text is no TOML, the part up to

@@ -8,25 +8,22 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "methods/background_pixel.h"
 #include "methods/gbuffer/contours.h"
 #include "methods/gbuffer/line_images.h"
 #include "methods/surface_bins.h"
+#include "methods/thread_times.h"
 
 namespace burin {
 namespace {
 
 constexpr int kTilePx = 32;
 
-struct TileTimes {
-    double raster = 0, lines = 0, shade = 0;
-    double total() const { return raster + lines + shade; }
-};
-
 /// One tile: draw the G-buffer, find lines, filter down to pixels.
 class GBufferTile {
   public:
     GBufferTile(const DetectionContext& context, PixelRect pixels, std::span<const SurfaceId> surfaces,
-                TileTimes& times)
+                ThreadTimes& times)
         : context_(context), scene_(*context.frame.scene), settings_(scene_.gbuffer), s_(context.samples_per_pixel) {
         const PixelRect samples{pixels.x0 * s_, pixels.y0 * s_, pixels.x1 * s_, pixels.y1 * s_};
         Stopwatch watch;
@@ -149,12 +146,6 @@ PixelResult GBufferTile::pixel(int x, int y) const {
     return result;
 }
 
-PixelResult background_pixel() {
-    PixelResult pixel;
-    pixel.distance = std::numeric_limits<float>::infinity();
-    return pixel;
-}
-
 }  // namespace
 
 RenderStats render_gbuffer(const Frame& frame, const RunOptions& options, Film& film) {
@@ -169,9 +160,9 @@ RenderStats render_gbuffer(const Frame& frame, const RunOptions& options, Film& 
     stats.prepare_s = watch.lap();
 
     if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());
-    std::vector<TileTimes> times(static_cast<std::size_t>(stats.threads));
+    std::vector<ThreadTimes> times(static_cast<std::size_t>(stats.threads));
     parallel_for(bins.tile_count(), stats.threads, [&](std::size_t index, int worker) {
-        TileTimes& t = times[static_cast<std::size_t>(worker)];
+        ThreadTimes& t = times[static_cast<std::size_t>(worker)];
         const PixelRect rect = bins.tile(index);
         std::optional<GBufferTile> tile;
         if (!bins.surfaces(index).empty()) tile.emplace(context, rect, bins.surfaces(index), t);
@@ -183,19 +174,7 @@ RenderStats render_gbuffer(const Frame& frame, const RunOptions& options, Film& 
         if (options.progress != nullptr) options.progress->advance();
     });
 
-    // Stages of different tiles run at the same time: their share of the threads' time is their
-    // share of the wall time.
-    const double wall = watch.lap();
-    TileTimes sum;
-    for (const TileTimes& t : times) {
-        sum.raster += t.raster;
-        sum.lines += t.lines;
-        sum.shade += t.shade;
-    }
-    const double share = sum.total() > 0 ? wall / sum.total() : 0;
-    stats.raster_s = sum.raster * share;
-    stats.lines_s = sum.lines * share;
-    stats.shade_s = sum.shade * share;
+    share_out(watch.lap(), times, stats);
     return stats;
 }
 

@@ -1,35 +1,23 @@
 #include "methods/patel/patel.h"
 
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "methods/background_pixel.h"
 #include "methods/patel/patel_tile.h"
 #include "methods/surface_bins.h"
+#include "methods/thread_times.h"
 
 namespace burin {
 namespace {
 
 constexpr int kTilePx = 32;
 
-/// Seconds that one thread spent in each stage, and what it counted.
-struct WorkerTimes {
-    double raster = 0, resolve = 0, lines = 0, shade = 0;
-    std::uint64_t fragments = 0;
-    double total() const { return raster + resolve + lines + shade; }
-};
-
-PixelResult background_pixel() {
-    PixelResult pixel;
-    pixel.distance = std::numeric_limits<float>::infinity();
-    return pixel;
-}
-
 template <typename Mask>
 void render_tile(PatelTile<Mask>& tile, PixelRect rect, std::span<const SurfaceId> surfaces, Film& film,
-                 WorkerTimes& times) {
+                 ThreadTimes& times) {
     Stopwatch watch;
     tile.load(rect, surfaces);
     times.raster += watch.lap();
@@ -62,7 +50,7 @@ RenderStats render_with(const Frame& frame, const ExtendedGrid& grid, const RunO
 
     if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());
     std::vector<std::unique_ptr<PatelTile<Mask>>> tiles(static_cast<std::size_t>(stats.threads));
-    std::vector<WorkerTimes> times(tiles.size());
+    std::vector<ThreadTimes> times(tiles.size());
     parallel_for(bins.tile_count(), stats.threads, [&](std::size_t index, int worker) {
         auto& tile = tiles[static_cast<std::size_t>(worker)];
         if (!tile) tile = std::make_unique<PatelTile<Mask>>(frame, grid);
@@ -70,24 +58,8 @@ RenderStats render_with(const Frame& frame, const ExtendedGrid& grid, const RunO
         if (options.progress != nullptr) options.progress->advance();
     });
 
-    // Stages of different tiles run at the same time: their share of the threads' time is their
-    // share of the wall time.
-    const double wall = watch.lap();
-    WorkerTimes sum;
-    for (const WorkerTimes& t : times) {
-        sum.raster += t.raster;
-        sum.resolve += t.resolve;
-        sum.lines += t.lines;
-        sum.shade += t.shade;
-        sum.fragments += t.fragments;
-    }
-    const double scale = sum.total() > 0 ? wall / sum.total() : 0;
-    stats.raster_s = sum.raster * scale;
-    stats.resolve_s = sum.resolve * scale;
-    stats.lines_s = sum.lines * scale;
-    stats.shade_s = sum.shade * scale;
+    share_out(watch.lap(), times, stats);
     stats.triangles = frame.surfaces.triangle_count();
-    stats.fragments = sum.fragments;
     return stats;
 }
 

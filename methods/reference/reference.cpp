@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "methods/reference/reference_tile.h"
+#include "methods/thread_times.h"
 
 namespace burin {
 namespace {
@@ -16,11 +17,6 @@ int tile_px(int samples, int margin_px) {
     if (samples > 16) return margin_px > 16 ? 64 : 32;
     return margin_px > 16 ? 128 : 64;
 }
-
-struct WorkerTimes {
-    double cast = 0, lines = 0, shade = 0;
-    double total() const { return cast + lines + shade; }
-};
 
 std::vector<PixelRect> tiles_of(const Frame& frame, int side) {
     std::vector<PixelRect> tiles;
@@ -49,14 +45,14 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
     const auto tiles = tiles_of(frame, tile_px(frame.scene->reference.samples, ReferenceTile::margin_px(frame)));
     if (options.progress != nullptr) options.progress->begin("casting rays", tiles.size());
     std::vector<std::unique_ptr<ReferenceTile>> workers(static_cast<std::size_t>(stats.threads));
-    std::vector<WorkerTimes> times(workers.size());
+    std::vector<ThreadTimes> times(workers.size());
     parallel_for(tiles.size(), stats.threads, [&](std::size_t index, int worker) {
         auto& tile = workers[static_cast<std::size_t>(worker)];
-        WorkerTimes& time = times[static_cast<std::size_t>(worker)];
+        ThreadTimes& time = times[static_cast<std::size_t>(worker)];
         if (!tile) tile = std::make_unique<ReferenceTile>(frame, geometry, rays, lines, loose);
         Stopwatch lap;
         tile->cast(tiles[index]);
-        time.cast += lap.lap();
+        time.resolve += lap.lap();
         tile->find_curves();
         time.lines += lap.lap();
         tile->shade(film);
@@ -64,17 +60,7 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
         if (options.progress != nullptr) options.progress->advance();
     });
 
-    const double wall = watch.lap();
-    WorkerTimes sum;
-    for (const WorkerTimes& t : times) {
-        sum.cast += t.cast;
-        sum.lines += t.lines;
-        sum.shade += t.shade;
-    }
-    const double scale = sum.total() > 0 ? wall / sum.total() : 0;
-    stats.resolve_s = sum.cast * scale;
-    stats.lines_s = sum.lines * scale;
-    stats.shade_s = sum.shade * scale;
+    share_out(watch.lap(), times, stats);
     stats.triangles = frame.surfaces.triangle_count();
     return stats;
 }

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "methods/projected_polygon.h"
 #include "methods/wire/edge_distance.h"
-#include "methods/wire/wire_pixel.h"
+#include "methods/wire/wire_pixels.h"
 #include "methods/wire/wire_stroke.h"
 #include "methods/wire/wire_tiles.h"
 
@@ -20,35 +20,21 @@ class IdBufferTile {
         : frame_(frame), settings_(frame.scene->wire), features_(features), stroke_(stroke), depth_(depth) {}
 
     void render(PixelRect rect, std::span<const SurfaceId> surfaces, Film& film) {
-        rect_ = rect;
-        pixels_.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), {});
-        planes_.clear();
+        pixels_.clear(rect);
         for (const SurfaceId s : surfaces) fill(s);
         for (const SurfaceId s : surfaces) draw_edges(s);
-        for (int y = rect.y0; y < rect.y1; ++y) {
-            for (int x = rect.x0; x < rect.x1; ++x) {
-                const WirePixel& pixel = pixel_at(x, y);
-                film.put(x, y, finish_pixel(frame_, pixel, plane_of(pixel), x, y));
-            }
-        }
+        pixels_.put_into(film, frame_);
     }
 
   private:
-    WirePixel& pixel_at(int x, int y) {
-        return pixels_[static_cast<std::size_t>((y - rect_.y0) * rect_.width() + (x - rect_.x0))];
-    }
-    DepthPlane plane_of(const WirePixel& pixel) const {
-        return pixel.surface.is_background() ? DepthPlane{} : planes_[pixel.slot];
-    }
-
     /// Pass 1: numbers and depths.
     void fill(SurfaceId s) {
         const DepthPlane plane = frame_.surfaces.plane(s);
-        const auto slot = static_cast<std::uint32_t>(planes_.size());
-        planes_.push_back(plane);
-        for_each_pixel(frame_.surfaces.screen_polygon(s), rect_, [&](int x, int y) {
+        const std::uint32_t slot = pixels_.next_slot();
+        pixels_.keep(plane);
+        for_each_pixel(frame_.surfaces.screen_polygon(s), pixels_.rect(), [&](int x, int y) {
             const double nearness = plane.nearness({x + 0.5, y + 0.5});
-            WirePixel& pixel = pixel_at(x, y);
+            WirePixel& pixel = pixels_.at(x, y);
             // Where surfaces are equally near, the first one stays.
             if (nearness > pixel.nearness) {
                 pixel.surface = s;
@@ -71,8 +57,9 @@ class IdBufferTile {
     /// A rectangle around the segment that reaches as far as the profile on all sides.
     void draw_stroke(const WireEdge& edge, std::uint32_t polygon) {
         const double reach = stroke_.reach_px();
-        const auto rows = centers_within(std::min(edge.from.y, edge.to.y) - reach,
-                                         std::max(edge.from.y, edge.to.y) + reach, rect_.y0, rect_.y1);
+        const auto rows =
+            centers_within(std::min(edge.from.y, edge.to.y) - reach, std::max(edge.from.y, edge.to.y) + reach,
+                           pixels_.rect().y0, pixels_.rect().y1);
         for (int y = rows.begin; y < rows.end; ++y) {
             const SampleSpan columns = columns_near(edge, y + 0.5, reach);
             for (int x = columns.begin; x < columns.end; ++x) draw_pixel(edge, polygon, x, y);
@@ -96,12 +83,12 @@ class IdBufferTile {
             low = std::max(low, middle - half);
             high = std::min(high, middle + half);
         }
-        return centers_within(low, high, rect_.x0, rect_.x1);
+        return centers_within(low, high, pixels_.rect().x0, pixels_.rect().x1);
     }
 
     void draw_pixel(const WireEdge& edge, std::uint32_t polygon, int x, int y) {
         const glm::dvec2 at(x + 0.5, y + 0.5);
-        WirePixel& pixel = pixel_at(x, y);
+        WirePixel& pixel = pixels_.at(x, y);
         const SegmentDistance segment = segment_distance(edge.from, edge.to, at);
         const double nearness = edge.nearness(segment.along);
         const bool owns = !pixel.surface.is_background() && frame_.surfaces.polygon_id(pixel.surface) == polygon;
@@ -116,7 +103,7 @@ class IdBufferTile {
     /// to its corners.
     double slope_of(const WirePixel& pixel) const {
         if (!settings_.slope || pixel.surface.is_background()) return 0;
-        const DepthPlane& plane = planes_[pixel.slot];
+        const DepthPlane plane = pixels_.plane_of(pixel);
         return 0.5 * (std::abs(plane.per_x) + std::abs(plane.per_y));
     }
 
@@ -125,9 +112,7 @@ class IdBufferTile {
     const FeatureEdges& features_;
     const WireStroke& stroke_;
     const DepthRange depth_;
-    PixelRect rect_;
-    std::vector<WirePixel> pixels_;
-    std::vector<DepthPlane> planes_;
+    WirePixels pixels_;
 };
 
 void check_ids(const Frame& frame) {

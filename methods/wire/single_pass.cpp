@@ -1,7 +1,7 @@
 #include "methods/wire/single_pass.h"
 
 #include "methods/projected_polygon.h"
-#include "methods/wire/wire_pixel.h"
+#include "methods/wire/wire_pixels.h"
 #include "methods/wire/wire_stroke.h"
 #include "methods/wire/wire_tiles.h"
 #include "methods/wire/wire_triangle.h"
@@ -22,35 +22,23 @@ class FillTile {
           depth_(depth) {}
 
     void render(PixelRect rect, std::span<const SurfaceId> surfaces, Film& film) {
-        rect_ = rect;
-        pixels_.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), {});
-        planes_.clear();
+        pixels_.clear(rect);
         WireTriangle triangle(frame_, features_, rules_);
         for (const SurfaceId surface : surfaces) {
             triangle.load(surface, rect, stroke_.reach_px());
             if (triangle.polygon().count > 0) fill(surface, triangle);
         }
-        for (int y = rect.y0; y < rect.y1; ++y) {
-            for (int x = rect.x0; x < rect.x1; ++x) {
-                const WirePixel& pixel = pixel_at(x, y);
-                const DepthPlane plane = pixel.surface.is_background() ? DepthPlane{} : planes_[pixel.slot];
-                film.put(x, y, finish_pixel(frame_, pixel, plane, x, y, settings_.alpha_test > 0));
-            }
-        }
+        pixels_.put_into(film, frame_, settings_.alpha_test > 0);
     }
 
   private:
-    WirePixel& pixel_at(int x, int y) {
-        return pixels_[static_cast<std::size_t>((y - rect_.y0) * rect_.width() + (x - rect_.x0))];
-    }
-
     void fill(SurfaceId surface, const WireTriangle& triangle) {
-        const auto slot = static_cast<std::uint32_t>(planes_.size());
+        const std::uint32_t slot = pixels_.next_slot();
         bool is_seen = false;
-        for_each_pixel(triangle.polygon(), rect_, [&](int x, int y) {
+        for_each_pixel(triangle.polygon(), pixels_.rect(), [&](int x, int y) {
             const glm::dvec2 at(x + 0.5, y + 0.5);
             WirePixel candidate{surface, slot, triangle.plane().nearness(at)};
-            WirePixel& pixel = pixel_at(x, y);
+            WirePixel& pixel = pixels_.at(x, y);
             // Where surfaces are equally near, the first one stays.
             if (!(candidate.nearness > pixel.nearness)) return;
             if (triangle.has_edges()) draw_line(triangle, at, candidate);
@@ -58,7 +46,7 @@ class FillTile {
             pixel = candidate;
             is_seen = true;
         });
-        if (is_seen) planes_.push_back(triangle.plane());
+        if (is_seen) pixels_.keep(triangle.plane());
     }
 
     void draw_line(const WireTriangle& triangle, glm::dvec2 at, WirePixel& pixel) const {
@@ -91,9 +79,7 @@ class FillTile {
     const EdgeRules rules_;
     const WireStroke& stroke_;
     const DepthRange depth_;
-    PixelRect rect_;
-    std::vector<WirePixel> pixels_;
-    std::vector<DepthPlane> planes_;
+    WirePixels pixels_;
 };
 
 RenderStats render_filled(const Frame& frame, const RunOptions& options, Film& film, const EdgeRules& rules,

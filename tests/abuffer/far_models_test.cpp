@@ -9,6 +9,7 @@
 #include "mesh/shapes.h"
 #include "methods/abuffer.h"
 #include "tests/support/drawing.h"
+#include "tests/support/joined_soups.h"
 
 namespace burin {
 namespace {
@@ -23,24 +24,9 @@ PolygonSoup at(PolygonSoup soup, const glm::dvec3& place) {
     return transformed(std::move(soup), [&](glm::dvec3 p) { return glm::round(p * 1024.0) / 1024.0 + place; });
 }
 
-/// Several soups as one object.
-PolygonSoup together(const std::vector<PolygonSoup>& soups) {
-    PolygonSoup all;
-    for (const PolygonSoup& soup : soups) {
-        const auto first = static_cast<std::uint32_t>(all.positions.size());
-        all.positions.insert(all.positions.end(), soup.positions.begin(), soup.positions.end());
-        for (std::size_t i = 0; i < soup.polygon_count(); ++i) {
-            std::vector<std::uint32_t> corners(soup.polygon(i).begin(), soup.polygon(i).end());
-            for (std::uint32_t& v : corners) v += first;
-            all.add_polygon(corners);
-        }
-    }
-    return all;
-}
-
-/// The same as so many objects of one file.
+/// Each as an object of one file.
 PolygonSoup side_by_side(const std::vector<PolygonSoup>& soups) {
-    PolygonSoup all = together(soups);
+    PolygonSoup all = joined(soups);
     for (std::uint32_t i = 0; i < soups.size(); ++i) {
         all.object_names.push_back(std::string(1, static_cast<char>('a' + i)));
         all.polygon_object.insert(all.polygon_object.end(), soups[i].polygon_count(), i);
@@ -103,16 +89,16 @@ TEST(FarModels, AreWhatTheyAreBesideAMarkerAtTheOrigin) {
 }
 
 TEST(FarModels, AreWhatTheyAreInOneObjectWithOthersFarAway) {
-    const Drawing expected = drawing_of(scene_of({together(parts_at(glm::dvec3(0.0)))}), camera_at(glm::dvec3(0.0)));
+    const Drawing expected = drawing_of(scene_of({joined(parts_at(glm::dvec3(0.0)))}), camera_at(glm::dvec3(0.0)));
     std::vector<PolygonSoup> both = parts_at(kFar);
     for (const PolygonSoup& part : parts_at(-kFar)) both.push_back(part);
-    const Scene scene = scene_of({together(both)});
+    const Scene scene = scene_of({joined(both)});
     expect_alike(expected, drawing_of(scene, camera_at(kFar)), "here");
     expect_alike(expected, drawing_of(scene, camera_at(-kFar)), "there");
     // Whichever has more corners.
     std::vector<PolygonSoup> all = parts_at(kFar);
     all.push_back(make_sphere(0.5, 64, 32));
-    expect_alike(expected, drawing_of(scene_of({together(all)}), camera_at(kFar)), "beside a marker");
+    expect_alike(expected, drawing_of(scene_of({joined(all)}), camera_at(kFar)), "beside a marker");
 }
 
 TEST(FarModels, OfAMeshAreWhereTheirTransformsPutThem) {
@@ -142,7 +128,7 @@ TEST(FarModels, StandOnAGroundOfAnySize) {
     const auto draw = [&](double size, bool is_one_file, bool is_one_object) {
         std::vector<PolygonSoup> all = parts_at(glm::dvec3(0.0));
         all.push_back(ground(size, foot));
-        if (is_one_object) return drawing_of(scene_of({together(all)}), camera_at(glm::dvec3(0.0)));
+        if (is_one_object) return drawing_of(scene_of({joined(all)}), camera_at(glm::dvec3(0.0)));
         return drawing_of(scene_of(is_one_file ? std::vector{side_by_side(all)} : all), camera_at(glm::dvec3(0.0)));
     };
     for (const bool is_one_object : {false, true}) {

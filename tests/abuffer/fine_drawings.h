@@ -12,6 +12,7 @@
 #include "methods/abuffer.h"
 #include "methods/reference/reference.h"
 #include "tests/support/drawing.h"
+#include "tests/support/joined_soups.h"
 #include "tests/support/random.h"
 
 namespace burin::test {
@@ -64,21 +65,11 @@ inline PolygonSoup wall() { return placed(make_box({100, 100, 1}), 0, -30); }
 
 /// A prism along x whose cross section is a closed polygon (y, z), counterclockwise from +x.
 inline PolygonSoup prism(const std::vector<glm::dvec2>& section, double half_length) {
-    PolygonSoup soup;
-    const auto n = static_cast<std::uint32_t>(section.size());
+    std::vector<glm::dvec3> rings;
     for (const double x : {-half_length, half_length}) {
-        for (const glm::dvec2& p : section) soup.positions.push_back({x, p.x, p.y});
+        for (const glm::dvec2& p : section) rings.push_back({x, p.x, p.y});
     }
-    std::vector<std::uint32_t> front, back;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t j = (i + 1) % n;
-        soup.add_polygon(std::vector<std::uint32_t>{i, j, n + j, n + i});
-        front.push_back(n + i);
-        back.push_back(n - 1 - i);
-    }
-    soup.add_polygon(front);
-    soup.add_polygon(back);
-    return soup;
+    return between_rings(std::move(rings));
 }
 
 inline const double kAngles_deg[] = {0, 3, 17, 45, 62, 90};

@@ -35,26 +35,15 @@ struct Wire {
         const glm::dvec3 u =
             glm::normalize(glm::cross(along, std::abs(along.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
         const glm::dvec3 v = glm::cross(along, u);
-        PolygonSoup soup;
-        const auto n = static_cast<std::uint32_t>(sides);
+        std::vector<glm::dvec3> rings;
         for (const double end : {-1.0, 1.0}) {
             const double radius = 0.5 * thickness * (end > 0 ? taper : 1);
-            for (std::uint32_t i = 0; i < n; ++i) {
+            for (int i = 0; i < sides; ++i) {
                 const double a = turn + 2 * M_PI * i / sides;
-                soup.positions.push_back(middle() + end * half_length * along +
-                                         radius * (std::cos(a) * u + std::sin(a) * v));
+                rings.push_back(middle() + end * half_length * along + radius * (std::cos(a) * u + std::sin(a) * v));
             }
         }
-        std::vector<std::uint32_t> front, back;
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t j = (i + 1) % n;
-            soup.add_polygon(std::vector<std::uint32_t>{i, j, n + j, n + i});
-            front.push_back(n + i);
-            back.push_back(n - 1 - i);
-        }
-        soup.add_polygon(front);
-        soup.add_polygon(back);
-        return soup;
+        return between_rings(std::move(rings));
     }
 };
 

@@ -187,15 +187,15 @@ TEST(AtomicFile, WhatDeadProcessesLeftIsRemoved) {
     ::close(fd);
 }
 
-/// Where the file system has files without names, nothing is there to be left behind.
+/// Where the file system has files without names, nothing is there to be left behind; elsewhere one temporary name is.
 TEST(AtomicFile, HasNoNameBeforeItIsComplete) {
     const TemporaryFolder folder;
     const int fd = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-    if (fd < 0 || ::access("/proc/self/fd", F_OK) != 0) GTEST_SKIP() << "no files without names here";
-    ::close(fd);
+    const bool needs_name = fd < 0 || ::access("/proc/self/fd", F_OK) != 0;
+    if (fd >= 0) ::close(fd);
     AtomicFile file(folder.file("a"));
     file.write("new", 3);
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_EQ(folder.names().size(), needs_name ? 1u : 0u);
     file.commit();
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
 }
@@ -251,7 +251,7 @@ TEST(AtomicFile, ATemporaryNameIsRemovedWhateverHappens) {
     if (child == 0) ::_exit(check());
     int status = 0;
     ::waitpid(child, &status, 0);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kNoFilter) GTEST_SKIP() << "system calls cannot be refused here";
+    ASSERT_FALSE(WIFEXITED(status) && WEXITSTATUS(status) == kNoFilter) << "this needs a Linux with seccomp filters";
     EXPECT_EQ(status, 0) << "check " << WEXITSTATUS(status);
 }
 

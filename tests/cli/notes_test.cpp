@@ -114,6 +114,34 @@ TEST(Notes, NameWhatAnObjAndItsMaterialsHaveThatIsNotDrawn) {
     EXPECT_EQ(run_burin(folder.path(), {"info", "b.obj", "--strict"}).status, 0);
 }
 
+TEST(Notes, NameWhatStandsBehindTheLastElementAndWordsThatAreNotKnown) {
+    const TemporaryFolder folder;
+    folder.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n");
+    folder.write(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n7\n");
+    folder.write("a.stl", stl_with_a_nan(3).substr(0, 84 + 50).replace(80, 4, bytes_of(std::uint32_t{1})) + "more");
+    folder.write("a.obj", std::string(kCubeObj) + "face 1 2 3\nface 1 2 4\n");
+    for (const auto& [name, note] :
+         {std::pair{"a.off", "lines behind the last polygon left out: 1; the first one is line 7"},
+          {"a.ply", "lines behind the last element left out: 1; the first one is line 14"},
+          {"a.stl", "bytes behind the last triangle left out: 4"},
+          {"a.obj", "lines left out that begin with a word that is not known: 2; the first one is line "}}) {
+        const ProgramResult info = run_burin(folder.path(), {"info", name});
+        EXPECT_EQ(info.status, 0) << info.err;
+        EXPECT_NE(info.out.find("note       " + std::string(name) + ": " + note), std::string::npos) << info.out;
+        const ProgramResult picture = run_burin(folder.path(), {"render", name, "-r", "16x12", "-o", "out.png"});
+        EXPECT_EQ(picture.status, 0) << picture.err;
+        EXPECT_TRUE(is_one_line(picture.err)) << picture.err;
+        EXPECT_NE(picture.err.find(note), std::string::npos) << picture.err;
+        const ProgramResult strict = run_burin(folder.path(), {"info", name, "--strict"});
+        EXPECT_EQ(strict.status, 1);
+        EXPECT_TRUE(is_one_line(strict.err)) << strict.err;
+        EXPECT_NE(strict.err.find(note), std::string::npos) << strict.err;
+    }
+}
+
 TEST(Notes, PolygonsThatWereCutAreCounted) {
     const TemporaryFolder folder;
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0.5 1 0\nv 0.5 1.5 0\nv 0.5 2 0\nf 1 2 3 1 2 4 1 2 5\nf 3 4 1\n");

@@ -362,7 +362,6 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
 
 TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
     const std::vector<const TileKernels*> kernels = all_kernels();
-    if (kernels.size() < 2) GTEST_SKIP() << "one set here";
     Random random(3);
     ScreenTransform t{};
     for (auto& column : t.to_view) {
@@ -396,12 +395,12 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
             kernels[i]->look(t, positions.data(), mesh, numbers.data(), 333, looks[i].data());
         }
         int seen = 0;
+        for (const ScreenVertex& v : vertices[0]) seen += v.x != ScreenVertex::kOffScreen;
         for (std::size_t k = 1; k < kernels.size(); ++k) {
             for (std::size_t i = 0; i < 999; ++i) {
                 ASSERT_EQ(vertices[0][i].x, vertices[k][i].x) << kernels[k]->name;
                 ASSERT_EQ(vertices[0][i].y, vertices[k][i].y) << kernels[k]->name;
                 ASSERT_EQ(vertices[0][i].nearness, vertices[k][i].nearness) << kernels[k]->name;
-                seen += vertices[0][i].x != ScreenVertex::kOffScreen;
             }
             EXPECT_EQ(std::memcmp(looks[0].data(), looks[k].data(), 333 * sizeof(TriangleLook)), 0) << kernels[k]->name;
         }

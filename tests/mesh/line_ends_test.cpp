@@ -148,10 +148,11 @@ TEST_F(LineEndsOfModels, Stl) {
 }
 
 TEST_F(LineEndsOfModels, Off) {
+    const auto read_off_file = [](const std::string& path) { return read_off(path); };
     const std::string text = "# made by hand\nOFF\n100 50 0\n" + rows(100) + "\n" + triangles("3", 50, 0, 100);
-    expect_same("a.off", text, read_off);
+    expect_same("a.off", text, read_off_file);
     expect_same_error("a.off", "OFF\n3 2 0\n" + rows(3) + "3 0 1 2\n\n3 0 1 9\n", {":8: vertex 9 does not exist"},
-                      read_off);
+                      read_off_file);
 }
 
 std::string ply_header(int vertices, int faces) {

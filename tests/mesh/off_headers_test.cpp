@@ -31,7 +31,8 @@ class OffHeaders : public testing::Test {
         return testing::AssertionSuccess();
     }
     testing::AssertionResult refuses(std::string_view text, std::initializer_list<std::string_view> parts) {
-        return test::refuses(read_off, folder_.write("part.off", text), parts);
+        return test::refuses([](const std::string& path) { return read_off(path); }, folder_.write("part.off", text),
+                             parts);
     }
     test::TemporaryFolder folder_;
 };

@@ -18,7 +18,8 @@ class ReadOff : public testing::Test {
   protected:
     PolygonSoup read(std::string_view text) { return read_off(folder_.write("part.off", text)); }
     testing::AssertionResult refuses(std::string_view text, std::initializer_list<std::string_view> parts) {
-        return test::refuses(read_off, folder_.write("part.off", text), parts);
+        return test::refuses([](const std::string& path) { return read_off(path); }, folder_.write("part.off", text),
+                             parts);
     }
     test::TemporaryFolder folder_;
 };

@@ -11,6 +11,7 @@
 #include "abuffer/screen/triangle_bins.h"
 #include "methods/abuffer.h"
 #include "tests/support/drawing.h"
+#include "tests/support/joined_soups.h"
 
 /// What tests of hidden lines and of transparent surfaces have in common: all layers of a square picture.
 namespace burin::test {
@@ -19,20 +20,6 @@ constexpr int kSize = 240;
 
 inline PolygonSoup moved(PolygonSoup soup, glm::dvec3 by) {
     return transformed(std::move(soup), [by](glm::dvec3 p) { return p + by; });
-}
-
-inline PolygonSoup joined(const std::vector<PolygonSoup>& soups) {
-    PolygonSoup all;
-    for (const PolygonSoup& soup : soups) {
-        const auto first = static_cast<std::uint32_t>(all.positions.size());
-        all.positions.insert(all.positions.end(), soup.positions.begin(), soup.positions.end());
-        for (std::size_t i = 0; i < soup.polygon_count(); ++i) {
-            std::vector<std::uint32_t> corners(soup.polygon(i).begin(), soup.polygon(i).end());
-            for (std::uint32_t& corner : corners) corner += first;
-            all.add_polygon(corners);
-        }
-    }
-    return all;
 }
 
 /// All its polygons wound the other way.

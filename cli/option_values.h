@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lines/line_class.h"
+#include "mesh/text_scan.h"
+#include "render/film.h"
+#include "scene/scene_description.h"
+
+/// Values of options as they are typed. What is none throws UsageError, which names the option.
+namespace burin::option_values {
+
+[[noreturn]] void fail(const std::string& option, const std::string& message);
+
+std::vector<std::string_view> split(std::string_view text, char separator);
+bool to_integer(std::string_view text, int& value);
+
+double number(const std::string& option, std::string_view text);
+int integer(const std::string& option, std::string_view text, int low, int high);
+/// Bytes, or with a K, M, G or T behind 1024 times as many for each letter.
+std::uint64_t byte_count(const std::string& option, std::string_view text);
+glm::dvec3 vector(const std::string& option, std::string_view text);
+/// `form` says how they are written.
+template <std::size_t N>
+std::array<int, N> integers(const std::string& option, std::string_view text, char separator, const char* form) {
+    const auto parts = split(text, separator);
+    std::array<int, N> values{};
+    for (std::size_t i = 0; i < N; ++i) {
+        if (parts.size() != N || !to_integer(parts[i], values[i])) {
+            fail(option, "must be " + std::string(form) + ", got '" + printable(text) + "'");
+        }
+    }
+    return values;
+}
+
+LineClassSet line_classes(std::string_view text);
+LayerSet layer_set(std::string_view text);
+GBufferOperatorSet gbuffer_operators(std::string_view text);
+
+}  // namespace burin::option_values
