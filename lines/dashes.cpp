@@ -187,7 +187,7 @@ std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePie
     const DashPen pen(dash_px, width_px);
     SharedDashes shared(picture, SharedDashes::reach_of_pen_px(width_px));
     const LineDashes of_features(features, surfaces, pen.period_px(), shared);
-    const WholeLineIndex on_mesh(features, surfaces);
+    const WholeLineIndex on_mesh(features);
     std::vector<const LinePiece*> others;
     for (const auto& list : segments) {
         for (const LinePiece& s : list) {

@@ -9,7 +9,7 @@ namespace burin {
 
 DashesBehind::DashesBehind(std::span<const WholeLine> lines, const SurfaceSet& surfaces, PixelRect picture,
                            std::array<double, 2> dash_px, double width_px)
-    : lines_(lines), index_(lines, surfaces), pen_(dash_px, width_px), group_(lines.size()), number_(lines.size()) {
+    : lines_(lines), index_(lines), pen_(dash_px, width_px), group_(lines.size()), number_(lines.size()) {
     SharedDashes shared(picture, SharedDashes::reach_of_pen_px(width_px));
     for (const bool are_features : {true, false}) {
         std::vector<WholeLine> chosen;

@@ -5,18 +5,8 @@
 
 namespace burin {
 
-WholeLineIndex::WholeLineIndex(std::span<const WholeLine> lines, const SurfaceSet& surfaces) : lines_(lines) {
-    for (std::uint32_t i = 0; i < lines.size(); ++i) {
-        const LineId id = lines[i].id;
-        numbers_.push_back({id, i});
-        if (!lines[i].has_more_owners) continue;
-        // A piece has the key of the two triangles that it was found between.
-        const Mesh& mesh = *surfaces.instances[id.instance()].mesh;
-        const HalfEdge h = id.half_edge();
-        for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {
-            numbers_.push_back({LineId::of_edge(id.instance(), std::min(g, mesh.next_on_edge[g])), i});
-        }
-    }
+WholeLineIndex::WholeLineIndex(std::span<const WholeLine> lines) : lines_(lines) {
+    for (std::uint32_t i = 0; i < lines.size(); ++i) numbers_.push_back({lines[i].id, i});
     std::sort(numbers_.begin(), numbers_.end());
 }
 

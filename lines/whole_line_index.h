@@ -8,7 +8,6 @@
 
 #include "lines/line_piece.h"
 #include "lines/whole_line.h"
-#include "view/surface_set.h"
 
 namespace burin {
 
@@ -16,7 +15,7 @@ namespace burin {
 class WholeLineIndex {
   public:
     /// `lines` must outlive it.
-    WholeLineIndex(std::span<const WholeLine> lines, const SurfaceSet& surfaces);
+    explicit WholeLineIndex(std::span<const WholeLine> lines);
 
     /// The number of the line that a piece is part of, if there is one. Of an edge that is several lines, the one at
     /// the piece.

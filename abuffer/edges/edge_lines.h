@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "abuffer/screen/edge_rings.h"
 #include "abuffer/screen/screen_surfaces.h"
 #include "image/image.h"
 #include "lines/whole_line.h"
@@ -13,12 +14,6 @@
 // Edges of meshes become whole lines if they are lines in this view, whatever is in front of them.
 
 namespace burin {
-
-/// Whether an edge belongs to exactly two triangles, as its side alone tells: an edge that is not sharp does. False for
-/// some that do, too.
-inline bool is_surely_pair(const ScreenMesh& mesh, HalfEdge h) {
-    return mesh.sharp != nullptr && (mesh.sharp[h / 3] >> h % 3 & 1) == 0;
-}
 
 /// The edges of the instances shown that may be lines in this view, in chunks of triangles. Edges of two triangles are
 /// there once, as the smaller of their half-edges. The facing of all triangles must be known.

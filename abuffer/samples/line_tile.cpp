@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "abuffer/screen/edge_rings.h"
 #include "abuffer/screen/sampling.h"
 #include "base/interrupt.h"
 #include "lines/cell_tracer.h"
@@ -87,7 +88,7 @@ void LineTile::set_edge(SurfaceEdge edge, LineCrossing& crossing) const {
     const HalfEdge h = edge.half_edge;
     const std::uint32_t instance = edge.surface.instance;
     const ScreenMesh& mesh = screen_.mesh(instance);
-    crossing.line = LineId::of_edge(instance, std::min(h, mesh.partners[h]));
+    crossing.line = LineId::of_edge(instance, least_on_edge(mesh, h, mesh.partners[h]));
     const std::uint32_t first = h - h % 3;
     const ScreenVertex& from = mesh.vertices[mesh.corners[h]];
     const ScreenVertex& to = mesh.vertices[mesh.corners[first + (h - first + 1) % 3]];
@@ -226,7 +227,7 @@ void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& a
             crossing.occludes = true;
             crossing.opacity = 255;
             crossing.nearness = found.nearness[i];
-            crossing.line = LineId::of_edge(instance, std::min(found.exit[i], found.partner[i]));
+            crossing.line = LineId::of_edge(instance, least_on_edge(mesh, found.exit[i], found.partner[i]));
             crossing.edge_ends[0] = glm::dvec2(found.from_x[i], found.from_y[i]) / double{kSubpixelsPerPixel};
             crossing.edge_ends[1] = glm::dvec2(found.to_x[i], found.to_y[i]) / double{kSubpixelsPerPixel};
             crossing.along = crossing.edge_ends[1] - crossing.edge_ends[0];
