@@ -14,6 +14,7 @@
 #include "scene/gbuffer_toml.h"
 #include "scene/parse_toml.h"
 #include "scene/scene_description.h"
+#include "scene/scene_tables.h"
 #include "scene/shape_toml.h"
 #include "scene/toml_depth.h"
 #include "scene/toml_reader.h"
@@ -67,9 +68,9 @@ glm::dmat4 read_transform(TomlReader& t) {
 
 class SceneReader {
   public:
-    SceneReader(const std::string& path, TomlReader root) : path_(path), root_(std::move(root)) {}
+    SceneReader(const ScenePlace& place, TomlReader root) : folder_(place.folder), root_(std::move(root)) {}
 
-    SceneDescription read() {
+    SceneDescription read(SceneParts parts) {
         read_cameras();
         for (TomlReader& t : root_.tables("material")) read_material(t);
         for (TomlReader& t : root_.tables("object")) read_object(t);
@@ -83,7 +84,7 @@ class SceneReader {
         if (auto t = root_.table("zbuffer")) read_zbuffer(*t);
         if (auto t = root_.table("wire")) scene_.wire = read_wire_settings(*t);
         root_.finish();
-        if (scene_.objects.empty()) {
+        if (parts == SceneParts::all && scene_.objects.empty()) {
             root_.fail("the scene has no [[object]]; add one with a file or a shape");
         }
         return std::move(scene_);
@@ -144,8 +145,7 @@ class SceneReader {
         }
         if (has_file) {
             const std::filesystem::path file(*t.text("file"));
-            object.file =
-                file.is_absolute() ? file.string() : (std::filesystem::path(path_).parent_path() / file).string();
+            object.file = file.is_absolute() ? file.string() : (folder_ / file).string();
             object.where = t.position("file");
         } else {
             object.shape = read_shape(t);
@@ -347,166 +347,59 @@ class SceneReader {
         t.finish();
     }
 
-    std::string path_;
+    std::filesystem::path folder_;
     TomlReader root_;
     SceneDescription scene_;
     std::unordered_set<std::string> camera_names_, material_names_;
 };
 
-// ---- overrides ----
-
-constexpr const char* kTooDeep = "tables and lists are nested more than 64 deep; scenes need six levels";
-static_assert(kMaxTomlDepth == 64);
-
-/// For messages about an override; TomlReader recognises it.
-std::string override_place(const Override& o) {
-    return std::string(TomlReader::kCommandLine) + printable(o.key) + "=" + printable(o.value);
-}
-
-[[noreturn]] void fail_override(const Override& o, const std::string& message) {
-    throw UsageError(override_place(o) + ": " + message);
-}
-
-/// A text as TOML writes it.
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        const auto code = static_cast<unsigned char>(c);
-        if (code < 0x20 || code == 0x7F || c == '"' || c == '\\') {
-            char escape[8];
-            std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(code));
-            result += escape;
-        } else {
-            result += c;
-        }
-    }
-    return result + '"';
-}
-
-/// A table whose only member is the value; nothing if the text is no single TOML value.
-std::optional<toml::table> parse_value(const Override& o, const std::string& text) {
-    const std::string line = "value = " + text;
-    if (line_nested_too_deep(line)) fail_override(o, kTooDeep);
-    try {
-        toml::table table = toml::parse(line, override_place(o));
-        if (table.size() == 1) return table;
-    } catch (const toml::parse_error&) {
-    }
-    return std::nullopt;
-}
-
-/// Numbers as options take them, in TOML: ".5" is 0.5; "1,2,3" and "400x300" are lists. Nothing for other texts and for
-/// what is a text by its key.
-std::optional<std::string> numbers_in_toml(std::string_view key, std::string_view text) {
-    for (const std::string_view name : {"name", "file", "material", "highlight"}) {
-        if (key.ends_with(name)) return std::nullopt;
-    }
-    const bool is_list = text.starts_with('[') && text.ends_with(']');
-    if (is_list) text = text.substr(1, text.size() - 2);
-    std::string result;
-    int count = 0;
-    for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1, ++count) {
-        end = text.find_first_of(is_list ? "," : ",x", begin);
-        double value = 0;
-        std::string_view part = text.substr(begin, end - begin);
-        while (part.starts_with(' ')) part.remove_prefix(1);
-        while (part.ends_with(' ')) part.remove_suffix(1);
-        if (part.starts_with('+')) part.remove_prefix(1);
-        // 001122 is rather a colour.
-        if (part.size() > 1 && part[0] == '0' && part.find_first_not_of("0123456789") == std::string_view::npos)
-            return std::nullopt;
-        const auto [last, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (error != std::errc() || last != part.data() + part.size() || !std::isfinite(value)) return std::nullopt;
-        char number[40];
-        const bool is_whole = part.find_first_of(".eE") == std::string_view::npos && std::abs(value) < 1e15;
-        std::snprintf(number, sizeof number, is_whole ? "%.0f" : "%.17e", value);
-        result += (result.empty() ? "" : ", ") + std::string(number);
-    }
-    return is_list || count > 1 ? "[" + result + "]" : result;
-}
-
-toml::table override_value(const Override& o) {
-    if (auto value = parse_value(o, o.value)) return *std::move(value);
-    if (const auto numbers = numbers_in_toml(o.key, o.value)) {
-        if (auto value = parse_value(o, *numbers)) return *std::move(value);
-    }
-    if (auto value = parse_value(o, quoted(o.value))) return *std::move(value);  // typed without quotes
-    fail_override(o, "the value is not UTF-8");
-}
-
-/// Puts an override's value in its place, making tables on the way as needed. A number in the key
-/// counts into an array: object.0.subdivide.
-void apply_override(toml::table& root, const Override& o) {
-    constexpr int kMaxParts = 16;
-    toml::table holder = override_value(o);
-    toml::node&& value = std::move(*holder.get("value"));  // a copied node forgets its source
-    toml::node* at = &root;
-    std::string_view rest = o.key;
-    for (int parts = 1; parts <= kMaxParts; ++parts) {
-        const std::size_t dot = rest.find('.');
-        const std::string_view part = rest.substr(0, dot);
-        const bool is_last = dot == std::string_view::npos;
-        if (part.empty()) fail_override(o, "the key must be like lines.width or object.0.subdivide");
-        if (toml::array* const array = at->as_array()) {
-            std::size_t index = 0;
-            const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-            if (error != std::errc() || end != part.data() + part.size() || index >= array->size()) {
-                fail_override(
-                    o, "there is no element '" + printable(part) + "', the list has " + std::to_string(array->size()));
-            }
-            if (is_last) {
-                array->replace(array->begin() + static_cast<std::ptrdiff_t>(index), std::move(value));
-                return;
-            }
-            at = array->get(index);
-        } else if (toml::table* const table = at->as_table()) {
-            if (is_last) {
-                table->insert_or_assign(part, std::move(value));
-                return;
-            }
-            if (!table->contains(part)) {
-                toml::table empty = *parse_value(o, "{}");
-                table->insert(part, std::move(*empty.get("value")));
-            }
-            at = table->get(part);
-        } else {
-            fail_override(o, "'" + printable(part) + "' stands below a value that is no table");
-        }
-        rest.remove_prefix(dot + 1);
-    }
-    fail_override(o, "the key has too many parts");
-}
-
-SceneDescription read_tables(const std::string& path, toml::table root, const std::vector<Override>& overrides) {
-    for (const Override& o : overrides) apply_override(root, o);
-    return SceneReader(path, TomlReader(root, "", path)).read();
-}
-
 }  // namespace
 
-SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
-    const MappedFile file(path);
-    if (file.bytes().size() > kMaxSceneBytes) {
-        throw InputError(path + ": a scene file of more than 64 MB; is it a model?");
-    }
-    if (const auto line = line_nested_too_deep(file.bytes())) throw InputError({path, *line}, kTooDeep);
+SceneDescription read_scene_tables(const toml::table& tables, const ScenePlace& place, SceneParts parts) {
+    return SceneReader(place, TomlReader(tables, "", place.name)).read(parts);
+}
+
+toml::table parse_scene_text(std::string_view text, const std::string& name) {
+    if (text.size() > kMaxSceneBytes) throw InputError(name + ": a scene file of more than 64 MB; is it a model?");
+    if (const auto line = line_nested_too_deep(text)) throw InputError({name, *line}, kTooDeepToml);
     try {
-        return read_tables(path, parse_toml(file.bytes(), path), overrides);
+        return parse_toml(text, name);
     } catch (const toml::parse_error& error) {
-        file.check_is_whole();
         const toml::source_position at = error.source().begin;
         std::string message(error.description());
         std::replace(message.begin(), message.end(), '\n', ' ');
-        throw InputError({path, at.line, at.column}, message);
+        throw InputError({name, at.line, at.column}, message);
     }
 }
 
-SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides) {
+toml::table read_scene_toml(const std::string& path) {
+    const MappedFile file(path);
+    try {
+        return parse_scene_text(file.bytes(), path);
+    } catch (const InputError&) {
+        file.check_is_whole();
+        throw;
+    }
+}
+
+toml::table bare_model_tables(const std::string& path) {
     toml::table object;
     object.insert("file", std::filesystem::path(path).filename().string());  // relative to the scene: itself
     toml::table root;
     root.insert("object", toml::array(std::move(object)));
-    return read_tables(path, std::move(root), overrides);
+    return root;
+}
+
+SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
+    toml::table tables = read_scene_toml(path);
+    for (const Override& o : overrides) apply_override(tables, o);
+    return read_scene_tables(tables, place_of_scene(path));
+}
+
+SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides) {
+    toml::table tables = bare_model_tables(path);
+    for (const Override& o : overrides) apply_override(tables, o);
+    return read_scene_tables(tables, place_of_scene(path));
 }
 
 }  // namespace burin
