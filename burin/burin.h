@@ -88,21 +88,21 @@ BURIN_API int burin_add_material(burin_scene* scene, const burin_material* mater
  *  one, polygons without area are dropped: all as if the mesh came from a file (docs/conventions.md, Models). */
 typedef struct burin_mesh {
     uint32_t size;
-    const char* name;                /**< of its objects that have no name of their own; NULL: none */
-    const float* points;             /**< x y z of each point: finite, at most 1e30 */
-    uint64_t point_count;            /**< at most 2^31 - 1 */
-    const int32_t* corners;          /**< points of the polygons' corners, from 0, one polygon after the other */
-    uint64_t corner_count;           /**< at most 2^32 - 1 */
-    const int32_t* polygon_sizes;    /**< corners of each polygon; NULL: all are triangles */
-    uint64_t polygon_count;          /**< 0 will do without polygon_sizes */
+    const char* name;                 /**< of its objects that have no name of their own; NULL: none */
+    const float* points;              /**< x y z of each point: finite, at most 1e30 */
+    uint64_t point_count;             /**< at most 2^31 - 1 */
+    const int32_t* corners;           /**< points of the polygons' corners, from 0, one polygon after the other */
+    uint64_t corner_count;            /**< at most 2^32 - 1 */
+    const int32_t* polygon_sizes;     /**< corners of each polygon; NULL: all are triangles */
+    uint64_t polygon_count;           /**< 0 will do without polygon_sizes */
     const int32_t* polygon_materials; /**< number of each one's material, or 0: light grey; NULL: all 0 */
-    const int32_t* polygon_objects;  /**< which part each one belongs to, from 0: parts are welded on their own, and
-                                          where they touch is a line of class `object`; NULL: all are one */
-    uint64_t object_count;           /**< how many parts; 0 will do without polygon_objects */
-    const char* const* object_names; /**< of the parts; NULL: they have none */
-    const int32_t* marked_edges;     /**< pairs of points: edges of class `mark`, lines by themselves if no polygon has
-                                          them; NULL: none */
-    uint64_t marked_edge_count;      /**< how many pairs */
+    const int32_t* polygon_objects;   /**< which part each one belongs to, from 0: parts are welded on their own, and
+                                           where they touch is a line of class `object`; NULL: all are one */
+    uint64_t object_count;            /**< how many parts; 0 will do without polygon_objects */
+    const char* const* object_names;  /**< of the parts; NULL: they have none */
+    const int32_t* marked_edges;      /**< pairs of points: edges of class `mark`, lines by themselves if no polygon has
+                                           them; NULL: none */
+    uint64_t marked_edge_count;       /**< how many pairs */
 } burin_mesh;
 
 /** Adds a mesh, for objects to show. Returns its number. */
@@ -113,10 +113,10 @@ BURIN_API int burin_remove_mesh(burin_scene* scene, int mesh);
 /** A mesh at a place. */
 typedef struct burin_object {
     uint32_t size;
-    int32_t mesh;         /**< its number */
-    int32_t material;     /**< of all its polygons; 0: their own ones */
-    const char* name;     /**< NULL: the mesh's; parts have theirs behind it: "name/part" */
-    double to_world[16];  /**< all 0: the mesh stands where its points say */
+    int32_t mesh;        /**< its number */
+    int32_t material;    /**< of all its polygons; 0: their own ones */
+    const char* name;    /**< NULL: the mesh's; parts have theirs behind it: "name/part" */
+    double to_world[16]; /**< all 0: the mesh stands where its points say */
 } burin_object;
 
 /** Adds an object. Returns its number. */
@@ -187,14 +187,14 @@ BURIN_API void burin_picture_free(burin_picture* picture);
 enum burin_type { BURIN_HALF = 1, BURIN_FLOAT = 2, BURIN_UINT32 = 3 };
 
 /** The values of a channel ("R", "lines.A", "Z", "id.object" ...: docs/conventions.md, Images), row by row from the
- *  top, without gaps. `type`: gets its burin_type; `size`: gets columns and rows, those of the crop. Either may be NULL.
- *  The picture owns them. */
+ *  top, without gaps. `type`: gets its burin_type; `size`: gets columns and rows, those of the crop. Either may be
+ * NULL. The picture owns them. */
 BURIN_API const void* burin_channel(const burin_picture* picture, const char* name, int32_t* type, int32_t size[2]);
 /** The name of channel `index`, from 0; NULL behind the last one, which is no failure. */
 BURIN_API const char* burin_channel_name(const burin_picture* picture, int index);
-/** The whole picture as a display shows it, 8 bits per value, sRGB: width x height x channels bytes, row by row from the
- *  top. `channels`: 1 grey, 3 red green blue, both over the scene's background or white paper; 4 with alpha, which is
- *  not multiplied in. Pixels outside of the crop are background. Needs the layer `beauty`. */
+/** The whole picture as a display shows it, 8 bits per value, sRGB: width x height x channels bytes, row by row from
+ * the top. `channels`: 1 grey, 3 red green blue, both over the scene's background or white paper; 4 with alpha, which
+ * is not multiplied in. Pixels outside of the crop are background. Needs the layer `beauty`. */
 BURIN_API int burin_pixels(const burin_picture* picture, uint8_t* out, int channels);
 
 /** A picture as the bytes of a file: the same that the program writes. `format`: "exr", "png", "png16", "tif", "tif16";

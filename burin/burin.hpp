@@ -62,13 +62,13 @@ struct Material {
 /// See burin_mesh. The spans have to live during the call alone.
 struct Mesh {
     std::string name;
-    std::span<const float> points;                   ///< x y z of each
+    std::span<const float> points;  ///< x y z of each
     std::span<const std::int32_t> corners;
-    std::span<const std::int32_t> polygon_sizes;     ///< empty: all are triangles
-    std::span<const std::int32_t> polygon_materials; ///< empty: none has one
-    std::span<const std::int32_t> polygon_objects;   ///< empty: all are one
-    std::vector<std::string> object_names;           ///< of the parts that polygon_objects numbers
-    std::span<const std::int32_t> marked_edges;      ///< two points each
+    std::span<const std::int32_t> polygon_sizes;      ///< empty: all are triangles
+    std::span<const std::int32_t> polygon_materials;  ///< empty: none has one
+    std::span<const std::int32_t> polygon_objects;    ///< empty: all are one
+    std::vector<std::string> object_names;            ///< of the parts that polygon_objects numbers
+    std::span<const std::int32_t> marked_edges;       ///< two points each
 };
 
 /// How a scene is seen; see burin_view. Without anything: as the scene says.
@@ -178,8 +178,7 @@ class Scene {
         if (mesh.points.size() % 3 != 0 || mesh.marked_edges.size() % 2 != 0) {
             throw Error(BURIN_BAD_ARGUMENT, "mesh: points have three numbers each, marked edges two");
         }
-        const std::size_t polygons =
-            mesh.polygon_sizes.empty() ? mesh.corners.size() / 3 : mesh.polygon_sizes.size();
+        const std::size_t polygons = mesh.polygon_sizes.empty() ? mesh.corners.size() / 3 : mesh.polygon_sizes.size();
         for (const std::span<const std::int32_t> per_polygon : {mesh.polygon_materials, mesh.polygon_objects}) {
             if (!per_polygon.empty() && per_polygon.size() != polygons) {
                 throw Error(BURIN_BAD_ARGUMENT, "mesh: materials and objects are given for each polygon or for none");

@@ -22,8 +22,10 @@ struct Format {
     int bits;
     std::string_view extension;
 };
-constexpr Format kFormats[] = {{"exr", OutputFormat::exr, 8, ".exr"},    {"png", OutputFormat::png, 8, ".png"},
-                               {"png16", OutputFormat::png, 16, ".png"}, {"tif", OutputFormat::tiff, 8, ".tif"},
+constexpr Format kFormats[] = {{"exr", OutputFormat::exr, 8, ".exr"},
+                               {"png", OutputFormat::png, 8, ".png"},
+                               {"png16", OutputFormat::png, 16, ".png"},
+                               {"tif", OutputFormat::tiff, 8, ".tif"},
                                {"tif16", OutputFormat::tiff, 16, ".tif"}};
 
 const Format& format_named(std::string_view name) {

@@ -47,13 +47,16 @@ Struct read_struct(const Struct* given, const char* name) {
     constexpr std::uint32_t kLargest = 4096;
     const std::uint32_t size = required(given, name).size;
     if (size < sizeof(std::uint32_t) || size > kLargest) {
-        throw UsageError(std::string(name) + ".size is " + std::to_string(size) + "; set it to sizeof(burin_" + name + ")");
+        throw UsageError(std::string(name) + ".size is " + std::to_string(size) + "; set it to sizeof(burin_" + name +
+                         ")");
     }
     Struct known{};
     std::memcpy(&known, given, std::min<std::size_t>(size, sizeof known));
     const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
-    if (size > sizeof known && std::any_of(bytes + sizeof known, bytes + size, [](unsigned char b) { return b != 0; })) {
-        throw UsageError(std::string(name) + " has fields that burin " + burin_version() + " does not know; use a newer one");
+    if (size > sizeof known &&
+        std::any_of(bytes + sizeof known, bytes + size, [](unsigned char b) { return b != 0; })) {
+        throw UsageError(std::string(name) + " has fields that burin " + burin_version() +
+                         " does not know; use a newer one");
     }
     return known;
 }

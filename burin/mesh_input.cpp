@@ -26,7 +26,8 @@ std::span<const T> array_of(const T* array, std::uint64_t count, std::uint64_t m
         throw UsageError("mesh: " + std::to_string(count) + " " + name + "; there may be " + std::to_string(most) +
                          " at most");
     }
-    if (count > 0 && array == nullptr) throw UsageError("mesh: " + std::to_string(count) + " " + name + ", but the array is NULL");
+    if (count > 0 && array == nullptr)
+        throw UsageError("mesh: " + std::to_string(count) + " " + name + ", but the array is NULL");
     return {array, static_cast<std::size_t>(count * per_element)};
 }
 

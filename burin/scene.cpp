@@ -124,8 +124,9 @@ int burin_load(burin_scene* scene, const char* path) {
             return load_description(*scene, std::move(description), std::move(settings));
         }
         if (is_model_file(file)) return load_description(*scene, bare_model_scene(file, {}), std::move(settings));
-        throw InputError(file + ": unknown kind of input; burin reads .toml scenes and .obj .ply .stl .off .gltf .glb "
-                                "models");
+        throw InputError(file +
+                         ": unknown kind of input; burin reads .toml scenes and .obj .ply .stl .off .gltf .glb "
+                         "models");
     });
 }
 
@@ -133,7 +134,8 @@ int burin_load_text(burin_scene* scene, const char* toml, const char* base_folde
     return guarded([&] {
         StoppableCall call(required(scene, "scene"));
         SceneSettings settings = scene->settings;
-        SceneDescription description = settings.take_scene(&required(toml, "toml"), "scene", text_or_empty(base_folder));
+        SceneDescription description =
+            settings.take_scene(&required(toml, "toml"), "scene", text_or_empty(base_folder));
         return load_description(*scene, std::move(description), std::move(settings));
     });
 }
@@ -141,8 +143,9 @@ int burin_load_text(burin_scene* scene, const char* toml, const char* base_folde
 const char* burin_note(const burin_scene* scene, int index) {
     return guarded_pointer([&]() -> const char* {
         const std::vector<std::string>& notes = required(scene, "scene").notes;
-        return index >= 0 && static_cast<std::size_t>(index) < notes.size() ? notes[static_cast<std::size_t>(index)].c_str()
-                                                                            : nullptr;
+        return index >= 0 && static_cast<std::size_t>(index) < notes.size()
+                   ? notes[static_cast<std::size_t>(index)].c_str()
+                   : nullptr;
     });
 }
 
@@ -154,7 +157,8 @@ int burin_add_material(burin_scene* scene, const burin_material* material) {
         for (const float number : numbers) {
             if (!(number >= 0 && number <= 1)) throw UsageError("material: colors and opacity must be from 0 to 1");
         }
-        if (scene->materials.size() >= std::size_t{std::numeric_limits<int>::max()}) throw InputError("too many materials");
+        if (scene->materials.size() >= std::size_t{std::numeric_limits<int>::max()})
+            throw InputError("too many materials");
         scene->materials.push_back(
             {text_or_empty(given.name), {given.color[0], given.color[1], given.color[2]}, given.opacity});
         return static_cast<int>(scene->materials.size());
@@ -191,7 +195,8 @@ int burin_add_mesh(burin_scene* scene, const burin_mesh* mesh) {
 
 int burin_remove_mesh(burin_scene* scene, int mesh) {
     return guarded([&] {
-        if (required(scene, "scene").meshes.erase(mesh) == 0) throw UsageError("there is no mesh " + std::to_string(mesh));
+        if (required(scene, "scene").meshes.erase(mesh) == 0)
+            throw UsageError("there is no mesh " + std::to_string(mesh));
         return int{BURIN_DONE};
     });
 }

@@ -43,11 +43,11 @@ struct ObjectState {
 struct burin_scene {
     burin::SceneSettings settings;
     std::vector<burin::Material> materials;
-    std::uint32_t default_material = 0;                        ///< its number, from 1; 0: not needed so far
-    std::vector<burin::CameraSettings> file_cameras;           ///< of models
-    std::map<int, std::shared_ptr<burin::MeshGroup>> meshes;   ///< by their numbers
-    std::map<int, burin::ObjectState> objects;                 ///< by their numbers
-    int last_mesh = 0, last_object = 0;                        ///< numbers that were given
+    std::uint32_t default_material = 0;                       ///< its number, from 1; 0: not needed so far
+    std::vector<burin::CameraSettings> file_cameras;          ///< of models
+    std::map<int, std::shared_ptr<burin::MeshGroup>> meshes;  ///< by their numbers
+    std::map<int, burin::ObjectState> objects;                ///< by their numbers
+    int last_mesh = 0, last_object = 0;                       ///< numbers that were given
     std::vector<std::string> notes;
     burin::StopFlag stop{false};
 };

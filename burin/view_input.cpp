@@ -42,8 +42,9 @@ void check_is_rigid(const glm::dmat4& m) {
         }
     }
     if (!(off <= kTolerance)) {
-        throw UsageError("view.camera_to_world: must not scale or skew; its columns x, y, z must have length 1 and be "
-                         "at right angles");
+        throw UsageError(
+            "view.camera_to_world: must not scale or skew; its columns x, y, z must have length 1 and be "
+            "at right angles");
     }
     if (!(glm::determinant(glm::dmat3(m)) > 0)) {
         throw UsageError("view.camera_to_world: is a mirror; x, y and z must be right-handed");
@@ -69,8 +70,9 @@ CameraSettings camera_of_matrix(const burin_view& view) {
 
 CameraSettings camera_of_scene(const burin_view& view, const std::vector<CameraSettings>& cameras) {
     if (view.fov_deg != 0 || view.ortho_height != 0) {
-        throw UsageError("view.fov_deg and view.ortho_height are for a view with camera_to_world; set those of the "
-                         "scene's cameras by burin_set()");
+        throw UsageError(
+            "view.fov_deg and view.ortho_height are for a view with camera_to_world; set those of the "
+            "scene's cameras by burin_set()");
     }
     if (view.camera == nullptr) return cameras.front();
     const auto named = std::find_if(cameras.begin(), cameras.end(),

@@ -43,7 +43,8 @@ void SceneSettings::change_to(std::unique_ptr<Tables> tables) {
 void SceneSettings::set(const Override& override) {
     for (const std::string_view table : kNoSettings) {
         if (override.key.substr(0, override.key.find('.')) == table) {
-            throw UsageError(override.key + ": an " + std::string(table == kNoSettings[0] ? "object" : "object's material") +
+            throw UsageError(override.key + ": an " +
+                             std::string(table == kNoSettings[0] ? "object" : "object's material") +
                              " is no setting of the scene; write it in the scene that is loaded");
         }
     }
