@@ -54,21 +54,21 @@ using Matrix = std::array<double, 16>;
 
 /// See burin_material.
 struct Material {
-    std::string name;
+    std::string name{};
     std::array<float, 3> color{0.8f, 0.8f, 0.8f};
     float opacity = 1;
 };
 
 /// See burin_mesh. The spans have to live during the call alone.
 struct Mesh {
-    std::string name;
-    std::span<const float> points;  ///< x y z of each
-    std::span<const std::int32_t> corners;
-    std::span<const std::int32_t> polygon_sizes;      ///< empty: all are triangles
-    std::span<const std::int32_t> polygon_materials;  ///< empty: none has one
-    std::span<const std::int32_t> polygon_objects;    ///< empty: all are one
-    std::vector<std::string> object_names;            ///< of the parts that polygon_objects numbers
-    std::span<const std::int32_t> marked_edges;       ///< two points each
+    std::string name{};
+    std::span<const float> points{};  ///< x y z of each
+    std::span<const std::int32_t> corners{};
+    std::span<const std::int32_t> polygon_sizes{};      ///< empty: all are triangles
+    std::span<const std::int32_t> polygon_materials{};  ///< empty: none has one
+    std::span<const std::int32_t> polygon_objects{};    ///< empty: all are one
+    std::vector<std::string> object_names{};            ///< of the parts that polygon_objects numbers
+    std::span<const std::int32_t> marked_edges{};       ///< two points each
 };
 
 /// How a scene is seen; see burin_view. Without anything: as the scene says.
@@ -76,7 +76,7 @@ struct View {
     int width = 0, height = 0;
     std::array<std::int32_t, 4> crop{};
     int samples = 0;
-    std::string camera;
+    std::string camera{};
     Matrix camera_to_world{};
     double fov_deg = 0;
     double ortho_height = 0;
@@ -86,9 +86,9 @@ struct View {
 struct Options {
     int threads = 0;
     std::uint64_t memory_bytes = 0;
-    std::string layers;
+    std::string layers{};
     /// Gets the part that is done. Returns true to stop. What it throws stops, too, and comes out of the call.
-    std::function<bool(double)> progress;
+    std::function<bool(double)> progress{};
 };
 
 /// A picture's channels, which it owns.

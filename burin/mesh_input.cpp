@@ -97,10 +97,10 @@ void copy_materials(const burin_mesh& mesh, std::uint64_t polygons, std::uint32_
         used.push_back(default_material);
         result.needs_default_material = true;
     } else {
-        const std::vector<std::uint32_t> given =
-            numbers_below({mesh.polygon_materials, static_cast<std::size_t>(polygons)},
-                          std::uint64_t{material_count} + 1, "the material of polygon",
-                          "materials have numbers from 1 to " + std::to_string(material_count) + ", and 0 is none");
+        const std::vector<std::uint32_t> given = numbers_below(
+            {mesh.polygon_materials, static_cast<std::size_t>(polygons)}, std::uint64_t{material_count} + 1,
+            "the material of polygon",
+            "the scene has " + std::to_string(material_count) + " materials, counted from 1, and 0 is none");
         constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
         std::vector<std::uint32_t> own_number(std::size_t{material_count} + 2, kUnused);
         for (const std::uint32_t number : given) {

@@ -1,5 +1,7 @@
 #include "burin/picture.h"
 
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "burin/failure.h"
@@ -18,6 +20,17 @@ Film film_of(const Frame& frame, const OptionsInput& options) {
         throw UsageError("options.layers: coverage has a channel per line class, and no class is drawn");
     }
     return film;
+}
+
+/// What drawing throws names options as the program does.
+void draw(const Frame& frame, const RunOptions& run, Film& film) {
+    try {
+        render_abuffer(frame, run, film);
+    } catch (const InputError& error) {
+        const std::string_view text = error.what(), option = "--memory: ";
+        if (!text.starts_with(option)) throw;
+        throw InputError("options.memory_bytes: " + std::string(text.substr(option.size())));
+    }
 }
 
 const Image& image_with_beauty(const burin_picture& picture) {
@@ -51,7 +64,7 @@ burin_picture* burin_render(burin_scene* scene, const burin_view* view, const bu
         });
         RunOptions run{given.threads, given.progress != nullptr ? &progress : nullptr, given.memory_bytes};
         Film film = film_of(prepared.frame(), given);
-        render_abuffer(prepared.frame(), run, film);
+        draw(prepared.frame(), run, film);
         return new burin_picture(std::move(film), prepared.scene().picture, given.threads);
     });
 }
