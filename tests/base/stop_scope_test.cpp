@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <set>
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -75,12 +75,15 @@ TEST(Progress, IsToldOnTheThreadThatMadeIt) {
         EXPECT_EQ(std::this_thread::get_id(), self);
         told.push_back(done);
     });
-    progress.begin("work", 300);
-    parallel_for(300, 3, [&](std::size_t, int) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(3));
-        progress.advance();
-    });
-    ASSERT_FALSE(told.empty());
+    constexpr std::size_t kSteps = 60;
+    progress.begin("work", 2 * kSteps);
+    for (const int threads : {1, 3}) {
+        parallel_for(kSteps, threads, [&](std::size_t, int) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            progress.advance();
+        });
+        ASSERT_FALSE(told.empty());
+    }
     for (std::size_t i = 1; i < told.size(); ++i) EXPECT_LE(told[i - 1], told[i]);
     EXPECT_LE(told.back(), 1);
 }

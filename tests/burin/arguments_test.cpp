@@ -102,13 +102,16 @@ TEST(Arguments, EveryNumberOfAViewIsChecked) {
         expect_refused([&](burin_view& v) { v.shift[0] = bad; }, "shift");
         expect_refused([&](burin_view& v) { v.shift[1] = bad; }, "shift");
         expect_refused([&](burin_view& v) { v.pixel_aspect = bad; }, "pixel_aspect");
-        for (int i = 0; i < 16; ++i) expect_refused([&](burin_view& v) { v.camera_to_world[i] = std::abs(bad) == 1 ? kNaN : bad; }, "camera_to_world");
+        for (int i = 0; i < 16; ++i)
+            expect_refused([&](burin_view& v) { v.camera_to_world[i] = std::abs(bad) == 1 ? kNaN : bad; },
+                           "camera_to_world");
     }
     expect_refused([](burin_view& v) { v.fov_deg = 180; }, "fov_deg");
     expect_refused([](burin_view& v) { v.shift[0] = 0.25; }, "shift");
     expect_refused([](burin_view& v) { v.pixel_aspect = 2; }, "pixel_aspect");
     expect_refused([](burin_view& v) { v.frame = 1; }, "frame");
-    for (const int bad : {-1, 1, 3, 16, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) expect_refused([&](burin_view& v) { v.samples = bad; }, "samples");
+    for (const int bad : {-1, 1, 3, 16, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()})
+        expect_refused([&](burin_view& v) { v.samples = bad; }, "samples");
     for (const int bad : {-1, 0, 65536, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
         expect_refused([&](burin_view& v) { v.width = bad; }, "width");
         expect_refused([&](burin_view& v) { v.height = bad; }, "width and view.height");
@@ -117,9 +120,13 @@ TEST(Arguments, EveryNumberOfAViewIsChecked) {
     expect_refused([](burin_view& v) { v.crop[0] = -1, v.crop[2] = 4, v.crop[3] = 2; }, "crop");
     expect_refused([](burin_view& v) { v.crop[0] = 5, v.crop[2] = 5, v.crop[3] = 2; }, "crop");
     expect_refused([](burin_view& v) { v.camera = "front"; }, "camera");
-    expect_refused([](burin_view& v) { v.camera_to_world[0] *= 1.01; }, "camera_to_world");                            // scales
-    expect_refused([](burin_view& v) { for (int i : {0, 4, 8}) v.camera_to_world[i] *= -1; }, "camera_to_world");      // a mirror
-    expect_refused([](burin_view& v) { v.camera_to_world[12] = 1; }, "camera_to_world");                               // no row by row
+    expect_refused([](burin_view& v) { v.camera_to_world[0] *= 1.01; }, "camera_to_world");  // scales
+    expect_refused(
+        [](burin_view& v) {
+            for (int i : {0, 4, 8}) v.camera_to_world[i] *= -1;
+        },
+        "camera_to_world");                                                               // a mirror
+    expect_refused([](burin_view& v) { v.camera_to_world[12] = 1; }, "camera_to_world");  // no row by row
     good.pixel_aspect = 1;
     burin_picture_free(burin_render(scene.get(), &good, nullptr));
 }
@@ -167,12 +174,14 @@ TEST(Arguments, MatricesOfObjectsAreChecked) {
         EXPECT_EQ(failure_of([&] { scene.add_object(none); }), BURIN_BAD_ARGUMENT);
         EXPECT_EQ(failure_of([&] { scene.object_name(none); }), BURIN_BAD_ARGUMENT);
     }
-    for (const int none : {-1, 2, std::numeric_limits<int>::max()}) EXPECT_EQ(failure_of([&] { scene.add_object(mesh, "", {}, none); }), BURIN_BAD_ARGUMENT);
+    for (const int none : {-1, 2, std::numeric_limits<int>::max()})
+        EXPECT_EQ(failure_of([&] { scene.add_object(mesh, "", {}, none); }), BURIN_BAD_ARGUMENT);
 }
 
 TEST(Arguments, MaterialsAreChecked) {
     Scene scene;
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -0.1f, 1.1f}) {
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -0.1f, 1.1f}) {
         for (std::size_t i = 0; i < 3; ++i) {
             Material material;
             material.color[i] = bad;

@@ -2,7 +2,7 @@
 # Installs a build into a temporary folder, moves it, and has programs that were built against it draw a cube.
 #   install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
-build=$1 source=$2/tests/burin/install
+build=$1 page=$2/docs/library.md
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "install_test: $1" >&2; exit 1; }
@@ -22,7 +22,13 @@ for name in $functions; do
     nm -D --defined-only "$library" | grep -q " $name\$" || fail "the library lacks $name"
 done
 
-# find_package(burin)
+# The examples of the page are the programs: find_package(burin) finds it.
+source=$folder/source
+mkdir "$source"
+block() { awk -v kind="$1" '$0 == "```" { on = 0 } on { print } $0 == "```" kind { on = 1 }' "$page"; }
+block c >"$source/cube.c"
+block cpp >"$source/cube.cpp"
+block cmake >"$source/CMakeLists.txt"
 { cmake -S "$source" -B "$folder/cube" -DCMAKE_PREFIX_PATH="$prefix" && cmake --build "$folder/cube"; } >"$folder/log" 2>&1 || { cat "$folder/log" >&2; fail "find_package"; }
 "$folder/cube/cube_c" "$folder/c.png"
 "$folder/cube/cube_cpp" "$folder/cpp.png"

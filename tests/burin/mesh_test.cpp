@@ -102,25 +102,51 @@ TEST(LibraryMesh, NothingIsTakenAsItStandsIfItIsWrong) {
     };
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     for (const float bad : {nan, infinity, -infinity, 2e30f}) {
-        expect_refused([&](Arrays& a, burin_mesh&) { a.points[13] = bad; }, BURIN_BAD_INPUT, "mesh: a coordinate of point 4 is not finite or beyond 1e30");
+        expect_refused([&](Arrays& a, burin_mesh&) { a.points[13] = bad; }, BURIN_BAD_INPUT,
+                       "mesh: a coordinate of point 4 is not finite or beyond 1e30");
     }
-    expect_refused([](Arrays& a, burin_mesh&) { a.corners[7] = 8; }, BURIN_BAD_INPUT, "mesh: corner 7 is 8; the mesh has 8 points, counted from 0");
-    expect_refused([](Arrays& a, burin_mesh&) { a.corners[7] = -1; }, BURIN_BAD_INPUT, "mesh: corner 7 is -1; the mesh has 8 points, counted from 0");
-    expect_refused([](Arrays& a, burin_mesh&) { a.sizes[5] = 5; }, BURIN_BAD_INPUT, "mesh: polygon 5 has 5 corners; there are 24 of all polygons");
-    expect_refused([](Arrays& a, burin_mesh&) { a.sizes[5] = -4; }, BURIN_BAD_INPUT, "mesh: polygon 5 has -4 corners; there are 24 of all polygons");
-    expect_refused([](Arrays& a, burin_mesh&) { a.sizes[5] = 3; }, BURIN_BAD_INPUT, "mesh: its polygons have 23 corners, but there are 24");
-    expect_refused([](Arrays&, burin_mesh& m) { m.points = nullptr; }, BURIN_BAD_ARGUMENT, "mesh: 8 points, but the array is NULL");
-    expect_refused([](Arrays&, burin_mesh& m) { m.corners = nullptr; }, BURIN_BAD_ARGUMENT, "mesh: 24 corners, but the array is NULL");
-    expect_refused([](Arrays&, burin_mesh& m) { m.point_count = std::uint64_t{1} << 40; }, BURIN_BAD_ARGUMENT, "mesh: 1099511627776 points; there may be 2147483647 at most");
-    expect_refused([](Arrays&, burin_mesh& m) { m.corner_count = std::numeric_limits<std::uint64_t>::max(); }, BURIN_BAD_ARGUMENT, "mesh: 18446744073709551615 corners; there may be 4294967295 at most");
-    expect_refused([](Arrays&, burin_mesh& m) { m.polygon_count = std::uint64_t{1} << 63; }, BURIN_BAD_ARGUMENT, "mesh: 9223372036854775808 polygons; there may be 4294967294 at most");
-    expect_refused([](Arrays&, burin_mesh& m) { m.marked_edge_count = std::uint64_t{1} << 63; }, BURIN_BAD_ARGUMENT, "mesh: 9223372036854775808 marked edges; there may be 2147483647 at most");
-    expect_refused([](Arrays&, burin_mesh& m) { m.polygon_sizes = nullptr; }, BURIN_BAD_ARGUMENT, "mesh: 24 corners are not those of 6 triangles; give polygon_sizes");
-    expect_refused([](Arrays&, burin_mesh& m) { m.polygon_sizes = nullptr, m.polygon_count = 0, m.corner_count = 23; }, BURIN_BAD_ARGUMENT, "mesh: 23 corners are not those of 7 triangles; give polygon_sizes");
-    expect_refused([](Arrays& a, burin_mesh& m) { a.marks = {0, 8}, m.marked_edges = a.marks.data(), m.marked_edge_count = 1; }, BURIN_BAD_INPUT, "mesh: marked_edges: number 1 is 8; the mesh has 8 points, counted from 0");
-    expect_refused([](Arrays& a, burin_mesh& m) { a.materials = {0, 0, 0, 0, 0, 1}, m.polygon_materials = a.materials.data(); }, BURIN_BAD_INPUT, "mesh: the material of polygon 5 is 1; the scene has 0 materials, counted from 1, and 0 is none");
-    expect_refused([](Arrays& a, burin_mesh& m) { a.objects = {0, 0, 0, 0, 0, 2}, m.polygon_objects = a.objects.data(), m.object_count = 2; }, BURIN_BAD_INPUT, "mesh: the object of polygon 5 is 2; the mesh has 2, counted from 0");
-    expect_refused([](Arrays& a, burin_mesh& m) { a.objects.assign(6, 0), m.polygon_objects = a.objects.data(); }, BURIN_BAD_ARGUMENT, "mesh: object_count is 0; with polygon_objects it must be from 1 to 16777216");
+    expect_refused([](Arrays& a, burin_mesh&) { a.corners[7] = 8; }, BURIN_BAD_INPUT,
+                   "mesh: corner 7 is 8; the mesh has 8 points, counted from 0");
+    expect_refused([](Arrays& a, burin_mesh&) { a.corners[7] = -1; }, BURIN_BAD_INPUT,
+                   "mesh: corner 7 is -1; the mesh has 8 points, counted from 0");
+    expect_refused([](Arrays& a, burin_mesh&) { a.sizes[5] = 5; }, BURIN_BAD_INPUT,
+                   "mesh: polygon 5 has 5 corners; there are 24 of all polygons");
+    expect_refused([](Arrays& a, burin_mesh&) { a.sizes[5] = -4; }, BURIN_BAD_INPUT,
+                   "mesh: polygon 5 has -4 corners; there are 24 of all polygons");
+    expect_refused([](Arrays& a, burin_mesh&) { a.sizes[5] = 3; }, BURIN_BAD_INPUT,
+                   "mesh: its polygons have 23 corners, but there are 24");
+    expect_refused([](Arrays&, burin_mesh& m) { m.points = nullptr; }, BURIN_BAD_ARGUMENT,
+                   "mesh: 8 points, but the array is NULL");
+    expect_refused([](Arrays&, burin_mesh& m) { m.corners = nullptr; }, BURIN_BAD_ARGUMENT,
+                   "mesh: 24 corners, but the array is NULL");
+    expect_refused([](Arrays&, burin_mesh& m) { m.point_count = std::uint64_t{1} << 40; }, BURIN_BAD_ARGUMENT,
+                   "mesh: 1099511627776 points; there may be 2147483647 at most");
+    expect_refused([](Arrays&, burin_mesh& m) { m.corner_count = std::numeric_limits<std::uint64_t>::max(); },
+                   BURIN_BAD_ARGUMENT, "mesh: 18446744073709551615 corners; there may be 4294967295 at most");
+    expect_refused([](Arrays&, burin_mesh& m) { m.polygon_count = std::uint64_t{1} << 63; }, BURIN_BAD_ARGUMENT,
+                   "mesh: 9223372036854775808 polygons; there may be 4294967294 at most");
+    expect_refused([](Arrays&, burin_mesh& m) { m.marked_edge_count = std::uint64_t{1} << 63; }, BURIN_BAD_ARGUMENT,
+                   "mesh: 9223372036854775808 marked edges; there may be 2147483647 at most");
+    expect_refused([](Arrays&, burin_mesh& m) { m.polygon_sizes = nullptr; }, BURIN_BAD_ARGUMENT,
+                   "mesh: 24 corners are not those of 6 triangles; give polygon_sizes");
+    expect_refused([](Arrays&, burin_mesh& m) { m.polygon_sizes = nullptr, m.polygon_count = 0, m.corner_count = 23; },
+                   BURIN_BAD_ARGUMENT, "mesh: 23 corners are not those of 7 triangles; give polygon_sizes");
+    expect_refused(
+        [](Arrays& a, burin_mesh& m) {
+            a.marks = {0, 8}, m.marked_edges = a.marks.data(), m.marked_edge_count = 1;
+        },
+        BURIN_BAD_INPUT, "mesh: marked_edges: number 1 is 8; the mesh has 8 points, counted from 0");
+    expect_refused(
+        [](Arrays& a, burin_mesh& m) { a.materials = {0, 0, 0, 0, 0, 1}, m.polygon_materials = a.materials.data(); },
+        BURIN_BAD_INPUT,
+        "mesh: the material of polygon 5 is 1; the scene has 0 materials, counted from 1, and 0 is none");
+    expect_refused(
+        [](Arrays& a, burin_mesh& m) {
+            a.objects = {0, 0, 0, 0, 0, 2}, m.polygon_objects = a.objects.data(), m.object_count = 2;
+        },
+        BURIN_BAD_INPUT, "mesh: the object of polygon 5 is 2; the mesh has 2, counted from 0");
+    expect_refused([](Arrays& a, burin_mesh& m) { a.objects.assign(6, 0), m.polygon_objects = a.objects.data(); },
+                   BURIN_BAD_ARGUMENT, "mesh: object_count is 0; with polygon_objects it must be from 1 to 16777216");
     EXPECT_EQ(failure_of([&] { scene.add_object(1); }), BURIN_BAD_ARGUMENT);  // there is none
 }
 

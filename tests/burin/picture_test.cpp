@@ -57,8 +57,10 @@ TEST(LibraryPicture, FilesAreThoseOfTheProgram) {
         const char* file;
         const char* bits;
     };
-    for (const Case& c : {Case{"png", "a.png", "8"}, {"png16", "b.png", "16"}, {"tif", "a.tif", "8"}, {"tif16", "b.tiff", "16"}}) {
-        const ProgramResult result = run_burin(folder.path(), {"render", "scene.toml", "--size", "120x90", "-q", "-o", c.file, "--bits", c.bits});
+    for (const Case& c :
+         {Case{"png", "a.png", "8"}, {"png16", "b.png", "16"}, {"tif", "a.tif", "8"}, {"tif16", "b.tiff", "16"}}) {
+        const ProgramResult result = run_burin(
+            folder.path(), {"render", "scene.toml", "--size", "120x90", "-q", "-o", c.file, "--bits", c.bits});
         ASSERT_EQ(result.status, 0) << result.err;
         const std::string expected = read_file(folder.file(c.file));
         EXPECT_TRUE(text_of(picture.encode(c.format)) == expected) << c.format;
@@ -86,7 +88,8 @@ TEST(LibraryPicture, WhatCannotBeWrittenIsSaid) {
     EXPECT_EQ(failure_of([&] { depth.write(folder.file("a.png")); }), BURIN_BAD_ARGUMENT);
     std::vector<std::uint8_t> pixels(std::size_t{32} * 24 * 4);
     EXPECT_EQ(failure_of([&] { depth.pixels(pixels.data(), 3); }), BURIN_BAD_ARGUMENT);
-    for (const int channels : {-1, 0, 2, 5}) EXPECT_EQ(failure_of([&] { picture.pixels(pixels.data(), channels); }), BURIN_BAD_ARGUMENT);
+    for (const int channels : {-1, 0, 2, 5})
+        EXPECT_EQ(failure_of([&] { picture.pixels(pixels.data(), channels); }), BURIN_BAD_ARGUMENT);
     EXPECT_EQ(folder.names(), std::vector<std::string>());
     // No picture at all:
     std::uint32_t other[64] = {1, 2, 3};
@@ -95,8 +98,10 @@ TEST(LibraryPicture, WhatCannotBeWrittenIsSaid) {
 
 TEST(LibraryPicture, ChannelsHaveTheirTypesAndSizes) {
     Scene scene = two_cubes();
-    const Picture picture = scene.render({.width = 60, .height = 40, .crop = {10, 5, 50, 35}}, {.layers = "beauty,Z,ids"});
-    EXPECT_EQ(picture.channel_names(), (std::vector<std::string>{"R", "G", "B", "A", "Z", "id.object", "id.material", "id.polygon"}));
+    const Picture picture =
+        scene.render({.width = 60, .height = 40, .crop = {10, 5, 50, 35}}, {.layers = "beauty,Z,ids"});
+    EXPECT_EQ(picture.channel_names(),
+              (std::vector<std::string>{"R", "G", "B", "A", "Z", "id.object", "id.material", "id.polygon"}));
     EXPECT_EQ(picture.size().width, 40);
     EXPECT_EQ(picture.size().height, 30);
     EXPECT_EQ(picture.channel<std::uint16_t>("R").size(), 1200u);
@@ -115,11 +120,13 @@ TEST(LibraryPicture, PixelsAreThoseOfADisplay) {
     const View view{.width = 60, .height = 40, .crop = {10, 5, 50, 35}};
     const Picture picture = scene.render(view, {.layers = "beauty"});
     constexpr std::size_t kPixels = 60 * 40, kGuard = 8;
-    std::vector<std::uint8_t> grey(kPixels + kGuard, 0xEE), rgb(3 * kPixels + kGuard, 0xEE), rgba(4 * kPixels + kGuard, 0xEE);
+    std::vector<std::uint8_t> grey(kPixels + kGuard, 0xEE), rgb(3 * kPixels + kGuard, 0xEE),
+        rgba(4 * kPixels + kGuard, 0xEE);
     picture.pixels(grey.data(), 1);
     picture.pixels(rgb.data(), 3);
     picture.pixels(rgba.data(), 4);
-    for (const auto* pixels : {&grey, &rgb, &rgba}) EXPECT_TRUE(std::all_of(pixels->end() - kGuard, pixels->end(), [](int b) { return b == 0xEE; }));
+    for (const auto* pixels : {&grey, &rgb, &rgba})
+        EXPECT_TRUE(std::all_of(pixels->end() - kGuard, pixels->end(), [](int b) { return b == 0xEE; }));
     // Outside of the crop is background.
     EXPECT_EQ((std::vector<std::uint8_t>(rgb.begin(), rgb.begin() + 3)), (std::vector<std::uint8_t>{0x33, 0x66, 0x99}));
     EXPECT_EQ((std::vector<std::uint8_t>(rgba.begin(), rgba.begin() + 4)), (std::vector<std::uint8_t>{0, 0, 0, 0}));
@@ -131,9 +138,15 @@ TEST(LibraryPicture, PixelsAreThoseOfADisplay) {
         const std::size_t x = i % 60, y = i / 60;
         const bool is_inside = x >= 10 && x < 50 && y >= 5 && y < 35;
         const std::uint16_t half = is_inside ? alpha[(y - 5) * 40 + x - 10] : std::uint16_t{0};
-        if (half == 0) { ASSERT_EQ(rgba[4 * i + 3], 0) << i; }
-        if (half == kOne) { ASSERT_EQ(rgba[4 * i + 3], 255) << i; }
-        if (kQuarter <= half && half < kThreeQuarters) { ASSERT_NEAR(rgba[4 * i + 3], 127, 64) << i; }
+        if (half == 0) {
+            ASSERT_EQ(rgba[4 * i + 3], 0) << i;
+        }
+        if (half == kOne) {
+            ASSERT_EQ(rgba[4 * i + 3], 255) << i;
+        }
+        if (kQuarter <= half && half < kThreeQuarters) {
+            ASSERT_NEAR(rgba[4 * i + 3], 127, 64) << i;
+        }
     }
     // On white paper what is grey is the same in all channels.
     Scene lines;

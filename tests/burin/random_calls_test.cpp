@@ -30,24 +30,41 @@ class Caller {
 
     void call() {
         switch (random_.integer(0, 15)) {
-            case 0: return expect_told(add_mesh());
-            case 1: return expect_told(add_object());
-            case 2: return expect_told(add_material());
-            case 3: return expect_told(move_object());
-            case 4: return expect_told(burin_remove_object(scene_, number_of(9)));
-            case 5: return expect_told(burin_remove_mesh(scene_, number_of(30)));
-            case 6: return expect_told(random_.integer(0, 30) == 0 ? burin_clear_objects(scene_) : 0);
-            case 7: return expect_told(burin_set(scene_, setting().c_str()));
-            case 8: return expect_told(burin_set_toml(scene_, toml().c_str()));
-            case 9: return expect_told(random_.integer(0, 9) == 0 ? burin_load_text(scene_, toml().c_str(), random_.integer(0, 1) == 0 ? nullptr : "/none") : 0);
-            case 10: return expect_told(burin_object_of_id(scene_, static_cast<std::uint32_t>(integer())));
+            case 0:
+                return expect_told(add_mesh());
+            case 1:
+                return expect_told(add_object());
+            case 2:
+                return expect_told(add_material());
+            case 3:
+                return expect_told(move_object());
+            case 4:
+                return expect_told(burin_remove_object(scene_, number_of(9)));
+            case 5:
+                return expect_told(burin_remove_mesh(scene_, number_of(30)));
+            case 6:
+                return expect_told(random_.integer(0, 30) == 0 ? burin_clear_objects(scene_) : 0);
+            case 7:
+                return expect_told(burin_set(scene_, setting().c_str()));
+            case 8:
+                return expect_told(burin_set_toml(scene_, toml().c_str()));
+            case 9:
+                return expect_told(
+                    random_.integer(0, 9) == 0
+                        ? burin_load_text(scene_, toml().c_str(), random_.integer(0, 1) == 0 ? nullptr : "/none")
+                        : 0);
+            case 10:
+                return expect_told(burin_object_of_id(scene_, static_cast<std::uint32_t>(integer())));
             case 11:
                 burin_object_name(scene_, number_of(9));
                 burin_note(scene_, static_cast<int>(integer()));
                 return burin_cancel(scene_);
-            case 12: return encode();
-            case 13: return look_at_channels();
-            default: return render();
+            case 12:
+                return encode();
+            case 13:
+                return look_at_channels();
+            default:
+                return render();
         }
     }
 
@@ -68,26 +85,36 @@ class Caller {
     double number() {
         using Limits = std::numeric_limits<double>;
         switch (random_.integer(0, 9)) {
-            case 0: return one_of({Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::max(), Limits::lowest()});
-            case 1: return one_of({Limits::denorm_min(), Limits::min(), -0.0, 1e30, -1e30, 1e-30, 1e60, 180.0, 179.9999999, 1e-6});
-            case 2: return std::ldexp(random_.real(-1, 1), random_.integer(-120, 120));
-            case 3: return one_of({0.0, 1.0, -1.0, 0.5});
-            default: return random_.real(-2, 2);
+            case 0:
+                return one_of(
+                    {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::max(), Limits::lowest()});
+            case 1:
+                return one_of(
+                    {Limits::denorm_min(), Limits::min(), -0.0, 1e30, -1e30, 1e-30, 1e60, 180.0, 179.9999999, 1e-6});
+            case 2:
+                return std::ldexp(random_.real(-1, 1), random_.integer(-120, 120));
+            case 3:
+                return one_of({0.0, 1.0, -1.0, 0.5});
+            default:
+                return random_.real(-2, 2);
         }
     }
     std::int32_t integer() {
         using Limits = std::numeric_limits<std::int32_t>;
-        return random_.integer(0, 3) == 0 ? one_of({Limits::min(), Limits::max(), -1, 0, 1, 65535, 65536}) : random_.integer(-2, 12);
+        return random_.integer(0, 3) == 0 ? one_of({Limits::min(), Limits::max(), -1, 0, 1, 65535, 65536})
+                                          : random_.integer(-2, 12);
     }
     int number_of(int usual) { return random_.integer(0, 9) == 0 ? integer() : random_.integer(1, usual); }
     /// Now and then that of an older version, which ends behind a whole field.
     std::uint32_t size_of_struct(std::size_t right) {
         const auto size = static_cast<std::uint32_t>(right);
-        return random_.integer(0, 19) == 0 ? size / 8 * static_cast<std::uint32_t>(random_.integer(0, 8)) / 8 * 8 : size;
+        return random_.integer(0, 19) == 0 ? size / 8 * static_cast<std::uint32_t>(random_.integer(0, 8)) / 8 * 8
+                                           : size;
     }
     std::uint64_t count(std::size_t right) {
         if (random_.integer(0, 29) != 0) return right;
-        return one_of({std::uint64_t{1} << 32, std::uint64_t{1} << 62, std::numeric_limits<std::uint64_t>::max(), std::numeric_limits<std::uint64_t>::max() / 3 + 1});
+        return one_of({std::uint64_t{1} << 32, std::uint64_t{1} << 62, std::numeric_limits<std::uint64_t>::max(),
+                       std::numeric_limits<std::uint64_t>::max() / 3 + 1});
     }
     /// Numbers that a field mostly takes.
     double mostly(double low, double high) { return random_.integer(0, 19) == 0 ? number() : random_.real(low, high); }
@@ -103,20 +130,25 @@ class Caller {
         std::vector<float> points(static_cast<std::size_t>(3 * random_.integer(0, 12)));
         const bool is_wild = random_.integer(0, 2) == 0;
         for (float& p : points) {
-            const double value = is_wild ? number() : random_.integer(0, 2) == 0 ? random_.integer(0, 2) : random_.real(-1, 1);
+            const double value = is_wild                      ? number()
+                                 : random_.integer(0, 2) == 0 ? random_.integer(0, 2)
+                                                              : random_.real(-1, 1);
             p = static_cast<float>(std::clamp(value, -3e38, 3e38));
             if (std::isnan(value)) p = std::numeric_limits<float>::quiet_NaN();
         }
         const int last = static_cast<int>(points.size() / 3) - 1;
-        std::vector<std::int32_t> sizes(static_cast<std::size_t>(random_.integer(0, 8))), corners, materials, objects, marks;
+        std::vector<std::int32_t> sizes(static_cast<std::size_t>(random_.integer(0, 8))), corners, materials, objects,
+            marks;
         for (std::int32_t& size : sizes) {
             size = random_.integer(0, 6);
-            for (int k = 0; k < size; ++k) corners.push_back(random_.integer(0, 99) == 0 ? integer() : random_.integer(0, std::max(last, 0)));
+            for (int k = 0; k < size; ++k)
+                corners.push_back(random_.integer(0, 99) == 0 ? integer() : random_.integer(0, std::max(last, 0)));
             if (random_.integer(0, 99) == 0) size = integer();
             materials.push_back(random_.integer(0, 9) == 0 ? integer() : random_.integer(0, 2));
             objects.push_back(random_.integer(0, 29) == 0 ? integer() : random_.integer(0, 2));
         }
-        for (int i = random_.integer(0, 2) * 2; i > 0; --i) marks.push_back(random_.integer(0, 99) == 0 ? integer() : random_.integer(0, std::max(last, 0)));
+        for (int i = random_.integer(0, 2) * 2; i > 0; --i)
+            marks.push_back(random_.integer(0, 99) == 0 ? integer() : random_.integer(0, std::max(last, 0)));
         const char* const names[] = {"a", nullptr, "\xff\n"};
         burin_mesh mesh = {};
         mesh.size = size_of_struct(sizeof mesh);
@@ -156,23 +188,33 @@ class Caller {
         return burin_move_object(scene_, number_of(9), to_world);
     }
     std::string setting() {
-        const char* const key = one_of({"lines.width", "lines.draw", "lines.crease_angle", "lines.hidden.style", "lines.hidden.width", "lines.dash", "lines.side",
-                                        "lines.filter", "lines.contours", "surfaces.shading", "abuffer.samples", "camera.fov", "camera.eye", "lines", "", "picture.background", "x.y.z"});
-        const char* const value = one_of({"1", "2.5", "nan", "-1", "1e999", "all", "none", "dashed", "solid", "[3, 2]", "[1, 2, 3]", "smooth", "mitchell", "inside", "lambert", "8", "[", "\"", "", "{a = 1}", "\xff", "transparent"});
+        const char* const key =
+            one_of({"lines.width", "lines.draw", "lines.crease_angle", "lines.hidden.style", "lines.hidden.width",
+                    "lines.dash", "lines.side", "lines.filter", "lines.contours", "surfaces.shading", "abuffer.samples",
+                    "camera.fov", "camera.eye", "lines", "", "picture.background", "x.y.z"});
+        const char* const value =
+            one_of({"1",     "2.5",    "nan",       "-1",      "1e999",    "all",        "none",    "dashed",
+                    "solid", "[3, 2]", "[1, 2, 3]", "smooth",  "mitchell", "inside",     "lambert", "8",
+                    "[",     "\"",     "",          "{a = 1}", "\xff",     "transparent"});
         return std::string(key) + (random_.integer(0, 29) == 0 ? "" : "=") + value;
     }
     std::string toml() {
-        return one_of({"", "[lines]\nwidth = 3\n", "[lines]\nwidth = inf\n", "[[camera]]\neye = [1, 2, 3]\n", "[[object]]\nshape = \"box\"\n", "[[object]]\nfile = \"none.obj\"\n",
-                       "[lines.hidden]\nstyle = \"dashed\"\n", "[lines]\ndash = [1, 2]\n", "[", "a = [[[[", "[surfaces]\nshading = 3\n", "\xff\xfe",
-                       "[[camera]]\nprojection = \"orthographic\"\ndirection = [0, 0, 1]\n", "[[object]]\nshape = \"sphere\"\nscale = [1, 1e20, 1]\n"});
+        return one_of({"", "[lines]\nwidth = 3\n", "[lines]\nwidth = inf\n", "[[camera]]\neye = [1, 2, 3]\n",
+                       "[[object]]\nshape = \"box\"\n", "[[object]]\nfile = \"none.obj\"\n",
+                       "[lines.hidden]\nstyle = \"dashed\"\n", "[lines]\ndash = [1, 2]\n", "[", "a = [[[[",
+                       "[surfaces]\nshading = 3\n", "\xff\xfe",
+                       "[[camera]]\nprojection = \"orthographic\"\ndirection = [0, 0, 1]\n",
+                       "[[object]]\nshape = \"sphere\"\nscale = [1, 1e20, 1]\n"});
     }
 
     void render() {
         burin_view view = {};
         view.size = size_of_struct(sizeof view);
         if (random_.integer(0, 3) != 0) {
-            view.width = random_.integer(0, 19) == 0 ? one_of({-1, 0, 65536, std::numeric_limits<int>::max()}) : random_.integer(1, 20);
-            view.height = random_.integer(0, 19) == 0 ? one_of({-1, 0, 65536, std::numeric_limits<int>::min()}) : random_.integer(1, 20);
+            view.width = random_.integer(0, 19) == 0 ? one_of({-1, 0, 65536, std::numeric_limits<int>::max()})
+                                                     : random_.integer(1, 20);
+            view.height = random_.integer(0, 19) == 0 ? one_of({-1, 0, 65536, std::numeric_limits<int>::min()})
+                                                      : random_.integer(1, 20);
         }
         if (random_.integer(0, 4) == 0) {
             for (int& c : view.crop) c = integer();
@@ -184,9 +226,12 @@ class Caller {
         if (random_.integer(0, 29) == 0) view.pixel_aspect = number();
         burin_options options = {};
         options.size = size_of_struct(sizeof options);
-        options.threads = random_.integer(0, 29) == 0 ? one_of({-1, 1025, std::numeric_limits<int>::max()}) : random_.integer(1, 2);
+        options.threads =
+            random_.integer(0, 29) == 0 ? one_of({-1, 1025, std::numeric_limits<int>::max()}) : random_.integer(1, 2);
         if (random_.integer(0, 4) == 0) options.memory_bytes = random_.bits64() >> random_.integer(0, 63);
-        if (random_.integer(0, 4) == 0) options.layers = one_of({"beauty", "Z,ids", "coverage,beauty", "", ",", "wool", "N,lines,surface,lines_hidden,beauty,Z"});
+        if (random_.integer(0, 4) == 0)
+            options.layers = one_of(
+                {"beauty", "Z,ids", "coverage,beauty", "", ",", "wool", "N,lines,surface,lines_hidden,beauty,Z"});
         const int stop = random_.integer(0, 3) == 0 ? 1 : 0;
         options.progress = [](double, void* user) { return *static_cast<const int*>(user); };
         options.user = const_cast<int*>(&stop);
@@ -199,8 +244,20 @@ class Caller {
     /// Nearly always rigid, as much as single precision is.
     void rigid_camera(burin_view& view) {
         const double a = random_.real(-4, 4), b = random_.real(-2, 2);
-        const double rows[12] = {std::cos(a), std::sin(a) * std::sin(b), std::sin(a) * std::cos(b), mostly(-3, 3), 0, std::cos(b), -std::sin(b), mostly(-3, 3), -std::sin(a), std::cos(a) * std::sin(b), std::cos(a) * std::cos(b), mostly(-3, 5)};
-        for (int i = 0; i < 12; ++i) view.camera_to_world[i] = i % 4 == 3 ? rows[i] : static_cast<double>(static_cast<float>(rows[i]));
+        const double rows[12] = {std::cos(a),
+                                 std::sin(a) * std::sin(b),
+                                 std::sin(a) * std::cos(b),
+                                 mostly(-3, 3),
+                                 0,
+                                 std::cos(b),
+                                 -std::sin(b),
+                                 mostly(-3, 3),
+                                 -std::sin(a),
+                                 std::cos(a) * std::sin(b),
+                                 std::cos(a) * std::cos(b),
+                                 mostly(-3, 5)};
+        for (int i = 0; i < 12; ++i)
+            view.camera_to_world[i] = i % 4 == 3 ? rows[i] : static_cast<double>(static_cast<float>(rows[i]));
         view.camera_to_world[15] = 1;
         if (random_.integer(0, 19) == 0) view.camera_to_world[random_.integer(0, 15)] = number();
         if (random_.integer(0, 1) == 0) view.fov_deg = mostly(1, 170);
@@ -210,7 +267,8 @@ class Caller {
         if (picture_ == nullptr) return;
         std::uint8_t* bytes = nullptr;
         std::uint64_t count = 0;
-        expect_told(burin_encode(picture_, one_of({"png", "png16", "exr", "jpg", ""}), random_.integer(0, 9) == 0 ? "comic" : nullptr, &bytes, &count));
+        expect_told(burin_encode(picture_, one_of({"png", "png16", "exr", "jpg", ""}),
+                                 random_.integer(0, 9) == 0 ? "comic" : nullptr, &bytes, &count));
         burin_bytes_free(bytes);
     }
     void look_at_channels() {

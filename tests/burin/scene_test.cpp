@@ -69,7 +69,8 @@ TEST(LibraryScene, TextIsReadAsAFileInItsFolder) {
     scene.load_text(text, folder.path());
     EXPECT_TRUE(exr_of(scene, kSmall) == program_exr(folder, "scene.toml"));
     std::string message;
-    EXPECT_EQ(failure_of([&] { scene.load_text("[lines]\nwidth = -1\n[[object]]\nshape = \"box\"\n"); }, &message), BURIN_BAD_INPUT);
+    EXPECT_EQ(failure_of([&] { scene.load_text("[lines]\nwidth = -1\n[[object]]\nshape = \"box\"\n"); }, &message),
+              BURIN_BAD_INPUT);
     EXPECT_EQ(message.find("scene:2:9: "), 0u) << message;
     EXPECT_EQ(failure_of([&] { scene.load_text("[lines\n"); }, &message), BURIN_BAD_INPUT);
     EXPECT_EQ(message.find("scene:1:"), 0u) << message;
@@ -81,7 +82,9 @@ TEST(LibraryScene, TextIsReadAsAFileInItsFolder) {
 TEST(LibraryScene, SettingsAreThoseOfTheProgram) {
     const TemporaryFolder folder;
     const std::string file = kScenes + "still_life.toml";
-    const std::vector<std::string> settings = {"lines.width=2.5", "lines.draw=silhouette,crease", "lines.hidden.style=dashed", "camera.eye=[4, 3, 5]", "surfaces.shading=lambert"};
+    const std::vector<std::string> settings = {"lines.width=2.5", "lines.draw=silhouette,crease",
+                                               "lines.hidden.style=dashed", "camera.eye=[4, 3, 5]",
+                                               "surfaces.shading=lambert"};
     std::vector<std::string> arguments;
     Scene after = Scene::of_file(file);
     for (const std::string& setting : settings) {
@@ -118,12 +121,14 @@ TEST(LibraryScene, WrongSettingsChangeNothing) {
     scene.load_text("[[object]]\nshape = \"box\"\n");
     const std::string picture = exr_of(scene);
     std::string text;
-    for (const char* const wrong : {"lines.width", "lines.width=wide", "lines.wdth=2", "", "=", "lines.width=0", "lines=3", "lines.width=nan"}) {
+    for (const char* const wrong :
+         {"lines.width", "lines.width=wide", "lines.wdth=2", "", "=", "lines.width=0", "lines=3", "lines.width=nan"}) {
         EXPECT_EQ(failure_of([&] { scene.set(wrong); }), BURIN_BAD_ARGUMENT) << wrong;
     }
     EXPECT_EQ(failure_of([&] { scene.set("object.0.subdivide=2"); }, &text), BURIN_BAD_ARGUMENT);
     EXPECT_EQ(text, "object.0.subdivide: an object is no setting of the scene; write it in the scene that is loaded");
-    for (const char* const wrong : {"[lines]\nwidth = -1\n", "[lines", "x = 1\n", "[[object]]\nshape = \"box\"\n", "[[material]]\nname = \"a\"\n"}) {
+    for (const char* const wrong : {"[lines]\nwidth = -1\n", "[lines", "x = 1\n", "[[object]]\nshape = \"box\"\n",
+                                    "[[material]]\nname = \"a\"\n"}) {
         EXPECT_EQ(failure_of([&] { scene.set_toml(wrong); }), BURIN_BAD_INPUT) << wrong;
     }
     EXPECT_TRUE(exr_of(scene) == picture);
@@ -132,7 +137,8 @@ TEST(LibraryScene, WrongSettingsChangeNothing) {
 TEST(LibraryScene, ObjectsMoveAndGo) {
     Scene scene, expected;
     const int mesh = scene.add_mesh(cube().mesh("cube"));
-    const int a = scene.add_object(mesh, "a"), b = scene.add_object(mesh, "b", moved(2, 0, 0)), c = scene.add_object(mesh);
+    const int a = scene.add_object(mesh, "a"), b = scene.add_object(mesh, "b", moved(2, 0, 0)),
+              c = scene.add_object(mesh);
     EXPECT_EQ((std::set{a, b, c}.size()), 3u);
     EXPECT_EQ(scene.object_name(c), "cube");
     scene.move(c, moved(0, 2, 0));
@@ -155,7 +161,8 @@ TEST(LibraryScene, ObjectsMoveAndGo) {
 
 TEST(LibraryScene, LoadedObjectsMoveLikeOthers) {
     Scene loaded, whole;
-    const int first = loaded.load_text("[[object]]\nshape = \"box\"\nname = \"a\"\n[[object]]\nshape = \"sphere\"\nname = \"b\"\n");
+    const int first =
+        loaded.load_text("[[object]]\nshape = \"box\"\nname = \"a\"\n[[object]]\nshape = \"sphere\"\nname = \"b\"\n");
     EXPECT_EQ(loaded.object_name(first), "a");
     EXPECT_EQ(loaded.object_name(first + 1), "b");
     loaded.move(first + 1, moved(0.5, 0.25, 0));
@@ -166,9 +173,12 @@ TEST(LibraryScene, LoadedObjectsMoveLikeOthers) {
 TEST(LibraryScene, FilesStandBesideEachOther) {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
-    folder.write("a.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 2 4 3\n");
-    folder.write("b.obj", "mtllib m.mtl\nv 0 0 1\nv 1 0 1\nv 0 2 1\nv 1 1 1\nusemtl blue\nf 1 2 3\nusemtl red\nf 2 4 3\n");
-    folder.write("scene.toml", "[surfaces]\nshading = \"lambert\"\n[[object]]\nfile = \"a.obj\"\n[[object]]\nfile = \"b.obj\"\n");
+    folder.write("a.obj",
+                 "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 2 4 3\n");
+    folder.write("b.obj",
+                 "mtllib m.mtl\nv 0 0 1\nv 1 0 1\nv 0 2 1\nv 1 1 1\nusemtl blue\nf 1 2 3\nusemtl red\nf 2 4 3\n");
+    folder.write("scene.toml",
+                 "[surfaces]\nshading = \"lambert\"\n[[object]]\nfile = \"a.obj\"\n[[object]]\nfile = \"b.obj\"\n");
     Scene scene;
     scene.load(folder.file("a.obj"));
     scene.load(folder.file("b.obj"));

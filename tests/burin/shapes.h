@@ -27,10 +27,12 @@ struct Arrays {
 /// A cube of six quads with a corner at (x, y, z), added to what is there.
 inline void add_cube(Arrays& to, float side = 1, float x = 0, float y = 0, float z = 0) {
     const auto first = static_cast<std::int32_t>(to.points.size() / 3);
-    for (const std::array<float, 3>& p : {std::array<float, 3>{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}) {
+    for (const std::array<float, 3>& p :
+         {std::array<float, 3>{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}) {
         to.points.insert(to.points.end(), {x + side * p[0], y + side * p[1], z + side * p[2]});
     }
-    for (const int corner : {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7}) to.corners.push_back(first + corner);
+    for (const int corner : {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7})
+        to.corners.push_back(first + corner);
     to.sizes.insert(to.sizes.end(), 6, 4);
 }
 inline Arrays cube() {
@@ -44,7 +46,8 @@ inline Arrays waves(int n) {
     Arrays arrays;
     for (int y = 0; y <= n; ++y) {
         for (int x = 0; x <= n; ++x) {
-            const float u = static_cast<float>(x) / static_cast<float>(n), v = static_cast<float>(y) / static_cast<float>(n);
+            const float u = static_cast<float>(x) / static_cast<float>(n),
+                        v = static_cast<float>(y) / static_cast<float>(n);
             arrays.points.insert(arrays.points.end(), {u, 0.2f * std::sin(9 * u) * std::cos(7 * v), v});
         }
     }

@@ -66,7 +66,7 @@ TEST(Stop, ProgressGrowsAndIsToldToItsOwnThread) {
     const std::thread::id self = std::this_thread::get_id();
     double last = 0;
     Options options = kBeauty;
-    options.threads = 2;
+    options.threads = 2;  // of which one tells
     options.progress = [&](double done) {
         EXPECT_EQ(std::this_thread::get_id(), self);
         EXPECT_GE(done, last);
@@ -82,6 +82,7 @@ TEST(Stop, ProgressStops) {
     Scene scene = large_scene();
     const std::string before = exr_of(scene);
     Options options = kBeauty;
+    options.threads = 1;
     int calls = 0;
     options.progress = [&](double) { return ++calls == 1; };
     std::string text;
@@ -112,11 +113,34 @@ TEST(Threads, ScenesAreDrawnAtOnce) {
             for (int i = 0; i < 10; ++i) {
                 const int kind = (t + i) % 4;
                 Scene scene = make(kind);
-                const bool is_same = exr_of(scene, {.width = 200, .height = 150}, {.threads = 1 + i % 3}) == alone[static_cast<std::size_t>(kind)];
+                const bool is_same = exr_of(scene, {.width = 200, .height = 150}, {.threads = 1 + i % 3}) ==
+                                     alone[static_cast<std::size_t>(kind)];
                 if (!is_same) ++differ;
                 if (failure_of([&] { scene.set("lines.width=" + std::to_string(-t)); }) != BURIN_BAD_ARGUMENT) ++differ;
                 if (std::string(burin_error()).find("=" + std::to_string(-t)) == std::string::npos) ++differ;
             }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(differ, 0);
+}
+
+TEST(Threads, FilesAreLoadedAtOnce) {
+    const TemporaryFolder folder;
+    folder.write("waves.obj", obj_text(waves(60)));
+    const std::string scene_text =
+        "[[object]]\nfile = \"waves.obj\"\n[[object]]\nshape = \"box\"\nsubdivide = 2\nscheme = \"catmull-clark\"\n";
+    const auto make = [&] {
+        Scene scene;
+        scene.load_text(scene_text, folder.path());
+        return exr_of(scene);
+    };
+    const std::string alone = make();
+    std::vector<std::thread> threads;
+    std::atomic<int> differ = 0;
+    for (int t = 0; t < 4; ++t) {
+        threads.emplace_back([&] {
+            for (int i = 0; i < 5; ++i) differ += make() == alone ? 0 : 1;
         });
     }
     for (std::thread& thread : threads) thread.join();

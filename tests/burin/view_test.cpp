@@ -37,15 +37,18 @@ std::vector<std::uint32_t> what_is_seen(const Picture& picture) {
 
 TEST(LibraryView, AMatrixIsTheCameraOfASceneFile) {
     Scene scene = two_cubes();
-    scene.set_toml("[[camera]]\nname = \"eye\"\neye = [3, 4, 5]\ntarget = [0, 0, 0]\nfov = 20\n"
-                   "[[camera]]\nname = \"flat\"\nprojection = \"orthographic\"\neye = [3, 4, 5]\ntarget = [0, 0, 0]\nheight = 4\n");
+    scene.set_toml(
+        "[[camera]]\nname = \"eye\"\neye = [3, 4, 5]\ntarget = [0, 0, 0]\nfov = 20\n"
+        "[[camera]]\nname = \"flat\"\nprojection = \"orthographic\"\neye = [3, 4, 5]\ntarget = [0, 0, 0]\nheight = "
+        "4\n");
     const Matrix camera = looking({3, 4, 5}, {0, 0, 0});
     const auto by_name = [&](const char* name) { return scene.render({.width = 90, .height = 60, .camera = name}); };
     const Picture perspective = scene.render({.width = 90, .height = 60, .camera_to_world = camera, .fov_deg = 20});
     const Picture flat = scene.render({.width = 90, .height = 60, .camera_to_world = camera, .ortho_height = 4});
     EXPECT_TRUE(what_is_seen(perspective) == what_is_seen(by_name("eye")));
     EXPECT_TRUE(what_is_seen(flat) == what_is_seen(by_name("flat")));
-    EXPECT_TRUE(exr_of(scene, {.width = 90, .height = 60}) == exr_of(scene, {.width = 90, .height = 60, .camera = "eye"}));
+    EXPECT_TRUE(exr_of(scene, {.width = 90, .height = 60}) ==
+                exr_of(scene, {.width = 90, .height = 60, .camera = "eye"}));
 }
 
 TEST(LibraryView, AMatrixOfSinglePrecisionIsMadeRigid) {
@@ -57,7 +60,9 @@ TEST(LibraryView, AMatrixOfSinglePrecisionIsMadeRigid) {
     ASSERT_NE(exact, rounded);
     const Picture picture = scene.render({.width = 90, .height = 60, .camera_to_world = rounded, .fov_deg = 30});
     // What is orthonormal to the last bit, and nearest to it: the same camera.
-    const auto dot = [](const Matrix& m, std::size_t a, std::size_t b) { return m[a] * m[b] + m[a + 4] * m[b + 4] + m[a + 8] * m[b + 8]; };
+    const auto dot = [](const Matrix& m, std::size_t a, std::size_t b) {
+        return m[a] * m[b] + m[a + 4] * m[b + 4] + m[a + 8] * m[b + 8];
+    };
     Matrix rigid = rounded;
     const auto normalize = [&](std::size_t column) {
         const double length = std::sqrt(dot(rigid, column, column));
@@ -85,7 +90,9 @@ TEST(LibraryView, ACropIsAPartOfThePicture) {
     for (const std::string& name : {std::string("Z"), std::string("N.X")}) {
         const auto all = whole.channel<float>(name), some = part.channel<float>(name);
         for (std::size_t y = 10; y < 44; ++y) {
-            for (std::size_t x = 20; x < 70; ++x) ASSERT_EQ(std::bit_cast<std::uint32_t>(some[(y - 10) * 50 + x - 20]), std::bit_cast<std::uint32_t>(all[y * 90 + x]));
+            for (std::size_t x = 20; x < 70; ++x)
+                ASSERT_EQ(std::bit_cast<std::uint32_t>(some[(y - 10) * 50 + x - 20]),
+                          std::bit_cast<std::uint32_t>(all[y * 90 + x]));
         }
     }
 }
