@@ -31,7 +31,7 @@ extern "C" {
 /* ---- version and errors ---- */
 
 /** The version of this interface. It counts up with every change; a library works for programs that were built with
- *  the same number or a smaller one. */
+ * the same number or a smaller one. */
 #define BURIN_ABI 1
 /** BURIN_ABI of the library that is loaded. */
 BURIN_API int burin_abi(void);
@@ -49,7 +49,7 @@ enum burin_result {
 };
 
 /** Why the last call that failed on this thread did: one line that says what is wrong and what to do. "" if none has.
- *  Valid until the next failure on this thread. */
+ * Valid until the next failure on this thread. */
 BURIN_API const char* burin_error(void);
 /** The same as a burin_result: what kind of failure it was. */
 BURIN_API int burin_error_kind(void);
@@ -64,19 +64,19 @@ BURIN_API burin_scene* burin_scene_new(void);
 BURIN_API void burin_scene_free(burin_scene* scene);
 
 /** Adds what a file holds: a scene (.toml), of which the settings and cameras, too, or a model (.obj .ply .stl .off
- *  .gltf .glb). Uses all cores. Each object gets a number, in the order of the file. Returns the first one. */
+ * .gltf .glb). Uses all cores. Each object gets a number, in the order of the file. Returns the first one. */
 BURIN_API int burin_load(burin_scene* scene, const char* path);
 /** The same for the text of a scene file (docs/scene-format.md). Paths in it are relative to `base_folder`; NULL: to
- *  the current one. */
+ * the current one. */
 BURIN_API int burin_load_text(burin_scene* scene, const char* toml, const char* base_folder);
 /** What readers left out of the files or did not take as it stands, "path: what": note `index`, from 0; NULL behind the
- *  last one, which is no failure. Valid until the scene is changed. */
+ * last one, which is no failure. Valid until the scene is changed. */
 BURIN_API const char* burin_note(const burin_scene* scene, int index);
 
 /** What a polygon looks like when it is shaded, and how much it hides. */
 typedef struct burin_material {
     uint32_t size;
-    float opacity;    /**< 0 to 1 = opaque */
+    float opacity;    /**< 0 to 1; 1 is opaque */
     float color[3];   /**< linear red, green, blue, 0 to 1 */
     const char* name; /**< NULL: none */
 } burin_material;
@@ -85,7 +85,7 @@ typedef struct burin_material {
 BURIN_API int burin_add_material(burin_scene* scene, const burin_material* material);
 
 /** Polygons as they lie in memory: open or closed, convex or not, of any winding. Vertices with equal coordinates are
- *  one, polygons without area are dropped: all as if the mesh came from a file (docs/conventions.md, Models). */
+ * one, polygons without area are dropped: all as if the mesh came from a file (docs/conventions.md, Models). */
 typedef struct burin_mesh {
     uint32_t size;
     const char* name;                 /**< of its objects that have no name of their own; NULL: none */
@@ -107,7 +107,7 @@ typedef struct burin_mesh {
 
 /** Adds a mesh, for objects to show. Returns its number. */
 BURIN_API int burin_add_mesh(burin_scene* scene, const burin_mesh* mesh);
-/** Gives up a mesh. Objects that show it go on doing so. */
+/** Forgets the number of a mesh. Objects that show it go on doing so; its memory is freed with the last of them. */
 BURIN_API int burin_remove_mesh(burin_scene* scene, int mesh);
 
 /** A mesh at a place. */
@@ -127,16 +127,16 @@ BURIN_API int burin_remove_object(burin_scene* scene, int object);
 /** Removes all objects. Meshes and materials that were added, settings and cameras stay. */
 BURIN_API int burin_clear_objects(burin_scene* scene);
 /** Which object has a number `id` in the channel id.object of a picture of the scene as it is now: ids count the parts
- *  of all objects, in the order in which these were added, from 1. */
+ * of all objects, in the order in which these were added, from 1. */
 BURIN_API int burin_object_of_id(const burin_scene* scene, uint32_t id);
 /** Its name; NULL if there is no such object. Valid until the scene is changed. */
 BURIN_API const char* burin_object_name(const burin_scene* scene, int object);
 
 /** Changes a setting, as --set of the program does: "lines.width=2", "lines.draw=silhouette,crease",
- *  "picture.background=transparent". Objects and materials are no settings. */
+ * "picture.background=transparent". Objects and materials are no settings. */
 BURIN_API int burin_set(burin_scene* scene, const char* key_and_value);
 /** Changes all settings that a text names: tables of a scene file but [[object]] and [[material]]. What it does not
- *  name stays; a list of cameras replaces the one before. */
+ * name stays; a list of cameras replaces the one before. */
 BURIN_API int burin_set_toml(burin_scene* scene, const char* toml);
 
 /* ---- pictures ---- */
@@ -150,8 +150,8 @@ typedef struct burin_view {
     int32_t frame;         /**< for later; must be 0 */
     const char* camera;    /**< name of one of the scene's cameras, if there is no matrix; NULL: the first, or one that
                                 has all of the scene in view if there is none */
-    double camera_to_world[16]; /**< x right, y up, looking along -z: rotated and moved only, which it needs to be no
-                                     more than single precision allows; all 0: one of the scene's cameras */
+    double camera_to_world[16]; /**< the camera's x is to the right, y up, and it looks along -z; a rotation and a
+                                     position, exact to single precision; all 0: one of the scene's cameras */
     double fov_deg;             /**< with a matrix: vertical field of view, between 0 and 180; 0: 35 */
     double ortho_height;        /**< with a matrix: visible height in world units, orthographic; 0: perspective */
     double shift[2];            /**< for later; must be 0 */
@@ -165,8 +165,8 @@ typedef struct burin_options {
     uint64_t memory_bytes; /**< cap for what drawing takes beyond scene and picture; 0: none */
     const char* layers;    /**< which channels the picture gets, as --layers of the program: "beauty,lines,Z"; NULL:
                                 "beauty,lines,Z,N,ids", and lines_hidden if hidden lines are drawn */
-    /** Is told which part is done, 0 to 1, about ten times a second, on the thread that makes the call. Returns 0, or
-     *  anything else to stop. NULL: nobody is told. It must not use the scene but for burin_cancel(). */
+    /** Is called about ten times a second with the part that is done, 0 to 1, on the thread that made the call. It
+     * returns 0 to go on and anything else to stop. It must not use the scene, but for burin_cancel(). NULL: none. */
     int (*progress)(double done, void* user);
     void* user; /**< for `progress` */
 } burin_options;
@@ -175,10 +175,10 @@ typedef struct burin_options {
 typedef struct burin_picture burin_picture;
 
 /** Draws a scene. `view`, `options`: NULL for all as usual. The same scene and view give the same bits, whatever the
- *  options and the machine, and those that the program writes. */
+ * options and the machine, and those that the program writes. */
 BURIN_API burin_picture* burin_render(burin_scene* scene, const burin_view* view, const burin_options* options);
-/** Has what the scene does now on another thread (burin_render(), burin_load(), burin_add_mesh() ...) end soon, with
- *  BURIN_STOPPED. Calls that begin later are not stopped. */
+/** Stops what a scene is doing (burin_render(), burin_load(), burin_load_text() or burin_add_mesh()): that call soon
+ * fails with BURIN_STOPPED. From any thread. A call that begins later is not stopped. */
 BURIN_API void burin_cancel(burin_scene* scene);
 /** NULL is allowed. */
 BURIN_API void burin_picture_free(burin_picture* picture);
@@ -187,7 +187,7 @@ BURIN_API void burin_picture_free(burin_picture* picture);
 enum burin_type { BURIN_HALF = 1, BURIN_FLOAT = 2, BURIN_UINT32 = 3 };
 
 /** The values of a channel ("R", "lines.A", "Z", "id.object" ...: docs/conventions.md, Images), row by row from the
- *  top, without gaps. `type`: gets its burin_type; `size`: gets columns and rows, those of the crop. Either may be
+ * top, without gaps. `type`: gets its burin_type; `size`: gets columns and rows, those of the crop. Either may be
  * NULL. The picture owns them. */
 BURIN_API const void* burin_channel(const burin_picture* picture, const char* name, int32_t* type, int32_t size[2]);
 /** The name of channel `index`, from 0; NULL behind the last one, which is no failure. */
@@ -197,13 +197,13 @@ BURIN_API const char* burin_channel_name(const burin_picture* picture, int index
  * is not multiplied in. Pixels outside of the crop are background. Needs the layer `beauty`. */
 BURIN_API int burin_pixels(const burin_picture* picture, uint8_t* out, int channels);
 
-/** A picture as the bytes of a file: the same that the program writes. `format`: "exr", "png", "png16", "tif", "tif16";
- *  the number is bits per value. `style` must be NULL. `bytes` and `count` get the file, to be freed by
- *  burin_bytes_free(). Drawings, which come later, go through here, too. */
-BURIN_API int burin_encode(const void* picture, const char* format, const char* style, uint8_t** bytes,
+/** A picture as the bytes of a file: the same that the program writes. `picture_or_drawing`: a burin_picture; drawings
+ * come in a later version. `format`: "exr", "png", "png16", "tif", "tif16"; the number is bits per value. `style` is
+ * for drawings, and must be NULL. `bytes` and `count` get the file, to be freed by burin_bytes_free(). */
+BURIN_API int burin_encode(const void* picture_or_drawing, const char* format, const char* style, uint8_t** bytes,
                            uint64_t* count);
 /** The same into a file, which appears under its name only when it is complete. `format` NULL: by the path's suffix. */
-BURIN_API int burin_write(const void* picture, const char* format, const char* style, const char* path);
+BURIN_API int burin_write(const void* picture_or_drawing, const char* format, const char* style, const char* path);
 /** NULL is allowed. */
 BURIN_API void burin_bytes_free(uint8_t* bytes);
 

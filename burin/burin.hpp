@@ -148,15 +148,16 @@ class Picture {
 class Scene {
   public:
     Scene() : scene_(checked(burin_scene_new())) {}
-    /// A scene of one file.
-    static Scene of_file(const std::string& path) {
+    /// The scene of a file.
+    static Scene load(const std::string& path) {
         Scene scene;
-        scene.load(path);
+        scene.add_file(path);
         return scene;
     }
 
-    int load(const std::string& path) { return checked(burin_load(get(), path.c_str())); }
-    int load_text(const std::string& toml, const std::string& base_folder = {}) {
+    /// What a file or a text holds beside what is there: see burin_load(). Returns the number of its first object.
+    int add_file(const std::string& path) { return checked(burin_load(get(), path.c_str())); }
+    int add_text(const std::string& toml, const std::string& base_folder = {}) {
         return checked(burin_load_text(get(), toml.c_str(), base_folder.c_str()));
     }
     std::vector<std::string> notes() const {

@@ -72,9 +72,10 @@ OutputOptions options_of(const burin_picture& picture, const Format& format, con
 
 using namespace burin;
 
-int burin_encode(const void* picture, const char* format, const char* style, uint8_t** bytes, uint64_t* count) {
+int burin_encode(const void* picture_or_drawing, const char* format, const char* style, uint8_t** bytes,
+                 uint64_t* count) {
     return guarded([&] {
-        const burin_picture& from = checked_picture(picture, style);
+        const burin_picture& from = checked_picture(picture_or_drawing, style);
         const Format& as = format_named(&required(format, "format"));
         required(bytes, "bytes");
         required(count, "count");
@@ -91,9 +92,9 @@ int burin_encode(const void* picture, const char* format, const char* style, uin
     });
 }
 
-int burin_write(const void* picture, const char* format, const char* style, const char* path) {
+int burin_write(const void* picture_or_drawing, const char* format, const char* style, const char* path) {
     return guarded([&] {
-        const burin_picture& from = checked_picture(picture, style);
+        const burin_picture& from = checked_picture(picture_or_drawing, style);
         const std::string file_path = &required(path, "path");
         const Format& as = format == nullptr ? format_of_path(file_path) : format_named(format);
         check_layers(from, as);

@@ -39,7 +39,7 @@ struct ObjectState {
 }  // namespace burin
 
 /// A scene while it is used through the interface. What a picture is made of, a burin::Scene, is put together for each
-/// picture (burin/prepared_frame.h).
+/// picture (burin/prepared_scene.h).
 struct burin_scene {
     burin::SceneSettings settings;
     std::vector<burin::Material> materials;

@@ -23,11 +23,11 @@ Matrix moved(double x, double y, double z) { return {1, 0, 0, x, 0, 1, 0, y, 0, 
 TEST(LibraryScene, FilesGiveThePicturesOfTheProgram) {
     const TemporaryFolder folder;
     for (const char* const name : {"cube", "cage", "still_life", "strokes", "star", "crossing"}) {
-        Scene scene = Scene::of_file(kScenes + name + ".toml");
+        Scene scene = Scene::load(kScenes + name + ".toml");
         EXPECT_TRUE(exr_of(scene, kSmall) == program_exr(folder, kScenes + name + ".toml")) << name;
     }
     folder.write("waves.obj", obj_text(waves(20)));
-    Scene model = Scene::of_file(folder.file("waves.obj"));
+    Scene model = Scene::load(folder.file("waves.obj"));
     EXPECT_TRUE(exr_of(model, kSmall) == program_exr(folder, "waves.obj"));
 }
 
@@ -66,16 +66,16 @@ TEST(LibraryScene, TextIsReadAsAFileInItsFolder) {
     const std::string text = "[lines]\nwidth = 3\n[[object]]\nfile = \"cube.obj\"\nrotate = [10, 20, 30]\n";
     folder.write("scene.toml", text);
     Scene scene;
-    scene.load_text(text, folder.path());
+    scene.add_text(text, folder.path());
     EXPECT_TRUE(exr_of(scene, kSmall) == program_exr(folder, "scene.toml"));
     std::string message;
-    EXPECT_EQ(failure_of([&] { scene.load_text("[lines]\nwidth = -1\n[[object]]\nshape = \"box\"\n"); }, &message),
+    EXPECT_EQ(failure_of([&] { scene.add_text("[lines]\nwidth = -1\n[[object]]\nshape = \"box\"\n"); }, &message),
               BURIN_BAD_INPUT);
     EXPECT_EQ(message.find("scene:2:9: "), 0u) << message;
-    EXPECT_EQ(failure_of([&] { scene.load_text("[lines\n"); }, &message), BURIN_BAD_INPUT);
+    EXPECT_EQ(failure_of([&] { scene.add_text("[lines\n"); }, &message), BURIN_BAD_INPUT);
     EXPECT_EQ(message.find("scene:1:"), 0u) << message;
-    EXPECT_EQ(failure_of([&] { scene.load(folder.file("none.obj")); }), BURIN_BAD_INPUT);
-    EXPECT_EQ(failure_of([&] { scene.load(folder.file("model.fbx")); }), BURIN_BAD_INPUT);
+    EXPECT_EQ(failure_of([&] { scene.add_file(folder.file("none.obj")); }), BURIN_BAD_INPUT);
+    EXPECT_EQ(failure_of([&] { scene.add_file(folder.file("model.fbx")); }), BURIN_BAD_INPUT);
     EXPECT_EQ(exr_of(scene, kSmall), program_exr(folder, "scene.toml"));  // nothing has changed
 }
 
@@ -86,13 +86,13 @@ TEST(LibraryScene, SettingsAreThoseOfTheProgram) {
                                                "lines.hidden.style=dashed", "camera.eye=[4, 3, 5]",
                                                "surfaces.shading=lambert"};
     std::vector<std::string> arguments;
-    Scene after = Scene::of_file(file);
+    Scene after = Scene::load(file);
     for (const std::string& setting : settings) {
         arguments.insert(arguments.end(), {"--set", setting});
         after.set(setting);
         EXPECT_TRUE(exr_of(after, kSmall) == program_exr(folder, file, arguments)) << setting;
     }
-    Scene text = Scene::of_file(file);
+    Scene text = Scene::load(file);
     text.set_toml("[lines]\nwidth = 2.5\ndraw = [\"silhouette\", \"crease\"]\n[lines.hidden]\nstyle = \"dashed\"\n");
     text.set_toml("[surfaces]\nshading = \"lambert\"\n");
     text.set("camera.eye=[4, 3, 5]");
@@ -103,22 +103,22 @@ TEST(LibraryScene, WhatAFileDoesNotSayStaysAsItWasSet) {
     const std::string box = "[[object]]\nshape = \"box\"\n";
     Scene before, after, file;
     before.set("lines.width=4");
-    before.load_text(box);
-    after.load_text(box);
+    before.add_text(box);
+    after.add_text(box);
     after.set("lines.width=4");
-    file.load_text("[lines]\nwidth = 4\n" + box);
+    file.add_text("[lines]\nwidth = 4\n" + box);
     EXPECT_TRUE(exr_of(before) == exr_of(file));
     EXPECT_TRUE(exr_of(after) == exr_of(file));
     // What it says goes before what was set.
     Scene both;
     both.set("lines.width=9");
-    both.load_text("[lines]\nwidth = 4\n" + box);
+    both.add_text("[lines]\nwidth = 4\n" + box);
     EXPECT_TRUE(exr_of(both) == exr_of(file));
 }
 
 TEST(LibraryScene, WrongSettingsChangeNothing) {
     Scene scene;
-    scene.load_text("[[object]]\nshape = \"box\"\n");
+    scene.add_text("[[object]]\nshape = \"box\"\n");
     const std::string picture = exr_of(scene);
     std::string text;
     for (const char* const wrong :
@@ -162,11 +162,11 @@ TEST(LibraryScene, ObjectsMoveAndGo) {
 TEST(LibraryScene, LoadedObjectsMoveLikeOthers) {
     Scene loaded, whole;
     const int first =
-        loaded.load_text("[[object]]\nshape = \"box\"\nname = \"a\"\n[[object]]\nshape = \"sphere\"\nname = \"b\"\n");
+        loaded.add_text("[[object]]\nshape = \"box\"\nname = \"a\"\n[[object]]\nshape = \"sphere\"\nname = \"b\"\n");
     EXPECT_EQ(loaded.object_name(first), "a");
     EXPECT_EQ(loaded.object_name(first + 1), "b");
     loaded.move(first + 1, moved(0.5, 0.25, 0));
-    whole.load_text("[[object]]\nshape = \"box\"\n[[object]]\nshape = \"sphere\"\ntranslate = [0.5, 0.25, 0]\n");
+    whole.add_text("[[object]]\nshape = \"box\"\n[[object]]\nshape = \"sphere\"\ntranslate = [0.5, 0.25, 0]\n");
     EXPECT_TRUE(exr_of(loaded) == exr_of(whole));
 }
 
@@ -180,8 +180,8 @@ TEST(LibraryScene, FilesStandBesideEachOther) {
     folder.write("scene.toml",
                  "[surfaces]\nshading = \"lambert\"\n[[object]]\nfile = \"a.obj\"\n[[object]]\nfile = \"b.obj\"\n");
     Scene scene;
-    scene.load(folder.file("a.obj"));
-    scene.load(folder.file("b.obj"));
+    scene.add_file(folder.file("a.obj"));
+    scene.add_file(folder.file("b.obj"));
     scene.set("surfaces.shading=lambert");
     EXPECT_TRUE(exr_of(scene, kSmall) == program_exr(folder, "scene.toml"));
 }
@@ -191,7 +191,7 @@ TEST(LibraryScene, WhatReadersLeaveOutIsNoted) {
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib none.mtl\nf 1 2 3\n");
     Scene scene;
     EXPECT_TRUE(scene.notes().empty());
-    scene.load(folder.file("a.obj"));
+    scene.add_file(folder.file("a.obj"));
     ASSERT_EQ(scene.notes().size(), 1u);
     EXPECT_NE(scene.notes()[0].find("none.mtl"), std::string::npos);
     EXPECT_EQ(burin_note(scene.get(), -1), nullptr);

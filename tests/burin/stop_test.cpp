@@ -54,11 +54,11 @@ TEST(Stop, MeshesAndFilesAreStoppedToo) {
         while (!is_done) scene.cancel();
     });
     EXPECT_EQ(failure_of([&] { scene.add_mesh(arrays.mesh()); }), BURIN_STOPPED);
-    EXPECT_EQ(failure_of([&] { scene.load(folder.file("waves.obj")); }), BURIN_STOPPED);
+    EXPECT_EQ(failure_of([&] { scene.add_file(folder.file("waves.obj")); }), BURIN_STOPPED);
     is_done = true;
     other.join();
     EXPECT_EQ(scene.add_mesh(arrays.mesh()), 1);  // nothing has been added so far
-    EXPECT_EQ(scene.load(folder.file("waves.obj")), 1);
+    EXPECT_EQ(scene.add_file(folder.file("waves.obj")), 1);
 }
 
 TEST(Stop, ProgressGrowsAndIsToldToItsOwnThread) {
@@ -132,7 +132,7 @@ TEST(Threads, FilesAreLoadedAtOnce) {
         "[[object]]\nfile = \"waves.obj\"\n[[object]]\nshape = \"box\"\nsubdivide = 2\nscheme = \"catmull-clark\"\n";
     const auto make = [&] {
         Scene scene;
-        scene.load_text(scene_text, folder.path());
+        scene.add_text(scene_text, folder.path());
         return exr_of(scene);
     };
     const std::string alone = make();
