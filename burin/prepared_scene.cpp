@@ -12,7 +12,7 @@
 
 namespace burin {
 
-PreparedScene::PreparedScene(burin_scene& state, const burin_view& view, const OptionsInput& options) {
+PreparedScene::PreparedScene(burin_scene& state, const burin_view& view, const OptionsInput& options) : state_(state) {
     const SceneDescription& settings = state.settings.description();
     scene_.materials = state.materials;
     scene_.picture = settings.picture;
@@ -22,7 +22,7 @@ PreparedScene::PreparedScene(burin_scene& state, const burin_view& view, const O
     scene_.cameras = !settings.cameras.empty() ? settings.cameras : state.file_cameras;
     scene_.camera_is_default = scene_.cameras.empty();
     if (scene_.camera_is_default) scene_.cameras.emplace_back();
-    take_meshes(state);
+    take_meshes();
     try {
         make_frame_of(view, options);
     } catch (...) {
@@ -33,10 +33,10 @@ PreparedScene::PreparedScene(burin_scene& state, const burin_view& view, const O
 
 PreparedScene::~PreparedScene() { give_meshes_back(); }
 
-void PreparedScene::take_meshes(burin_scene& state) {
+void PreparedScene::take_meshes() {
     std::map<const MeshGroup*, std::uint32_t> first_mesh;
     std::size_t mesh_count = 0;
-    for (const auto& [number, object] : state.objects) {
+    for (const auto& [number, object] : state_.objects) {
         for (const ObjectPart& part : object.parts) {
             const auto [at, is_new] = first_mesh.try_emplace(part.group.get(), static_cast<std::uint32_t>(mesh_count));
             if (is_new) {
@@ -62,6 +62,22 @@ void PreparedScene::give_meshes_back() noexcept {
         for (Mesh& own : group->meshes) own = std::move(*mesh++);
     }
     groups_.clear();
+    if (!keeps_preparation_) return;
+    state_.preparation = {state_.revision, std::move(scene_.sharp_edges), std::move(scene_.intersecting_pairs)};
+}
+
+void PreparedScene::prepare(const OptionsInput& options) {
+    Preparation& kept = state_.preparation;
+    if (keeps_preparation_ && kept.revision == state_.revision) {
+        kept.revision = 0;
+        scene_.sharp_edges = std::move(kept.sharp_edges);
+        scene_.intersecting_pairs = std::move(kept.intersecting_pairs);
+        return;
+    }
+    const bool keeps_it = std::exchange(keeps_preparation_, false);  // until it is there
+    kept = {};
+    prepare_for_abuffer(scene_, options.threads, options.memory_bytes > 0);
+    keeps_preparation_ = keeps_it;
 }
 
 void PreparedScene::make_frame_of(const burin_view& view, const OptionsInput& options) {
@@ -78,8 +94,10 @@ void PreparedScene::make_frame_of(const burin_view& view, const OptionsInput& op
         throw UsageError("view: " + std::string(error.what()));
     }
     empty_copied_objects(scene_, &replaced_);
+    const std::size_t replaced_for_all = replaced_.size();
     close_cracks(scene_, camera, input.width, input.height, &replaced_);
-    prepare_for_abuffer(scene_, options.threads, options.memory_bytes > 0);
+    keeps_preparation_ = replaced_.size() == replaced_for_all && options.memory_bytes == 0;
+    prepare(options);
     frame_ = make_frame(scene_, camera, input.width, input.height, input.crop);
 }
 

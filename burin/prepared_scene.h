@@ -24,13 +24,16 @@ class PreparedScene {
     const Frame& frame() const { return frame_; }
 
   private:
-    void take_meshes(burin_scene& state);
+    void take_meshes();
     void give_meshes_back() noexcept;
+    void prepare(const OptionsInput& options);
     void make_frame_of(const burin_view& view, const OptionsInput& options);
 
+    burin_scene& state_;
     Scene scene_;
     std::vector<std::shared_ptr<MeshGroup>> groups_;  ///< whose meshes the scene has, one after the other
     ReplacedMeshes replaced_;
+    bool keeps_preparation_ = false;  ///< what was prepared is right for later views, too
     Frame frame_;
 };
 

@@ -71,6 +71,7 @@ int adopt(burin_scene& scene, Scene loaded, SceneSettings settings) {
     scene.notes.swap(notes);
     scene.objects.merge(objects);
     scene.last_object = last_object;
+    ++scene.revision;
     return first_object;
 }
 
@@ -161,6 +162,7 @@ int burin_add_material(burin_scene* scene, const burin_material* material) {
             throw InputError("too many materials");
         scene->materials.push_back(
             {text_or_empty(given.name), {given.color[0], given.color[1], given.color[2]}, given.opacity});
+        ++scene->revision;
         return static_cast<int>(scene->materials.size());
     });
 }
@@ -228,6 +230,7 @@ int burin_add_object(burin_scene* scene, const burin_object* object) {
         }
         int last = scene->last_object;
         scene->objects.emplace(next_number(last), std::move(state));
+        ++scene->revision;
         return scene->last_object = last;
     });
 }
@@ -237,6 +240,7 @@ int burin_move_object(burin_scene* scene, int object, const double to_world[16])
         ObjectState& state = object_of(required(scene, "scene"), object);
         const glm::dmat4 matrix = object_matrix(&required(to_world, "to_world"), "to_world");
         for (ObjectPart& part : state.parts) part.to_world = matrix;
+        ++scene->revision;
         return int{BURIN_DONE};
     });
 }
@@ -245,6 +249,7 @@ int burin_remove_object(burin_scene* scene, int object) {
     return guarded([&] {
         object_of(required(scene, "scene"), object);
         scene->objects.erase(object);
+        ++scene->revision;
         return int{BURIN_DONE};
     });
 }
@@ -252,6 +257,7 @@ int burin_remove_object(burin_scene* scene, int object) {
 int burin_clear_objects(burin_scene* scene) {
     return guarded([&] {
         required(scene, "scene").objects.clear();
+        ++scene->revision;
         return int{BURIN_DONE};
     });
 }
@@ -285,6 +291,7 @@ int burin_set(burin_scene* scene, const char* key_and_value) {
             throw UsageError("'" + printable(text) + "' must be KEY=VALUE, such as lines.width=2");
         }
         scene->settings.set({text.substr(0, equals), text.substr(equals + 1)});
+        ++scene->revision;
         return int{BURIN_DONE};
     });
 }
@@ -292,6 +299,7 @@ int burin_set(burin_scene* scene, const char* key_and_value) {
 int burin_set_toml(burin_scene* scene, const char* toml) {
     return guarded([&] {
         required(scene, "scene").settings.set_tables(&required(toml, "toml"), "settings");
+        ++scene->revision;
         return int{BURIN_DONE};
     });
 }

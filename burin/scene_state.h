@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,13 @@ struct ObjectPart {
     MaterialList materials;
 };
 
+/// What is made of a scene's meshes once for all views of it, see prepare_for_abuffer().
+struct Preparation {
+    std::uint64_t revision = 0;  ///< of the scene that it was made for; 0: there is none
+    std::vector<std::vector<std::uint8_t>> sharp_edges;
+    std::optional<std::vector<SurfacePair>> intersecting_pairs;
+};
+
 struct ObjectState {
     std::string name;
     std::vector<ObjectPart> parts;  ///< empty if the mesh has no polygon with an area
@@ -49,6 +57,8 @@ struct burin_scene {
     std::map<int, burin::ObjectState> objects;                ///< by their numbers
     int last_mesh = 0, last_object = 0;                       ///< numbers that were given
     std::vector<std::string> notes;
+    std::uint64_t revision = 1;  ///< counts changes of objects, materials and settings
+    burin::Preparation preparation;
     burin::StopFlag stop{false};
 };
 

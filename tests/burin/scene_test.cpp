@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <set>
 
 #include "tests/burin/shapes.h"
@@ -58,6 +59,37 @@ TEST(LibraryScene, APictureDoesNotChangeTheScene) {
     // What fails on the way gives the meshes back, too.
     EXPECT_EQ(failure_of([&] { both.render({.width = 80, .height = 60, .camera = "none"}); }), BURIN_BAD_ARGUMENT);
     EXPECT_TRUE(exr_of(both, far) == far_picture);
+}
+
+TEST(LibraryScene, WhatIsKeptBetweenPicturesFollowsEveryChange) {
+    // The first scene is drawn after each change, each of the others only once.
+    const View from_front{.width = 80, .height = 60, .camera_to_world = looking({2, 3, 6}, {0.5, 0.5, 0.5})};
+    const View from_right{.width = 80, .height = 60, .camera_to_world = looking({6, 2, 1}, {0.5, 0.5, 0.5})};
+    int mesh = 0, first = 0, second = 0;
+    const std::vector<std::function<void(Scene&)>> changes = {
+        [&](Scene& s) { mesh = s.add_mesh(cube().mesh()), first = s.add_object(mesh); },
+        [&](Scene& s) { s.set("lines.hidden.style=dashed"); },
+        [&](Scene& s) { second = s.add_object(mesh, "second", moved(0.5, 0.25, 0.125)); },  // runs into the first
+        [&](Scene& s) { s.set("lines.draw=all"); },
+        [&](Scene& s) { s.set_toml("[lines]\ncrease_angle = 100\ndraw = \"silhouette,crease,intersection\"\n"); },
+        [&](Scene& s) { s.move(second, moved(0.5, 0.5, 0.75)); },
+        [&](Scene& s) { s.add_text("[[object]]\nshape = \"sphere\"\nscale = 0.75\n"); },
+        [&](Scene& s) { s.add(waves(8).mesh()); },
+        [&](Scene& s) { s.remove(first); },
+        [&](Scene& s) { s.clear(), s.add_object(mesh, "third", moved(0, 0, 1)); },
+    };
+    Scene kept;
+    for (std::size_t count = 1; count <= changes.size(); ++count) {
+        changes[count - 1](kept);
+        Scene once;
+        for (std::size_t i = 0; i < count; ++i) changes[i](once);
+        const std::string front = exr_of(once, from_front);
+        Scene again;
+        for (std::size_t i = 0; i < count; ++i) changes[i](again);
+        EXPECT_TRUE(exr_of(kept, from_front) == front) << count;
+        EXPECT_TRUE(exr_of(kept, from_right) == exr_of(again, from_right)) << count;
+        EXPECT_TRUE(exr_of(kept, from_front, {.memory_bytes = std::uint64_t{1} << 30}) == front) << count;
+    }
 }
 
 TEST(LibraryScene, TextIsReadAsAFileInItsFolder) {
