@@ -70,11 +70,11 @@ TEST(LibraryScene, WhatIsKeptBetweenPicturesFollowsEveryChange) {
         [&](Scene& s) { mesh = s.add_mesh(cube().mesh()), first = s.add_object(mesh); },
         [&](Scene& s) { s.set("lines.hidden.style=dashed"); },
         [&](Scene& s) { second = s.add_object(mesh, "second", moved(0.5, 0.25, 0.125)); },  // runs into the first
+        [&](Scene& s) { s.add(waves(8).mesh()); },
         [&](Scene& s) { s.set("lines.draw=all"); },
         [&](Scene& s) { s.set_toml("[lines]\ncrease_angle = 100\ndraw = \"silhouette,crease,intersection\"\n"); },
-        [&](Scene& s) { s.move(second, moved(0.5, 0.5, 0.75)); },
-        [&](Scene& s) { s.add_text("[[object]]\nshape = \"sphere\"\nscale = 0.75\n"); },
-        [&](Scene& s) { s.add(waves(8).mesh()); },
+        [&](Scene& s) { s.move(second, moved(0.2, 0.25, 0.3)); },
+        [&](Scene& s) { s.add_text("[[object]]\nshape = \"sphere\"\nscale = 1.5\n"); },
         [&](Scene& s) { s.remove(first); },
         [&](Scene& s) { s.clear(), s.add_object(mesh, "third", moved(0, 0, 1)); },
     };
@@ -86,9 +86,10 @@ TEST(LibraryScene, WhatIsKeptBetweenPicturesFollowsEveryChange) {
         const std::string front = exr_of(once, from_front);
         Scene again;
         for (std::size_t i = 0; i < count; ++i) changes[i](again);
+        if (count == 3)
+            EXPECT_TRUE(exr_of(kept, from_front, {.memory_bytes = std::uint64_t{1} << 30}) == front) << count;
         EXPECT_TRUE(exr_of(kept, from_front) == front) << count;
         EXPECT_TRUE(exr_of(kept, from_right) == exr_of(again, from_right)) << count;
-        EXPECT_TRUE(exr_of(kept, from_front, {.memory_bytes = std::uint64_t{1} << 30}) == front) << count;
     }
 }
 
