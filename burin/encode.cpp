@@ -99,7 +99,7 @@ int burin_write(const void* picture_or_drawing, const char* format, const char* 
         const Format& as = format == nullptr ? format_of_path(file_path) : format_named(format);
         check_layers(from, as);
         const OutputOptions options = options_of(from, as, file_path);
-        if (as.format != OutputFormat::exr) check_display_writer(std::string(as.extension));
+        if (as.format == OutputFormat::tiff) check_display_writer("picture.tif");  // before there is a file
         AtomicFile file(file_path);
         write_output(file, from.settings, from.film.image(), options);
         file.commit();
