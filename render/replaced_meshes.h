@@ -15,8 +15,12 @@ using ReplacedMeshes = std::vector<std::pair<std::size_t, Mesh>>;
 
 /// Puts a mesh in the place of one of a scene's, which goes to `replaced`, if that is not nullptr.
 inline void replace_mesh(Scene& scene, std::size_t number, Mesh mesh, ReplacedMeshes* replaced) {
-    std::swap(scene.meshes[number], mesh);
-    if (replaced != nullptr) replaced->emplace_back(number, std::move(mesh));
+    if (replaced == nullptr) {
+        scene.meshes[number] = std::move(mesh);
+    } else {
+        replaced->emplace_back(number, std::move(mesh));
+        std::swap(scene.meshes[number], replaced->back().second);
+    }
 }
 
 }  // namespace burin
