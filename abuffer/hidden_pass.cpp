@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "abuffer/hiding/pieces_behind.h"
 #include "abuffer/hiding/transparent_fill.h"
 #include "base/interrupt.h"
 #include "base/parallel.h"
@@ -67,12 +68,6 @@ void join(std::vector<HidingTileResult>& results, std::vector<WholeLine>& lines,
             if ((part.line & kOfTile) != 0) part.line = number[tile][part.line & ~kOfTile];
         }
     }
-}
-
-/// Lines lie anywhere in memory.
-void prefetch(const WholeLine& line) {
-    const char* const at = reinterpret_cast<const char*>(&line);
-    for (std::size_t byte = 0; byte < sizeof line; byte += 64) __builtin_prefetch(at + byte);
 }
 
 /// The numbers of the lines that touch each tile.
@@ -182,38 +177,6 @@ void HiddenPass::join_results() {
     parts_.clear();
     join(results_, lines_, parts_);
     results_.clear();
-}
-
-std::vector<LinePiece> HiddenPass::make_pieces() const {
-    const DrawingNeeds& needs = frame_.needs;
-    const double zero = screen_.surfaces().farthest_nearness;
-    std::vector<LinePiece> pieces;
-    pieces.reserve(parts_.size());
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-        constexpr std::size_t kAhead = 16;
-        if (i + kAhead < parts_.size()) prefetch(lines_[parts_[i + kAhead].line]);
-        const LinePart& part = parts_[i];
-        if (part.transmission == 0 || part.invisibility > needs.most_invisibility) continue;
-        const WholeLine& line = lines_[part.line];
-        LinePiece piece;
-        piece.from = line.at(part.begin) / double{kSubpixelsPerPixel};
-        piece.to = line.at(part.end) / double{kSubpixelsPerPixel};
-        piece.line = line.id;
-        piece.nearness_from = static_cast<float>(zero + line.nearness_at(part.begin));
-        piece.nearness_to = static_cast<float>(zero + line.nearness_at(part.end));
-        piece.classes = line.classes;
-        piece.drawn_as = line.drawn_as;
-        piece.opacity = line.opacity;
-        piece.transmission = part.transmission;
-        piece.invisibility = part.invisibility;
-        if (!needs.tells_invisibility && !pieces.empty() && goes_on_alike(pieces.back(), piece)) {
-            pieces.back().to = piece.to;
-            pieces.back().nearness_to = piece.nearness_to;
-        } else {
-            pieces.push_back(piece);
-        }
-    }
-    return pieces;
 }
 
 std::vector<WholeLine> HiddenPass::take_lines() { return std::exchange(lines_, {}); }

@@ -7,7 +7,6 @@
 #include "abuffer/edges/intersection_lines.h"
 #include "abuffer/hiding/hiding_tile.h"
 #include "abuffer/hiding/occluder_bins.h"
-#include "lines/line_piece.h"
 #include "render/film.h"
 
 namespace burin {
@@ -22,7 +21,7 @@ struct HidingTileResult {
 /// surfaces, and finds hidden lines and lines seen through transparent surfaces.
 ///
 /// A picture is made in one or more slices, each some rows of tiles: find_lines(), sort(), composite() and find_parts()
-/// for one, with what touches it shown; then join_results() and make_pieces().
+/// for one, with what touches it shown; then join_results().
 /// Intersections are found from the scene's pairs of triangles if it has them and all instances are shown, else tile by
 /// tile; they are the same.
 class HiddenPass {
@@ -48,9 +47,6 @@ class HiddenPass {
 
     const std::vector<WholeLine>& lines() const { return lines_; }
     const std::vector<LinePart>& parts() const { return parts_; }
-    /// The parts that the frame's needs ask for, as pieces; those that look alike and follow each other are one piece,
-    /// unless a look tells one invisibility from another.
-    std::vector<LinePiece> make_pieces() const;
     /// The lines, which it has no more then.
     std::vector<WholeLine> take_lines();
 

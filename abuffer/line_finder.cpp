@@ -4,6 +4,7 @@
 
 #include "abuffer/edges/edge_lines.h"
 #include "abuffer/hidden_pass.h"
+#include "abuffer/hiding/pieces_behind.h"
 #include "abuffer/picture_slices.h"
 #include "abuffer/screen/sampling.h"
 #include "abuffer/visible_pass.h"
@@ -87,7 +88,8 @@ class Finder {
             pass.find_parts();
             if (needs_all && !is_last) continue;
             pass.join_results();
-            drawing_.add_behind(pass.make_pieces());
+            drawing_.add_behind(
+                pieces_behind(pass.lines(), pass.parts(), frame_.needs, frame_.surfaces.farthest_nearness));
             std::vector<WholeLine> lines = pass.take_lines();
             if (frame_.needs.whole_lines) drawing_.add_whole_lines(std::move(lines));
             if (sink_ != nullptr && !is_last) hand_on(tiles.only(slice.rows).rect().y1);

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string>
 
+#include "base/byte_sink.h"
+
 namespace burin {
 
 /// An output file that appears under its name only when it is complete.
@@ -12,18 +14,18 @@ namespace burin {
 /// commit() flushes it to disk and gives it its name. Without commit() (an error, an interrupt) an
 /// older file of the same name stays as it was. A symbolic link stays a link: what it points to is
 /// written, whether it exists or not. A file that is replaced keeps its permissions.
-class AtomicFile {
+class AtomicFile final : public ByteSink {
   public:
     /// Throws InputError when the folder is missing or not writable, or the name cannot be used.
     explicit AtomicFile(const std::string& path);
-    ~AtomicFile();
+    ~AtomicFile() override;
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     /// Writes at the current position; throws InputError when the disk is full or fails.
-    void write(const void* data, std::size_t size);
-    void seek(std::size_t position);
-    std::size_t position() const { return position_; }
+    void write(const void* data, std::size_t size) override;
+    void seek(std::size_t position) override;
+    std::size_t position() const override { return position_; }
 
     /// Makes the file appear under its name. Throws InputError when that fails.
     void commit();

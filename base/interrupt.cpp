@@ -1,6 +1,5 @@
 #include "base/interrupt.h"
 
-#include <atomic>
 #include <csignal>
 
 #include "base/error.h"
@@ -9,8 +8,10 @@ namespace burin {
 namespace {
 
 // A signal handler can reach nothing but a global.
-std::atomic<bool> g_interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+StopFlag g_interrupted{false};
+static_assert(StopFlag::is_always_lock_free);
+
+thread_local const StopFlag* t_stop_flag = &g_interrupted;
 
 extern "C" void on_signal(int) { g_interrupted.store(true, std::memory_order_relaxed); }
 
@@ -33,7 +34,12 @@ void install_interrupt_handlers() {
     }
 }
 
-bool interrupt_requested() noexcept { return g_interrupted.load(std::memory_order_relaxed); }
+const StopFlag& stop_flag_of_thread() noexcept { return *t_stop_flag; }
+
+StopScope::StopScope(const StopFlag& flag) noexcept : outer_(t_stop_flag) { t_stop_flag = &flag; }
+StopScope::~StopScope() { t_stop_flag = outer_; }
+
+bool interrupt_requested() noexcept { return t_stop_flag->load(std::memory_order_relaxed); }
 
 void throw_if_interrupted() {
     if (interrupt_requested()) throw Interrupted();

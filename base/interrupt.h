@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 // Signals that ask the program to stop become an exception that long loops throw, so that no partial file is left.
 
 namespace burin {
@@ -9,10 +11,29 @@ namespace burin {
 /// ignored stays so.
 void install_interrupt_handlers();
 
-/// True once one of the signals has arrived.
+/// What tells a thread to stop: a flag that somebody else sets.
+using StopFlag = std::atomic<bool>;
+
+/// The flag that this thread looks at: the one that the signals set, unless a StopScope names another.
+const StopFlag& stop_flag_of_thread() noexcept;
+
+/// While it lives, its thread looks at a flag of its own and no longer at the signals': so one of several jobs of a
+/// process can be stopped. The threads that help with parallel_for() do as the one that calls it. Scopes may be nested.
+class StopScope {
+  public:
+    explicit StopScope(const StopFlag& flag) noexcept;
+    ~StopScope();
+    StopScope(const StopScope&) = delete;
+    StopScope& operator=(const StopScope&) = delete;
+
+  private:
+    const StopFlag* outer_;
+};
+
+/// True once this thread's flag is set.
 bool interrupt_requested() noexcept;
 
-/// Throws `Interrupted` once one of the signals has arrived. Long loops call this now and then.
+/// Throws `Interrupted` once this thread's flag is set. Long loops call this now and then.
 void throw_if_interrupted();
 
 }  // namespace burin

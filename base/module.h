@@ -4,8 +4,9 @@
 
 namespace burin {
 
-/// A function of a module: a shared object that stands beside the program, or where it was
-/// installed, and is loaded at its first use. Throws InputError "cannot load MODULE, which PURPOSE:
+/// A function of a module: a shared object that stands beside the program or the shared library that asks for it, or
+/// where it was installed with it, and is loaded at its first use. Throws InputError "cannot load MODULE, which
+/// PURPOSE:
 /// ...; keep it beside the burin program, or REMEDY".
 void* module_function(const char* module, const char* name, const char* purpose, const char* remedy);
 

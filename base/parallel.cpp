@@ -25,7 +25,9 @@ void on_workers(std::size_t workers, const Work& work) {
     std::atomic<bool> stop{false};
     std::exception_ptr failure;
     std::mutex failure_mutex;
+    const StopFlag& stop_flag = stop_flag_of_thread();
     const std::function<void(int)> run = [&](int worker) {
+        const StopScope scope(stop_flag);
         try {
             work(worker, stop);
         } catch (...) {

@@ -20,7 +20,7 @@ constexpr std::size_t kMostInARow = 8;
 ///
 /// Indices are handed out in increasing order, some in a row to one worker, which calls work() in that order. Nothing
 /// may depend on which worker gets which index. The first exception stops the others and is rethrown. An interrupt
-/// throws `Interrupted`.
+/// throws `Interrupted`: helpers look at the flag of the calling thread (base/interrupt.h).
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t index, int worker)>& work);
 
 /// parallel_for() in any order of the indices, for a count below 2^32: each worker begins with its own part of the

@@ -69,6 +69,7 @@ void Progress::advance(std::uint64_t steps) {
     const std::uint64_t done = done_.fetch_add(steps, std::memory_order_relaxed) + steps;
     const auto now = Clock::now();
     if (now.time_since_epoch().count() < next_show_.load(std::memory_order_relaxed)) return;
+    if (style_ == ProgressStyle::told && std::this_thread::get_id() != maker_) return;
     std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return;
     next_show_ = (now + kShowInterval).time_since_epoch().count();
@@ -77,6 +78,7 @@ void Progress::advance(std::uint64_t steps) {
 
 void Progress::show(std::uint64_t done) {
     const double complete = fraction(done);
+    if (style_ == ProgressStyle::told) return tell_(complete);
     const int percent = static_cast<int>(complete * 100.0);
     if (style_ == ProgressStyle::alf) {
         if (percent == last_percent_) return;

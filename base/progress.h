@@ -3,8 +3,11 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <string>
+#include <thread>
+#include <utility>
 
 // Long jobs tell the user on a terminal how far they are.
 
@@ -13,8 +16,9 @@ namespace burin {
 /// How progress is shown.
 enum class ProgressStyle : std::uint8_t {
     none,
-    bar,  ///< one line on standard error, redrawn, with the time left
-    alf,  ///< lines "ALF_PROGRESS n%" on standard output, as render farms read them
+    bar,   ///< one line on standard error, redrawn, with the time left
+    alf,   ///< lines "ALF_PROGRESS n%" on standard output, as render farms read them
+    told,  ///< to a function
 };
 
 /// Shows how far a job is. Any thread may call advance(); the screen is touched a few times a
@@ -22,6 +26,9 @@ enum class ProgressStyle : std::uint8_t {
 class Progress {
   public:
     explicit Progress(ProgressStyle style) : style_(style) {}
+    /// Calls tell(part that is done, 0 to 1) instead, a few times a second at most, from advance() on the thread that
+    /// made this, and on no other.
+    explicit Progress(std::function<void(double)> tell) : style_(ProgressStyle::told), tell_(std::move(tell)) {}
     ~Progress() { finish(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -44,6 +51,8 @@ class Progress {
     double fraction(std::uint64_t done);
 
     ProgressStyle style_;
+    std::function<void(double)> tell_;
+    std::thread::id maker_ = std::this_thread::get_id();
     std::mutex mutex_;  // guards everything below but done_
     std::string label_;
     std::uint64_t steps_ = 0;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "mesh/text_scan.h"
+#include "render/layer_names.h"
 
 namespace burin::option_values {
 namespace {
@@ -100,22 +101,11 @@ LineClassSet line_classes(std::string_view text) {
 }
 
 LayerSet layer_set(std::string_view text) {
-    LayerSet layers{false, false, false, false, false, false, false, false};
-    const std::pair<std::string_view, bool*> names[] = {
-        {"beauty", &layers.beauty},   {"lines", &layers.lines},
-        {"Z", &layers.depth},         {"N", &layers.normal},
-        {"ids", &layers.ids},         {"coverage", &layers.coverage},
-        {"surface", &layers.surface}, {"lines_hidden", &layers.lines_hidden}};
-    for (const std::string_view name : split(text, ',')) {
-        const auto it =
-            std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.first == name; });
-        if (it == std::end(names)) {
-            fail("--layers", "unknown layer '" + printable(name) +
-                                 "'; known are beauty,lines,Z,N,ids,coverage,surface,lines_hidden");
-        }
-        *it->second = true;
+    try {
+        return layers_named(text);
+    } catch (const UsageError& error) {
+        fail("--layers", error.what());
     }
-    return layers;
 }
 
 GBufferOperatorSet gbuffer_operators(std::string_view text) {

@@ -41,7 +41,7 @@ exr_pixel_type_t exr_type(PixelType type) {
 /// A file of OpenEXR's C library, which takes chunks that are compressed already.
 class ChunkFile {
   public:
-    ChunkFile(AtomicFile& file, const std::string& path) : file_(file) {
+    ChunkFile(ByteSink& file, const std::string& path) : file_(file) {
         exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
         options.user_data = this;
         options.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
@@ -99,7 +99,7 @@ class ChunkFile {
         if (result != EXR_ERR_SUCCESS) throw std::runtime_error(exr_get_default_error_message(result));
     }
 
-    AtomicFile& file_;
+    ByteSink& file_;
     exr_context_t context_ = nullptr;
     std::exception_ptr failure_;
 };
@@ -134,13 +134,13 @@ void naming_file(const std::string& path, const Work& work) {
 /// Chunks that are ready before those above them wait, compressed.
 class ExrWriter::State {
   public:
-    State(const std::string& path, PixelRect display, PixelRect data, const std::vector<ChannelFormat>& channels,
-          const ExrOptions& options)
-        : path_(path), data_(data), order_(sorted_by_name(channels)), file_(path) {
+    State(ByteSink& file, const std::string& path, PixelRect display, PixelRect data,
+          const std::vector<ChannelFormat>& channels, const ExrOptions& options)
+        : path_(path), data_(data), order_(sorted_by_name(channels)) {
         for (const ChannelFormat& channel : channels) types_.push_back(channel.type);
         naming_file(path_, [&] {
             if (channels.empty()) throw InputError(path_ + ": cannot write: the image has no channels");
-            chunks_.emplace(file_, path_);
+            chunks_.emplace(file, path_);
             chunks_->write_header(display, data, channels, order_, options);
         });
         waiting_.resize(static_cast<std::size_t>((data.height() + kChunkRows - 1) / kChunkRows));
@@ -179,7 +179,6 @@ class ExrWriter::State {
             if (next_ < waiting_.size()) throw std::logic_error("rows are missing");
             chunks_->finish();
         });
-        file_.commit();
     }
 
   private:
@@ -204,7 +203,6 @@ class ExrWriter::State {
     PixelRect data_;
     std::vector<PixelType> types_;
     std::vector<std::size_t> order_;
-    AtomicFile file_;
     std::optional<ChunkFile> chunks_;
     std::mutex mutex_;                                // over all that follows
     std::vector<std::vector<std::uint8_t>> waiting_;  // by their numbers
@@ -214,19 +212,39 @@ class ExrWriter::State {
 
 ExrWriter::ExrWriter(const std::string& path, PixelRect display, PixelRect data,
                      const std::vector<ChannelFormat>& channels, const ExrOptions& options)
-    : state_(std::make_unique<State>(path, display, data, channels, options)) {}
+    : own_file_(std::make_unique<AtomicFile>(path)),
+      state_(std::make_unique<State>(*own_file_, path, display, data, channels, options)) {}
+ExrWriter::ExrWriter(ByteSink& file, const std::string& name, PixelRect display, PixelRect data,
+                     const std::vector<ChannelFormat>& channels, const ExrOptions& options)
+    : state_(std::make_unique<State>(file, name, display, data, channels, options)) {}
 ExrWriter::~ExrWriter() = default;
 void ExrWriter::write_chunk(const ImageStrip& part, int y) { state_->write_chunk(part, y); }
-void ExrWriter::finish() { state_->finish(); }
+void ExrWriter::finish() {
+    state_->finish();
+    if (own_file_) own_file_->commit();
+}
 
-void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
-    ExrWriter writer(path, image.display(), image.data(), image.formats(), options);
+namespace {
+
+void write_all(ExrWriter& writer, const Image& image, int threads) {
     const ImageStrip strip = strip_of(image);
     const auto chunks = static_cast<std::size_t>((image.height() + ExrWriter::kChunkRows - 1) / ExrWriter::kChunkRows);
-    parallel_for(chunks, resolve_thread_count(options.threads), [&](std::size_t i, int) {
+    parallel_for(chunks, resolve_thread_count(threads), [&](std::size_t i, int) {
         writer.write_chunk(strip, image.data().y0 + static_cast<int>(i) * ExrWriter::kChunkRows);
     });
     writer.finish();
+}
+
+}  // namespace
+
+void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
+    ExrWriter writer(path, image.display(), image.data(), image.formats(), options);
+    write_all(writer, image, options.threads);
+}
+
+void write_exr(ByteSink& file, const std::string& name, const Image& image, const ExrOptions& options) {
+    ExrWriter writer(file, name, image.display(), image.data(), image.formats(), options);
+    write_all(writer, image, options.threads);
 }
 
 }  // namespace burin

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "image/image.h"
 #include "image/image_strip.h"
 
@@ -26,6 +27,9 @@ class ExrWriter {
 
     ExrWriter(const std::string& path, PixelRect display, PixelRect data, const std::vector<ChannelFormat>& channels,
               const ExrOptions& options);
+    /// Into a file that is open, and stays so. `name`: for messages.
+    ExrWriter(ByteSink& file, const std::string& name, PixelRect display, PixelRect data,
+              const std::vector<ChannelFormat>& channels, const ExrOptions& options);
     ~ExrWriter();
 
     /// Compresses rows [y, y + kChunkRows), or what the data window has of them, and writes them as soon as all above
@@ -37,10 +41,13 @@ class ExrWriter {
 
   private:
     class State;
+    std::unique_ptr<AtomicFile> own_file_;
     std::unique_ptr<State> state_;
 };
 
 /// Writes all channels of an image, with its display and data windows. Throws InputError.
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
+/// The same into a file that is open.
+void write_exr(ByteSink& file, const std::string& name, const Image& image, const ExrOptions& options);
 
 }  // namespace burin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <new>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -34,7 +35,7 @@ std::uint16_t srgb_code_value(float linear) {
 
 /// The file that the module's bytes go to, and why it stopped, if it did.
 struct DisplaySink {
-    AtomicFile& file;
+    ByteSink& file;
     std::exception_ptr stopped;
 
     template <typename Action>
@@ -141,28 +142,34 @@ void check_display_writer(const std::string& path) {
     }
 }
 
-void write_display_image(const std::string& path, const DisplayImage& image, int bits) {
-    if (lower_extension(path) == ".png") {
-        AtomicFile file(path);
+void write_display_image(ByteSink& file, const std::string& name, const std::string& extension,
+                         const DisplayImage& image, int bits) {
+    if (extension == ".png") {
         try {
-            write_png(file, image, bits);
+            return write_png(file, image, bits);
         } catch (const InputError&) {
             throw;
         } catch (const Interrupted&) {
             throw;
+        } catch (const std::bad_alloc&) {
+            throw;
         } catch (const std::exception& error) {
-            throw InputError(path + ": cannot write: " + one_line(error.what()));
+            throw InputError(name + ": cannot write: " + one_line(error.what()));
         }
-        return file.commit();
     }
     auto* const write = module_function<decltype(burin_oiio_write)>("burin_oiio_write");
-    AtomicFile file(path);
     DisplaySink target{file, nullptr};
     const BurinOiioSink sink{&target, DisplaySink::write, DisplaySink::go_on};
-    const char* const failure =
-        write(path.c_str(), image.width, image.height, image.channels, bits, image.pixels.data(), &sink);
+    const char* const failure = write(("picture" + extension).c_str(), image.width, image.height, image.channels, bits,
+                                      image.pixels.data(), &sink);
     if (target.stopped) std::rethrow_exception(target.stopped);
-    if (failure != nullptr) throw InputError(path + ": cannot write: " + one_line(failure));
+    if (failure != nullptr) throw InputError(name + ": cannot write: " + one_line(failure));
+}
+
+void write_display_image(const std::string& path, const DisplayImage& image, int bits) {
+    check_display_writer(path);  // before there is a file
+    AtomicFile file(path);
+    write_display_image(file, path, lower_extension(path), image, bits);
     file.commit();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/byte_sink.h"
 #include "image/image.h"
 
 // A film over paper becomes a picture for the screen, and that a PNG or a TIFF.
@@ -32,6 +33,10 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
 /// Writes a PNG or TIFF (by extension) with 8 or 16 bits per value. The file appears under its name
 /// only when it is complete. Throws InputError.
 void write_display_image(const std::string& path, const DisplayImage& image, int bits);
+
+/// The same into a file that is open. `extension`: ".png" or ".tif"; `name`: for messages.
+void write_display_image(ByteSink& file, const std::string& name, const std::string& extension,
+                         const DisplayImage& image, int bits);
 
 /// Fails before the work, not after it: throws InputError if what write_display_image() needs for this path cannot be
 /// loaded.

@@ -16,7 +16,7 @@ namespace {
 
 /// What libpng's callbacks need. No exception may pass through libpng: it is kept until libpng has jumped back.
 struct PngTarget {
-    AtomicFile& file;
+    ByteSink& file;
     std::exception_ptr stopped;
     char message[200] = "";
 };
@@ -84,7 +84,7 @@ void pack(const std::uint16_t* values, int bits, std::vector<std::uint8_t>& row)
 
 }  // namespace
 
-void write_png(AtomicFile& file, const DisplayImage& image, int bits) {
+void write_png(ByteSink& file, const DisplayImage& image, int bits) {
     PngTarget target{file, nullptr};
     const auto ignore = [](png_structp, png_const_charp) {};  // warnings
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &target, on_error, ignore);

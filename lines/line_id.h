@@ -32,6 +32,8 @@ struct LineId {
     /// Of an edge.
     constexpr std::uint32_t instance() const { return group(); }
     constexpr HalfEdge half_edge() const { return member(); }
+    /// Where surfaces meet: the lower one of their triangles' numbers.
+    constexpr std::uint32_t lower_surface() const { return group() & 0x7FFFFFFFu; }
     /// The upper and the lower half: lines are told apart by the lower one alone where the upper ones are equal.
     constexpr std::uint32_t group() const { return static_cast<std::uint32_t>(bits >> 32); }
     constexpr std::uint32_t member() const { return static_cast<std::uint32_t>(bits); }

@@ -29,14 +29,6 @@ Frame with_fading_creases(Frame frame) {
     return frame;
 }
 
-/// Draws all rows that are left.
-void draw_rest(const Frame& frame, LineDrawing drawing, const RunOptions& options, Film& film) {
-    if (!frame.needs.rows_stand_alone()) {
-        drawing = laid_out(std::move(drawing), frame, resolve_thread_count(options.threads));
-    }
-    RowPrinter(frame, options, drawing, film).draw_rows(RowPrinter::kAllRows);
-}
-
 }  // namespace
 
 PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_memory) {
@@ -73,22 +65,28 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     } else {
         find_lines(frame, options, film, drawing, nullptr, stats);
         watch.lap();
-        draw_rest(frame, std::move(drawing), options, film);
+        drawing = laid_out_if_needed(std::move(drawing), frame, stats.threads);
+        RowPrinter(frame, options, drawing, film).draw_rows(RowPrinter::kAllRows);
         stats.lines_s += watch.lap();
     }
     film.end_picture();
     return stats;
 }
 
-LineDrawing find_drawing(const Frame& given, const RunOptions& options, Film& film) {
+LineDrawing find_drawing(const Frame& frame, const RunOptions& options, Film& film) {
     RenderStats stats;
     LineDrawing drawing;
-    find_lines(with_fading_creases(given), options, film, drawing, nullptr, stats);
+    find_lines(with_fading_creases(frame), options, film, drawing, nullptr, stats);
     return drawing;
 }
 
-void draw_lines(const Frame& given, const LineDrawing& drawing, const RunOptions& options, Film& film) {
-    draw_rest(with_fading_creases(given), drawing, options, film);
+LineDrawing laid_out_if_needed(LineDrawing found, const Frame& frame, int threads) {
+    if (frame.needs.rows_stand_alone()) return found;
+    return laid_out(std::move(found), with_fading_creases(frame), threads);
+}
+
+void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film) {
+    RowPrinter(frame, options, drawing, film).draw_rows(RowPrinter::kAllRows);
     film.end_picture();
 }
 

@@ -17,9 +17,12 @@ namespace burin {
 ///  4. Pixels are filled from their samples; then strokes are drawn over them.
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film);
 
-/// The same in two steps, so that what is found can be drawn more than once: find_drawing() puts the surfaces into the
-/// film and returns the lines, draw_lines() draws them over it.
+/// The same in steps, so that what is found can be drawn more than once: find_drawing() puts the surfaces into the film
+/// and returns the lines, as they are found; laid_out_if_needed() makes of these what the frame's look draws;
+/// draw_lines() draws that over the film.
 LineDrawing find_drawing(const Frame& frame, const RunOptions& options, Film& film);
+LineDrawing laid_out_if_needed(LineDrawing found, const Frame& frame, int threads);
+/// Of the frame's surfaces it reads the projection alone.
 void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film);
 
 /// Whether its bands are finished one after the other: not where lines depend on others anywhere in the picture.

@@ -1,7 +1,5 @@
 #include "output/film_files.h"
 
-#include "image/image_io.h"
-
 namespace burin {
 namespace {
 
@@ -14,15 +12,21 @@ ExrOptions exr_options(const OutputOptions& options) {
 
 }  // namespace
 
-void write_output(const Frame& frame, const Film& film, const OutputOptions& options) {
-    if (options.format == OutputFormat::exr) {
-        write_exr(options.path, film.image(), exr_options(options));
-        return;
-    }
-    const PictureSettings& picture = frame.scene->picture;
+DisplayImage displayed(const PictureSettings& picture, const Image& image) {
     std::optional<glm::vec3> background = picture.background;
     if (!background && !picture.transparent) background = glm::vec3(1.0f);  // white paper
-    write_display_image(options.path, to_display(film.image(), background), options.bits);
+    return to_display(image, background);
+}
+
+void write_output(const Frame& frame, const Film& film, const OutputOptions& options) {
+    if (options.format == OutputFormat::exr) return write_exr(options.path, film.image(), exr_options(options));
+    write_display_image(options.path, displayed(frame.scene->picture, film.image()), options.bits);
+}
+
+void write_output(ByteSink& file, const PictureSettings& picture, const Image& image, const OutputOptions& options) {
+    if (options.format == OutputFormat::exr) return write_exr(file, options.path, image, exr_options(options));
+    const char* const extension = options.format == OutputFormat::png ? ".png" : ".tif";
+    write_display_image(file, options.path, extension, displayed(picture, image), options.bits);
 }
 
 BandWriter::BandWriter(Film& film, const OutputOptions& options)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "image/exr_io.h"
+#include "image/image_io.h"
 #include "render/film.h"
 #include "render/frame.h"
 
@@ -21,6 +22,10 @@ struct OutputOptions {
 
 /// Writes the film to its file (docs/conventions.md lists the layers). Throws InputError.
 void write_output(const Frame& frame, const Film& film, const OutputOptions& options);
+/// Writes a whole film's image into a file that is open; `options.path` is its name. `picture`: its paper.
+void write_output(ByteSink& file, const PictureSettings& picture, const Image& image, const OutputOptions& options);
+/// What a display shows of it: over its paper, or with an alpha channel if it is transparent.
+DisplayImage displayed(const PictureSettings& picture, const Image& image);
 
 /// Writes a film in bands to an EXR while it is rendered. The file appears under its name only when finish() has been
 /// called. Everything throws InputError.

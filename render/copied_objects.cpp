@@ -94,7 +94,7 @@ std::vector<bool> find_copies(const Scene& scene) {
 
 }  // namespace
 
-std::size_t empty_copied_objects(Scene& scene) {
+std::size_t empty_copied_objects(Scene& scene, ReplacedMeshes* replaced) {
     if (scene.objects.size() < 2 || !scene.zbuffer.highlight_objects.empty()) return 0;
     const std::vector<bool> is_copy = find_copies(scene);
     const auto count = static_cast<std::size_t>(std::count(is_copy.begin(), is_copy.end(), true));
@@ -113,7 +113,7 @@ std::size_t empty_copied_objects(Scene& scene) {
             scene.objects[i].mesh = static_cast<std::uint32_t>(scene.meshes.size());
             scene.meshes.push_back(std::move(nothing));
         } else {
-            scene.meshes[mesh] = std::move(nothing);
+            replace_mesh(scene, mesh, std::move(nothing), replaced);
         }
     }
     return count;

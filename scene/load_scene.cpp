@@ -83,19 +83,11 @@ class SceneLoader {
         scene_.camera_is_default = scene_.cameras.empty();
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
         check_highlights();
-        draw_lines_without_polygons();
+        draw_lines_without_polygons(scene_);
         return std::move(scene_);
     }
 
   private:
-    /// A scene without polygons has marks only: they are drawn unless the scene file wants other classes than the
-    /// default ones.
-    void draw_lines_without_polygons() {
-        const bool has_polygons = std::any_of(scene_.meshes.begin(), scene_.meshes.end(),
-                                              [](const Mesh& mesh) { return !mesh.triangles.empty(); });
-        if (!has_polygons && scene_.lines.classes == kDefaultLineClasses) scene_.lines.classes |= LineClass::mark;
-    }
-
     void check_highlights() const {
         const ObjectNames names(scene_.zbuffer.highlight_objects);
         std::set<std::string_view> found;
@@ -269,6 +261,12 @@ class SceneLoader {
 
 Scene load_scene(SceneDescription description, const LoadOptions& options, std::vector<std::string>* files) {
     return SceneLoader(std::move(description), options, files).load();
+}
+
+void draw_lines_without_polygons(Scene& scene) {
+    const bool has_polygons =
+        std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) { return !mesh.triangles.empty(); });
+    if (!has_polygons && scene.lines.classes == kDefaultLineClasses) scene.lines.classes |= LineClass::mark;
 }
 
 bool has_transparent_surfaces(const Scene& scene) {

@@ -77,6 +77,10 @@ struct Scene {
     std::vector<std::string> notes;  ///< of the models' readers, "path: what", each once
 };
 
+/// What has no polygon has marks only: they are drawn unless the scene wants other classes than those by default.
+/// load_scene() has done it.
+void draw_lines_without_polygons(Scene& scene);
+
 /// Whether some surface of the scene lets light through.
 bool has_transparent_surfaces(const Scene& scene);
 

@@ -12,7 +12,7 @@
 #include "scene/gbuffer_toml.h"
 #include "scene/parse_toml.h"
 #include "scene/scene_description.h"
-#include "scene/scene_overrides.h"
+#include "scene/scene_tables.h"
 #include "scene/shape_toml.h"
 #include "scene/toml_depth.h"
 #include "scene/toml_reader.h"
@@ -66,9 +66,9 @@ glm::dmat4 read_transform(TomlReader& t) {
 
 class SceneReader {
   public:
-    SceneReader(const std::string& path, TomlReader root) : path_(path), root_(std::move(root)) {}
+    SceneReader(const ScenePlace& place, TomlReader root) : folder_(place.folder), root_(std::move(root)) {}
 
-    SceneDescription read() {
+    SceneDescription read(SceneParts parts) {
         read_cameras();
         for (TomlReader& t : root_.tables("material")) read_material(t);
         for (TomlReader& t : root_.tables("object")) read_object(t);
@@ -82,7 +82,7 @@ class SceneReader {
         if (auto t = root_.table("zbuffer")) read_zbuffer(*t);
         if (auto t = root_.table("wire")) scene_.wire = read_wire_settings(*t);
         root_.finish();
-        if (scene_.objects.empty()) {
+        if (parts == SceneParts::all && scene_.objects.empty()) {
             root_.fail("the scene has no [[object]]; add one with a file or a shape");
         }
         return std::move(scene_);
@@ -143,8 +143,7 @@ class SceneReader {
         }
         if (has_file) {
             const std::filesystem::path file(*t.text("file"));
-            object.file =
-                file.is_absolute() ? file.string() : (std::filesystem::path(path_).parent_path() / file).string();
+            object.file = file.is_absolute() ? file.string() : (folder_ / file).string();
             object.where = t.position("file");
         } else {
             object.shape = read_shape(t);
@@ -346,42 +345,59 @@ class SceneReader {
         t.finish();
     }
 
-    std::string path_;
+    std::filesystem::path folder_;
     TomlReader root_;
     SceneDescription scene_;
     std::unordered_set<std::string> camera_names_, material_names_;
 };
 
-SceneDescription read_tables(const std::string& path, toml::table root, const std::vector<Override>& overrides) {
-    for (const Override& o : overrides) apply_override(root, o);
-    return SceneReader(path, TomlReader(root, "", path)).read();
-}
-
 }  // namespace
 
-SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
-    const MappedFile file(path);
-    if (file.bytes().size() > kMaxSceneBytes) {
-        throw InputError(path + ": a scene file of more than 64 MB; is it a model?");
-    }
-    if (const auto line = line_nested_too_deep(file.bytes())) throw InputError({path, *line}, kTomlTooDeep);
+SceneDescription read_scene_tables(const toml::table& tables, const ScenePlace& place, SceneParts parts) {
+    return SceneReader(place, TomlReader(tables, "", place.name)).read(parts);
+}
+
+toml::table parse_scene_text(std::string_view text, const std::string& name) {
+    if (text.size() > kMaxSceneBytes) throw InputError(name + ": a scene file of more than 64 MB; is it a model?");
+    if (const auto line = line_nested_too_deep(text)) throw InputError({name, *line}, kTooDeepToml);
     try {
-        return read_tables(path, parse_toml(file.bytes(), path), overrides);
+        return parse_toml(text, name);
     } catch (const toml::parse_error& error) {
-        file.check_is_whole();
         const toml::source_position at = error.source().begin;
         std::string message(error.description());
         std::replace(message.begin(), message.end(), '\n', ' ');
-        throw InputError({path, at.line, at.column}, message);
+        throw InputError({name, at.line, at.column}, message);
     }
 }
 
-SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides) {
+toml::table read_scene_toml(const std::string& path) {
+    const MappedFile file(path);
+    try {
+        return parse_scene_text(file.bytes(), path);
+    } catch (const InputError&) {
+        file.check_is_whole();
+        throw;
+    }
+}
+
+toml::table bare_model_tables(const std::string& path) {
     toml::table object;
     object.insert("file", std::filesystem::path(path).filename().string());  // relative to the scene: itself
     toml::table root;
     root.insert("object", toml::array(std::move(object)));
-    return read_tables(path, std::move(root), overrides);
+    return root;
+}
+
+SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
+    toml::table tables = read_scene_toml(path);
+    for (const Override& o : overrides) apply_override(tables, o);
+    return read_scene_tables(tables, place_of_scene(path));
+}
+
+SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides) {
+    toml::table tables = bare_model_tables(path);
+    for (const Override& o : overrides) apply_override(tables, o);
+    return read_scene_tables(tables, place_of_scene(path));
 }
 
 }  // namespace burin

@@ -8,22 +8,22 @@ void FadedStrokes::draw(std::span<const LinePiece* const> segments, PixelRect re
                         const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke) {
     masks_.clear();
     width_ = (rect.width() + 7) / 8 * 8;
-    std::vector<std::uint8_t> opacities;
+    std::vector<Kind> kinds;
     for (const LinePiece* s : segments) {
-        if (s->is_drawn && s->opacity < 255) opacities.push_back(s->opacity);
+        if (s->is_drawn && s->opacity < 255) kinds.push_back(kind_of(*s));
     }
-    if (opacities.empty()) return;
-    std::sort(opacities.rbegin(), opacities.rend());
-    opacities.erase(std::unique(opacities.begin(), opacities.end()), opacities.end());
+    if (kinds.empty()) return;
+    std::sort(kinds.begin(), kinds.end());
+    kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
     touched_.assign(static_cast<std::size_t>(width_ * rect.height()), 0);
-    for (const std::uint8_t opacity : opacities) {
+    for (const Kind kind : kinds) {
         canvas_.reset(rect.x0, rect.y0, rect.width(), rect.height());
         for (std::size_t i = 0; i < segments.size(); ++i) {
-            if (segments[i]->is_drawn && segments[i]->opacity == opacity) draw_stroke(i, canvas_);
+            if (segments[i]->is_drawn && kind_of(*segments[i]) == kind) draw_stroke(i, canvas_);
         }
         canvas_.for_touched([&](int column, int row) {
             const auto pixel = static_cast<std::uint32_t>(row * width_ + column);
-            masks_.push_back({pixel, opacity, canvas_.at(column, row)});
+            masks_.push_back({pixel, kind, canvas_.at(column, row)});
             touched_[pixel] = 1;
         });
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -31,19 +32,29 @@ class FadedStrokes {
         return masks_.empty() ? 0
                               : StrokeCanvas::eight_bytes(&touched_[static_cast<std::size_t>(row * width_ + column)]);
     }
-    /// Calls use(mask, samples taken, opacity 0..1) for what there is in a pixel, the most opaque one first.
+    /// Calls use(class, mask, samples taken, opacity 0..1) for what there is in a pixel, the most opaque one first.
     template <typename Use>
     void for_masks(int column, int row, StrokeMask taken, const Use& use) const {
         for (const PixelMask& m : masks_of(column, row)) {
-            use(m.mask, taken, static_cast<float>(m.opacity) / 255.0f);
+            use(m.kind.line_class, m.mask, taken, static_cast<float>(m.kind.opacity()) / 255.0f);
             for (std::size_t r = 0; r < taken.rows.size(); ++r) taken.rows[r] |= m.mask.rows[r];
         }
     }
 
   private:
+    /// What is drawn together. Kinds are in order of what counts first: the more opaque one, then the class.
+    struct Kind {
+        std::uint8_t lightness;  // 255 - opacity
+        LineClass line_class;
+        std::uint8_t opacity() const { return static_cast<std::uint8_t>(255 - lightness); }
+        auto operator<=>(const Kind&) const = default;
+    };
+    static Kind kind_of(const LinePiece& piece) {
+        return {static_cast<std::uint8_t>(255 - piece.opacity), piece.drawn_as};
+    }
     struct PixelMask {
         std::uint32_t pixel;
-        std::uint8_t opacity;
+        Kind kind;
         StrokeMask mask;
     };
     std::span<const PixelMask> masks_of(int column, int row) const;

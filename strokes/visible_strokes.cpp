@@ -90,9 +90,11 @@ void VisibleStrokes::draw_clipped(std::span<const LinePiece* const> segments) {
             clipper_.draw(pieces_[strokes[k].second], pen_.radius_px, side_, canvas_of(c));
         }
     }
-    find_boundaries(segments, LineClass::crease);
-    faded_.draw(segments, rect_,
-                [&](std::size_t i, StrokeCanvas& canvas) { clipper_.draw(pieces_[i], pen_.radius_px, side_, canvas); });
+    std::optional<LineClass> bounded;
+    faded_.draw(segments, rect_, [&](std::size_t i, StrokeCanvas& canvas) {
+        if (bounded != segments[i]->drawn_as) find_boundaries(segments, *(bounded = segments[i]->drawn_as));
+        clipper_.draw(pieces_[i], pen_.radius_px, side_, canvas);
+    });
 }
 
 /// What hides strokes of a class.

@@ -64,9 +64,7 @@ class VisibleStrokes {
             for (std::size_t r = 0; r < mask.rows.size(); ++r) drawn.rows[r] |= mask.rows[r];
         }
         if (!faded_.is_touched(column, row)) return;
-        faded_.for_masks(column, row, drawn, [&](const StrokeMask& mask, const StrokeMask& taken, float opacity) {
-            use(LineClass::crease, mask, taken, opacity);  // nothing else fades
-        });
+        faded_.for_masks(column, row, drawn, use);
     }
 
   private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "abuffer/hiding/pieces_behind.h"
 #include "mesh/shapes.h"
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
@@ -115,7 +116,8 @@ TEST(HiddenLines, AreOneStrokeBehindHoweverManyLayers) {
     EXPECT_GT(layers.hidden_px(2), 50);
     HiddenPass pass(layers.frame, layers.screen, best_kernels(), 1);
     find_all(pass, layers.frame);
-    const std::vector<LinePiece> pieces = pass.make_pieces();
+    const std::vector<LinePiece> pieces =
+        pieces_behind(pass.lines(), pass.parts(), layers.frame.needs, layers.frame.surfaces.farthest_nearness);
     const auto is_at_tile = [](glm::dvec2 p) {
         const auto is_border = [](double v) { return std::abs(v - 32 * std::round(v / 32)) < 1e-6; };
         return is_border(p.x) || is_border(p.y);

@@ -34,6 +34,9 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"cli",
      {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer", "output",
       "methods", "compare"}},
+    {"burin",
+     {"base", "image", "mesh", "kernels", "view", "lines", "shading", "scene", "render", "strokes", "abuffer", "output",
+      "methods"}},
 };
 
 // docs/methods/abuffer.md: the same within the folder.

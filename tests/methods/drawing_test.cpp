@@ -59,17 +59,22 @@ void expect_same(const std::string& path, const Look& look) {
     const Camera camera =
         resolve_camera(scene.cameras.front(), scene_points(scene), static_cast<double>(kWidth) / kHeight);
     const PixelRect crop = look.is_cropped ? PixelRect{37, 21, 101, 70} : PixelRect{0, 0, kWidth, kHeight};
-    const Frame frame = make_frame(scene, camera, kWidth, kHeight, crop);
+    Frame frame = make_frame(scene, camera, kWidth, kHeight, crop);
     RunOptions options{1, nullptr, look.memory_bytes};
-    Film whole = film_of(frame), surfaces = film_of(frame);
+    Film whole = film_of(frame);
     render_abuffer(frame, options, whole);
     options.threads = 2;
-    const LineDrawing drawing = find_drawing(frame, options, surfaces);
-    for (const int threads : {1, 3}) {
-        options.threads = threads;
-        Film film = surfaces.copy();
-        draw_lines(frame, drawing, options, film);
-        EXPECT_TRUE(same_bits(film.image(), whole.image())) << path << ", " << look.name << ", " << threads;
+    // However much finding tells of lines, they are drawn alike.
+    for (const bool tells_invisibility : {false, true}) {
+        frame.needs.tells_invisibility = tells_invisibility;
+        Film surfaces = film_of(frame);
+        const LineDrawing drawing = laid_out_if_needed(find_drawing(frame, options, surfaces), frame, 2);
+        for (const int threads : {1, 3}) {
+            options.threads = threads;
+            Film film = surfaces.copy();
+            draw_lines(frame, drawing, options, film);
+            EXPECT_TRUE(same_bits(film.image(), whole.image())) << path << ", " << look.name << ", " << threads;
+        }
     }
 }
 

@@ -18,9 +18,10 @@ using namespace test;
 
 constexpr int kSize = 100;
 
-/// Ink of the lines of a box, visible or hidden.
-double ink(std::array<double, 2> dash_px, double width_px, bool is_hidden, bool is_solid = false) {
-    Scene scene = scene_of({make_box({1, 1, 1})});
+/// Ink of the lines of a body, a box unless another is given, visible or hidden.
+double ink(std::array<double, 2> dash_px, double width_px, bool is_hidden, bool is_solid = false,
+           const PolygonSoup& body = make_box({1, 1, 1})) {
+    Scene scene = scene_of({body});
     LineStyle& style = scene.lines.style;
     style.width_px = width_px;
     if (is_hidden) {
@@ -80,6 +81,22 @@ TEST(ShortDashes, InkOfThoseThatAreDrawn) {
         for (const std::array<double, 2> dash_px : {std::array{8.0, 6.0}, {1.0, 2.0}, {0.5, 0.5}, {3.0, 0.5}}) {
             EXPECT_NEAR(ink(dash_px, width_px, false) / solid, ink_of_dashes(dash_px, width_px), 0.05)
                 << dash_px[0] << ' ' << dash_px[1];
+        }
+    }
+}
+
+// Where dashes are stretched so that a whole number fits on a loop, too: a dash no longer than the pen is wide is a
+// dot.
+TEST(ShortDashes, OnARimHiddenOnesHaveAsMuchInkAsVisibleOnes) {
+    const PolygonSoup drum = make_cylinder(0.6, 0.6, 0.8, 64);
+    constexpr double kWidthPx = 3;
+    for (const bool is_hidden : {false, true}) {
+        const double solid = ink({}, kWidthPx, is_hidden, true, drum);
+        EXPECT_GT(solid, 100);
+        for (const std::array<double, 2> dash_px :
+             {std::array{3.0, 4.0}, {2.0, 2.0}, {3.0, 1.0}, {1.5, 1.5}, {4.0, 6.0}}) {
+            EXPECT_NEAR(ink(dash_px, kWidthPx, is_hidden, false, drum) / solid, ink_of_dashes(dash_px, kWidthPx), 0.08)
+                << dash_px[0] << ' ' << dash_px[1] << is_hidden;
         }
     }
 }

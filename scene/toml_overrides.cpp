@@ -1,5 +1,3 @@
-#include "scene/scene_overrides.h"
-
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -8,10 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "base/error.h"
 #include "mesh/text_scan.h"
+#include "scene/scene_tables.h"
 #include "scene/toml_depth.h"
-#include "scene/toml_reader.h"
 
 namespace burin {
 namespace {
@@ -44,7 +41,7 @@ std::string quoted(const std::string& text) {
 /// A table whose only member is the value; nothing if the text is no single TOML value.
 std::optional<toml::table> parse_value(const Override& o, const std::string& text) {
     const std::string line = "value = " + text;
-    if (line_nested_too_deep(line)) fail_override(o, kTomlTooDeep);
+    if (line_nested_too_deep(line)) fail_override(o, kTooDeepToml);
     try {
         toml::table table = toml::parse(line, override_place(o));
         if (table.size() == 1) return table;

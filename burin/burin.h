@@ -1,0 +1,252 @@
+/* Burin: 3D models as lines. The library's interface in C; burin.hpp wraps it for C++. See docs/library.md.
+ *
+ * Rules that hold for all of it:
+ * - A function that returns a number returns a negative one (burin_result) on failure, one that returns a pointer NULL;
+ *   burin_error() then says why. What failed has changed nothing.
+ * - A struct begins with its own size: burin_view view = {sizeof view}; the rest is 0, which always means "as usual".
+ *   Later versions add fields at the end; programs built for older ones go on working.
+ * - What is given is copied or read during the call; nothing of it has to live on. Texts are UTF-8 and end with 0.
+ * - Matrices have 16 numbers, row by row; the last row is 0 0 0 1. They take columns (x, y, z, 1). All 0: see there.
+ * - Numbers of materials, meshes and objects count from 1 and are not used twice in a scene; 0 stands for none.
+ * - Axes, units and channels are those of docs/conventions.md: world right-handed, +Y up unless the camera says
+ *   otherwise, row 0 of a picture is the top, colours are linear, angles in degrees.
+ * - Different scenes and pictures may be used on different threads at once, one of them by one thread at a time.
+ *   burin_cancel() may be called at any time. */
+#ifndef BURIN_BURIN_H
+#define BURIN_BURIN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __GNUC__
+#define BURIN_API __attribute__((visibility("default")))
+#else
+#define BURIN_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- version and errors ---- */
+
+/** The version of this interface. It counts up with every change; a library works for programs that were built with
+ * the same number or a smaller one. */
+#define BURIN_ABI 2
+/** BURIN_ABI of the library that is loaded. */
+BURIN_API int burin_abi(void);
+/** Its version, "0.1.0". */
+BURIN_API const char* burin_version(void);
+
+/** What a function that fails returns. */
+enum burin_result {
+    BURIN_DONE = 0,
+    BURIN_BAD_INPUT = -1,    /**< a file, a text or an array is wrong or cannot be read or written */
+    BURIN_BAD_ARGUMENT = -2, /**< the call or a setting makes no sense */
+    BURIN_STOPPED = -3,      /**< by burin_cancel() or the progress function */
+    BURIN_NO_MEMORY = -4,
+    BURIN_FAILED = -5 /**< a fault of the library; please report it */
+};
+
+/** Why the last call that failed on this thread did: one line that says what is wrong and what to do. "" if none has.
+ * Valid until the next failure on this thread. */
+BURIN_API const char* burin_error(void);
+/** The same as a burin_result: what kind of failure it was. */
+BURIN_API int burin_error_kind(void);
+
+/* ---- scenes ---- */
+
+/** Objects with their meshes and materials, cameras, and settings. */
+typedef struct burin_scene burin_scene;
+
+BURIN_API burin_scene* burin_scene_new(void);
+/** NULL is allowed. Pictures of the scene live on. */
+BURIN_API void burin_scene_free(burin_scene* scene);
+
+/** Adds what a file holds: a scene (.toml), of which the settings and cameras, too, or a model (.obj .ply .stl .off
+ * .gltf .glb). Uses all cores. Each object gets a number, in the order of the file. Returns the first one. */
+BURIN_API int burin_load(burin_scene* scene, const char* path);
+/** The same for the text of a scene file (docs/scene-format.md). Paths in it are relative to `base_folder`; NULL: to
+ * the current one. */
+BURIN_API int burin_load_text(burin_scene* scene, const char* toml, const char* base_folder);
+/** What readers left out of the files or did not take as it stands, "path: what": note `index`, from 0; NULL behind the
+ * last one, which is no failure. Valid until the scene is changed. */
+BURIN_API const char* burin_note(const burin_scene* scene, int index);
+
+/** What a polygon looks like when it is shaded, and how much it hides. */
+typedef struct burin_material {
+    uint32_t size;
+    float opacity;    /**< 0 to 1; 1 is opaque */
+    float color[3];   /**< linear red, green, blue, 0 to 1 */
+    const char* name; /**< NULL: none */
+} burin_material;
+
+/** Adds a material. Returns its number: the one in the channel id.material. */
+BURIN_API int burin_add_material(burin_scene* scene, const burin_material* material);
+
+/** Polygons as they lie in memory: open or closed, convex or not, of any winding. Vertices with equal coordinates are
+ * one, polygons without area are dropped: all as if the mesh came from a file (docs/conventions.md, Models). */
+typedef struct burin_mesh {
+    uint32_t size;
+    const char* name;                 /**< of its objects that have no name of their own; NULL: none */
+    const float* points;              /**< x y z of each point: finite, at most 1e30 */
+    uint64_t point_count;             /**< at most 2^31 - 1 */
+    const int32_t* corners;           /**< points of the polygons' corners, from 0, one polygon after the other */
+    uint64_t corner_count;            /**< at most 2^32 - 1 */
+    const int32_t* polygon_sizes;     /**< corners of each polygon; NULL: all are triangles */
+    uint64_t polygon_count;           /**< 0 will do without polygon_sizes */
+    const int32_t* polygon_materials; /**< number of each one's material, or 0: light grey; NULL: all 0 */
+    const int32_t* polygon_objects;   /**< which part each one belongs to, from 0: parts are welded on their own, and
+                                           where they touch is a line of class `object`; NULL: all are one */
+    uint64_t object_count;            /**< how many parts; 0 will do without polygon_objects */
+    const char* const* object_names;  /**< of the parts; NULL: they have none */
+    const int32_t* marked_edges;      /**< pairs of points: edges of class `mark`, lines by themselves if no polygon has
+                                           them; NULL: none */
+    uint64_t marked_edge_count;       /**< how many pairs */
+} burin_mesh;
+
+/** Adds a mesh, for objects to show. Returns its number. */
+BURIN_API int burin_add_mesh(burin_scene* scene, const burin_mesh* mesh);
+/** Forgets the number of a mesh. Objects that show it go on doing so; its memory is freed with the last of them. */
+BURIN_API int burin_remove_mesh(burin_scene* scene, int mesh);
+
+/** A mesh at a place. */
+typedef struct burin_object {
+    uint32_t size;
+    int32_t mesh;        /**< its number */
+    int32_t material;    /**< of all its polygons; 0: their own ones */
+    const char* name;    /**< NULL: the mesh's; parts have theirs behind it: "name/part" */
+    double to_world[16]; /**< all 0: the mesh stands where its points say */
+} burin_object;
+
+/** Adds an object. Returns its number. */
+BURIN_API int burin_add_object(burin_scene* scene, const burin_object* object);
+/** Puts an object that was added or loaded somewhere else: `to_world` replaces its matrix. */
+BURIN_API int burin_move_object(burin_scene* scene, int object, const double to_world[16]);
+BURIN_API int burin_remove_object(burin_scene* scene, int object);
+/** Removes all objects. Meshes and materials that were added, settings and cameras stay. */
+BURIN_API int burin_clear_objects(burin_scene* scene);
+/** Which object has a number `id` in the channel id.object of a picture of the scene as it is now: ids count the parts
+ * of all objects, in the order in which these were added, from 1. */
+BURIN_API int burin_object_of_id(const burin_scene* scene, uint32_t id);
+/** Its name; NULL if there is no such object. Valid until the scene is changed. */
+BURIN_API const char* burin_object_name(const burin_scene* scene, int object);
+
+/** Changes a setting, as --set of the program does: "lines.width=2", "lines.draw=silhouette,crease",
+ * "picture.background=transparent". Objects and materials are no settings. */
+BURIN_API int burin_set(burin_scene* scene, const char* key_and_value);
+/** Changes all settings that a text names: tables of a scene file but [[object]] and [[material]]. What it does not
+ * name stays; a list of cameras replaces the one before. */
+BURIN_API int burin_set_toml(burin_scene* scene, const char* toml);
+
+/* ---- pictures ---- */
+
+/** How a scene is seen. */
+typedef struct burin_view {
+    uint32_t size;
+    int32_t width, height; /**< pixels of the whole picture, 1 to 65535; both 0: as the scene says */
+    int32_t crop[4];       /**< x0 y0 x1 y1: the part that is drawn, x1 and y1 excluded; all 0: all */
+    int32_t samples;       /**< per pixel, along either axis: 2, 4 or 8; 0: as the scene says */
+    int32_t frame;         /**< for later; must be 0 */
+    const char* camera;    /**< name of one of the scene's cameras, if there is no matrix; NULL: the first, or one that
+                                has all of the scene in view if there is none */
+    double camera_to_world[16]; /**< the camera's x is to the right, y up, and it looks along -z; a rotation and a
+                                     position, exact to single precision; all 0: one of the scene's cameras */
+    double fov_deg;             /**< with a matrix: vertical field of view, between 0 and 180; 0: 35 */
+    double ortho_height;        /**< with a matrix: visible height in world units, orthographic; 0: perspective */
+    double shift[2];            /**< for later; must be 0 */
+    double pixel_aspect;        /**< for later; must be 1, or 0, which counts as 1 */
+} burin_view;
+
+/** How to work. Nothing here changes a pixel. */
+typedef struct burin_options {
+    uint32_t size;
+    int32_t threads;       /**< 0: as many as there are cores; at most 1024 */
+    uint64_t memory_bytes; /**< cap for what drawing takes beyond scene and picture; 0: none */
+    const char* layers;    /**< which channels the picture gets, as --layers of the program: "beauty,lines,Z"; NULL:
+                                "beauty,lines,Z,N,ids", and lines_hidden if hidden lines are drawn */
+    /** Is called about ten times a second with the part that is done, 0 to 1, on the thread that made the call. It
+     * returns 0 to go on and anything else to stop. It must not use the scene, but for burin_cancel(). NULL: none. */
+    int (*progress)(double done, void* user);
+    void* user; /**< for `progress` */
+} burin_options;
+
+/** Channels of pixels, independent of the scene. */
+typedef struct burin_picture burin_picture;
+
+/** Draws a scene. `view`, `options`: NULL for all as usual. The same scene and view give the same bits, whatever the
+ * options and the machine, and those that the program writes. */
+BURIN_API burin_picture* burin_render(burin_scene* scene, const burin_view* view, const burin_options* options);
+/** Stops what a scene is doing (burin_render(), burin_load(), burin_load_text() or burin_add_mesh()): that call soon
+ * fails with BURIN_STOPPED. From any thread. A call that begins later is not stopped. */
+BURIN_API void burin_cancel(burin_scene* scene);
+/** NULL is allowed. */
+BURIN_API void burin_picture_free(burin_picture* picture);
+
+/** What a channel's values are. */
+enum burin_type {
+    BURIN_HALF = 1,
+    BURIN_FLOAT = 2,
+    BURIN_UINT32 = 3,
+    BURIN_DOUBLE = 4,
+    BURIN_UINT64 = 5,
+    BURIN_UINT16 = 6,
+    BURIN_UINT8 = 7
+};
+
+/** The values of a channel ("R", "lines.A", "Z", "id.object" ...: docs/conventions.md, Images), row by row from the
+ * top, without gaps. `type`: gets its burin_type; `size`: gets columns and rows, those of the crop. Either may be
+ * NULL. The picture owns them. */
+BURIN_API const void* burin_channel(const burin_picture* picture, const char* name, int32_t* type, int32_t size[2]);
+/** The name of channel `index`, from 0; NULL behind the last one, which is no failure. */
+BURIN_API const char* burin_channel_name(const burin_picture* picture, int index);
+/** The whole picture as a display shows it, 8 bits per value, sRGB: width x height x channels bytes, row by row from
+ * the top. `channels`: 1 grey, 3 red green blue, both over the scene's background or white paper; 4 with alpha, which
+ * is not multiplied in. Pixels outside of the crop are background. Needs the layer `beauty`. */
+BURIN_API int burin_pixels(const burin_picture* picture, uint8_t* out, int channels);
+
+/* ---- lines as data ---- */
+
+/** The lines of a picture, found once, independent of the scene: to be read as columns of numbers, and drawn. */
+typedef struct burin_drawing burin_drawing;
+
+/** Finds the lines that burin_render() would draw: visible ones, and hidden ones where the scene draws them
+ * ("lines.hidden.style=solid"). `options.layers`: of the pictures that are drawn of it. */
+BURIN_API burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, const burin_options* options);
+/** Draws a drawing's lines over its surfaces: the bits of burin_render(). `style`: must be NULL, the look of the scene
+ * when the lines were found. `options`: the drawing has its layers already. */
+BURIN_API burin_picture* burin_draw(const burin_drawing* drawing, const char* style, const burin_options* options);
+/** NULL is allowed. Pictures live on. */
+BURIN_API void burin_drawing_free(burin_drawing* drawing);
+
+/** A column of a drawing: a value for each of its straight pieces, visible ones first. `type` gets its burin_type,
+ * `count` the number of pieces; either may be NULL. It is made when it is first asked for; the drawing owns it.
+ *
+ * | name | type | meaning |
+ * |---|---|---|
+ * | x0 y0 x1 y1 | double | the piece's ends, in pixels from the upper left corner of the whole picture, y down |
+ * | nearness0 nearness1 | float | of the line's surface at the ends: 1 / depth along the view axis; orthographic:
+ * -depth | | line | uint64 | which line it is part of: an edge of an object, or where two surfaces meet; equal numbers,
+ * one line | | object | uint32 | the line's object, as in the channel id.object | | material | uint32 | the line's
+ * material, as in the channel id.material; 0: edges that no polygon has | | classes | uint16 | all line classes that
+ * apply: bit 0 mark, 1 border, 2 silhouette, 3 intersection, 4 object, 5 material, 6 crease, 7 polygon | | invisibility
+ * | uint8 | how many opaque surfaces are in front; 0: it is seen; 255: that many or more | */
+BURIN_API const void* burin_column(burin_drawing* drawing, const char* name, int32_t* type, uint64_t* count);
+
+/* ---- files ---- */
+
+/** A picture as the bytes of a file: the same that the program writes. `picture_or_drawing`: a burin_picture, or a
+ * burin_drawing, which is drawn. `format`: "exr", "png", "png16", "tif", "tif16"; the number is bits per value. `style`
+ * must be NULL. `bytes` and `count` get the file, to be freed by burin_bytes_free(). */
+BURIN_API int burin_encode(const void* picture_or_drawing, const char* format, const char* style, uint8_t** bytes,
+                           uint64_t* count);
+/** The same into a file, which appears under its name only when it is complete. `format` NULL: by the path's suffix. */
+BURIN_API int burin_write(const void* picture_or_drawing, const char* format, const char* style, const char* path);
+/** NULL is allowed. */
+BURIN_API void burin_bytes_free(uint8_t* bytes);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

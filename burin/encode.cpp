@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <iterator>
+#include <memory>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "base/lower_extension.h"
+#include "base/parallel.h"
+#include "burin/drawing.h"
+#include "burin/failure.h"
+#include "burin/picture.h"
+#include "mesh/text_scan.h"
+#include "output/film_files.h"
+
+namespace burin {
+namespace {
+
+struct Format {
+    std::string_view name;
+    OutputFormat format;
+    int bits;
+    std::string_view extension;
+};
+constexpr Format kFormats[] = {{"exr", OutputFormat::exr, 8, ".exr"},
+                               {"png", OutputFormat::png, 8, ".png"},
+                               {"png16", OutputFormat::png, 16, ".png"},
+                               {"tif", OutputFormat::tiff, 8, ".tif"},
+                               {"tif16", OutputFormat::tiff, 16, ".tif"}};
+
+const Format& format_named(std::string_view name) {
+    const auto found =
+        std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.name == name; });
+    if (found == std::end(kFormats)) {
+        throw UsageError("unknown format '" + printable(name) + "'; known are exr png png16 tif tif16");
+    }
+    return *found;
+}
+
+const Format& format_of_path(const std::string& path) {
+    std::string extension = lower_extension(path);
+    if (extension == ".tiff") extension = ".tif";
+    const auto found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                    [&](const Format& f) { return f.extension == extension; });
+    if (found == std::end(kFormats)) {
+        throw UsageError(path + ": unknown kind of image '" + extension + "'; burin writes .exr .png .tif");
+    }
+    return *found;
+}
+
+/// A picture, or that of a drawing.
+class GivenPicture {
+  public:
+    GivenPicture(const void* given, const char* style) {
+        if (given == nullptr) throw UsageError("picture_or_drawing is NULL");
+        const auto kind = *static_cast<const OutputKind*>(given);
+        if (kind == OutputKind::picture) {
+            if (style != nullptr) {
+                throw UsageError("style: must be NULL for a picture, which has its lines drawn already");
+            }
+            picture_ = static_cast<const burin_picture*>(given);
+        } else if (kind == OutputKind::drawing) {
+            if (style != nullptr) throw UsageError("style: must be NULL; styles come in a later version");
+            const auto& drawing = *static_cast<const burin_drawing*>(given);
+            drawn_.reset(picture_of(drawing, drawing.threads));
+            picture_ = drawn_.get();
+        } else {
+            throw UsageError("this is no picture of burin_render() and no drawing of burin_find_lines()");
+        }
+    }
+    const burin_picture& operator*() const { return *picture_; }
+
+  private:
+    const burin_picture* picture_ = nullptr;
+    std::unique_ptr<burin_picture> drawn_;
+};
+
+/// What can be written of a picture in this format.
+void check_layers(const burin_picture& picture, const Format& format) {
+    if (format.format != OutputFormat::exr && picture.film.image().find("R") == nullptr) {
+        throw UsageError("the picture has no layer beauty, which this format shows; ask for it by options.layers");
+    }
+}
+
+OutputOptions options_of(const burin_picture& picture, const Format& format, const std::string& name) {
+    return {name, format.format, format.bits, resolve_thread_count(picture.threads)};
+}
+
+}  // namespace
+}  // namespace burin
+
+using namespace burin;
+
+int burin_encode(const void* picture_or_drawing, const char* format, const char* style, uint8_t** bytes,
+                 uint64_t* count) {
+    return guarded([&] {
+        const GivenPicture given(picture_or_drawing, style);
+        const burin_picture& from = *given;
+        const Format& as = format_named(&required(format, "format"));
+        required(bytes, "bytes");
+        required(count, "count");
+        check_layers(from, as);
+        MemorySink file;
+        const std::string name = "picture" + std::string(as.extension);
+        write_output(file, from.settings, from.film.image(), options_of(from, as, name));
+        auto* const copy = static_cast<uint8_t*>(std::malloc(std::max<std::size_t>(file.bytes().size(), 1)));
+        if (copy == nullptr) throw std::bad_alloc();
+        std::memcpy(copy, file.bytes().data(), file.bytes().size());
+        *bytes = copy;
+        *count = file.bytes().size();
+        return int{BURIN_DONE};
+    });
+}
+
+int burin_write(const void* picture_or_drawing, const char* format, const char* style, const char* path) {
+    return guarded([&] {
+        const GivenPicture given(picture_or_drawing, style);
+        const burin_picture& from = *given;
+        const std::string file_path = &required(path, "path");
+        const Format& as = format == nullptr ? format_of_path(file_path) : format_named(format);
+        check_layers(from, as);
+        const OutputOptions options = options_of(from, as, file_path);
+        if (as.format == OutputFormat::tiff) check_display_writer("picture.tif");  // before there is a file
+        AtomicFile file(file_path);
+        write_output(file, from.settings, from.film.image(), options);
+        file.commit();
+        return int{BURIN_DONE};
+    });
+}
+
+void burin_bytes_free(uint8_t* bytes) { std::free(bytes); }

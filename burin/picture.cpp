@@ -1,0 +1,108 @@
+#include "burin/picture.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "burin/failure.h"
+#include "burin/running.h"
+#include "burin/scene_for_frame.h"
+#include "methods/abuffer.h"
+#include "output/film_files.h"
+
+namespace burin {
+Film film_of(const Frame& frame, const OptionsInput& options) {
+    LayerSet layers = options.layers.value_or(LayerSet{});
+    if (!options.layers) layers.lines_hidden = frame.scene->lines.style.hidden.style != HiddenStyle::none;
+    Film film(PixelRect{0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
+    if (film.channels().empty()) {
+        throw UsageError("options.layers: coverage has a channel per line class, and no class is drawn");
+    }
+    return film;
+}
+
+namespace {
+
+const Image& image_with_beauty(const burin_picture& picture) {
+    const Image& image = picture.film.image();
+    if (image.find("R") == nullptr) {
+        throw UsageError("the picture has no layer beauty; ask for it by options.layers");
+    }
+    return image;
+}
+
+std::uint8_t eight_bits(std::uint32_t code) { return static_cast<std::uint8_t>((code * 255 + 32767) / 65535); }
+
+/// Luminance weights of Rec. 709, of code values; what is grey stays as it is.
+std::uint32_t luma(const std::uint16_t* rgb) {
+    return (2126u * rgb[0] + 7152u * rgb[1] + 722u * rgb[2] + 5000u) / 10000u;
+}
+
+}  // namespace
+}  // namespace burin
+
+using namespace burin;
+
+burin_picture* burin_render(burin_scene* scene, const burin_view* view, const burin_options* options) {
+    return guarded_pointer([&] {
+        StoppableCall call(required(scene, "scene"));
+        const burin_view seen = read_struct_or_default(view, "view");
+        const OptionsInput given = checked_options(read_struct_or_default(options, "options"));
+        const SceneForFrame prepared(*scene, seen, given);
+        RunProgress progress(given, *scene);
+        const RunOptions run{given.threads, progress.get(), given.memory_bytes};
+        Film film = film_of(prepared.frame(), given);
+        with_option_names([&] { return render_abuffer(prepared.frame(), run, film); });
+        return new burin_picture(std::move(film), prepared.scene().picture, given.threads);
+    });
+}
+
+void burin_cancel(burin_scene* scene) {
+    if (scene != nullptr) scene->stop.store(true);
+}
+
+void burin_picture_free(burin_picture* picture) { delete picture; }
+
+const void* burin_channel(const burin_picture* picture, const char* name, int32_t* type, int32_t size[2]) {
+    return guarded_pointer([&]() -> const void* {
+        const Image& image = required(picture, "picture").film.image();
+        const Channel* const channel = image.find(&required(name, "name"));
+        if (channel == nullptr) throw UsageError("the picture has no channel '" + std::string(name) + "'");
+        if (type != nullptr) {
+            *type = channel->type == PixelType::float16   ? BURIN_HALF
+                    : channel->type == PixelType::float32 ? BURIN_FLOAT
+                                                          : BURIN_UINT32;
+        }
+        if (size != nullptr) {
+            size[0] = image.width();
+            size[1] = image.height();
+        }
+        return channel->bytes.data();
+    });
+}
+
+const char* burin_channel_name(const burin_picture* picture, int index) {
+    return guarded_pointer([&]() -> const char* {
+        const std::vector<Channel>& channels = required(picture, "picture").film.image().channels();
+        if (index < 0 || static_cast<std::size_t>(index) >= channels.size()) return nullptr;
+        return channels[static_cast<std::size_t>(index)].name.c_str();
+    });
+}
+
+int burin_pixels(const burin_picture* picture, uint8_t* out, int channels) {
+    return guarded([&] {
+        const Image& image = image_with_beauty(required(picture, "picture"));
+        required(out, "out");
+        if (channels != 1 && channels != 3 && channels != 4) throw UsageError("channels: must be 1, 3 or 4");
+        PictureSettings paper = picture->settings;
+        paper.transparent = channels == 4;
+        if (channels == 4) paper.background.reset();
+        const DisplayImage shown = displayed(paper, image);
+        if (channels == 1) {
+            for (std::size_t i = 0; i < shown.pixels.size(); i += 3) *out++ = eight_bits(luma(&shown.pixels[i]));
+        } else {
+            for (const std::uint16_t code : shown.pixels) *out++ = eight_bits(code);
+        }
+        return int{BURIN_DONE};
+    });
+}

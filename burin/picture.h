@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "burin/burin.h"
+#include "render/film.h"
+#include "scene/scene.h"
+
+namespace burin {
+
+/// What is encoded and written through a `const void*` begins with this.
+enum class OutputKind : std::uint32_t { picture = 0x62757270, drawing = 0x62757264 };
+
+}  // namespace burin
+
+struct burin_picture {
+    const burin::OutputKind kind = burin::OutputKind::picture;
+    burin::Film film;
+    burin::PictureSettings settings;  ///< what is below it
+    int threads = 0;                  ///< for encoding, as for drawing
+
+    burin_picture(burin::Film f, burin::PictureSettings s, int t)
+        : film(std::move(f)), settings(std::move(s)), threads(t) {}
+};

@@ -1,0 +1,103 @@
+#include "burin/scene_for_frame.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "base/error.h"
+#include "methods/abuffer.h"
+#include "render/close_cracks.h"
+#include "render/copied_objects.h"
+
+namespace burin {
+
+SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const OptionsInput& options) : state_(state) {
+    const SceneDescription& settings = state.settings.description();
+    scene_.materials = state.materials;
+    scene_.picture = settings.picture;
+    scene_.lines = settings.lines;
+    scene_.surfaces = settings.surfaces;
+    scene_.abuffer = settings.abuffer;
+    scene_.cameras = !settings.cameras.empty() ? settings.cameras : state.file_cameras;
+    scene_.camera_is_default = scene_.cameras.empty();
+    if (scene_.camera_is_default) scene_.cameras.emplace_back();
+    take_meshes();
+    try {
+        make_frame_of(view, options);
+    } catch (...) {
+        give_meshes_back();
+        throw;
+    }
+}
+
+SceneForFrame::~SceneForFrame() { give_meshes_back(); }
+
+void SceneForFrame::take_meshes() {
+    std::map<const MeshGroup*, std::uint32_t> first_mesh;
+    std::size_t mesh_count = 0;
+    for (const auto& [number, object] : state_.objects) {
+        for (const ObjectPart& part : object.parts) {
+            const auto [at, is_new] = first_mesh.try_emplace(part.group.get(), static_cast<std::uint32_t>(mesh_count));
+            if (is_new) {
+                groups_.push_back(part.group);
+                mesh_count += part.group->meshes.size();
+            }
+            scene_.objects.push_back(
+                {part.name, at->second + static_cast<std::uint32_t>(part.mesh), part.to_world, part.materials});
+        }
+    }
+    scene_.meshes.reserve(mesh_count);
+    for (const auto& group : groups_) {  // nothing fails any more
+        std::move(group->meshes.begin(), group->meshes.end(), std::back_inserter(scene_.meshes));
+    }
+}
+
+void SceneForFrame::give_meshes_back() noexcept {
+    for (; !replaced_.empty(); replaced_.pop_back()) {
+        scene_.meshes[replaced_.back().first] = std::move(replaced_.back().second);
+    }
+    auto mesh = scene_.meshes.begin();
+    for (const auto& group : groups_) {
+        for (Mesh& own : group->meshes) own = std::move(*mesh++);
+    }
+    groups_.clear();
+    if (!keeps_preparation_) return;
+    state_.preparation = {state_.revision, std::move(prepared_)};
+}
+
+void SceneForFrame::prepare(const OptionsInput& options) {
+    Preparation& kept = state_.preparation;
+    if (keeps_preparation_ && kept.revision == state_.revision) {
+        kept.revision = 0;
+        prepared_ = std::move(kept.made);
+        return;
+    }
+    const bool keeps_it = std::exchange(keeps_preparation_, false);  // until it is there
+    kept = {};
+    prepared_ = prepare_for_abuffer(scene_, options.threads, options.memory_bytes > 0);
+    keeps_preparation_ = keeps_it;
+}
+
+void SceneForFrame::make_frame_of(const burin_view& view, const OptionsInput& options) {
+    draw_lines_without_polygons(scene_);
+    const ViewInput input = checked_view(view, scene_.picture, scene_.cameras);
+    scene_.picture.width = input.width;
+    scene_.picture.height = input.height;
+    if (input.samples) scene_.abuffer.samples = input.samples;
+    const double aspect = static_cast<double>(input.width) / input.height;
+    Camera camera;
+    try {
+        camera = resolve_camera(input.camera, scene_points(scene_), aspect);
+    } catch (const InputError& error) {
+        throw UsageError("view: " + std::string(error.what()));
+    }
+    empty_copied_objects(scene_, &replaced_);
+    const std::size_t replaced_for_all = replaced_.size();
+    close_cracks(scene_, camera, input.width, input.height, &replaced_);
+    keeps_preparation_ = replaced_.size() == replaced_for_all && options.memory_bytes == 0;
+    prepare(options);
+    frame_ = make_frame(scene_, camera, input.width, input.height, input.crop, &prepared_);
+}
+
+}  // namespace burin

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "burin/scene_state.h"
+#include "burin/view_input.h"
+#include "render/frame.h"
+#include "render/replaced_meshes.h"
+
+namespace burin {
+
+/// A scene of the interface put together and made ready for one frame of the method abuffer. Its meshes are those of
+/// the burin_scene, which must not be used until this is gone: then it has them again, as they were.
+class SceneForFrame {
+  public:
+    /// Throws InputError, UsageError and Interrupted.
+    SceneForFrame(burin_scene& state, const burin_view& view, const OptionsInput& options);
+    ~SceneForFrame();
+    SceneForFrame(const SceneForFrame&) = delete;
+    SceneForFrame& operator=(const SceneForFrame&) = delete;
+
+    const Scene& scene() const { return scene_; }
+    const Frame& frame() const { return frame_; }
+
+  private:
+    void take_meshes();
+    void give_meshes_back() noexcept;
+    void prepare(const OptionsInput& options);
+    void make_frame_of(const burin_view& view, const OptionsInput& options);
+
+    burin_scene& state_;
+    Scene scene_;
+    std::vector<std::shared_ptr<MeshGroup>> groups_;  ///< whose meshes the scene has, one after the other
+    ReplacedMeshes replaced_;
+    PreparedScene prepared_;
+    bool keeps_preparation_ = false;  ///< what was prepared is right for later views, too
+    Frame frame_;
+};
+
+}  // namespace burin

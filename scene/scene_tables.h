@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "scene/scene_description.h"
+#include "scene/toml_depth.h"
+#include "scene/toml_reader.h"
+
+namespace burin {
+
+// The steps from a scene file's text to its description: text, tables, overrides, description. Only the sources that
+// read scene files include this header.
+
+/// Where a scene stands.
+struct ScenePlace {
+    std::string name;              ///< in messages: the path of its file
+    std::filesystem::path folder;  ///< what the models' paths are relative to
+};
+inline ScenePlace place_of_scene(const std::string& path) { return {path, std::filesystem::path(path).parent_path()}; }
+
+/// What tables have to hold.
+enum class SceneParts : std::uint8_t {
+    all,       ///< at least one object
+    settings,  ///< any
+};
+
+constexpr const char* kTooDeepToml = "tables and lists are nested more than 64 deep; scenes need six levels";
+static_assert(kMaxTomlDepth == 64);
+
+/// The tables of a scene's text. Throws InputError with line and column.
+toml::table parse_scene_text(std::string_view text, const std::string& name);
+/// The same of a scene file.
+toml::table read_scene_toml(const std::string& path);
+/// Those of a scene that has one model and nothing else.
+toml::table bare_model_tables(const std::string& path);
+
+/// Puts an override's value in its place, making tables on the way as needed. A number in the key
+/// counts into an array: object.0.subdivide. Throws UsageError.
+void apply_override(toml::table& root, const Override& o);
+
+/// The description that the tables give. Throws InputError and UsageError.
+SceneDescription read_scene_tables(const toml::table& tables, const ScenePlace& place,
+                                   SceneParts parts = SceneParts::all);
+
+}  // namespace burin

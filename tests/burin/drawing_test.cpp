@@ -1,0 +1,125 @@
+// Lines as data through the interface: what is found draws the rendered picture, and columns say what was found.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+
+#include "tests/burin/shapes.h"
+
+namespace burin::test {
+namespace {
+
+const View kView{.width = 160, .height = 120};
+const Options kAllLayers{.layers = "beauty,lines,Z,N,ids,coverage,surface,lines_hidden"};
+
+bool same_channels(const Picture& a, const Picture& b) {
+    for (int i = 0;; ++i) {
+        const char *const name = burin_channel_name(a.get(), i), *const other = burin_channel_name(b.get(), i);
+        if (name == nullptr || other == nullptr) return name == other;
+        std::int32_t type = 0, size[2] = {};
+        const void* const values = burin_channel(a.get(), name, &type, size);
+        const void* const others = burin_channel(b.get(), name, nullptr, nullptr);
+        const std::size_t bytes = type == BURIN_HALF ? 2 : 4;
+        const std::size_t count = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
+        if (others == nullptr || std::memcmp(values, others, bytes * count) != 0) return false;
+    }
+}
+
+/// Waves behind a glass cube, and a cube in them.
+Scene three_objects() {
+    Scene scene;
+    const int glass = scene.add(Material{.name = "glass", .color = {0, 0.5f, 0}, .opacity = 0.25f});
+    const int mesh = scene.add_mesh(cube().mesh());
+    scene.add(waves(12).mesh("waves"));
+    scene.add_object(mesh, "inside", {0.3, 0, 0, 0.3, 0, 0.3, 0, -0.1, 0, 0, 0.3, 0.3, 0, 0, 0, 1});
+    scene.add_object(mesh, "glass", {0.4, 0, 0, 0.2, 0, 0.4, 0, 0, 0, 0, 0.4, 1.2, 0, 0, 0, 1}, glass);
+    return scene;
+}
+
+TEST(LibraryDrawing, DrawsTheRenderedPictureWithoutItsScene) {
+    for (const char* const settings :
+         {"lines.width=1", "lines.hidden.style=solid", "lines.hidden.style=dashed", "lines.dash=[5, 3]",
+          "lines.contours=smooth", "lines.side=outside", "lines.filter=mitchell", "lines.crease_angle=[10, 50]"}) {
+        Scene scene = three_objects();
+        scene.set(settings);
+        const Picture rendered = scene.render(kView, kAllLayers);
+        const Drawing drawing = scene.find_lines(kView, kAllLayers);
+        scene.clear();
+        scene = Scene();
+        EXPECT_TRUE(same_channels(drawing.draw(), rendered)) << settings;
+        EXPECT_TRUE(same_channels(drawing.draw(1), rendered)) << settings << ", again";
+        std::uint8_t* bytes = nullptr;
+        std::uint64_t count = 0;
+        ASSERT_EQ(burin_encode(drawing.get(), "png", nullptr, &bytes, &count), BURIN_DONE);
+        const auto encoded = rendered.encode("png");
+        EXPECT_TRUE(count == encoded.size() && std::memcmp(bytes, encoded.data(), count) == 0) << settings;
+        burin_bytes_free(bytes);
+    }
+}
+
+TEST(LibraryDrawing, ColumnsTellTheLinesOfACube) {
+    Scene scene;
+    const int mesh = scene.add_mesh(cube().mesh());
+    scene.add_object(mesh, "beside", {0.1, 0, 0, -3, 0, 0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 1});
+    scene.add_object(mesh, "cube");
+    scene.set("lines.hidden.style=solid");
+    scene.set("lines.draw=all");
+    const Drawing drawing = scene.find_lines({.width = 300, .height = 200, .camera_to_world = {1, 0, 0, 0.4, 0, 1, 0, 0.6, 0, 0, 1, 4, 0, 0, 0, 1}});
+    const std::size_t count = drawing.piece_count();
+    const auto x0 = drawing.column<double>("x0"), y0 = drawing.column<double>("y0");
+    const auto x1 = drawing.column<double>("x1"), y1 = drawing.column<double>("y1");
+    const auto near0 = drawing.column<float>("nearness0"), near1 = drawing.column<float>("nearness1");
+    const auto line = drawing.column<std::uint64_t>("line");
+    const auto object = drawing.column<std::uint32_t>("object");
+    const auto classes = drawing.column<std::uint16_t>("classes");
+    const auto invisibility = drawing.column<std::uint8_t>("invisibility");
+    ASSERT_EQ(drawing.column<std::uint32_t>("material").size(), count);
+    std::map<int, std::set<std::uint64_t>> lines;  // of the large cube, by invisibility
+    std::map<std::uint64_t, double> depth_at_end;
+    for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_NE(classes[i], 0);
+        EXPECT_GE(object[i], 1u);
+        EXPECT_LE(object[i], 2u);
+        if (object[i] != 2) continue;
+        EXPECT_GT(std::hypot(x1[i] - x0[i], y1[i] - y0[i]), 0);
+        lines[invisibility[i]].insert(line[i]);
+        // The cube lies from 3 to 4 in front of the eye.
+        for (const float nearness : {near0[i], near1[i]}) {
+            EXPECT_GE(1 / nearness, 2.999);
+            EXPECT_LE(1 / nearness, 4.001);
+        }
+    }
+    // From in front, a face is seen; of the sides none, as all lie behind it.
+    EXPECT_EQ(lines[0].size(), 4u);
+    EXPECT_EQ(lines[1].size(), 8u);
+    EXPECT_EQ(lines.size(), 2u);
+}
+
+TEST(LibraryDrawing, RefusesWhatItHasNot) {
+    Scene scene;
+    scene.add(cube().mesh());
+    const Drawing drawing = scene.find_lines(kView);
+    EXPECT_THROW(drawing.column<float>("width"), Error);
+    EXPECT_THROW(drawing.column<float>("x0"), Error);
+    EXPECT_EQ(burin_draw(drawing.get(), "comic", nullptr), nullptr);
+    EXPECT_EQ(burin_column(nullptr, "x0", nullptr, nullptr), nullptr);
+    EXPECT_EQ(burin_error_kind(), BURIN_BAD_ARGUMENT);
+    burin_options options = {};
+    options.size = sizeof options;
+    options.layers = "beauty";
+    EXPECT_EQ(burin_draw(drawing.get(), nullptr, &options), nullptr);
+    burin_drawing_free(nullptr);
+}
+
+TEST(LibraryDrawing, OfAnEmptySceneHasNoPieces) {
+    Scene scene;
+    const Drawing drawing = scene.find_lines(kView);
+    EXPECT_EQ(drawing.piece_count(), 0u);
+    EXPECT_TRUE(drawing.column<double>("x0").empty());
+    EXPECT_TRUE(same_channels(drawing.draw(), scene.render(kView)));
+}
+
+}  // namespace
+}  // namespace burin::test
