@@ -10,7 +10,7 @@ WholeLineIndex::WholeLineIndex(std::span<const WholeLine> lines, const SurfaceSe
         const LineId id = lines[i].id;
         numbers_.push_back({id, i});
         if (!lines[i].has_more_owners) continue;
-        // A piece has the key of the two triangles that it was found between.
+        // A piece has the id of the two triangles that it was found between.
         const Mesh& mesh = *surfaces.instances[id.instance()].mesh;
         const HalfEdge h = id.half_edge();
         for (HalfEdge g = mesh.next_on_edge[h]; g != h; g = mesh.next_on_edge[g]) {

@@ -7,7 +7,8 @@
 namespace burin {
 
 /// The production A-buffer: the masks of all pixels decide where lines are, the mesh says exactly
-/// where they run, and round strokes draw them at any width.
+/// where they run, and round strokes draw them at any width. It joins finding (folder abuffer) and drawing (strokes),
+/// which do not know each other; lines pass from one to the other as a LineDrawing.
 ///
 ///  1. Vertices are projected and snapped once; triangles are sorted to tiles.
 ///  2. Per tile, the nearest surface at every sample of the image's grid is found: the resolved
@@ -17,12 +18,13 @@ namespace burin {
 ///  4. Pixels are filled from their samples; then strokes are drawn over them.
 RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& film);
 
-/// The same in two steps, so that what is found can be drawn more than once: find_drawing() puts the surfaces into the
-/// film and returns the lines, draw_lines() draws them over it.
+/// Make the picture of render_abuffer() in two steps, so that what is found can be drawn more than once: find_drawing()
+/// puts the surfaces into the film and returns the lines, draw_lines() draws them over it.
 LineDrawing find_drawing(const Frame& frame, const RunOptions& options, Film& film);
 void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film);
 
-/// Whether its bands are finished one after the other: not where lines depend on others anywhere in the picture.
+/// Whether the bands of a frame are finished one after the other. They are not where lines depend on others anywhere in
+/// the picture.
 bool abuffer_finishes_in_bands(const Frame& frame);
 
 /// Makes what is the same for all frames of a scene; it must outlive these, and be made anew when meshes, objects or

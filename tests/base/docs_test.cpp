@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -17,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = BURIN_SOURCE_FOLDER;
-const std::vector<std::string> kFolders = {"base",   "image",   "mesh",   "kernels", "view",    "lines",
-                                           "shading", "scene",  "render", "abuffer", "strokes", "output",
+const std::vector<std::string> kFolders = {"base",    "image",   "mesh",   "kernels", "view",    "lines",
+                                           "shading", "scene",   "render", "abuffer", "strokes", "output",
                                            "methods", "compare", "cli",    "bench"};
 
 std::string text_of(const fs::path& path) {
