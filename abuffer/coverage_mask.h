@@ -110,7 +110,7 @@ constexpr std::uint16_t edge_between(std::uint16_t front, std::uint16_t back) {
     return mask_detail::edge_between(front, back, 1);
 }
 
-/// The same with rims of `steps` samples on either side: a stroke 2 * steps samples wide, measured
+/// The rims along the common border with `steps` samples on either side: a stroke 2 * steps samples wide, measured
 /// along rows or columns (so that a straight border at angle a gets a stroke of
 /// 2 * steps * max(|cos a|, |sin a|) samples across).
 constexpr std::uint16_t edge_between(std::uint16_t front, std::uint16_t back, int steps) {

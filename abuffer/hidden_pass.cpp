@@ -18,7 +18,7 @@ namespace burin {
 namespace {
 
 constexpr int kTilePx = 32;
-/// In front of the number of a line that its tile has found.
+/// This bit marks the number of a line that its tile has found.
 constexpr std::uint32_t kOfTile = 1u << 31;
 
 /// The picture's part whose lines are drawn, and what strokes from beside it reach.
@@ -30,14 +30,14 @@ PixelRect with_margin(const Frame& frame, bool whole_picture) {
 
 PixelRect region_of(const Frame& frame) { return with_margin(frame, frame.needs.whole_picture); }
 
-/// Where lines are looked for. Dashes are laid out along chains, which a crop must not cut.
+/// The region in which lines are looked for. Dashes are laid out along chains, which a crop must not cut.
 PixelRect region_of_lines(const Frame& frame) { return with_margin(frame, frame.needs.whole_picture_behind); }
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-/// Brings the lines that tiles have found behind `lines`, each one once, and renumbers their pieces.
+/// Brings the lines that tiles have found behind `lines`, each one once, and renumbers their parts.
 void join(std::vector<HidingTileResult>& results, std::vector<WholeLine>& lines, std::vector<LinePart>& parts) {
     struct Found {
         std::size_t tile;

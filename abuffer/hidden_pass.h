@@ -17,8 +17,8 @@ struct HidingTileResult {
     std::vector<LinePart> parts;
 };
 
-/// What is behind the first surface: keeps all layers of all tiles in turn, composites transparent
-/// surfaces, and finds hidden lines and lines seen through transparent surfaces.
+/// HiddenPass finds what is behind the first surface: it keeps all surfaces of one tile after the other, composites
+/// transparent ones, and finds hidden lines and lines seen through transparent surfaces.
 ///
 /// A picture is made in one or more slices, each some rows of tiles: find_lines(), sort(), composite() and find_parts()
 /// for one, with what touches it shown; then join_results().
@@ -33,8 +33,8 @@ class HiddenPass {
     /// The facing of all triangles must be known to `screen`.
     HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads);
 
-    /// Adds the edges that are lines, of the instances shown, as far as they touch these rows; and intersections.
-    /// `possible`: of these instances, where they are known already.
+    /// Adds the edges of the instances shown that are lines, as far as they touch these rows; and intersections.
+    /// `possible`: the possible lines of these instances, where they are known already.
     void find_lines(TileRows rows, const PossibleLines* possible = nullptr);
     /// Sorts the instances shown to the tiles of these rows, for the lines found.
     void sort(TileRows rows);
@@ -53,7 +53,7 @@ class HiddenPass {
     std::uint64_t fragment_count() const { return fragment_count_; }
 
   private:
-    /// Whether intersections are found from the scene's pairs.
+    /// Whether intersections are found from the scene's pairs of triangles.
     bool knows_pairs() const;
 
     const Frame& frame_;

@@ -14,14 +14,14 @@
 namespace burin {
 namespace {
 
-/// Whole blocks of merged pieces around a crop from which strokes reach into it.
+/// The whole blocks of merged pieces around a crop from which strokes reach into it.
 PixelRect region_around(PixelRect crop, int margin_px) {
     const auto down = [](int v) { return (v & ~(kMergeBlockPx - 1)); };
     return {down(crop.x0 - margin_px), down(crop.y0 - margin_px), down(crop.x1 + margin_px + kMergeBlockPx - 1),
             down(crop.y1 + margin_px + kMergeBlockPx - 1)};
 }
 
-/// One picture: what its passes share.
+/// Finder makes one picture, and has what its passes share.
 class Finder {
   public:
     Finder(const Frame& frame, const RunOptions& options, Film& film, LineDrawing& drawing, RowSink* sink,
@@ -101,7 +101,7 @@ class Finder {
         if (has_cap_) screen_.show(instances, stats_.threads);
     }
 
-    /// Rows down to `known_y` are found.
+    /// Says to the sink that rows down to `known_y` are found, and forgets what it needs no more.
     void hand_on(int known_y) {
         const double write_s = sink_->draw_rows(known_y);
         stats_.write_s += write_s;

@@ -16,9 +16,9 @@
 namespace burin {
 namespace {
 
-/// So many are shown at a time to take a look at them, even if one instance has fewer.
+/// Instances with this many vertices together are shown at a time to take a look at them, even if each has fewer.
 constexpr std::size_t kGroupVertices = 1 << 14;
-/// Buffers of one thread, and all that is small.
+/// Room for the buffers of one thread, and for all that is small.
 constexpr std::uint64_t kBytesPerThread = 4 << 20, kBytesForTheRest = 4 << 20;
 
 std::uint64_t vertex_bytes(const Frame& frame, std::uint32_t instance) {
@@ -42,7 +42,7 @@ std::vector<std::vector<std::uint32_t>> group_instances(const Frame& frame) {
     return groups;
 }
 
-/// What stays as long as the picture is rendered.
+/// The bytes of what stays as long as the picture is rendered.
 std::uint64_t lasting_bytes(const Frame& frame, const PixelTiles& tiles, int threads) {
     std::uint64_t bytes = kBytesForTheRest + kBytesPerThread * static_cast<std::uint64_t>(threads);
     std::set<const Mesh*> meshes;
@@ -68,7 +68,7 @@ std::uint64_t feature_bytes(const Frame& frame, const ScreenSurfaces& screen) {
     return sides * kBytes;
 }
 
-/// Rows of one kind of tiles, with what they take.
+/// Rows of one kind of tiles, with the memory that they take.
 struct Rows {
     std::vector<std::uint64_t> bytes;   // of what touches them, without vertices
     std::vector<TileRows> of_instance;  // empty where it is not in the picture
@@ -78,7 +78,7 @@ TileRows rows_of(const PixelTiles& tiles, const InstanceExtent& extent, const Pi
     const bool is_seen = extent.low.x <= picture.x1 && extent.low.y <= picture.y1 && extent.high.x >= picture.x0 &&
                          extent.high.y >= picture.y0;
     if (!is_seen) return {};
-    // A pixel more on either side: tiles also get the samples next to them.
+    // There is a pixel more on either side, for tiles also get the samples next to them.
     const auto row_at = [&](double y) {
         const double row = std::floor((y - tiles.rect().y0) / tile_px);
         return static_cast<int>(std::clamp(row, 0.0, static_cast<double>(tiles.rows().end - 1)));
@@ -94,7 +94,7 @@ std::vector<std::uint32_t> instances_in(const Rows& rows, TileRows of) {
     return found;
 }
 
-/// Cuts rows into as few pieces as fit into `cap_bytes`; `least_bytes` becomes what the largest row takes.
+/// Cuts rows into as few slices as fit into `cap_bytes`; `least_bytes` becomes what the largest row takes.
 std::vector<PictureSlice> cut(const Frame& frame, const Rows& rows, std::uint64_t cap_bytes,
                               std::uint64_t& least_bytes) {
     const auto count = static_cast<int>(rows.bytes.size());
@@ -153,7 +153,7 @@ SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTil
         for (const std::uint32_t i : group) bytes += vertex_bytes(frame, i);
         least = std::max(least, bytes);
     }
-    // Lines are kept to the end of a piece, or of the picture where other lines have to be found first.
+    // Lines are kept to the end of a slice, or of the picture where other lines have to be found first.
     std::uint64_t lasting = lasting_bytes(frame, tiles, threads);
     if (frame.needs.whole_lines) lasting += feature_bytes(frame, screen);
     lasting += (costs.largest_layer_tile() + costs.largest_fine_tile()) * static_cast<std::uint64_t>(threads);

@@ -15,16 +15,16 @@ struct PictureSlice {
     std::vector<std::uint32_t> instances;
 };
 
-/// In which pieces a picture is rendered, from top to bottom. They do not change it.
+/// A SlicePlan says in which slices a picture is rendered, from top to bottom. They do not change it.
 struct SlicePlan {
     std::vector<PictureSlice> visible;  ///< rows of the tiles of visible surfaces
     std::vector<PictureSlice> layers;   ///< rows of HiddenPass's tiles
-    /// All instances, so many at a time as can be shown at once.
+    /// All instances, in groups that can be shown at once.
     std::vector<std::vector<std::uint32_t>> groups;
 };
 
-/// The largest pieces within `cap_bytes` of memory. It takes a look at all triangles to know what they
-/// will need, a group of instances at a time. Throws InputError with the least cap if this one is less.
+/// Makes the largest slices within `cap_bytes` of memory. It takes a look at all triangles to know what they will need,
+/// a group of instances at a time. Throws InputError with the least cap if this one is less.
 SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTiles& tiles, std::uint64_t cap_bytes,
                       int threads);
 

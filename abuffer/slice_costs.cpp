@@ -14,7 +14,7 @@ namespace burin {
 namespace {
 
 constexpr std::uint32_t kChunkTriangles = 1 << 14;
-// Bytes. Lists that grow may have twice the room that they need.
+// The numbers below are bytes. Lists that grow may have twice the room that they need.
 constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
 // A chunk's list in a tile, as found and as sorted, and the room behind it.
 constexpr std::uint64_t kPerRun =
@@ -27,7 +27,8 @@ constexpr std::uint64_t kPerPolygon = 4 * sizeof(LargePolygon);
 constexpr std::uint64_t kPerHidingInTile = 40, kPerEdgeInTile = 50;
 constexpr std::uint64_t kPerLayer = 20;         // a number in a tile's list, as found and as sorted
 constexpr std::uint64_t kPerLayerInTile = 500;  // a triangle in a HidingTile and its cells, set up
-// Lines, for each triangle in a tile's list, and at most for each pixel. docs/performance.md has examples.
+// What lines take, for each triangle in a tile's list, and at most for each pixel. docs/performance/memory.md has
+// examples.
 constexpr std::uint64_t kLinesPerVisible = 256, kLinesPerPixel = 32, kLinesPerLayer = 100;
 
 struct ScreenExtent {  // in pixels
@@ -151,7 +152,7 @@ void SliceCosts::add(ScreenSurfaces& screen) {
     }
 }
 
-/// As if marks were asked for, whether they are or not.
+/// Counts loose edges as if marks were asked for, whether they are or not.
 void SliceCosts::add_loose_edges(const ScreenSurfaces& screen) {
     const auto row_of = [](const PixelTiles& tiles, std::uint32_t tile) {
         return tile / static_cast<std::uint32_t>(tiles.columns());

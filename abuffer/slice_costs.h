@@ -14,12 +14,12 @@ struct RowCosts {
     std::vector<std::uint64_t> lines;  ///< estimated: more than in any picture measured
 };
 
-/// Where an instance is on the screen, in pixels.
+/// The place of an instance on the screen, in pixels.
 struct InstanceExtent {
     glm::dvec2 low{0.0}, high{0.0};
 };
 
-/// What the tiles of a picture cost.
+/// SliceCosts counts the memory that the tiles of a picture take, from the triangles that touch them.
 class SliceCosts {
   public:
     /// `layers`: nullptr where nothing behind the first surface is drawn. `has_fine`: lines that samples miss are.
@@ -27,12 +27,12 @@ class SliceCosts {
 
     /// Adds the instances shown. Finds the facing of their triangles on the way, and which edges may be lines.
     void add(ScreenSurfaces& screen);
-    /// Of visible surfaces, and of all layers; the latter are empty where there are none.
+    /// The costs of visible surfaces, and of all surfaces; the latter are empty where only the first one counts.
     RowCosts visible() const;
     RowCosts layers() const;
-    /// Of a HidingTile with the most triangles that there are in one: a thread has one.
+    /// The bytes of a HidingTile with the most triangles that there are in one: each thread has one.
     std::uint64_t largest_layer_tile() const;
-    /// Of the tile whose search for lines that samples miss takes most: a thread has one.
+    /// The bytes of the tile whose search for lines that samples miss takes most: each thread has one.
     std::uint64_t largest_fine_tile() const;
     static InstanceExtent extent_of(const ScreenSurfaces& screen, std::uint32_t instance);
 

@@ -22,8 +22,8 @@ struct WorkerTimes {
     double raster = 0, lines = 0, shade = 0, write = 0;
 };
 
-/// Where rows are handed on, this many rows of tiles may be begun below one that is not complete, and for each thread
-/// two more and what it takes in a row: what is drawn of them must be kept.
+/// Where finished rows are handed on, threads must not run far ahead, for what they draw must be kept. This many rows
+/// of tiles may be begun below one that is not complete; and for each thread two more, and the tiles it takes in a row.
 constexpr std::size_t kRowsAhead = 4;
 
 /// Counts the rows of tiles that are complete, from the top.
@@ -32,7 +32,7 @@ class CompleteRows {
     explicit CompleteRows(const PixelTiles& tiles)
         : columns_(static_cast<std::size_t>(tiles.columns())), left_(tiles.count() / columns_, columns_) {}
 
-    /// After each tile: how many rows are complete.
+    /// Counts a finished tile; returns how many rows are complete.
     std::size_t add(std::size_t tile) {
         const std::lock_guard lock(mutex_);
         --left_[tile / columns_];
@@ -40,8 +40,8 @@ class CompleteRows {
         changed_.notify_all();
         return complete_;
     }
-    /// Returns when fewer than so many rows lie between a tile and those that are complete. Tiles are begun in order,
-    /// so whoever has the first incomplete one does not wait.
+    /// Returns when fewer than `most_rows` rows lie between a tile and those that are complete. Tiles are begun in
+    /// order, so whoever has the first incomplete one does not wait.
     void wait_for_turn(std::size_t tile, std::size_t most_rows) {
         std::unique_lock lock(mutex_);
         while (!is_stopped_ && tile / columns_ >= complete_ + most_rows) {
@@ -67,7 +67,7 @@ class CompleteRows {
 
 }  // namespace
 
-/// What one thread of a pass has for tile after tile.
+/// A Worker is what one thread of a pass has for tile after tile.
 class VisiblePass::Worker {
   public:
     Worker(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const TriangleBins& bins,

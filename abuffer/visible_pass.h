@@ -14,7 +14,8 @@
 
 namespace burin {
 
-/// What is visible: fills pixels and finds visible lines, tile by tile, in one or more slices of a picture.
+/// VisiblePass finds what is visible: it fills pixels and finds visible lines, tile by tile, in one or more slices of a
+/// picture.
 class VisiblePass {
   public:
     VisiblePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads, Progress* progress)

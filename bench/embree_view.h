@@ -17,7 +17,7 @@ class EmbreeView {
     EmbreeView(const EmbreeView&) = delete;
     EmbreeView& operator=(const EmbreeView&) = delete;
 
-    /// Traces the rays of all pixels; the number of those that hit something.
+    /// Traces the rays of all pixels; returns how many hit something.
     std::size_t trace() const;
 
   private:

@@ -44,7 +44,7 @@ namespace {
 constexpr LayerSet kLinesAndFill{.depth = false, .normal = false, .ids = false};
 constexpr LayerSet kAllLayers{};
 
-/// Each triangle in four, at the middles of its sides.
+/// Cuts each triangle into four, at the middles of its sides.
 void quarter(Mesh& mesh) {
     PolygonSoup soup;
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -104,7 +104,7 @@ Stages run_stages(const std::string& model, int width, int height, const std::st
             stats.lines_s, stats.shade_s,   watch.lap(),    static_cast<double>(stats.fragments)};
 }
 
-/// Calls work() in a process of its own; what it returns, and the process's peak memory in bytes.
+/// Calls work() in a process of its own. Returns what it returned, and the process's peak memory in bytes.
 std::pair<Stages, double> in_process(const std::function<Stages()>& work) {
     int pipe_ends[2];
     std::fflush(nullptr);
@@ -229,7 +229,7 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     add("default_all_layers", drawing(view, layers, kDefault));
     add("samples_2_two_threads", drawing(view, picture, 2, 2), false);
     add("default_two_threads", drawing(view, picture, kDefault, 2), false);
-    // As in a sequence, where what the frame before left in the caches is still there.
+    // Frames in a row are those of a sequence: what the frame before left in the caches is still there.
     constexpr int kInARow = 10;
     const auto in_a_row = [](const std::function<void()>& work) {
         return [work] {
@@ -238,7 +238,7 @@ std::string measure_frames(const std::string& model, int width, int height, int 
     };
     add("samples_2_ten_in_a_row", in_a_row(drawing(view, picture, 2, 2)), false);
     add("default_ten_in_a_row", in_a_row(drawing(view, picture, kDefault, 2)), false);
-    // Once per scene, then any number of frames; "searched" is a frame without it.
+    // Pairs are searched once per scene, for any number of frames; "searched" is a frame that searches for itself.
     add("prepare_hidden",
         [&view] { view.prepared.intersecting_pairs = find_intersecting_pairs(view.scene, best_kernels(), 1); });
     add("hidden_solid", drawing(view, picture, kDefault, 1, HiddenStyle::solid));

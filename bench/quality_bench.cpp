@@ -44,7 +44,7 @@ Plane truth_of(Scene& scene, const View& view, int samples) {
     return lines_of(reference(), scene, view);
 }
 
-/// One picture against its truth of `samples` x `samples` per pixel.
+/// Compares one picture with its truth of `samples` x `samples` per pixel.
 void measure_picture(JsonWriter& json, const std::string& name, Scene& scene, const View& view, double width_px,
                      int samples) {
     scene.lines.style.width_px = width_px;
@@ -79,7 +79,7 @@ void measure_widths(JsonWriter& json, double width_px) {
     json.key("largest_per_smallest").value(*most / *least).end_object();
 }
 
-/// The busiest part of a picture while the camera moves by 1/32 pixel per frame, beside what plain
+/// Measures the busiest part of a picture while the camera moves by 1/32 pixel per frame, beside what plain
 /// supersampling with 16 x 16 samples makes of it. The truth is the method reference with 32 x 32.
 void measure_motion(JsonWriter& json, const std::string& name, Scene& scene, const View& still) {
     constexpr int kFrames = 32, kPart = 48;

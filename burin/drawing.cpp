@@ -23,8 +23,8 @@ void add_pieces(const LineDrawing::Lists& lists, burin_drawing& drawing) {
     }
 }
 
-/// Which object and material each piece's line belongs to: those of its edge's first triangle, or of the first one of two
-/// that pass through each other. A loose edge has no material.
+/// Which object and material each piece's line belongs to: those of its edge's first triangle, or of the first one of
+/// two that pass through each other. A loose edge has no material.
 void find_owners(const SurfaceSet& surfaces, burin_drawing& drawing) {
     std::vector<std::uint64_t> first_triangle;  // of each instance, among all
     std::uint64_t count = 0;

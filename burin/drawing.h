@@ -14,8 +14,8 @@ struct burin_drawing {
     burin::Scene scene;  ///< its settings: no meshes, no objects
     burin::Frame frame;  ///< of that scene, without surfaces
     burin::Film surfaces;
-    burin::LineDrawing inked;                ///< lines as the scene's look draws them
-    std::vector<burin::LinePiece> pieces;    ///< lines as they were found: visible ones first
+    burin::LineDrawing inked;                     ///< lines as the scene's look draws them
+    std::vector<burin::LinePiece> pieces;         ///< lines as they were found: visible ones first
     std::vector<std::uint32_t> object, material;  ///< of each piece
     int threads = 0;
 

@@ -61,8 +61,8 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--supersample", t.supersample,
                    "method gbuffer: samples per pixel and axis, 1, 2, 4 or 8 (default 1)");
     app.add_option("--lines", t.lines,
-                   "line classes, comma separated: silhouette border crease intersection object material "
-                   "polygon mark, or all, none (default silhouette,border,crease,intersection,object)");
+                   "line classes, comma separated: " + to_string(LineClassSet::all()) + ", or all, none (default " +
+                       to_string(kDefaultLineClasses) + ")");
     app.add_option("-w,--line-width", t.width, "full width of strokes in pixels (default 1)");
     app.add_option(
         "--crease-angle", t.crease,

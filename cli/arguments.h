@@ -15,7 +15,7 @@ namespace burin {
 
 enum class Command : std::uint8_t { render, info, explain, methods, compare };
 
-/// What stands on the command line, checked as far as that is possible without the scene.
+/// Arguments is what stands on the command line, checked as far as that is possible without the scene.
 /// Everything optional overrides the scene when it is given.
 struct Arguments {
     Command command = Command::render;

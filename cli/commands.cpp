@@ -67,7 +67,7 @@ struct StageTimes {
     RenderStats render;
 };
 
-/// Stage by stage the median of several renders.
+/// The median of several renders, stage by stage.
 RenderStats median_of(std::vector<RenderStats> runs) {
     RenderStats result = runs.back();
     for (double RenderStats::*stage : {&RenderStats::prepare_s, &RenderStats::raster_s, &RenderStats::resolve_s,
@@ -116,8 +116,8 @@ void write_stats(const std::string& path, const std::string& text) {
     file.commit();
 }
 
-/// Only the A-buffer keeps the surfaces behind the first.
-/// Returns whether the scene asks for hidden lines.
+/// Refuses hidden lines that the command line asks for with a method that has none: only the A-buffer keeps the
+/// surfaces behind the first. Returns whether the scene asks for hidden lines.
 bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene) {
     const bool has_hidden_lines = scene.lines.style.hidden.style != HiddenStyle::none;
     if (method.name == "abuffer") return has_hidden_lines;
@@ -128,7 +128,7 @@ bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene)
     return has_hidden_lines;
 }
 
-/// Lines of the input that are not drawn.
+/// Notes lines of the input that are not drawn.
 void note_loose_edges(const Frame& frame, const Method& method) {
     std::uint64_t count = 0;
     for (const SurfaceInstance& instance : frame.surfaces.instances) count += instance.mesh->loose_edges.size();
@@ -147,7 +147,7 @@ void note_loose_edges(const Frame& frame, const Method& method) {
     }
 }
 
-/// What a user should know before the picture surprises.
+/// Notes what a user should know before the picture surprises.
 void note_limits(const Arguments& a, const Frame& frame, const Method& method, bool has_hidden_lines,
                  const OutputOptions& output) {
     if (a.quiet) return;

@@ -15,7 +15,7 @@
 namespace burin {
 namespace {
 
-/// Fails before the work, not after it.
+/// Checks that the folder can be written to before the work, not after it.
 void make_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -42,7 +42,7 @@ std::vector<OutputFile> files_in(const std::string& folder) {
     return files;
 }
 
-/// What an earlier comparison left in the folder would pass for results of this one.
+/// Removes what an earlier comparison left in the folder, which would pass for results of this one.
 void remove_earlier_results(const std::string& folder) {
     if (!std::filesystem::exists(std::filesystem::path(folder) / "metrics.json")) return;
     std::error_code ignored;

@@ -10,9 +10,9 @@
 
 namespace burin {
 
-/// A scene with the command line's wishes worked in. Prints what its models' readers noted, but for `info`. Throws
-/// InputError and UsageError; this where one of the outputs is a file that is read, before models are if the scene file
-/// names it.
+/// Loads the input as a scene with the command line's wishes worked in. Prints what its models' readers noted, but for
+/// `info`. Throws InputError and UsageError: the latter where one of the outputs is a file that is read, before any
+/// model is read if the scene file names it.
 Scene load_input(const Arguments& arguments, const std::vector<OutputFile>& outputs = {});
 
 /// The camera that the arguments ask for. Throws InputError and UsageError.

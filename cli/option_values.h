@@ -13,7 +13,7 @@
 #include "render/film.h"
 #include "scene/scene_description.h"
 
-/// Values of options as they are typed. What is none throws UsageError, which names the option.
+/// Reads values of options as they are typed. What is no such value throws UsageError, which names the option.
 namespace burin::option_values {
 
 [[noreturn]] void fail(const std::string& option, const std::string& message);
@@ -23,10 +23,10 @@ bool to_integer(std::string_view text, int& value);
 
 double number(const std::string& option, std::string_view text);
 int integer(const std::string& option, std::string_view text, int low, int high);
-/// Bytes, or with a K, M, G or T behind 1024 times as many for each letter.
+/// Reads a number of bytes. A K, M, G or T behind it stands for 1024 bytes, 1024 K, 1024 M or 1024 G.
 std::uint64_t byte_count(const std::string& option, std::string_view text);
 glm::dvec3 vector(const std::string& option, std::string_view text);
-/// `form` says how they are written.
+/// Reads N whole numbers. `form` says in messages how they are written.
 template <std::size_t N>
 std::array<int, N> integers(const std::string& option, std::string_view text, char separator, const char* form) {
     const auto parts = split(text, separator);

@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-/// Lines with their ends linked.
+/// Links the ends of whole lines that follow each other.
 class ChainsOfLines {
   public:
     ChainsOfLines(std::span<const WholeLine> lines, const SurfaceSet& surfaces)
@@ -64,7 +64,8 @@ class ChainsOfLines {
     }
 
   private:
-    /// Of a whole edge, however much of it the line is: the same in all views. 0 of what is no edge.
+    /// The length of the whole edge, however much of it the line is, so that it is the same in all views. It is 0 for
+    /// what is no edge.
     double length_in_mesh(std::uint32_t end) const {
         const WholeLine& line = lines_[end / 2];
         if (!line.is_edge()) return 0;
@@ -85,7 +86,7 @@ class ChainsOfLines {
                 is_forwards ? line.nearness_to : line.nearness_from};
     }
     std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }
-    /// What the line is, seen from anywhere.
+    /// The class that the line has from anywhere, if it has one.
     LineClassSet lasting_class(std::uint32_t end) const {
         constexpr unsigned kSilhouette = LineClassSet(LineClass::silhouette).bits;
         const auto first = LineClassSet::from_bits(lines_[end / 2].classes.bits & ~kSilhouette).first();
@@ -129,8 +130,8 @@ class ChainsOfLines {
         if (is_loop) std::rotate(chain.begin(), std::min_element(chain.begin(), chain.end(), before), chain.end());
         std::vector<std::uint32_t> backwards(chain.rbegin(), chain.rend());
         for (std::uint32_t& end : backwards) end ^= 1;
-        // By all vertices on the way: a chain may end where it began. A loop does, and rounding says which of two
-        // intersections begins first.
+        // All vertices on the way are compared, for a chain may end where it began. A loop does, and rounding says
+        // which of two intersections begins first.
         const std::ptrdiff_t known = is_loop ? 1 : 0;
         if (std::lexicographical_compare(backwards.begin() + known, backwards.end(), chain.begin() + known, chain.end(),
                                          before)) {

@@ -9,9 +9,9 @@
 
 namespace burin {
 
-/// Lines as chains: those that follow each other.
+/// Whole lines as chains: which lines follow each other, and where they stand along their chain.
 struct LineChains {
-    /// Where the two ends of each line stand along its chain, in pixels on the screen.
+    /// The places of the two ends of each line along its chain, in pixels on the screen.
     std::vector<std::array<double, 2>> positions;
     /// The numbers of the lines, chain by chain, and how many there are up to the end of each chain. The longest chains
     /// come first, as long as they are in their mesh; of equal ones, those that begin at the vertex that comes first by
@@ -25,8 +25,8 @@ struct LineChains {
 /// lines branch.
 ///
 /// A chain begins at its end, or on a loop at its vertex, that comes first by its coordinates in the mesh: where dashes
-/// begin hangs on neither the view nor the order of triangles. Positions on a loop are scaled so that a whole number of
-/// periods fits.
+/// begin depends on neither the view nor the order of triangles. Positions on a loop are scaled so that a whole number
+/// of periods fits.
 LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px);
 
 }  // namespace burin

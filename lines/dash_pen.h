@@ -6,7 +6,7 @@
 
 namespace burin {
 
-/// Where the dashes of a line are, visible or hidden.
+/// DashPen says which parts of a line are dashes, visible or hidden, from where they stand along its chain.
 class DashPen {
   public:
     /// `dash_px`: lengths of a dash, with the round ends of a pen of this width, and of a gap.
@@ -39,7 +39,7 @@ class DashPen {
     }
 
   private:
-    /// Length of what is drawn as a dot: it keeps its direction, or a dot would have no sides.
+    /// The length of what is drawn as a dot: with a length it has a direction, and so sides.
     static constexpr double kDotPx = 1.0 / 256;
 
     double on_px_, period_px_, inset_px_;

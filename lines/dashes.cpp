@@ -15,13 +15,13 @@
 namespace burin {
 namespace {
 
-/// Smaller loops come from samples beside a vertex, not from anything to be seen.
+/// Loops smaller than this come from samples beside a vertex, not from anything to be seen.
 constexpr double kSmallestLoopPx = 1.0 / 16;
 
-/// Higher on the screen, then further left.
+/// Whether a place is higher on the screen or, at the same height, further left.
 bool is_higher(glm::dvec2 a, glm::dvec2 b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); }
 
-/// Pieces with their ends linked.
+/// ChainsOfPieces links the ends of pieces that follow each other.
 class ChainsOfPieces {
   public:
     struct Chain {
@@ -36,7 +36,7 @@ class ChainsOfPieces {
     const LinePiece& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
     double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
 
-    /// By where they begin.
+    /// All chains, in the order of where they begin.
     std::vector<Chain> all() const {
         std::vector<Chain> chains;
         links_.for_chains([&](const std::vector<std::uint32_t>& ends, bool is_closed) {
@@ -140,7 +140,7 @@ void draw(const LinePiece& piece, const DashPart& part, const DashPen& pen, std:
     });
 }
 
-/// Of a piece of a feature. `first`, `last`: where its ends are on the feature, as shares of it.
+/// Adds the dashes of a piece of a feature. `first`, `last`: where its ends are on the feature, as shares of it.
 void draw_on_feature(const LinePiece& piece, double first, double last, const LineDashes& dashes, std::size_t feature,
                      const DashPen& pen, std::vector<LinePiece>& drawn) {
     constexpr double kFar = 1e300;
@@ -156,7 +156,7 @@ void draw_on_feature(const LinePiece& piece, double first, double last, const Li
     });
 }
 
-/// Hooks of facets, and loops from samples beside a vertex.
+/// Whether a chain is long enough to be drawn: hooks of facets, and loops from samples beside a vertex, are not.
 bool is_drawn(const ChainsOfPieces& chains, const ChainsOfPieces::Chain& chain, double width_px) {
     double total = 0;
     for (const std::uint32_t end : chain.ends) total += chains.length(end);

@@ -19,21 +19,23 @@ namespace burin {
 /// along them depend on them alone (chains_of()), so they stay where they are when a camera moves or something passes
 /// in front.
 ///
-/// Of all other lines, contours above all, the pieces that meet follow each other in a chain, over tiles and over edges
-/// of the mesh. Where more than two meet, those of one edge belong together, else those of one class if they are two;
-/// the others end there. A chain's first dash begins at the end that is higher on the screen (of two level ones, the
-/// left one). A closed chain begins at its highest point and runs clockwise, and its dashes are stretched or squeezed
-/// so that a whole number of them fits: there is no seam. Open chains shorter than a pixel or than the pen is wide, and
-/// loops shorter than 1/16 pixel, are left out: hooks of facets would dot the gaps of the lines that they hang on.
+/// All other lines, contours above all, are chained piece by piece: pieces that meet follow each other, over tiles and
+/// over edges of the mesh. Where more than two meet, those of one edge belong together, else those of one class if they
+/// are two; the others end there. A chain's first dash begins at the end that is higher on the screen (of two level
+/// ones, the left one). A closed chain begins at its highest point and runs clockwise, and its dashes are stretched or
+/// squeezed so that a whole number of them fits: there is no seam. Open chains shorter than a pixel or than the pen is
+/// wide, and loops shorter than 1/16 pixel, are left out: hooks of facets would dot the gaps of the lines at whose ends
+/// they are.
 ///
 /// Lines that lie on each other share their dashes (SharedDashes): features first.
 ///
-/// All of that depends on nothing but where the lines are, if all of the picture's are given.
+/// The dashes depend on nothing but where the lines are, if all lines of the picture are given.
 std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePiece>>& segments,
                                            std::array<double, 2> dash_px, double width_px, PixelRect picture,
                                            std::span<const WholeLine> features, const SurfaceSet& surfaces);
 
-/// Where solid lines would be drawn whose dashes hidden ones must leave alone, in a picture of this size.
+/// Keeps by place where visible lines are, in a picture of this size: hidden lines have no dashes there, or these would
+/// fill the gaps of the visible ones.
 CourseIndex courses_of(const std::vector<std::vector<LinePiece>>& segments, PixelRect picture, double reach_px);
 
 }  // namespace burin

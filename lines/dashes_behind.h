@@ -12,16 +12,16 @@
 
 namespace burin {
 
-/// Cuts lines behind surfaces into dashes, which run along whole lines, seen or not: those along features come first,
-/// so that they are where the dashes of the visible parts are.
+/// DashesBehind cuts lines behind surfaces into dashes. They run along whole lines, seen or not; features are laid out
+/// first, so that their dashes are where those of the visible parts are.
 class DashesBehind {
   public:
     /// `lines`: all whole lines of a picture of this size, which must outlive it. `dash_px`, `width_px`: see DashPen.
     DashesBehind(std::span<const WholeLine> lines, const SurfaceSet& surfaces, PixelRect picture,
                  std::array<double, 2> dash_px, double width_px);
 
-    /// Adds the dashes of a piece. `visible`: nullptr or lines whose dashes must be left alone, or dashes of either
-    /// would fill the gaps of the other: where the piece lies on them it has none.
+    /// Adds the dashes of a piece. `visible`: nullptr, or where dashed visible lines are: the piece has no dashes
+    /// there, or those of either would fill the gaps of the other.
     void add(const LinePiece& piece, CourseIndex* visible, std::vector<LinePiece>& dashes) const;
 
   private:

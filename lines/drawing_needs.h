@@ -4,8 +4,9 @@
 
 namespace burin {
 
-/// The one word that a look says to finding: which lines must be found, how far around, and what must be known of them.
-/// What is found depends on nothing else of a look, so that one drawing serves all looks that need no more than it has.
+/// DrawingNeeds is the one word that a look says to finding: which lines must be found, how far around, and what must
+/// be known of them. What is found depends on nothing else of a look, so that one drawing serves all looks that need no
+/// more than it has.
 struct DrawingNeeds {
     static constexpr int kAnyInvisibility = 255;
 

@@ -7,8 +7,8 @@
 
 namespace burin {
 
-/// Links the ends of numbered pieces or lines in pairs, where one goes on as the other, and follows the links: what
-/// follows each other is a chain. End 2i is the beginning of number i, end 2i + 1 its end.
+/// EndLinks links the ends of numbered pieces or lines in pairs, where one goes on as the other, and follows the links:
+/// what follows each other is a chain. End 2i is the beginning of number i, end 2i + 1 its end.
 class EndLinks {
   public:
     explicit EndLinks(std::size_t count) : links_(2 * count, kNone) {}

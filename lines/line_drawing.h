@@ -10,8 +10,8 @@
 
 namespace burin {
 
-/// The lines of a picture as data: found once, drawn as often as one likes. Pieces keep the order in which tiles lie in
-/// the picture, whichever threads found them.
+/// A LineDrawing is the lines of a picture as data: found once, drawn as often as one likes. Pieces keep the order in
+/// which tiles lie in the picture, whichever threads found them.
 class LineDrawing {
   public:
     /// Pieces of lines, list after list.
@@ -25,7 +25,7 @@ class LineDrawing {
     void add_visible(std::vector<LinePiece> pieces);
     /// Adds parts of lines that surfaces are in front of.
     void add_behind(std::vector<LinePiece> pieces);
-    /// Edges and intersections as wholes, seen or not, where DrawingNeeds::whole_lines asks for them.
+    /// Adds edges and intersections as wholes, seen or not, where DrawingNeeds::whole_lines asks for them.
     void add_whole_lines(std::vector<WholeLine> lines);
 
     /// The visible lines of tiles that have rows in [from_y, to_y). Other threads may put what is further down.
@@ -36,7 +36,7 @@ class LineDrawing {
 
     /// Forgets the pieces that lie above a row of pixels: what keeps memory bounded.
     void forget_above(double y);
-    /// The visible lines, which it has no more then.
+    /// Gives away the visible lines; it has none then.
     std::vector<std::vector<LinePiece>> take_visible();
 
   private:

@@ -29,7 +29,7 @@ struct LineId {
 
     constexpr bool is_none() const { return bits == kNone; }
     constexpr bool is_edge() const { return bits >> 63 == 0; }
-    /// Of an edge.
+    /// The instance and the half-edge of an edge.
     constexpr std::uint32_t instance() const { return group(); }
     constexpr HalfEdge half_edge() const { return member(); }
     /// Where surfaces meet: the lower one of their triangles' numbers.

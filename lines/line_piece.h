@@ -8,12 +8,12 @@
 
 namespace burin {
 
-/// The side of the blocks of a picture within which pieces are merged: so that a crop of a picture merges the same
-/// pieces.
+/// The side of the blocks within which pieces are merged. Blocks are those of the whole picture, so that a crop of it
+/// merges the same pieces.
 constexpr int kMergeBlockPx = 8;
 
-/// A straight piece of one line on the screen, seen or hidden: all that drawing gets. It says which line it is and what
-/// is in front of it; all else that can be known of a line follows from these and the surfaces.
+/// A LinePiece is a straight piece of one line on the screen, seen or hidden: all that drawing gets. It says which line
+/// it is and what is in front of it; all else that can be known of a line follows from these and the surfaces.
 struct LinePiece {
     glm::dvec2 from{0.0}, to{0.0};  ///< in pixels
     LineId line;
@@ -23,19 +23,19 @@ struct LinePiece {
     LineClass drawn_as = LineClass::silhouette;
     std::uint8_t opacity = 255;       ///< of the line itself, 255 = full; less where it fades
     std::uint8_t transmission = 255;  ///< what transparent surfaces in front let through, 255 = all
-    /// Quantitative invisibility (Appel 1967): how many opaque layers are in front. 255: that many or more.
+    /// Quantitative invisibility (Appel 1967): how many opaque surfaces are in front. 255: that many or more.
     std::uint8_t invisibility = 0;
     bool is_drawn = true;        ///< else it only hides strokes
     bool occludes = false;       ///< a surface ends here; else the line lies on one, or between two in contact
     bool front_on_left = false;  ///< of the way from `from` to `to`, as seen on the screen
 
     bool is_hidden() const { return invisibility > 0; }
-    /// Of the line as it is seen.
+    /// The opacity of the line as it is seen.
     std::uint8_t seen_opacity() const { return static_cast<std::uint8_t>((opacity * transmission + 127) / 255); }
 };
 static_assert(sizeof(LinePiece) == 64, "a line of the cache");
 
-/// Whether a part of a line behind surfaces begins where another one ends and looks the same, however many opaque
+/// Whether a piece behind surfaces begins where another piece of its line ends and looks like it, however many opaque
 /// surfaces are in front of either.
 inline bool goes_on_alike(const LinePiece& before, const LinePiece& next) {
     return before.line == next.line && before.to == next.from && before.is_hidden() == next.is_hidden() &&

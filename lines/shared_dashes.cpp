@@ -22,7 +22,7 @@ class StraightWay {
         narrow(length_, 0);
     }
     glm::dvec2 direction() const { return along_; }
-    /// Whether it can go on to there; then it does.
+    /// Goes on to a place, if it can; returns whether it did.
     bool go_on(glm::dvec2 to) {
         const double along = glm::dot(to - from_, along_), across = cross(along_, to - from_);
         if (!fits(along, across)) return false;

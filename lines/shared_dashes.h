@@ -24,7 +24,7 @@ struct DashPart {
     double at_begin = 0, at_end = 0;
 };
 
-/// Where the dashes of pieces are.
+/// DashPlaces says for each piece where its dashes are.
 class DashPlaces {
   public:
     /// Calls visit(part) for the parts of a piece.
@@ -44,7 +44,8 @@ class DashPlaces {
     std::vector<std::size_t> end_{0};
 };
 
-/// Gives lines that lie on each other on the screen the same dashes: what looks like one line is one dashed line.
+/// SharedDashes gives lines that lie on each other on the screen the same dashes: what looks like one line is one
+/// dashed line.
 ///
 /// Chains come one after the other, and what lies on an earlier one's course takes over its dashes there. Where such a
 /// course ends and other ones go on straight, the dashes run on along them, too. A chain of which no part lies on
@@ -57,7 +58,7 @@ class SharedDashes {
     /// quarter of a pixel.
     static double reach_of_pen_px(double width_px);
 
-    /// Chains of pieces that follow each other, in the order of precedence: piece i of a chain ends where piece i + 1
+    /// Lays out the dashes of chains of pieces, in the order of precedence: piece i of a chain ends where piece i + 1
     /// begins, each either way round. `chain_ends`: how many pieces there are up to the end of each chain. Chains of
     /// earlier calls come first and keep the dashes that they have.
     DashPlaces lay_out(std::vector<DashPiece> pieces, std::span<const std::size_t> chain_ends);
@@ -70,7 +71,7 @@ class SharedDashes {
         bool is_shared = false;   // another line lies on it, or its own one lies on others elsewhere
         bool is_settled = false;  // it keeps the dashes that it has
 
-        /// Beside the course or beyond it.
+        /// Where a place beside the course, or beyond it, stands along it.
         double at(glm::dvec2 place) const;
     };
     /// Pieces of a chain that are straight together.

@@ -11,7 +11,7 @@
 
 namespace burin {
 
-/// Finds the whole line that a piece lies on, among some.
+/// WholeLineIndex finds, among some whole lines, the one that a piece lies on.
 class WholeLineIndex {
   public:
     /// `lines` must outlive it.
@@ -20,7 +20,7 @@ class WholeLineIndex {
     /// The number of the line that a piece is part of, if there is one. Of an edge that is several lines, the one at
     /// the piece.
     std::optional<std::uint32_t> find(const LinePiece& piece) const;
-    /// Where along a line a place is, in pixels: as a share of the way from its first end to the other.
+    /// How far along a line a place is, given in pixels: a share of the way from the first end to the other.
     static double share_of(const WholeLine& line, glm::dvec2 place);
 
   private:

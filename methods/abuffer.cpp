@@ -16,7 +16,7 @@
 namespace burin {
 namespace {
 
-/// A crease begins where it begins to fade in.
+/// The criteria of the scene's lines, by which a crease begins where it begins to fade in.
 LineCriteria criteria_of(const LineSettings& lines) {
     LineCriteria criteria;
     criteria.classes = lines.classes;
@@ -35,7 +35,7 @@ PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_me
     const LineCriteria criteria = criteria_of(scene.lines);
     PreparedScene prepared;
     prepared.sharp_edges.resize(scene.meshes.size());
-    // A few large meshes, or many.
+    // Threads share a few large meshes, or take one each of many.
     const std::size_t count = scene.meshes.size();
     const bool has_many = count >= 4 * static_cast<std::size_t>(resolve_thread_count(threads));
     parallel_for(count, has_many ? threads : 1, [&](std::size_t i, int) {
@@ -47,7 +47,7 @@ PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_me
     return prepared;
 }
 
-/// Hidden lines are drawn below visible ones.
+/// Bands are not finished early where there are hidden lines, for these are drawn below visible ones.
 bool abuffer_finishes_in_bands(const Frame& frame) { return !frame.needs.behind() && frame.needs.rows_stand_alone(); }
 
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {

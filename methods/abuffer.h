@@ -7,7 +7,8 @@
 namespace burin {
 
 /// The production A-buffer: the masks of all pixels decide where lines are, the mesh says exactly
-/// where they run, and round strokes draw them at any width.
+/// where they run, and round strokes draw them at any width. It joins finding (folder abuffer) and drawing (strokes),
+/// which do not know each other; lines pass from one to the other as a LineDrawing.
 ///
 ///  1. Vertices are projected and snapped once; triangles are sorted to tiles.
 ///  2. Per tile, the nearest surface at every sample of the image's grid is found: the resolved
@@ -25,7 +26,8 @@ LineDrawing laid_out_if_needed(LineDrawing found, const Frame& frame, int thread
 /// Of the frame's surfaces it reads the projection alone.
 void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film);
 
-/// Whether its bands are finished one after the other: not where lines depend on others anywhere in the picture.
+/// Whether the bands of a frame are finished one after the other. They are not where lines depend on others anywhere in
+/// the picture.
 bool abuffer_finishes_in_bands(const Frame& frame);
 
 /// Makes what is the same for all frames of a scene; it must outlive these, and be made anew when meshes, objects or

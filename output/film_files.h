@@ -27,15 +27,15 @@ void write_output(ByteSink& file, const PictureSettings& picture, const Image& i
 /// What a display shows of it: over its paper, or with an alpha channel if it is transparent.
 DisplayImage displayed(const PictureSettings& picture, const Image& image);
 
-/// Writes a film in bands to an EXR while it is rendered. The file appears under its name only when finish() has been
-/// called. Everything throws InputError.
+/// BandWriter writes a film in bands to an EXR while it is rendered. The file appears under its name only when finish()
+/// has been called. Everything throws InputError.
 class BandWriter {
   public:
     BandWriter(Film& film, const OutputOptions& options);
     ~BandWriter();
-    /// Writes a band and closes it. Each once, in any order, at once on any threads.
+    /// Writes a band and closes it. It is called once for each band, in any order, by any threads at once.
     void write(std::size_t band);
-    /// After all bands.
+    /// Puts the file under its name, after all bands are written.
     void finish();
     /// Whether anything that it was called for has failed.
     bool has_failed() const { return has_failed_; }

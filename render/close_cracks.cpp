@@ -36,14 +36,14 @@ Placing placing_of(const glm::dmat4& to_view, const glm::dvec3& origin) {
     const glm::dmat3 linear(to_view);
     const double x = glm::length(linear[0]), y = glm::length(linear[1]), z = glm::length(linear[2]);
     const double largest = std::max({x, y, z});
-    // Of directions at right angles the largest, of others no more than all together.
+    // Axes at right angles enlarge by no more than the largest of them, others by no more than all together.
     const double skew = std::abs(glm::dot(linear[0], linear[1])) + std::abs(glm::dot(linear[1], linear[2])) +
                         std::abs(glm::dot(linear[0], linear[2]));
     const double scale = skew <= 1e-6 * largest * largest ? largest : std::sqrt(x * x + y * y + z * z);
     return {-row, -(glm::dot(row, origin) + to_view[3].z), scale};
 }
 
-/// Around the distances of all places within a box, in whatever way they are rounded.
+/// Bounds of the distances of all places within a box, in whatever way they are rounded.
 struct Distances {
     double low, high;
 };
@@ -55,7 +55,7 @@ Distances distances_of(const Placing& placing, const Box& box) {
             high.x + high.y + high.z + placing.distance + rounding};
 }
 
-/// Whether anything of it is. `box` is around the mesh.
+/// Whether anything of a mesh lies before the eye. `box` is around the mesh.
 bool is_before_the_eye(const Placing& placing, const Mesh& mesh, const Box& box) {
     if (distances_of(placing, box).high < 0) return false;
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {

@@ -36,7 +36,7 @@ std::uint64_t mixed(std::uint64_t hash, const void* data, std::size_t size) {
     return hash;
 }
 
-/// Of what differs between most objects, and takes little time to look at.
+/// A hash of what differs between most objects and takes little time to look at.
 std::uint64_t hash_of_place(const Scene& scene, const SceneObject& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     std::uint64_t hash = mixed(mesh.positions.size(), &object.to_world, sizeof object.to_world);
@@ -55,7 +55,7 @@ struct HashedObject {
     bool operator<(const HashedObject& o) const { return std::tie(hash, number) < std::tie(o.hash, o.number); }
 };
 
-/// Calls use(objects) for all that have a hash in common with others.
+/// Calls use(objects) for each group of objects with one hash.
 template <typename Use>
 void for_equal_hashes(std::vector<HashedObject>& objects, const Use& use) {
     std::sort(objects.begin(), objects.end());

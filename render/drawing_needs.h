@@ -5,7 +5,8 @@
 
 namespace burin {
 
-/// What the looks of a scene's lines need to be drawn.
+/// Says what must be found so that the lines of a scene can be drawn as it wants them: all that finding is told of
+/// their looks.
 DrawingNeeds needs_of(const Scene& scene);
 
 }  // namespace burin

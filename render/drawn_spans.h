@@ -8,13 +8,14 @@
 
 namespace burin {
 
-/// Which spans of a picture's rows may have anything but background, so that what is blank is not cleared again for the
-/// next picture. Columns and rows are counted from 0. Different threads may note and ask at the same time.
+/// DrawnSpans notes which spans of a picture's rows may have anything but background, so that what is blank is not
+/// cleared again for the next picture. Columns and rows are counted from 0. Different threads may note and ask at the
+/// same time.
 class DrawnSpans {
   public:
-    /// Keeps no record: all may have been drawn, always.
+    /// Keeps no record: all spans may have been drawn, always.
     DrawnSpans() = default;
-    /// All may have been drawn, until a picture ends.
+    /// All spans may have been drawn, until a picture ends.
     DrawnSpans(int width, int height)
         : per_row_(static_cast<std::size_t>((width + kColumns - 1) >> kShift)),
           before_(per_row_ * static_cast<std::size_t>(height)),

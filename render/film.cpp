@@ -69,7 +69,7 @@ void fill_run(std::uint16_t* to, std::size_t count, std::uint16_t value) {
     std::memcpy(to + count - kEight, &eight, sizeof eight);
 }
 
-/// Not each x86-64 knows the instruction below, those with AVX2 do.
+/// Whether the processor knows the instruction below: not each x86-64 does, but those with AVX2 do.
 inline bool can_prefetch_to_write() {
 #ifdef __x86_64__
     return __builtin_cpu_supports("avx2") != 0;

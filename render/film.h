@@ -52,7 +52,8 @@ struct LinePixel {
     std::array<float, kLineClassCount> coverage{};
 };
 
-/// The same as it is kept: many pixels have the same.
+/// Lines of one pixel in the form in which a film keeps them. Many pixels have the same lines, so it is made once for
+/// them.
 struct LineInk {
     LineInk() = default;
     explicit LineInk(const LinePixel& lines);
@@ -71,8 +72,8 @@ struct HiddenInk {
     glm::vec4 seen;
 };
 
-/// Collects pixels into the channels of the chosen layers. Different threads may put different
-/// pixels at the same time.
+/// Film collects pixels into the channels of the chosen layers. Different threads may put different pixels at the same
+/// time.
 ///
 /// A film lies in memory as a whole, or in blocks, of which there are only those that something was put into, until
 /// their band, a row of blocks, is closed: so a picture whose rows are written as they are finished takes no more than
@@ -85,24 +86,24 @@ class Film {
     /// `display` is the whole picture, `crop` the part that pixels are put for: each of them must be. Throws InputError
     /// when this machine has not enough memory for it.
     Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
-    /// In blocks. What is not put is background. Putting throws InputError when this machine has not enough memory for
-    /// the blocks that are there.
+    /// Makes a film in blocks. What is not put is background. Putting throws InputError when this machine has not
+    /// enough memory for the blocks that are there.
     static Film in_bands(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassSet classes);
     ~Film();
     Film(Film&&) noexcept;
     Film& operator=(Film&&) noexcept;
 
-    /// The same pixels again, of a whole film: to draw on one and keep the other.
+    /// A copy of a whole film, so that one can be drawn on and the other kept.
     Film copy() const;
 
-    /// Whether it lies in memory as a whole.
+    /// Whether the film lies in memory as a whole.
     bool is_whole() const { return blocks_.size() == 1 && row_shift_ == kWholeShift; }
     PixelRect display() const { return display_; }
     PixelRect crop() const { return crop_; }
     std::vector<ChannelFormat> channels() const;
-    /// Rows of a film in blocks.
+    /// The rows of one band of a film in blocks.
     ImageStrip band(std::size_t number) const;
-    /// After it was read: gives its memory up, to be used for others.
+    /// Gives up the memory of a band that was read, to be used for others.
     void close(std::size_t number);
 
     /// Calls use(part) for the parts of a rectangle, within the crop, that lie in one block each.
@@ -117,8 +118,8 @@ class Film {
         }
     }
 
-    /// Before all pixels of a part of one block are put, with surfaces or without: where it is the whole block, this
-    /// need not begin as background. Due before put_color() and put_colors().
+    /// Says that all pixels of a part of one block will be put, with surfaces or without: where the part is the whole
+    /// block, this need not begin as background. Due before put_color() and put_colors().
     void expect_all_of(PixelRect part);
     void put(int x, int y, const PixelResult& pixel);
     /// Whether any layer of depth, normals or ids is kept.
@@ -129,11 +130,11 @@ class Film {
     /// Has the memory of beauty and lines fetched that either will write: another core may have it. The pixels lie in
     /// one block; where that is not made yet, nothing happens.
     void prefetch_color(int x0, int x1, int y) const;
-    /// Puts their depth, normals and ids, if has_geometry(). Before other threads read these, finish_stream_stores() is
-    /// due.
+    /// Puts depth, normals and ids of pixels [x0, x1) of a row, if has_geometry(). Before other threads read these,
+    /// finish_stream_stores() is due.
     void put_geometry(int x0, int x1, int y, const GeometryRow& row);
-    /// Of a film in blocks: where put_geometry() would copy a row to that begins with a pixel and lies in one block, so
-    /// that it may be made there; `spare` for layers that are not kept.
+    /// Where put_geometry() would copy a row of a film in blocks to, one that begins with this pixel and lies in one
+    /// block: so that the row may be made there. Layers that are not kept have their place in `spare`.
     GeometryRow geometry_place(int x, int y, const GeometryRow& spare);
     /// Puts the background into pixels [x0, x1) of a row that nothing else is put into; then finish_stream_stores() is
     /// due, too.
@@ -144,19 +145,19 @@ class Film {
     /// Draws lines over a pixel that was put without any.
     void draw_over(int x, int y, const LinePixel& lines) { draw_over(x, y, LineInk(lines)); }
     void draw_over(int x, int y, const LineInk& lines);
-    /// As colours are kept: half precision holds 0..1 well, what is beyond its range becomes its largest
-    /// number.
+    /// A number in the form in which colours are kept. Half precision holds 0..1 well; what is beyond its range becomes
+    /// its largest number.
     static std::uint16_t to_half(float value);
     /// Replaces the surface of a pixel that was put without lines.
     void replace_surface(int x, int y, const glm::vec4& color);
-    /// Before draw_over(): puts the hidden lines' own channels, and draws what is seen of them over the pixel.
+    /// Puts the hidden lines' own channels, and draws what is seen of them over the pixel. Due before draw_over().
     void draw_hidden(int x, int y, const HiddenInk& lines);
-    /// After draw_over(): adds to the line channels, but not to the beauty.
+    /// Adds to the line channels, but not to the beauty. Due after draw_over().
     void add_lines(int x, int y, const LinePixel& lines);
-    /// After every pixel was put and all was drawn: another picture may be put, for which background is not cleared
-    /// again where there was nothing else. Without it another one may be put, too.
+    /// Says that every pixel was put and all was drawn. Another picture may be put then, for which background is not
+    /// cleared again where there was nothing else. Without this call another one may be put, too.
     void end_picture() { drawn_.end_picture(); }
-    /// Of a whole film.
+    /// All pixels of a whole film.
     const Image& image() const { return block_of(0)->image; }
 
   private:
@@ -189,7 +190,7 @@ class Film {
     void fill_with_background(Block& block) const;
     void check_memory(std::size_t pixels) const;
     Block& add_block(std::size_t number, bool all_is_put = false);
-    /// nullptr where it is missing.
+    /// The block with this number, nullptr where it is missing.
     Block* block_of(std::size_t number) const { return blocks_[number].load(std::memory_order_acquire); }
     std::size_t number_of(int x, int y) const {
         const auto column = static_cast<std::size_t>(x - crop_.x0) >> column_shift_;

@@ -11,7 +11,8 @@
 
 namespace burin {
 
-/// A scene seen through one camera: the one input of every method. Immutable once made.
+/// A Frame is a scene seen through one camera: the one input of every method. It borrows the scene and what is prepared
+/// for it, and does not change once it is made.
 struct Frame {
     const Scene* scene = nullptr;
     const PreparedScene* prepared = nullptr;  ///< of the scene; nullptr: nothing is prepared

@@ -66,7 +66,7 @@ struct MeshError {
         }
     }
 
-    /// By how much that moves surfaces along their normals, in view space.
+    /// By how much such an error moves surfaces along their normals, in view space.
     double in_view(const glm::dmat4& to_view) const {
         const glm::dvec3 scale(glm::length(glm::dvec3(to_view[0])), glm::length(glm::dvec3(to_view[1])),
                                glm::length(glm::dvec3(to_view[2])));
@@ -101,7 +101,7 @@ double distance_from_eye(const glm::dvec3 (&c)[3]) {
         std::min({distance_from_eye(c[0], c[1]), distance_from_eye(c[1], c[2]), distance_from_eye(c[2], c[0])});
     const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
     const double length = glm::length(normal), height = glm::dot(normal, c[0]);
-    // Whether the foot of the perpendicular lies within.
+    // The foot of the perpendicular lies within the triangle if it is on one side of all edges.
     int left = 0, right = 0;
     for (int k = 0; k < 3; ++k) (glm::dot(glm::cross(c[k], c[(k + 1) % 3]), normal) < 0 ? right : left) += 1;
     return length > 0 && (left == 0 || right == 0) ? std::min(least, std::abs(height) / length) : least;

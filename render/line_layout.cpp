@@ -23,7 +23,7 @@ std::vector<WholeLine> features_of(std::span<const WholeLine> lines) {
     return features;
 }
 
-/// Pieces behind surfaces: those that are one line to the eye as one piece each.
+/// Pieces behind surfaces, of which those that are one line to the eye become one.
 std::vector<LinePiece> joined(const LineDrawing::Lists& lists) {
     std::vector<LinePiece> pieces;
     for (const std::span<const LinePiece> list : lists) {

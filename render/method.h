@@ -34,7 +34,8 @@ struct Method {
     /// Classes whose boundaries it also finds when asked for some of those that it draws, and calls
     /// by their names: images know no classes. nullptr: none.
     LineClassSet (*also_finds)(LineClassSet asked) = nullptr;
-    /// Whether it finishes bands of a frame one after the other, and calls RunOptions::finished_band. nullptr: never.
+    /// Says whether it finishes bands of a frame one after the other, and calls RunOptions::finished_band. nullptr:
+    /// never.
     bool (*finishes_in_bands)(const Frame&) = nullptr;
     bool draws_loose_edges = false;  ///< lines of class mark that no polygon has
 };

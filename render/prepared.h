@@ -8,8 +8,8 @@
 
 namespace burin {
 
-/// What all frames of a scene have in common, as long as its meshes, objects and line settings stay: made once, it
-/// saves the method `abuffer` making it for every frame. Frames are right without it.
+/// PreparedScene is what all frames of a scene have in common, as long as its meshes, objects and line settings stay.
+/// It is made once, so that the method `abuffer` need not make it for every frame. Frames are right without it.
 struct PreparedScene {
     /// Which edges are sharp, per mesh (find_sharp_edges()); empty: not made.
     std::vector<std::vector<std::uint8_t>> sharp_edges;

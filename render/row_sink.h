@@ -2,8 +2,8 @@
 
 namespace burin {
 
-/// Draws the rows of a picture from the top, as soon as the lines that reach them are found: so finding can tell a
-/// drawer that it does not know how far it has come.
+/// A RowSink draws the rows of a picture from the top, as soon as the lines that reach them are found. Finding calls it
+/// to say how far it has come, and does not know what draws.
 class RowSink {
   public:
     virtual ~RowSink() = default;
@@ -12,9 +12,10 @@ class RowSink {
     /// change. Called by one thread of a pass, its number being `worker`, while the others find lines further down. It
     /// may leave rows for later. Returns the seconds that were spent on handing finished rows on.
     virtual double draw_rows_as(int worker, int known_y) = 0;
-    /// The same, called while no pass runs, so that all threads may help, and no row is left for later.
+    /// Draws these rows while no pass runs, so that all threads may help, and no row is left for later. Returns seconds
+    /// as above.
     virtual double draw_rows(int known_y) = 0;
-    /// Where pieces lie that are still needed: from this row on. Not while other threads draw.
+    /// The first row of pixels whose pieces are still needed. Not to be called while other threads draw.
     virtual double first_needed_y() const = 0;
     /// Whether somebody waits for finished rows, so that finding must not run far ahead of them.
     virtual bool hands_on() const = 0;

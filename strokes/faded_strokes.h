@@ -12,22 +12,22 @@
 
 namespace burin {
 
-/// The strokes of one tile that are not fully opaque: lines that fade in or out. They lie below all others,
-/// and where two overlap, the more opaque one counts. So a line that has become opaque looks as if it
+/// FadedStrokes draws the strokes of one tile that are not fully opaque, those of lines that fade, into masks. They lie
+/// below all others, and where two overlap, the more opaque one counts. So a line that has become opaque looks as if it
 /// had never faded. Buffers are used again.
 class FadedStrokes {
   public:
     explicit FadedStrokes(const TileKernels& kernels) : canvas_(kernels) {}
 
-    /// Draws those of the segments that are not opaque, by draw_stroke(index, canvas).
+    /// Draws the pieces that are not opaque, by calling draw_stroke(index, canvas) for each.
     void draw(std::span<const LinePiece* const> segments, PixelRect rect,
               const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke);
 
-    /// Whether there is any in a pixel of the rectangle.
+    /// Whether a pixel of the rectangle has any of these strokes.
     bool is_touched(int column, int row) const {
         return !masks_.empty() && touched_[static_cast<std::size_t>(row * width_ + column)] != 0;
     }
-    /// As StrokeCanvas::eight_touched().
+    /// Tells of eight pixels at once whether they have any, as StrokeCanvas::eight_touched() does.
     std::uint64_t eight_touched(int column, int row) const {
         return masks_.empty() ? 0
                               : StrokeCanvas::eight_bytes(&touched_[static_cast<std::size_t>(row * width_ + column)]);

@@ -31,7 +31,8 @@ void unite(StrokeMask& mask, const StrokeMask& other) {
     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] |= other.rows[r];
 }
 
-/// The strokes of one tile. Buffers are used again, and only what was used is cleared.
+/// TileStrokes keeps what each pixel of one tile has of lines. Buffers are used again, and only what was used is
+/// cleared.
 class TileStrokes {
   public:
     struct Pixel {
@@ -60,10 +61,10 @@ class TileStrokes {
         return p;
     }
     PixelRect rect() const { return rect_; }
-    /// Those that pixel() was asked for.
+    /// The pixels that pixel() was asked for.
     std::span<const std::size_t> used() const { return used_; }
 
-    /// Draws the segments chosen and calls use(pixel, mask) where there is any.
+    /// Draws the pieces chosen and calls use(pixel, mask) for the pixels that they touch.
     template <typename Segment, typename Choose, typename Use>
     void draw(std::span<const Segment* const> segments, double radius_px, const Choose& choose, const Use& use) {
         canvas_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
@@ -90,7 +91,7 @@ class TileStrokes {
     }
 
     static constexpr int kSamples = StrokeMask::kRows * StrokeMask::kColumns;
-    /// Of a pixel, without the samples taken.
+    /// How many samples of a pixel are in a mask and not taken.
     int count(const StrokeMask& mask, const StrokeMask& taken = {}) const {
         return kernels_.count_bits(mask.rows.data(), taken.rows.data());
     }
@@ -149,14 +150,14 @@ void draw_hidden(std::span<const LinePiece* const> layers, int opacity, const Pe
     });
 }
 
-/// What a filter's negative lobes take away beside a line, and add in its middle.
+/// Cuts off what a filter's negative lobes take away beside a line, and add in its middle.
 void cut_off_lobes(TileStrokes::Pixel& pixel) {
     for (float* share : {&pixel.ink, &pixel.hidden_share, &pixel.hidden_seen}) *share = std::clamp(*share, 0.0f, 1.0f);
     pixel.seen_through.color = glm::clamp(pixel.seen_through.color, 0.0f, 1.0f);
     for (float& c : pixel.seen_through.coverage) c = std::clamp(c, 0.0f, 1.0f);
 }
 
-/// All samples that opaque strokes take; hidden lines shine through what fades.
+/// The samples of a pixel that opaque visible strokes take; hidden lines shine through strokes that fade.
 StrokeMask taken_by(const VisibleStrokes& visible, int column, int row) {
     StrokeMask taken;
     visible.for_classes(column, row, [&](LineClass, const StrokeMask& mask, const StrokeMask&, float opacity) {
@@ -165,7 +166,8 @@ StrokeMask taken_by(const VisibleStrokes& visible, int column, int row) {
     return taken;
 }
 
-/// All kinds of lines are disjoint; visible ones come later and cover their share, `ink`.
+/// The ink of a pixel's lines behind surfaces. All kinds of lines are disjoint; visible ones come later and cover their
+/// share, `ink`.
 HiddenInk hidden_ink(const LineStyle& style, float ink, const glm::vec4& seen_through, float hidden_share,
                      float hidden_seen) {
     const float left = 1.0f - ink;
@@ -242,7 +244,7 @@ class HiddenStrokes::Worker {
         }
     }
 
-    /// The same where all lines are hidden and none covers another: pixels by themselves.
+    /// Draws a tile whose lines are all hidden and equally opaque, where each pixel sees its own square.
     void draw_plain(std::span<const LinePiece* const> list, PixelRect rect, const VisibleStrokes& visible, Film& film) {
         const float strength = hidden_pen_.strength * static_cast<float>(list.front()->seen_opacity()) / 255.0f;
         const auto all = [](const LinePiece&) { return true; };
@@ -266,7 +268,7 @@ class HiddenStrokes::Worker {
                                         strength * strokes_.share(*mask, taken)));
         }
     }
-    /// Of hidden lines alone, by how many samples of the pixel they cover.
+    /// The inks of a pixel that has hidden lines alone, by how many of its samples they cover.
     const std::vector<HiddenInk>& inks_of(std::uint8_t opacity) {
         std::vector<HiddenInk>& inks = inks_[opacity];
         const float strength = hidden_pen_.strength * static_cast<float>(opacity) / 255.0f;

@@ -15,9 +15,9 @@
 
 namespace burin {
 
-/// Draws pieces of lines that some surface is in front of, in one part of the picture: below the visible lines into the
-/// beauty, hidden ones into their own channels, and those seen through transparent surfaces into the channels of the
-/// visible lines. Tile by tile, together with the visible strokes, which cover them.
+/// HiddenStrokes draws pieces of lines that some surface is in front of, in one part of the picture: below the visible
+/// lines into the beauty, hidden ones into their own channels, and those seen through transparent surfaces into the
+/// channels of the visible lines. It works tile by tile, together with the visible strokes, which cover them.
 class HiddenStrokes {
   public:
     static constexpr int kTilePx = 32;
@@ -28,9 +28,11 @@ class HiddenStrokes {
     ~HiddenStrokes();
 
     bool has_any(std::size_t tile) const { return !lists_.of(tile).empty(); }
-    /// Before the visible lines of this tile are drawn, which are given: what they will cover stays free.
+    /// Draws what lies below the visible lines of a tile, before those, which are given, are drawn: what they will
+    /// cover stays free.
     void draw_below(int worker, std::size_t tile, const VisibleStrokes& visible, Film& film);
-    /// After them, on the same thread.
+    /// Adds the lines seen through surfaces to the channels of the visible ones, after these are drawn, on the same
+    /// thread.
     void draw_above(int worker, Film& film) const;
 
   private:

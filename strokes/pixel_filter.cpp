@@ -5,7 +5,7 @@
 namespace burin {
 namespace {
 
-/// At a distance from the pixel's centre, in pixels. Not normalised.
+/// The weight of a filter at a distance from the pixel's centre, in pixels. It is not normalised.
 double value_at(PixelFilter filter, double distance_px) {
     const double x = std::abs(distance_px);
     if (x >= FilterTable::kReach) return 0;
@@ -42,7 +42,7 @@ FilterTable::FilterTable(PixelFilter filter) {
             std::array<double, kSide> sum{};
             for (std::size_t bit = 0; bit < 8; ++bit) {
                 if ((value >> bit & 1) == 0) continue;
-                // Without stroke_row_shift(): half a column at most, to either side in turns.
+                // stroke_row_shift() is left out: it is half a column at most, to either side in turns.
                 const auto w = weights_at(filter, (static_cast<double>(8 * byte + bit) + 0.5) / StrokeMask::kColumns);
                 for (std::size_t d = 0; d < kSide; ++d) sum[d] += w[d] / StrokeMask::kColumns;
             }

@@ -9,7 +9,7 @@
 
 namespace burin {
 
-/// Spreads the samples of stroke masks over the pixels around them. Every sample gives away its whole
+/// FilterTable spreads the samples of stroke masks over the pixels around them. Every sample gives away its whole
 /// weight, wherever it lies: no filter changes the sum over the picture.
 class FilterTable {
   public:
@@ -18,7 +18,7 @@ class FilterTable {
     /// What a mask gives to the pixels around it: [2 + dy][2 + dx].
     using Shares = std::array<std::array<float, kSide>, kSide>;
 
-    /// nullptr for the box, which needs none.
+    /// Makes the table of a filter; nullptr for the box, which needs none.
     static std::unique_ptr<const FilterTable> make(PixelFilter filter);
 
     Shares shares_of(const StrokeMask& mask) const;

@@ -17,7 +17,7 @@ constexpr int kTilePx = HiddenStrokes::kTilePx;
 
 }  // namespace
 
-/// The segments whose strokes reach each tile, in the order of the lists.
+/// Bins sort pieces to the tiles that their strokes reach, in the order of the lists.
 class StrokePrinter::Bins {
   public:
     Bins(const Lists& segments, PixelRect region, double reach_px)
@@ -54,7 +54,7 @@ class StrokePrinter::Bins {
     }
 
   private:
-    /// A segment and the columns and rows of tiles that its stroke may reach, the last ones included.
+    /// A piece and the columns and rows of tiles that its stroke may reach, the last ones included.
     struct Place {
         const LinePiece* segment;
         int x0, y0, x1, y1;
@@ -67,7 +67,7 @@ class StrokePrinter::Bins {
             return Range{(std::min(from, to) - reach - origin) / double(kTilePx),
                          (std::max(from, to) + reach - origin) / double(kTilePx)};
         };
-        // Most of those that reach no tile lie above or below all of them.
+        // Most pieces that reach no tile lie above or below all of them.
         const Range y = range(s.from.y, s.to.y, region_.y0);
         if (!(y.high >= 0 && y.low < rows_)) return std::nullopt;
         const Range x = range(s.from.x, s.to.x, region_.x0);
@@ -94,7 +94,7 @@ namespace {
 /// Lines of one pixel before filters' negative lobes are cut off.
 using Coverages = std::array<float, kLineClassCount>;
 
-/// Coverages within 0..1 that add up to the sum of those given, where that is possible.
+/// Brings coverages within 0..1, so that their sum stays, where that is possible.
 void clamp(Coverages& coverages) {
     float sum = 0, positive = 0;
     for (float& c : coverages) {
@@ -108,19 +108,19 @@ void clamp(Coverages& coverages) {
 
 }  // namespace
 
-/// Puts the strokes of one tile after the other over a film.
+/// Printer puts the strokes of one tile after the other over a film.
 class StrokePrinter::Printer {
   public:
     Printer(const Frame& frame, const TileKernels& kernels)
         : style_(frame.scene->lines.style), kernels_(kernels), strokes_(frame, kernels) {}
 
-    /// What print() draws and what is asked for strokes(): tile by tile.
+    /// Draws a tile's strokes into masks, for print() and for whoever asks for strokes().
     void draw(std::span<const LinePiece* const> segments, PixelRect rect, int reach) {
         strokes_.draw(segments, {rect.x0 - reach, rect.y0 - reach, rect.x1 + reach, rect.y1 + reach});
     }
     const VisibleStrokes& strokes() const { return strokes_; }
 
-    /// Each pixel sees its own square.
+    /// Draws the tile on the film where each pixel sees its own square.
     void print(PixelRect rect, Film& film) {
         touched_.clear();
         strokes_.for_touched([&](int column, int row) {
@@ -148,7 +148,7 @@ class StrokePrinter::Printer {
         }
     }
 
-    /// Each pixel sees what the filter's weights make of its surroundings.
+    /// Draws the tile on the film where each pixel sees what the filter's weights make of its surroundings.
     void print(PixelRect rect, const FilterTable& filter, Film& film) {
         filtered_.assign(static_cast<std::size_t>(rect.width() * rect.height()), Coverages{});
         strokes_.for_touched([&](int column, int row) {
@@ -186,7 +186,7 @@ class StrokePrinter::Printer {
         pixel.coverage[static_cast<std::size_t>(c)] += opacity * strokes_.pen().strength * static_cast<float>(samples) /
                                                        (StrokeMask::kRows * StrokeMask::kColumns);
     }
-    /// Of a class alone, by how many samples of the pixel it covers.
+    /// The inks of a pixel that has one class alone, by how many of its samples it covers.
     const LineInk* ink_of(LineClass c) {
         std::vector<LineInk>& inks = inks_[static_cast<std::size_t>(c)];
         for (int samples = static_cast<int>(inks.size()); samples <= StrokeMask::kRows * StrokeMask::kColumns;
@@ -198,7 +198,7 @@ class StrokePrinter::Printer {
         }
         return inks.data();
     }
-    /// `present`: no other classes have any.
+    /// Sets the colour from the coverages. `present`: no other classes have any coverage.
     void color(LinePixel& pixel, LineClassSet present) const {
         for (unsigned bits = present.bits; bits != 0; bits &= bits - 1) {
             const auto c = static_cast<std::size_t>(std::countr_zero(bits));

@@ -13,7 +13,7 @@
 
 namespace burin {
 
-/// Draws pieces of visible lines as strokes over a film, and those of lines behind surfaces with them.
+/// StrokePrinter draws pieces of visible lines as strokes over a film, and those of lines behind surfaces with them.
 class StrokePrinter {
   public:
     using Lists = LineDrawing::Lists;

@@ -11,7 +11,7 @@
 namespace burin {
 namespace {
 
-/// Bands that one thread draws before it goes on with tiles, at most; and that all threads draw together.
+/// The most bands that one thread draws before it goes on with tiles, and that all threads draw together.
 constexpr int kMostBandsOfOne = 8, kMostBandsOfAll = 1 << 20;
 
 }  // namespace

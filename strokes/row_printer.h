@@ -9,11 +9,11 @@
 
 namespace burin {
 
-/// Draws the lines of a drawing over a film, rows from the top: as soon as all lines that reach rows are found these
-/// get their strokes, and finished bands of the film are handed on.
+/// RowPrinter draws the lines of a drawing over a film, rows from the top: as soon as all lines that reach some rows
+/// are found these get their strokes, and finished bands of the film are handed on.
 class RowPrinter : public RowSink {
   public:
-    /// In place of a row: all lines are found.
+    /// Stands in place of a row where all lines are found.
     static constexpr int kAllRows = 1 << 30;
 
     /// All that is given must outlive it. `film`: has the surfaces of the rows that are drawn.

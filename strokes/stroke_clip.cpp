@@ -18,7 +18,7 @@ void for_pixels(int begin, int end, const Visit& visit) {
     }
 }
 
-/// Conventions: a farther surface.
+/// How much nearer a surface is than a farther one, in pixels' widths (docs/conventions.md).
 constexpr double kFartherPx = 2;
 /// Lines that end at a boundary may end a little beyond it.
 constexpr double kOvershootPx = 0.25;
@@ -44,7 +44,7 @@ double distance_to_piece(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
 
 }  // namespace
 
-/// Coordinates along a piece (x) and to its left as y runs down (y).
+/// Frame has coordinates along a piece (x) and to its left as y runs down (y).
 class StrokeClipper::Frame {
   public:
     explicit Frame(const ClipPiece& piece) : origin_(piece.from), length(glm::distance(piece.from, piece.to)) {
@@ -92,7 +92,7 @@ void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& vis
         for_spans_of(sides, kStrokeColumnShifts[static_cast<std::size_t>(set)], columns_of_set(set), visit);
 }
 
-/// Of some columns, with samples so many rows further down.
+/// Visits the spans of some columns whose samples lie `down` rows further down.
 template <typename Visit>
 void StrokeClipper::for_spans_of(std::span<const HalfPlane> sides, double down, std::uint32_t columns,
                                  const Visit& visit) const {
@@ -161,7 +161,7 @@ void StrokeClipper::add_shadows(const ClipPiece& boundary, const ClipPiece& piec
                                 StrokeSide side) {
     const glm::dvec2 p = frame.to_local(boundary.from), q = frame.to_local(boundary.to), along = q - p;
     if (glm::dot(along, along) == 0) return;
-    // Where the boundary's front is.
+    // The surface in front lies on this side of the boundary.
     glm::dvec2 front(-along.y, along.x);
     if (!boundary.front_on_left) front = -front;
     const double length = frame.length;
@@ -292,7 +292,7 @@ bool StrokeClipper::is_between(const ClipPiece& boundary, const Frame& frame) co
     return b_low.x <= last.x && b_low.y <= last.y && b_high.x >= first.x && b_high.y >= first.y;
 }
 
-/// Adds the shadows of the boundaries that are so many cells away.
+/// Adds the shadows of the boundaries that are `ring` cells away.
 void StrokeClipper::find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px,
                                  StrokeSide side) {
     cells_.for_ring(cells_.cells_of({piece.from, piece.to}), ring, [&](std::uint32_t i) {
@@ -321,7 +321,8 @@ bool StrokeClipper::pass_boundaries(const ClipPiece& piece, const Frame& frame, 
     std::size_t passed = 0;
     for (int ring = 0;; ++ring) {
         if (ring > 0 || !cells_.is_one()) find_shadows(ring, piece, frame, radius_px, side);
-        // Those that are not found yet are not nearer than this. A way may begin a little before the end of the piece.
+        // Shadows that are not found yet are not nearer than this. A way may begin a little before the end of the
+        // piece.
         const double known_px = BoundaryCells::distance_px(ring) - 2 * kOvershootPx;
         const bool is_last = known_px > radius_px || cells_.is_beyond(middle, ring + 1);
         std::sort(shadows_.begin() + static_cast<std::ptrdiff_t>(passed), shadows_.end(), is_nearer);
@@ -362,7 +363,7 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     canvas_.reset(x0_, y0_, width_, height_);
     canvas_.draw(piece.from, piece.to, radius_px);
     if (!cut_to(pixels_to_add(onto, false))) return;
-    // All that cuts a stroke is sampled as it is itself: what else lies around it hangs on the crop.
+    // All that cuts a stroke is sampled as it is itself: what else lies around it depends on the crop.
     in_sets_ = is_level(piece.to.x - piece.from.x, piece.to.y - piece.from.y);
     const StrokeCanvas::Box box = pixels();
     for (int y = box.y0; y < box.y1; ++y) {

@@ -20,7 +20,7 @@ struct ClipPiece {
     bool front_on_left = false;                 ///< of the way, as seen on the screen: where that surface is
 };
 
-/// Draws strokes on one side of a line only, and cuts off what would lie over nearer surfaces.
+/// StrokeClipper draws strokes on one side of a line only, and cuts off what would lie over nearer surfaces.
 ///
 /// A place belongs to a stroke if the straight way to it, from the nearest point of the line, does not
 /// lead onto a surface in front of the line. Boundaries on the way are passed one after the other, as in
@@ -31,7 +31,7 @@ class StrokeClipper {
   public:
     explicit StrokeClipper(const TileKernels& kernels = best_kernels()) : canvas_(kernels) {}
     void reset(int x0, int y0, int width, int height);
-    /// What may hide strokes from now on, in the rectangle of the last reset(). They must stay.
+    /// Sets what may hide strokes from now on, in the rectangle of the last reset(). The boundaries must outlive that.
     void set_boundaries(std::span<const ClipPiece* const> boundaries);
 
     /// Adds the stroke along `piece` to a canvas of the same rectangle. Boundaries that are farther away than

@@ -22,8 +22,8 @@ struct StrokeMask {
     std::array<std::uint32_t, kRows> rows{};
 };
 
-/// Coverage masks of a rectangle of pixels, into which strokes are drawn. Pieces that overlap or meet
-/// count once, so pieces of a line need no joins.
+/// StrokeCanvas has the coverage masks of a rectangle of pixels, into which strokes are drawn. Pieces that overlap or
+/// meet count once, so pieces of a line need no joins.
 class StrokeCanvas {
   public:
     explicit StrokeCanvas(const TileKernels& kernels = best_kernels()) : kernels_(&kernels) {}
@@ -54,9 +54,10 @@ class StrokeCanvas {
     int height() const { return height_; }
     const StrokeMask& at(int column, int row) const { return masks_[index(column, row)]; }
     bool is_touched(int column, int row) const { return touched_[index(column, row)] != 0; }
-    /// Whether eight pixels from a multiple of eight on are touched, those beyond the canvas not: a byte each, 0 or 1.
+    /// Tells of eight pixels, from a multiple of eight on, which are touched: a byte each, 0 or 1. Pixels beyond the
+    /// canvas are not.
     std::uint64_t eight_touched(int column, int row) const { return eight_bytes(&touched_[index(column, row)]); }
-    /// The first byte in the lowest bits.
+    /// Eight bytes as one number, the first byte in the lowest bits.
     static std::uint64_t eight_bytes(const std::uint8_t* first) {
         static_assert(std::endian::native == std::endian::little);
         std::uint64_t bytes;
@@ -71,7 +72,7 @@ class StrokeCanvas {
                 visit_touched(eight_touched(column, row), column, row, visit);
         }
     }
-    /// The same for those of eight pixels.
+    /// Calls visit(column, row) for the pixels that are touched among the eight that eight_touched() told of.
     template <typename Visit>
     static void visit_touched(std::uint64_t eight, int column, int row, const Visit& visit) {
         for (; eight != 0; eight &= eight - 1) visit(column + std::countr_zero(eight) / 8, row);
@@ -80,7 +81,7 @@ class StrokeCanvas {
     Box box_around(const glm::dvec2& from, const glm::dvec2& to, double radius_px) const;
     /// The smallest box around the pixels of a box to which something can be added.
     Box open_part(Box box);
-    /// Whether nothing can be added any more.
+    /// Whether nothing can be added to a pixel any more.
     bool is_full(int column, int row) const {
         if (!is_touched(column, row)) return false;
         std::uint32_t all = ~0u;

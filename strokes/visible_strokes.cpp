@@ -52,8 +52,8 @@ void VisibleStrokes::draw(std::span<const LinePiece* const> segments, PixelRect 
     });
 }
 
-/// The stroke of a boundary that is drawn covers what other strokes cover of the surface in front, unless
-/// their class comes first.
+/// Whether strokes would lie over surfaces in front. They do not where the boundary of such a surface is drawn, too:
+/// its stroke covers what others cover of the surface, unless their class comes first.
 bool VisibleStrokes::needs_clipping(std::span<const LinePiece* const> segments) const {
     if (side_ != StrokeSide::both) return true;
     bool has_faded = false, has_undrawn = false;
@@ -82,8 +82,8 @@ void VisibleStrokes::draw_clipped(std::span<const LinePiece* const> segments) {
             if (!segments[i]->is_drawn || segments[i]->opacity < 255 || segments[i]->drawn_as != c) continue;
             strokes.push_back({is_wide ? distance_to(middle, pieces_[i]) : 0, i});
         }
-        // In any order they make the same masks. Of wide ones, the nearest fill the tile, and then nothing is left of
-        // the others.
+        // Strokes make the same masks in any order. The nearest ones come first: where they are wide they fill the
+        // tile, and nothing is left to do for the others.
         if (is_wide) std::sort(strokes.begin(), strokes.end());
         for (std::size_t k = 0; k < strokes.size(); ++k) {
             if (is_wide && k % kLookEvery == 0 && canvas_of(c).open_part(all).is_empty()) break;
@@ -97,7 +97,7 @@ void VisibleStrokes::draw_clipped(std::span<const LinePiece* const> segments) {
     });
 }
 
-/// What hides strokes of a class.
+/// Finds the boundaries that hide strokes of a class.
 void VisibleStrokes::find_boundaries(std::span<const LinePiece* const> segments, LineClass line_class) {
     boundaries_.clear();
     for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -109,7 +109,7 @@ void VisibleStrokes::find_boundaries(std::span<const LinePiece* const> segments,
     clipper_.set_boundaries(boundaries_);
 }
 
-/// In pixels' widths at that distance: a difference of 1 is a pixel's width.
+/// The depth of a place in pixels' widths: a difference of 1 is a pixel's width at that distance.
 double VisibleStrokes::depth_px(float nearness) const {
     return projection_.focal_px *
            (projection_.orthographic ? -static_cast<double>(nearness) : -std::log(static_cast<double>(nearness)));

@@ -14,13 +14,13 @@
 
 namespace burin {
 
-/// The strokes of visible lines in one tile after the other, as masks, class by class; buffers are used
-/// again.
+/// VisibleStrokes draws the strokes of visible lines in one tile after the other into masks, class by class. Buffers
+/// are used again.
 class VisibleStrokes {
   public:
     explicit VisibleStrokes(const Frame& frame, const TileKernels& kernels = best_kernels());
 
-    /// `segments`: all that come within the pen's radius of the rectangle, drawn or not.
+    /// Draws the masks of a rectangle. `segments`: all pieces within the pen's radius of it, drawn or not.
     void draw(std::span<const LinePiece* const> segments, PixelRect rect);
 
     const Pen& pen() const { return pen_; }

@@ -16,8 +16,8 @@ inline void prefetch(const WholeLine& line) {
 }
 
 /// Parts of whole lines that surfaces are in front of become pieces, as far as a look needs them. Those that look alike
-/// and follow each other are one piece, unless a look tells one invisibility from another. `farthest_nearness`: what the
-/// lines' nearness counts from.
+/// and follow each other are one piece, unless a look tells one invisibility from another. `farthest_nearness`: what
+/// the lines' nearness counts from.
 std::vector<LinePiece> pieces_behind(std::span<const WholeLine> lines, std::span<const LinePart> parts,
                                      const DrawingNeeds& needs, double farthest_nearness);
 

@@ -352,7 +352,7 @@ TEST(Abuffer, AFlatFanHasNoContours) {
     }
 }
 
-/// A profile drawn out along x, in so many pieces.
+/// A profile drawn out along x, in some pieces.
 PolygonSoup drawn_out(const std::vector<glm::dvec2>& profile, double half_length, std::uint32_t pieces) {
     PolygonSoup soup;
     const auto rows = static_cast<std::uint32_t>(profile.size());
@@ -412,7 +412,7 @@ TEST(Abuffer, RodsOfManyFacetsAreAsThickAsTheyAre) {
     }
 }
 
-/// Whether a triangle is thin hangs on where it is seen best, not on its first corner.
+/// Whether a triangle is thin depends on where it is seen best, not on its first corner.
 TEST(Abuffer, ALongStepIsDrawnLikeOneInPieces) {
     constexpr double kLength = 266;
     const std::vector<glm::dvec2> step = {{0, -kLength}, {0, 0}, {0.03, 0}, {0.03, kLength}};

@@ -365,7 +365,7 @@ TEST(GrazingFloor, HasNoFalseLines) {
 }
 
 TEST(CoincidentFaces, DoNotFight) {
-    // The same rectangle twice in different objects, in the same place, tessellated differently.
+    // Two objects are the same rectangle in the same place, tessellated differently.
     PolygonSoup one = rectangle(20.2, 20.2, 80.2, 80.2, 0);
     PolygonSoup other = soup_of({{20.2, 20.2, 0}, {80.2, 20.2, 0}, {80.2, 80.2, 0}, {20.2, 80.2, 0}, {47, 53, 0}},
                                 {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});

@@ -222,7 +222,7 @@ TEST(FineLines, OfFlushFacesTheFirstIsSeen) {
 }
 
 // A folded quad, and its two triangles once more as objects of their own, each of which ends along the fold.
-// Of what meets at an edge the ones in front count, be a corner of the others welded to it or not.
+// What is in front counts where several meet at an edge, be a corner of the others welded to it or not.
 TEST(FineLines, AFinThatTouchesFromBehindIsNotSeen) {
     const Camera camera = perspective_camera({1.5, 0.9, 3}, {0.5, 0, 0});
     const auto sheet_with_fin_at = [](double z) {

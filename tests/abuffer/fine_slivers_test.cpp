@@ -34,7 +34,7 @@ TEST(FineSlivers, AContourEndsWhereItsFoldDoes) {
     EXPECT_NEAR(ink_beyond(render_abuffer), 0, 0.1);
 }
 
-// As isosurfaces have where they pass by a corner of their grid. Rounding turns some of the triangles over.
+// Isosurfaces have such triangles where they pass by a corner of their grid. Rounding turns some of the triangles over.
 TEST(FineSlivers, TrianglesSmallerThanTheGridOfCornersHaveNoContours) {
     constexpr double kRadius_px = 12;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {

@@ -95,7 +95,7 @@ Drawing drawn(const PolygonSoup& soup, const Camera& camera, RenderFunction rend
     return Drawing(scene, camera, kPx, kPx, {0, 0, kPx, kPx}, 2, render);
 }
 
-/// Each side in so many rows and columns.
+/// Cuts each side into `parts` rows and columns.
 PolygonSoup cut(const PolygonSoup& sides, int parts) {
     PolygonSoup soup;
     for (std::size_t i = 0; i < sides.polygon_count(); ++i) {
@@ -163,7 +163,7 @@ TEST(FlushFaces, SolidsInOneAnotherLookLikeTheirUnion) {
     }
 }
 
-// As in technical drawings: walls are seen exactly edge-on, also those that are buried.
+// In technical drawings walls are seen exactly edge-on, also those that are buried.
 TEST(FlushFaces, InViewsAlongAxes) {
     const glm::dvec3 directions[] = {{0, 3, 4}, {4, 0, 3}, {-3, 4, 0}, {0, 0, 1}, {0.6, 0, -0.8}, {1, 1, 1}};
     for (int seed = 0; seed < 12; ++seed) {
@@ -327,7 +327,7 @@ TEST(FlushFaces, AWallWithItsFootInAFloor) {
             const PolygonSoup bracket =
                 soup_of({{1, 0, 3 + foot}, {5, 0, 3 + foot}, {5, 0, 3}, {1, 0, 3}, {5, height, 3}, {1, height, 3}},
                         {{0, 1, 2, 3}, {3, 2, 4, 5}});
-            // The same wall on its own.
+            // The wall stands here without its foot.
             const PolygonSoup wall = soup_of({{1, 0, 3}, {5, 0, 3}, {5, height, 3}, {1, height, 3}}, {{0, 1, 2, 3}});
             const auto hidden_px = [&](const PolygonSoup& standing) {
                 Scene scene = scene_of({test::joined({floor, standing}), curtain(camera)});

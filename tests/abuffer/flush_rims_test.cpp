@@ -24,7 +24,7 @@ glm::dvec3 on_circle(double turns, double y) {
     return {kRadius * std::cos(6.283185307179586 * turns), y, kRadius * std::sin(6.283185307179586 * turns)};
 }
 
-/// With a hole of so many sides.
+/// A plate with a hole of `sides` sides.
 PolygonSoup plate(int sides) {
     PolygonSoup soup;
     for (int i = 0; i < sides; ++i) {

@@ -89,7 +89,7 @@ TEST(HiddenContacts, WhatStandsOnTheOtherSideOfAFloor) {
     constexpr double kCrossings = 12;
     const PolygonSoup roof =
         soup_of({{-500, -500, 300}, {900, -500, 300}, {900, 900, 300}, {-500, 900, 300}}, {{0, 1, 2, 3}});
-    // Of a wall of its own the foot is a line between objects, which is not asked for here.
+    // The foot of a wall of its own is a line between objects, which is not asked for here.
     const auto expected = [&](bool is_one_mesh) {
         std::vector<PolygonSoup> objects{floor({20, 220}), box, wall};
         if (is_one_mesh) objects = {joined(objects)};
@@ -237,8 +237,8 @@ TEST(HiddenContacts, BordersThatEndOnASurfaceAreNone) {
     }
 }
 
-// The same for a sheet in front of another one by less than two pixels, whatever else there is behind them; but a sheet
-// behind a larger one has its border.
+// A sheet in front of another one by less than two pixels has no border either, whatever else there is behind them; but
+// a sheet behind a larger one has its border.
 TEST(HiddenContacts, ASheetCloselyInFrontOfAnotherHasNoBorder) {
     const auto square = [](double low, double high, double z) {
         return soup_of({{low, low, z}, {high, low, z}, {high, high, z}, {low, high, z}}, {{0, 1, 2, 3}});

@@ -146,7 +146,7 @@ TEST(HiddenLines, ACubeInACube) {
         const Layers layers(scene, camera);
         ASSERT_EQ(layers.pass.lines().size(), 24u);
         // Behind the outer faces: nine edges of the inner cube; behind its own, too: the other three.
-        // Of the outer cube's three, parts are behind its faces and parts behind the inner cube's two walls.
+        // The outer cube's three are in part behind its faces and in part behind the inner cube's two walls.
         std::map<std::uint32_t, std::map<int, double>> of_line;
         for (const LinePart& p : layers.pass.parts()) {
             of_line[p.line][p.invisibility] += p.end - p.begin;

@@ -55,7 +55,7 @@ PolygonSoup body(const Outline& outline, double z = 0) {
     return soup;
 }
 
-/// Its front, at z = 0, in so many rows and columns.
+/// A plate whose front, at z = 0, is cut into `parts` rows and columns.
 PolygonSoup plate(int parts) {
     const glm::dvec3 low(-0.2, -0.2, -0.3), high(1.4, 1.2, 0);
     const PolygonSoup whole = moved(make_box(high - low), 0.5 * (low + high));

@@ -102,7 +102,7 @@ std::uint64_t least_memory(const Scene& scene, int threads, PixelRect crop = {0,
     return named_memory([&] { draw(scene, options, crop); });
 }
 
-/// Of surfaces; and of layers, if there are any.
+/// How many slices a picture has for visible surfaces, and for all surfaces where hidden ones count.
 std::array<std::size_t, 2> count_pieces(const Scene& scene, std::uint64_t cap_bytes, int threads) {
     const Frame frame = frame_of(scene, {0, 0, kWidth, kHeight});
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), threads, false);
@@ -179,7 +179,7 @@ TEST(Memory, TheFullestTileCountsForEveryThread) {
     EXPECT_GT(mb_per_thread(400, HiddenStyle::solid) - plain, 3 * some) << "four times as many triangles in a tile";
 }
 
-/// As found and as sorted, and not half of it for borders, which have one side only.
+/// Lists are counted as found and as sorted. Borders, which have one side only, do not count half.
 TEST(Memory, ListsOfEdgesAreCountedFromAbove) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         Random random(seed);

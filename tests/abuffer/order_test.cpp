@@ -191,8 +191,8 @@ TEST(Order, OfAnEdgesEndsIsOneForAll) {
     }
 }
 
-// Borders of two patches, hidden by a third one's: rounding must not hang on which of an edge's vertices has the
-// smaller number.
+// Borders of two patches, hidden by a third one's: rounding must not depend on which of an edge's vertices
+// has the smaller number.
 TEST(Order, OfHiddenBorders) {
     const PolygonSoup patches = soup_of({{1.321973204612732, 1.1658313274383545, 1.6500877141952515},
                                          {1.6924697160720825, 0.9115604162216187, 1.4119840860366821},

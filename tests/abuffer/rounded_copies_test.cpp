@@ -156,7 +156,8 @@ TEST(RoundedCopies, AmongHiddenLines) {
     }
 }
 
-/// Two sheets, in so many rows and columns, that cross at an angle along a line through the middle of the picture.
+/// One of two sheets, in `parts` rows and columns, that cross at an angle along a line through the middle of the
+/// picture.
 PolygonSoup crossing_sheet(double slope, int parts) {
     PolygonSoup sheet;
     for (int j = 0; j <= parts; ++j) {

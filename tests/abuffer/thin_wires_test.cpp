@@ -65,8 +65,7 @@ Wire random_wire(Random& random) {
     return wire;
 }
 
-/// Of the way from end to end on the screen, what has a line, and how much of one there is for each
-/// pixel of it.
+/// Which share of the way from end to end on the screen has a line, and how much of one there is for each pixel of it.
 struct Found {
     double share, strength;
 };

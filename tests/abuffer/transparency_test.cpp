@@ -37,7 +37,7 @@ TEST(Transparency, LinesBehindGlassAreWeakened) {
     EXPECT_NEAR(across(glass, 200), 0, 0.001) << "nothing is behind the pane there";
 }
 
-// Dashes hang on the mesh, in front of the picture's border and behind glass.
+// Dashes depend on the mesh, in front of the picture's border and behind glass.
 TEST(Transparency, DashesRunOnBehindGlass) {
     PolygonSoup fold;  // a crease in waves, from far beside the picture
     constexpr std::uint32_t kPoints = 60;
@@ -101,8 +101,8 @@ TEST(Transparency, SurfacesAreCompositedInOrder) {
     EXPECT_EQ(value(all_glass, "id.object", 120, 120), 3) << "numbers are those of the nearest surface";
 }
 
-// Of faces in one plane the first is seen (decision 9), also if it is of glass: rounding does not tell at each sample
-// anew.
+// The first of the faces in one plane is seen (decision 9), also if it is of glass: rounding does not tell at each
+// sample anew.
 TEST(Transparency, GlassFlushWithASolidHasOneColour) {
     const PolygonSoup inlay = transformed(make_box({1.4, 0.1, 1.4}), [](glm::dvec3 p) {
         return glm::dvec3(std::cos(0.35) * p.x - std::sin(0.35) * p.z, p.y + 0.05,

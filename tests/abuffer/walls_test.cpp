@@ -69,7 +69,7 @@ TEST(Wall, PassesTheEdgeOnPositionOnce) {
     }
 }
 
-// As a fillet ends on a boss: no edge is sharp, and the wall has several rows of triangles.
+// A fillet ends on a boss like that: no edge is sharp, and the wall has several rows of triangles.
 TEST(Wall, OfASmoothBossIsAnOutline) {
     constexpr int kSides = 48;
     std::vector<glm::dvec3> positions;

@@ -176,7 +176,7 @@ TEST(AtomicFile, WhatDeadProcessesLeftIsRemoved) {
                                        ".o.burin--1-0.exr"};
     for (const std::string& name : stale) folder.write(name, "x");
     for (const std::string& name : others) folder.write(name, "x");
-    // Of a process on another machine that shares the folder.
+    // A process on another machine, which shares the folder, has left this one.
     const std::string locked = ".o.burin-" + dead + "-5.exr";
     const int fd = ::open(folder.write(locked, "x").c_str(), O_RDONLY | O_CLOEXEC);
     ASSERT_EQ(::flock(fd, LOCK_EX), 0);

@@ -30,7 +30,7 @@ bool becomes_true(const Condition& condition) {
     return true;
 }
 
-/// Has so many workers wait for each other, and returns which threads they are.
+/// Has the workers wait for each other, and returns which threads they are.
 std::set<std::thread::id> meet(int workers) {
     std::set<std::thread::id> threads;
     std::mutex noting;

@@ -66,7 +66,8 @@ TEST(LibraryDrawing, ColumnsTellTheLinesOfACube) {
     scene.add_object(mesh, "cube");
     scene.set("lines.hidden.style=solid");
     scene.set("lines.draw=all");
-    const Drawing drawing = scene.find_lines({.width = 300, .height = 200, .camera_to_world = {1, 0, 0, 0.4, 0, 1, 0, 0.6, 0, 0, 1, 4, 0, 0, 0, 1}});
+    const Drawing drawing = scene.find_lines(
+        {.width = 300, .height = 200, .camera_to_world = {1, 0, 0, 0.4, 0, 1, 0, 0.6, 0, 0, 1, 4, 0, 0, 0, 1}});
     const std::size_t count = drawing.piece_count();
     const auto x0 = drawing.column<double>("x0"), y0 = drawing.column<double>("y0");
     const auto x1 = drawing.column<double>("x1"), y1 = drawing.column<double>("y1");

@@ -30,7 +30,7 @@ class Usage : public testing::Test {
         EXPECT_NE(result.err.find(words), std::string::npos) << all << "\n" << result.err;
         EXPECT_EQ(folder_.names(), (std::vector<std::string>{"cube.obj", "scene.toml"})) << all;
     }
-    /// The same for options of render.
+    /// Expects that render refuses these options.
     void expect_bad_options(const Arguments& options, const std::string& words) const {
         Arguments arguments = {"render", "cube.obj", "-o", "out.exr"};
         arguments.insert(arguments.end(), options.begin(), options.end());

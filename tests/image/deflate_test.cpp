@@ -150,7 +150,7 @@ TEST(Deflate, NoiseIsStored) {
     }
 }
 
-/// As planes of a picture with grey lines are. The search is coarse by then and misses some; most must be met.
+/// Planes of a picture with grey lines are like that. The search is coarse by then and misses some; most must be met.
 TEST(Deflate, CopiesOfNoiseAreFound) {
     Deflater deflater;
     std::size_t packed = 0, all = 0;

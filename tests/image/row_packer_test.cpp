@@ -14,7 +14,7 @@ namespace {
 using test::Random;
 using Bytes = std::vector<std::uint8_t>;
 
-/// As OpenEXR does it: sort, then go over all bytes.
+/// Sorts, then goes over all bytes, as OpenEXR does.
 Bytes sorted_differences(const Bytes& raw) {
     Bytes bytes;
     for (const std::size_t odd : {0, 1}) {

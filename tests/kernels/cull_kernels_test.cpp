@@ -79,7 +79,7 @@ TEST(CullKernels, CullingLosesNoSample) {
     }
 }
 
-// What is level with what is noted in the order of a tile's list, so pictures hang on it.
+// What is level with what is noted in the order of a tile's list, so pictures depend on it.
 TEST(CullKernels, CullingListsInOneOrder) {
     constexpr int kShift = 5, kTiles = 4, kSize = kTiles << kShift, kPerPixel = 2;
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -118,7 +118,7 @@ TEST(CullKernels, TrianglesOfSeveralTilesAreListedForEach) {
             const Culled culled(*kernels, triangles, grid);
             std::vector<int> times(triangles.count());
             for (int tile = 0; tile < kTiles * kTiles; ++tile) {
-                // The same tile as a whole picture, which has only what may touch it.
+                // As a picture of its own, the tile has only what may touch it.
                 TileGrid own = grid;
                 own.first_column = tile % kTiles * kSize;
                 own.first_row = tile / kTiles * kSize;

@@ -44,7 +44,7 @@ TEST(FillKernels, CoveredSamplesAreCounted) {
     }
 }
 
-// As PixelFiller once did it, pixel by pixel.
+// The distance that a pixel shows, from its ray and the plane of the triangle alone.
 double distance_along_ray(const Projection& projection, const TriangleLook& look, glm::dvec2 pixel) {
     glm::dvec3 origin, ray;
     projection.view_ray(pixel, origin, ray);
@@ -148,7 +148,7 @@ TEST(FillKernels, NormalsOfTrianglesAreUnitVectors) {
     EXPECT_GT(thin, 1000u);
 }
 
-/// Of triangles of all sizes and proportions, alike for all kernels.
+/// Triangles have all sizes and proportions, and all kernels find the same.
 TEST(FillKernels, RoughNormalsAreNearlyNormals) {
     std::size_t slivers = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {

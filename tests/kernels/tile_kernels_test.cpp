@@ -70,7 +70,7 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
     EXPECT_GT(left_out, 0u);
 }
 
-/// Of polygons of all sizes, with corners on samples and rows, through tiles near and far from the origin.
+/// Polygons have all sizes, corners on samples and rows, and lie in tiles near and far from the origin.
 TEST(TileKernels, PolygonsAreDrawnRowByRow) {
     int fitting = 0, drawn = 0;
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {

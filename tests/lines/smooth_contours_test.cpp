@@ -78,7 +78,7 @@ TEST(CornerNormals, AreOnOneSideHoweverTrianglesAreWound) {
     }
 }
 
-/// A strip around an axis that turns by so many half turns on its way.
+/// A strip around an axis that turns by some half turns on its way.
 PolygonSoup twisted_strip(std::uint32_t steps, int half_turns) {
     PolygonSoup soup;
     soup.object_names = {"strip"};

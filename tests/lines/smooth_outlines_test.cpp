@@ -97,7 +97,7 @@ class Flood {
         }
     }
     bool is_reached(int x, int y) const { return is_reached_[static_cast<std::size_t>(y * kSize + x)]; }
-    /// Of the pixels of a surface.
+    /// The share of a surface's pixels that are reached.
     double share_of_figure() const {
         double all = 0, reached = 0;
         for (int y = 0; y < kSize; ++y) {

@@ -155,7 +155,7 @@ TEST(BorderCrowd, NearOnesAreAllThatMayBePartnersAnywhere) {
         for (std::size_t i = 0; i < segments.size(); i += 5) {
             const Segment& own = segments[i];
             const std::size_t most = seed % 2 == 0 ? BorderIndex::kMostNear : 40;
-            // Those within its reach somewhere, by sampling: a few at the limit are missing.
+            // Counts the borders within its reach somewhere, by sampling: a few at the limit are missing.
             std::size_t least = 0;
             const glm::dvec3 along = glm::dvec3(own.b) - glm::dvec3(own.a);
             const double reach = index.reach_part() * glm::length(along);

@@ -28,7 +28,7 @@ TEST(LinkEdges, AgreesWithAMapOnRandomTriangles) {
     }
 }
 
-/// Of any number of triangles, for they are linked some at a time.
+/// Meshes have any number of triangles here, for they are linked some at a time.
 TEST(LinkEdges, TellsTwins) {
     int without = 0, with = 0;
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {

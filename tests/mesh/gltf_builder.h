@@ -37,7 +37,7 @@ struct GltfParts {
     std::string binary = square_positions() + square_indices();
 
     std::string json() const;
-    /// The same with the buffer in the binary chunk.
+    /// The file as a GLB, with the buffer in the binary chunk.
     std::string as_glb() const;
 };
 

@@ -227,7 +227,7 @@ TEST_F(CompressedGltf, TheOctahedralFilterGivesUnitVectors) {
 }
 
 TEST_F(CompressedGltf, TheQuaternionFilterGivesUnitQuaternions) {
-    // As the rotations of instances: three small numbers, and which the largest one is.
+    // Rotations of instances are stored like that: three small numbers, and which the largest one is.
     const auto rotation = [](std::array<double, 4> q, int largest, int bits) {
         const double one = (1 << (bits - 1)) - 1;
         const auto code = [&](int k) {

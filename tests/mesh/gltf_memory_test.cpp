@@ -89,7 +89,7 @@ TEST_F(GltfMemory, AnAccessorThatIsUsedAgainAndAgainIsRefusedBeforeItIsExpanded)
         gltf_of(many_indices(), repeated(R"({"attributes": {"POSITION": 0}, "indices": 1, "material": #})", 20000));
     parts.materials = "[" + repeated("{}", 20000) + "]";
     EXPECT_TRUE(refuses(parts, {"what it makes of its accessors", " GB", "--memory-model"}));
-    // The same by accessors that differ in where they begin.
+    // Accessors that differ in where they begin ask for as much.
     GltfAccessors a = many_indices();
     for (int i = 0; i < 20000; ++i)
         a.add_object("{\"bufferView\": 1, \"byteOffset\": " + std::to_string(3 * (i % 1000)) +

@@ -230,7 +230,7 @@ TEST(StitchCracks, ThinStripsAndSlatsStay) {
         const glm::dvec3 at(0, i, 0), slat(0, 0.7 * i, 0);
         hairs.push_back({at, at + glm::dvec3(20, 0.3, 0), at + glm::dvec3(20, 0.4, 0), at + glm::dvec3(0, 0.1, 0)});
         hairs.push_back({at + glm::dvec3(0, 0, 5), at + glm::dvec3(20, 0.1, 5), at + glm::dvec3(0, 0.1, 5)});
-        // As far apart as they are high.
+        // These are as far apart as they are high.
         slats.push_back(
             {slat, slat + glm::dvec3(30, 0, 0), slat + glm::dvec3(30, 0.35, 0.5), slat + glm::dvec3(0, 0.35, 0.5)});
     }

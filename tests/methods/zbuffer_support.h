@@ -18,7 +18,7 @@ namespace burin::test {
 
 inline const std::vector<std::string_view> kZBufferMethods = {"simple",       "offset",       "slope-offset", "decal",
                                                               "edging-plane", "virgin-plane", "stencil"};
-/// Those that protect an edge against its own polygon by a bit.
+/// The methods that protect an edge against its own polygon by a bit.
 inline const std::vector<std::string_view> kPlaneMethods = {"edging-plane", "virgin-plane", "stencil"};
 
 /// A picture with all layers, drawn by a method of the table.

@@ -22,7 +22,7 @@ Drawing draw(const Scene& scene, bool hidden = false) {
                    render_abuffer);
 }
 
-/// A box and a plate that cuts it, and so many copies of both.
+/// A box and a plate that cuts it, and `count` copies of both.
 Scene with_copies(int count) {
     const PolygonSoup box = make_box({1, 1, 1}),
                       plate = soup_of({{-1, 0.1, -1}, {1, 0.2, -1}, {1, 0.3, 1}, {-1, 0.2, 1}}, {{0, 1, 2, 3}});

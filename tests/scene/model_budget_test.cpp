@@ -88,7 +88,7 @@ TEST(ModelBudgetOfScenes, SubdividedObjectsCountTogether) {
     EXPECT_EQ(refusal(text, 2 * kMega), "");
 }
 
-/// As long as a file only says what it says, it may be large.
+/// A file may be large, if it spells out what it says.
 TEST(ModelBudgetOfScenes, WhatAFileSpellsOutIsNotCounted) {
     std::string obj;
     for (int i = 0; i < 1000; ++i) {

@@ -98,7 +98,7 @@ TEST(SharedDashes, OfPiecesOnOneLineAreThoseOfOneLine) {
     }
 }
 
-// Those that only touch go on as well, where lines lie on each other somewhere along them.
+// Dashes of lines that only touch go on as well, where lines lie on each other somewhere along them.
 TEST(SharedDashes, RunOnStraight) {
     const std::vector<DashPiece> pieces{piece_of({20, 50}, {50, 50}), piece_of({50, 50}, {61, 50}, 0.7),
                                         piece_of({79, 50}, {61, 50}, 1.9), piece_of({79, 50}, {100, 50}, 2.3),

@@ -138,7 +138,7 @@ int count_bits(const StrokeMask& mask) {
     return count;
 }
 
-/// As lines from snapped vertices are: their sides lie on the samples' grid.
+/// Lines from snapped vertices are like that: their sides lie on the samples' grid.
 TEST(StrokeCanvas, SnappedLevelStrokesAreAsWideAsAsked) {
     StrokeCanvas canvas;
     for (int place = 0; place < 256; ++place) {

@@ -55,7 +55,7 @@ struct Layers {
           pass(frame, screen, best_kernels(), threads) {
         find_all(pass, frame);
     }
-    /// Pixels of lines with so many opaque layers in front, of one class or of all.
+    /// How many pixels of lines have `invisibility` opaque surfaces in front, of one class or of all.
     double hidden_px(int invisibility, std::optional<LineClass> of = std::nullopt) const {
         double sum = 0;
         for (const LinePart& p : pass.parts()) {

@@ -137,7 +137,7 @@ TEST(Coincidence, IsNotThatOfPlanesThatMeetAtAnAngle) {
     }
 }
 
-/// As the two sides of a thin sheet are two surfaces.
+/// The two sides of a thin sheet are two surfaces.
 TEST(Coincidence, IsExactWhereTheyMayNotBeOnePlane) {
     Random random(7);
     const Projection p = projection(false);

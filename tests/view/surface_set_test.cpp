@@ -30,7 +30,7 @@ PolygonSoup disc(glm::dvec3 middle, std::uint32_t corners, double tilt = 0) {
 struct Orders {
     int coincident = 0, in_front = 0, behind = 0, asked = 0;
 
-    /// Of all triangles of the first object and all of the second one.
+    /// Counts the orders of all triangles of the first object and all of the second one.
     explicit Orders(std::vector<PolygonSoup> objects) {
         const Scene scene = scene_of(std::move(objects));
         const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100});
@@ -80,7 +80,7 @@ TEST(SurfaceSet, ComparesTrianglesOfPolygonsWithManyCorners) {
     EXPECT_GT(discs.coincident, 0);
 }
 
-/// Of one object, all faces near z = 0 of one box with all of another one's.
+/// How many faces near z = 0 of one box coincide with those of another one, both in one object.
 int coincident_faces(const PolygonSoup& a, const PolygonSoup& b) {
     const Scene scene = scene_of({joined({a, b})});
     const Frame frame = make_frame(scene, pixel_camera(100, 100), 100, 100, {0, 0, 100, 100});
