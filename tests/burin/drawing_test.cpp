@@ -116,10 +116,11 @@ TEST(LibraryDrawing, RefusesWhatItHasNot) {
 
 TEST(LibraryDrawing, OfAnEmptySceneHasNoPieces) {
     Scene scene;
-    const Drawing drawing = scene.find_lines(kView);
+    const View view{.width = 160, .height = 120, .camera_to_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 4, 0, 0, 0, 1}};
+    const Drawing drawing = scene.find_lines(view);
     EXPECT_EQ(drawing.piece_count(), 0u);
     EXPECT_TRUE(drawing.column<double>("x0").empty());
-    EXPECT_TRUE(same_channels(drawing.draw(), scene.render(kView)));
+    EXPECT_TRUE(same_channels(drawing.draw(), scene.render(view)));
 }
 
 }  // namespace

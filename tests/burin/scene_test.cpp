@@ -86,8 +86,9 @@ TEST(LibraryScene, WhatIsKeptBetweenPicturesFollowsEveryChange) {
         const std::string front = exr_of(once, from_front);
         Scene again;
         for (std::size_t i = 0; i < count; ++i) changes[i](again);
-        if (count == 3)
+        if (count == 3) {
             EXPECT_TRUE(exr_of(kept, from_front, {.memory_bytes = std::uint64_t{1} << 30}) == front) << count;
+        }
         EXPECT_TRUE(exr_of(kept, from_front) == front) << count;
         EXPECT_TRUE(exr_of(kept, from_right) == exr_of(again, from_right)) << count;
     }

@@ -40,7 +40,7 @@ std::vector<Look> looks() {
     crop.is_cropped = cropped_dashes.is_cropped = true;
     capped.name = "hidden, capped";
     capped_plain.name = "plain, capped";
-    capped.memory_bytes = capped_plain.memory_bytes = std::uint64_t{100} << 20;
+    capped.memory_bytes = capped_plain.memory_bytes = std::uint64_t{200} << 20;
     all.insert(all.end(), {crop, cropped_dashes, capped, capped_plain});
     return all;
 }
