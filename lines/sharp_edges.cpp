@@ -151,8 +151,12 @@ std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria&
 }
 
 bool keeps_angles(const glm::dmat4& m) {
+    // Matrices of other programs are rounded to single precision, some of them products of such: off by some 1e-7.
+    // Cosines of angles between normals then change by less than six times the slack, which kCreaseSlack allows for.
+    constexpr double kSlack = 1e-6;
+    static_assert(7 * kSlack < double{kCreaseSlack});
     const glm::dvec3 a(m[0]), b(m[1]), c(m[2]);
-    const double size = glm::dot(a, a), slack = 1e-9 * size;
+    const double size = glm::dot(a, a), slack = kSlack * size;
     return std::abs(glm::dot(a, b)) < slack && std::abs(glm::dot(b, c)) < slack && std::abs(glm::dot(a, c)) < slack &&
            std::abs(glm::dot(b, b) - size) < slack && std::abs(glm::dot(c, c) - size) < slack;
 }

@@ -22,7 +22,8 @@ constexpr float kCreaseSlack = 1e-5f;
 /// kThinTriangle: the triangle may be a sliver, see is_sliver(), under any such transform.
 std::vector<std::uint8_t> find_sharp_edges(const Mesh& mesh, const LineCriteria& criteria, int threads = 1);
 
-/// Whether a transform keeps angles: rotation, translation and one scale for all directions.
+/// Whether a transform keeps angles, as far as single precision tells: rotation, translation and one scale for all
+/// directions.
 bool keeps_angles(const glm::dmat4& transform);
 
 }  // namespace burin
