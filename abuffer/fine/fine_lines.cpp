@@ -107,7 +107,7 @@ class FineLines::BlockClipper {
             // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
             // its edges, too, for its neighbour there may turn away.
             HiddenParts parts;
-            kernels_.clip_twice(t, clipped, -coincident - t.slack, level, parts);
+            kernels_.fine.clip_twice(t, clipped, -coincident - t.slack, level, parts);
             // What is hidden already does not become more so.
             if (!parts.is_any_most || parts.most_end <= reached) return true;
             const double most_from = parts.most_begin, most_to = parts.most_end;

@@ -174,7 +174,7 @@ void FineParts::find_farthest(const SampleTile& samples) {
                           nullptr,
                           0};
     blocks_.farthest.resize(BlockTable::kSize);
-    kernels_.find_farthest(view, blocks_.farthest.data());
+    kernels_.blocks.find_farthest(view, blocks_.farthest.data());
     areas_.farthest.assign(kAreaPitch * kAreaPitch, std::numeric_limits<float>::infinity());
     const auto blocks_along = [](int count) {
         return static_cast<std::size_t>((count + kBlockSamples - 1) >> kBlockShift);

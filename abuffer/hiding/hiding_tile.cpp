@@ -62,7 +62,7 @@ void HidingTile::fill(std::size_t tile) {
 void HidingTile::add(std::uint32_t instance, std::span<const std::uint32_t> numbers) {
     const ScreenMesh& mesh = screen_.mesh(instance);
     const glm::ivec2 corner = cells_.corner();
-    kernels_.put_crossed(mesh, numbers.data(), numbers.size(), corner.x, corner.y, cells_.add(numbers.size()));
+    kernels_.hide.put_crossed(mesh, numbers.data(), numbers.size(), corner.x, corner.y, cells_.add(numbers.size()));
     set_up_.resize(set_up_.size() + numbers.size(), kNotSetUp);
     if (!finds_pairs_) return;
     const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices - screen_.vertices(0));
@@ -121,7 +121,7 @@ void HidingTile::hide(const WholeLine& line, std::span<const std::uint32_t> near
                                part.end,
                                certain_slack_};
     parts_.resize(std::max(parts_.size(), near.size()));
-    const std::size_t count = kernels_.clip_hidden(planes_.data(), near.size(), plane_line, parts_.data());
+    const std::size_t count = kernels_.hide.clip(planes_.data(), near.size(), plane_line, parts_.data());
     for (std::size_t k = 0; k < count; ++k)
         hide(line, near[parts_[k].triangle], static_cast<const Occluder&>(*planes_[parts_[k].triangle]), parts_[k]);
 }

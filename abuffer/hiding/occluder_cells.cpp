@@ -121,8 +121,8 @@ std::size_t OccluderCells::find_crossed(std::size_t cell, const WholeLine& line,
     const bool is_exact = reach == 0 && line.is_exact();
     const glm::vec2 p(line.from + along * (is_exact ? 0 : from) - corner),
         q(line.from + along * (is_exact ? 1 : to) - corner);
-    return kernels_.find_crossed(triangles_.data(), listed_.data(), count, {p.x, p.y, q.x, q.y, low, is_exact, reach},
-                                 found_.data());
+    return kernels_.hide.find_crossed(triangles_.data(), listed_.data(), count,
+                                      {p.x, p.y, q.x, q.y, low, is_exact, reach}, found_.data());
 }
 
 }  // namespace burin

@@ -110,7 +110,7 @@ class TransparentTile {
     void draw_opaque(std::uint32_t value) {
         const PlacedPolygon p = placed(value);
         for_spans(p.polygon,
-                  [&](int row, int begin, int end) { kernels_.draw_span(view(), row, begin, end, p.plane); });
+                  [&](int row, int begin, int end) { kernels_.draw.span(view(), row, begin, end, p.plane); });
     }
 
     void draw_transparent(std::uint32_t value) {

@@ -23,7 +23,7 @@ class FastDecision {
     /// settles most pairs.
     bool is_smooth(const NeighbourSamples& pair) const;
 
-    /// The limits for many pairs at once, TileKernels::find_smooth().
+    /// The limits for many pairs at once, TileKernels::Walk::find_smooth().
     SmoothLimits smooth_limits() const { return {level_, level_per_nearness_, kSnappingPx * kSubpixelsPerPixel}; }
 
     /// Decides a pair that is not known to be smooth. Returns false where the case is not ordinary; then `decision`
