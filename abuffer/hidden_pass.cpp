@@ -79,7 +79,7 @@ void prefetch(const WholeLine& line) {
 TileLists<std::uint32_t> sort_by_tile(const std::vector<WholeLine>& lines, const PixelTiles& grid) {
     std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
-        const glm::dvec2 a = lines[i].from / 256.0, b = lines[i].to / 256.0;
+        const glm::dvec2 a = to_pixels(lines[i].from), b = to_pixels(lines[i].to);
         const std::array<PolygonRows::Corner, 2> ends{{{a.x, a.y}, {b.x, b.y}}};
         grid.visit(glm::min(a, b), glm::max(a, b), PolygonRows(ends), 1, [&](std::uint32_t tile) {
             records[0].push_back({tile, i});
@@ -196,8 +196,8 @@ std::vector<LinePiece> HiddenPass::make_pieces() const {
         if (part.transmission == 0 || part.invisibility > needs.most_invisibility) continue;
         const WholeLine& line = lines_[part.line];
         LinePiece piece;
-        piece.from = line.at(part.begin) / double{kSubpixelsPerPixel};
-        piece.to = line.at(part.end) / double{kSubpixelsPerPixel};
+        piece.from = to_pixels(line.at(part.begin));
+        piece.to = to_pixels(line.at(part.end));
         piece.line = line.id;
         piece.nearness_from = static_cast<float>(zero + line.nearness_at(part.begin));
         piece.nearness_to = static_cast<float>(zero + line.nearness_at(part.end));

@@ -108,7 +108,7 @@ constexpr double kNoAdvance = 1e-9;
 /// A fold that turns back by less than this is no contour.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
 /// Snapping of corners to 1/256 pixel may decide which of two edges a walk comes to first if they are nearer than this.
-constexpr double kSnappingPx = 4.0 / 256;
+constexpr double kSnappingPx = 4.0 / kSubpixelsPerPixel;
 /// Whether a part of a wall between two distances may make it so deep that the surface ends there.
 inline bool is_deep(const Projection& projection, double distance, double other) {
     return std::abs(distance - other) > 2 * projection.pixel_size(std::min(distance, other));

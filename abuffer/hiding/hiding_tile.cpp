@@ -146,9 +146,9 @@ void HidingTile::hide(const WholeLine& line, std::uint32_t i, const Occluder& t,
 }
 
 void HidingTile::find_parts(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {
-    const glm::dvec2 corner = glm::dvec2(rect_.x0, rect_.y0) * 256.0;
+    const glm::dvec2 corner = to_subpixels(glm::dvec2(rect_.x0, rect_.y0));
     double begin = 0, end = 1;
-    if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
+    if (!clip_to_rect(line, corner, to_subpixels(glm::dvec2(rect_.x1, rect_.y1)), begin, end)) return;
     contacts_of_line_.clear();
     const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)), snapping = snapping_slack(line);
     line_slack_ = level_slack(frame_.surfaces, nearest) + snapping;

@@ -84,7 +84,7 @@ class TransparentTile {
         const double zero = surfaces.farthest_nearness;
         placed.plane = {at.x,
                         at.y,
-                        static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero),
+                        static_cast<float>(plane.extended_to(to_pixels(glm::dvec2(at.x, at.y))) - zero),
                         static_cast<float>(plane.per_x / kSubpixelsPerPixel),
                         static_cast<float>(plane.per_y / kSubpixelsPerPixel),
                         static_cast<float>(plane.lowest - zero),

@@ -24,7 +24,7 @@ class FastDecision {
     bool is_smooth(const NeighbourSamples& pair) const;
 
     /// The limits for many pairs at once, TileKernels::Walk::find_smooth().
-    SmoothLimits smooth_limits() const { return {level_, level_per_nearness_, kSnappingPx * kSubpixelsPerPixel}; }
+    SmoothLimits smooth_limits() const { return {level_, level_per_nearness_, to_subpixels(kSnappingPx)}; }
 
     /// Decides a pair that is not known to be smooth. Returns false where the case is not ordinary; then `decision`
     /// means nothing. Otherwise `decision` is what decide_line() says, as far as classes asked for go, and `nearness`

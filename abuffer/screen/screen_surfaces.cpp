@@ -156,7 +156,7 @@ ScreenMesh ScreenSurfaces::make_mesh(std::uint32_t instance) const {
 double ScreenSurfaces::nearness_of(std::uint32_t number, glm::dvec2 subpixel) const {
     const SurfaceId s = surface_of(number);
     if (facing(number) != off_screen) return extended_nearness(triangle(s), subpixel.x, subpixel.y);
-    return surfaces_.plane(s).extended_to(subpixel / double{kSubpixelsPerPixel}) - surfaces_.farthest_nearness;
+    return surfaces_.plane(s).extended_to(to_pixels(subpixel)) - surfaces_.farthest_nearness;
 }
 
 void ScreenSurfaces::find_line_edges(const TriangleChunk& chunk) {

@@ -237,7 +237,7 @@ class Binner {
         const double zero = surfaces_.surfaces().farthest_nearness;
         large.plane.x = at.x;
         large.plane.y = at.y;
-        large.plane.nearness = static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero);
+        large.plane.nearness = static_cast<float>(plane.extended_to(to_pixels(glm::dvec2(at.x, at.y))) - zero);
         large.plane.per_x = static_cast<float>(plane.per_x / kSubpixelsPerPixel);
         large.plane.per_y = static_cast<float>(plane.per_y / kSubpixelsPerPixel);
         large.plane.low = static_cast<float>(plane.lowest - zero);
