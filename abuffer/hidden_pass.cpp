@@ -136,7 +136,8 @@ void HiddenPass::sort(TileRows rows) {
     const bool needs_all = may_intersect_ || frame_.needs.is_transparent;
     std::optional<LineDepths> depths;
     const auto slack_of = [&](const WholeLine& line) {  // a border asks for what is behind it, too
-        return line_slack(frame_.surfaces, line, 0, 1, line.classes.has(LineClass::border) ? kContactPx : kLevelPx);
+        return line_slack(frame_.surfaces, line, 0, 1,
+                          line.classes.has(LineClass::border) ? kDepthTolerancePx : kLevelPx);
     };
     if (!needs_all) depths.emplace(lines_, tiles_, slack_of);
     bins_ = OccluderBins(screen_, kernels_, tiles_, threads_, depths ? &*depths : nullptr);

@@ -17,8 +17,8 @@ constexpr double kMostAlongPerSide = 256;
 constexpr double kNegligibleFoldSubpixels = to_subpixels(kNegligibleFoldPx);
 /// Depths are compared where it gets no farther than by kSnappingPx.
 constexpr double kSnappingSubpixels = to_subpixels(kSnappingPx);
-/// depth_tolerance() is 2 pixels' widths, or more.
-constexpr double kSurelyLevelPx = 1.5;
+/// Surely less than depth_tolerance(), which is kDepthTolerancePx or more.
+constexpr double kSurelyLevelPx = 0.75 * kDepthTolerancePx;
 /// What rounding may do to nearness, and to the share of an edge where the way crosses it.
 constexpr double kNearnessRounding = 0x1p-22, kShareRounding = 0x1p-10;
 constexpr int kMostSteps = 24;

@@ -19,9 +19,7 @@ constexpr double kShortestTipSubpixels = 4;
 constexpr double kOffSubpixels = 8;
 /// Ends of lines are as exact as this.
 constexpr double kSlackSubpixels = 1;
-/// Something is clearly in front if it is nearer by this many pixels' widths.
-constexpr double kClearlyInFrontPx = 2;
-/// No surface beside an edge is so steep that a sample on it is in front by this many times kClearlyInFrontPx.
+/// No surface beside an edge is so steep that a sample on it is in front by this many times kDepthTolerancePx.
 constexpr double kFarInFront = 8;
 
 int floor_to_int(double v) {
@@ -193,7 +191,7 @@ FineParts::FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, b
     : screen_(screen),
       kernels_(kernels),
       takes_rests_(takes_rests),
-      level_part_(kClearlyInFrontPx / screen.surfaces().projection.focal_px) {}
+      level_part_(kDepthTolerancePx / screen.surfaces().projection.focal_px) {}
 
 double FineParts::level(double nearness) const {
     return screen_.surfaces().projection.orthographic ? level_part_

@@ -155,7 +155,7 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, 
     const DepthPlane plane = surfaces.plane(other);
     // What is left of the tolerances, which hardly change, at either end of the line.
     const double here = distance(line.nearness_at(0.5 * (begin + end)));
-    const double behind = depth_tolerance(surfaces, here, plane, kContactPx),
+    const double behind = depth_tolerance(surfaces, here, plane),
                  in_front = depth_tolerance(surfaces, here, plane, kLevelPx);
     const auto farther_at = [&](double part) {
         return distance(t.nearness_at(line.at(part))) - distance(line.nearness_at(part));

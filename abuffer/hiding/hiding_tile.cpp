@@ -172,7 +172,7 @@ void HidingTile::find_parts(const WholeLine& line, std::uint32_t line_number, st
 /// Finds where a border ends in contact with a surface that goes on beyond it without any line.
 void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
     if (line.classes.has(LineClass::mark)) return;
-    const double slack = line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx);
+    const double slack = line_slack(frame_.surfaces, line, part.begin, part.end, kDepthTolerancePx);
     cells_.for_crossed(line, part.begin, part.end, slack, kToOneSideSubpixels, [&](std::uint32_t entry) {
         const Occluder& t = triangle(entry);
         if (lies_on(line, t)) return;

@@ -14,7 +14,7 @@ class FastDecision {
     FastDecision(const ScreenSurfaces& screen, const LineCriteria& criteria)
         : screen_(screen), surfaces_(screen.surfaces()), criteria_(criteria), walker_(screen, criteria) {
         const Projection& p = surfaces_.projection;
-        const double deep = 2 / p.focal_px;
+        const double deep = kDepthTolerancePx / p.focal_px;
         level_ = static_cast<float>(deep * (p.orthographic ? 1.0 : surfaces_.farthest_nearness));
         level_per_nearness_ = p.orthographic ? 0.0f : static_cast<float>(deep);
     }
@@ -56,7 +56,7 @@ class FastDecision {
     FastWalker walker_;
     FastWalk made_[2], made_beyond_;
     const FastWalk* walks_[2];          // from either sample
-    float level_, level_per_nearness_;  // nearness changes by so much where distance does by two pixels' widths
+    float level_, level_per_nearness_;  // nearness changes by this where distance does by kDepthTolerancePx
 };
 
 }  // namespace burin

@@ -197,7 +197,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
 WalkLimits FastWalker::limits(std::int32_t pitch) const {
     const Projection& p = surfaces_.projection;
     constexpr double kRounding = 1e-6;  // as in are_apart()
-    const double deep = (2 - kRounding) / p.focal_px;
+    const double deep = (kDepthTolerancePx - kRounding) / p.focal_px;
     return {1.0 / pitch,
             kNoAdvance,
             to_subpixels(kSnappingPx) / pitch,
@@ -337,7 +337,8 @@ bool FastWalker::are_apart(double nearness_a, double nearness_b) const {
     const Projection& p = surfaces_.projection;
     const double a = surfaces_.farthest_nearness + nearness_a, b = surfaces_.farthest_nearness + nearness_b;
     constexpr double kRounding = 1e-6;
-    if (std::abs(a - b) * p.focal_px < (2 - kRounding) * (p.orthographic ? 1.0 : std::min(a, b))) return false;
+    if (std::abs(a - b) * p.focal_px < (kDepthTolerancePx - kRounding) * (p.orthographic ? 1.0 : std::min(a, b)))
+        return false;
     return is_deep(p, distance_of(p, a), distance_of(p, b));
 }
 

@@ -33,9 +33,9 @@ __attribute__((always_inline)) inline void prefetch(const ScreenMesh& mesh, std:
 SurfaceTile::SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
                          int samples_per_pixel, const TileKernels& kernels, std::size_t most_contests)
     : screen_(screen), bins_(bins), kernels_(kernels), per_pixel_(samples_per_pixel), contests_(screen, most_contests) {
-    // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
+    // The tolerance at a distance d is a difference in nearness of kDepthTolerancePx / (focal * d).
     const Projection& p = frame.surfaces.projection;
-    const double per_nearness = 2 / p.focal_px;
+    const double per_nearness = kDepthTolerancePx / p.focal_px;
     level_ = static_cast<float>(per_nearness * (p.orthographic ? 1.0 : frame.surfaces.farthest_nearness));
     level_per_nearness_ = p.orthographic ? 0.0f : static_cast<float>(per_nearness);
     hidden_level_ = level_ * level_reach(level_per_nearness_);
