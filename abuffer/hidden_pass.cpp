@@ -74,7 +74,7 @@ void join(std::vector<HidingTileResult>& results, std::vector<WholeLine>& lines,
 TileLists<std::uint32_t> sort_by_tile(const std::vector<WholeLine>& lines, const PixelTiles& grid) {
     std::vector<std::vector<TileLists<std::uint32_t>::Record>> records(1);
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
-        const glm::dvec2 a = lines[i].from / 256.0, b = lines[i].to / 256.0;
+        const glm::dvec2 a = to_pixels(lines[i].from), b = to_pixels(lines[i].to);
         const std::array<PolygonRows::Corner, 2> ends{{{a.x, a.y}, {b.x, b.y}}};
         grid.visit(glm::min(a, b), glm::max(a, b), PolygonRows(ends), 1, [&](std::uint32_t tile) {
             records[0].push_back({tile, i});
@@ -131,7 +131,8 @@ void HiddenPass::sort(TileRows rows) {
     const bool needs_all = may_intersect_ || frame_.needs.is_transparent;
     std::optional<LineDepths> depths;
     const auto slack_of = [&](const WholeLine& line) {  // a border asks for what is behind it, too
-        return line_slack(frame_.surfaces, line, 0, 1, line.classes.has(LineClass::border) ? kContactPx : kLevelPx);
+        return line_slack(frame_.surfaces, line, 0, 1,
+                          line.classes.has(LineClass::border) ? kDepthTolerancePx : kLevelPx);
     };
     if (!needs_all) depths.emplace(lines_, tiles_, slack_of);
     bins_ = OccluderBins(screen_, kernels_, tiles_, threads_, depths ? &*depths : nullptr);

@@ -34,8 +34,8 @@ constexpr std::uint64_t kLinesPerVisible = 256, kLinesPerPixel = 32, kLinesPerLa
 struct ScreenExtent {  // in pixels
     glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
     void reach(double x, double y) {
-        low = glm::min(low, glm::dvec2(x, y) / 256.0);
-        high = glm::max(high, glm::dvec2(x, y) / 256.0);
+        low = glm::min(low, to_pixels(glm::dvec2(x, y)));
+        high = glm::max(high, to_pixels(glm::dvec2(x, y)));
     }
 };
 
@@ -60,7 +60,7 @@ bool find_box(const ScreenSurfaces& screen, SurfaceId s, ScreenExtent& box) {
         return true;
     }
     for (const ScreenVertex& v : t.corners) box.reach(v.x, v.y);
-    const glm::dvec2 size = (box.high - box.low) * 256.0;
+    const glm::dvec2 size = to_subpixels(box.high - box.low);
     return std::max(size.x, size.y) >= kLargestSmallTriangle;
 }
 

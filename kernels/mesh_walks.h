@@ -7,7 +7,7 @@
 
 namespace burin {
 
-/// What walk_over_mesh() compares with. Lengths are parts of the way from one sample to the other.
+/// What Walk::over_mesh() compares with. Lengths are parts of the way from one sample to the other.
 struct WalkLimits {
     double per_unit;         ///< 1/256 pixel
     double no_advance;       ///< getting farther by no more than this is none

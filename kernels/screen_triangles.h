@@ -36,7 +36,7 @@ class TriangleBoxes {
         resize(triangles.size());
         float* numbers[kNumbers];
         for (std::size_t k = 0; k < kNumbers; ++k) numbers[k] = numbers_[k].data();
-        kernels.box_triangles(triangles.data(), triangles.size(), numbers);
+        kernels.fine.box_triangles(triangles.data(), triangles.size(), numbers);
     }
     /// Sets the boxes of `others` with the numbers listed, one after the other.
     void set_listed(const TriangleBoxes& others, std::span<const std::uint32_t> listed) {

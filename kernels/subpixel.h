@@ -18,6 +18,18 @@ struct SubpixelPoint {
     bool operator==(const SubpixelPoint&) const = default;
 };
 
+/// Turns a length or a place, a number or a vector, from 1/256 pixel into pixels. Exact, for 256 is a power of two.
+/// kernels/loops do not use it: they call no inline function from elsewhere (tile_kernels.inc says why).
+template <typename Length>
+constexpr Length to_pixels(const Length& subpixels) {
+    return subpixels / double{kSubpixelsPerPixel};
+}
+/// Turns a length or a place from pixels into 1/256 pixel; exact, too: nothing is snapped.
+template <typename Length>
+constexpr Length to_subpixels(const Length& pixels) {
+    return pixels * double{kSubpixelsPerPixel};
+}
+
 /// Rounds a coordinate in pixels to the nearest 1/256 pixel. The result is in 1/256 pixel, still a
 /// floating point number, so that any size of input is fine.
 inline double snap_to_subpixels(double coordinate_px) { return std::floor(coordinate_px * kSubpixelsPerPixel + 0.5); }

@@ -63,7 +63,7 @@ struct SamplePair {
 
 constexpr std::size_t kRoomBehindPairs = 15;  ///< where kernels may write
 
-/// SmoothLimits says what a smooth surface is: find_smooth().
+/// SmoothLimits says what a smooth surface is: Walk::find_smooth().
 struct SmoothLimits {
     float level, level_per_nearness;  ///< see SampleView: what is less deep is no wall
     double snapping;                  ///< how far snapping of a corner may move a deep triangle's edges, in 1/256 pixel
@@ -114,7 +114,7 @@ struct TileTriangle {
     std::int32_t last_row() const { return static_cast<std::int32_t>(blocks >> 21 & 31u); }
 };
 
-/// What cull() lists, an array per number.
+/// What Cull::triangles() lists, an array per number.
 struct CulledTriangles {
     std::uint32_t* keys;       ///< of their tiles: tile_key()
     std::uint32_t* triangles;  ///< the rest of a TileTriangle

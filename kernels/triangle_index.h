@@ -31,7 +31,7 @@ class TriangleIndex {
             boxes_.steps[k] = steps_.data() + k * (size + around_size);
             boxes_.around[k] = boxes_.steps[k] + size;
         }
-        kernels.box_in_steps(triangles, listed, boxes_);
+        kernels.hide.box_in_steps(triangles, listed, boxes_);
     }
     /// What find() takes.
     StepBox in_steps(const ScreenBox& box) const {
@@ -43,7 +43,7 @@ class TriangleIndex {
     /// as they are to be called; `found` needs room for all. Returns how many.
     std::size_t find(const StepBox* boxes, std::size_t count, const std::uint32_t* numbers,
                      std::uint32_t* found) const {
-        return kernels_->list_in_boxes(boxes_, boxes, count, numbers, found);
+        return kernels_->hide.list_in_boxes(boxes_, boxes, count, numbers, found);
     }
 
   private:

@@ -43,7 +43,7 @@ void DashesBehind::add_between(const LinePiece& piece, std::uint32_t number, dou
         const double share = part.end - part.begin, length = part.at_end - part.at_begin;
         const auto at = [&](double of_line) { return part.at_begin + length * ((of_line - part.begin) / share); };
         const auto place = [&](double along) {
-            return line.at(part.begin + share * ((along - part.at_begin) / length)) / 256.0;
+            return to_pixels(line.at(part.begin + share * ((along - part.at_begin) / length)));
         };
         const double per_px = std::abs(length) / (share * line.length_px());
         pen_.for_dashes(at(begin), at(end), per_px, [&](double first, double last) {

@@ -15,7 +15,7 @@ LineDashes::LineDashes(std::span<const WholeLine> lines, const SurfaceSet& surfa
     for (const std::uint32_t line : chains.lines) {
         piece_of_line_[line] = static_cast<std::uint32_t>(pieces.size());
         const auto& [at_from, at_to] = chains.positions[line];
-        pieces.push_back({lines[line].from / 256.0, lines[line].to / 256.0, at_from, at_to});
+        pieces.push_back({to_pixels(lines[line].from), to_pixels(lines[line].to), at_from, at_to});
     }
     places_ = shared.lay_out(std::move(pieces), chains.chain_ends);
 }

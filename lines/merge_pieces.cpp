@@ -79,7 +79,7 @@ bool PieceMerger::sort_few(std::span<std::uint32_t> order, std::span<const LineP
     }
     if (!fits) return false;
     std::fill_n(keys.begin() + static_cast<std::ptrdiff_t>(order.size()), 4, 0.0);
-    kernels_.sort_few(keys.data(), order.size(), sorted.data());
+    kernels_.sort.few(keys.data(), order.size(), sorted.data());
     std::array<std::uint32_t, kFew> given;
     std::copy(order.begin(), order.end(), given.begin());
     std::uint64_t before = 0;

@@ -51,11 +51,11 @@ UnfilledVector<Normal> unit_normals(const Mesh& mesh, std::vector<std::uint8_t>&
             const std::vector<glm::vec3> corners = corners_apart(mesh, first, count);
             std::vector<std::uint32_t> numbers(corners.size());
             std::iota(numbers.begin(), numbers.end(), 0u);
-            kernels.triangle_normals(glm::value_ptr(corners.front()), numbers.data(), count, kThinSquare,
-                                     normals[first].data(), &thin[first]);
+            kernels.mesh.normals(glm::value_ptr(corners.front()), numbers.data(), count, kThinSquare,
+                                 normals[first].data(), &thin[first]);
         } else {
-            kernels.triangle_normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count,
-                                     kThinSquare, normals[first].data(), &thin[first]);
+            kernels.mesh.normals(glm::value_ptr(mesh.positions.front()), mesh.triangles[first].data(), count,
+                                 kThinSquare, normals[first].data(), &thin[first]);
         }
         for (std::size_t t = first; t < first + count; ++t) thin[t] *= kThinTriangle;
     });
@@ -83,20 +83,20 @@ void find_creases(const Mesh& mesh, float cos_crease, std::vector<std::uint8_t>&
     const float* const positions = glm::value_ptr(mesh.positions.front());
     UnfilledVector<RoughNormal> normals(sharp.size());
     for_chunks(sharp.size(), threads, [&](std::size_t first, std::size_t count) {
-        kernels.rough_normals(positions, mesh.triangles[first].data(), count, kThinSquare, normals[first].data(),
-                              &sharp[first]);
+        kernels.mesh.rough_normals(positions, mesh.triangles[first].data(), count, kThinSquare, normals[first].data(),
+                                   &sharp[first]);
     });
     const auto exact_normal = [&](std::uint32_t triangle) {
         Normal normal;
         std::uint8_t thin = 0;
-        kernels.triangle_normals(positions, mesh.triangles[triangle].data(), 1, 0, normal.data(), &thin);
+        kernels.mesh.normals(positions, mesh.triangles[triangle].data(), 1, 0, normal.data(), &thin);
         return normal;
     };
     for_chunks(sharp.size(), threads, [&](std::size_t first, std::size_t count) {
         UnfilledVector<HalfEdge> in_doubt(3 * count);
-        in_doubt.resize(kernels.find_creases(mesh.triangles.front().data(), mesh.next_on_edge.data(),
-                                             normals.front().data(), first, count, low, high, &sharp[first],
-                                             in_doubt.data()));
+        in_doubt.resize(kernels.mesh.find_creases(mesh.triangles.front().data(), mesh.next_on_edge.data(),
+                                                  normals.front().data(), first, count, low, high, &sharp[first],
+                                                  in_doubt.data()));
         for (const HalfEdge h : in_doubt) {
             if (is_crease(exact_normal(h / 3), exact_normal(mesh.next_on_edge[h] / 3), cos_crease)) continue;
             sharp[h / 3] = static_cast<std::uint8_t>(sharp[h / 3] & ~(1u << h % 3));

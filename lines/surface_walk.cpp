@@ -25,9 +25,7 @@ glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view, bool is_snap
     const double w = p.orthographic ? 1.0 : -view.z;
     if (!is_snapped) return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
     const glm::dvec2 pixel = p.to_pixel(view);
-    return glm::dvec3(snap_to_subpixels(pixel.x) / kSubpixelsPerPixel, snap_to_subpixels(pixel.y) / kSubpixelsPerPixel,
-                      1.0) *
-           w;
+    return glm::dvec3(to_pixels(snap_to_subpixels(pixel.x)), to_pixels(snap_to_subpixels(pixel.y)), 1.0) * w;
 }
 
 double nearness_of(const Projection& p, double distance) { return p.orthographic ? -distance : 1 / distance; }

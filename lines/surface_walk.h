@@ -99,19 +99,23 @@ bool is_sliver(const SurfaceSet& surfaces, SurfaceId triangle);
 /// surface.
 constexpr int kMostSlivers = 4;
 
-/// How far two surfaces must be apart in distance from the eye to be two: two pixels' width at that
-/// distance, and what the rounding of screen positions does to a steep plane.
-double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane, double pixels = 2);
+/// How far two surfaces must be apart in distance from the eye to be two, in widths of a pixel at that distance: the
+/// *farther* surface of docs/conventions.md. Nearer ones may be in contact. All stages of a frame use this one number:
+/// where one took two surfaces for one and the next one took them for two, lines would end for no reason.
+constexpr double kDepthTolerancePx = 2;
+/// `pixels` pixels' widths at a distance, and what the rounding of screen positions does to a steep plane.
+double depth_tolerance(const SurfaceSet& surfaces, double distance, const DepthPlane& plane,
+                       double pixels = kDepthTolerancePx);
 /// A walk that gets farther by no more than this part of its way has met a wall that is seen edge-on.
 constexpr double kNoAdvance = 1e-9;
 
 /// A fold that turns back by less than this is no contour.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
 /// Snapping of corners to 1/256 pixel may decide which of two edges a walk comes to first if they are nearer than this.
-constexpr double kSnappingPx = 4.0 / 256;
+constexpr double kSnappingPx = 4.0 / kSubpixelsPerPixel;
 /// Whether a part of a wall between two distances may make it so deep that the surface ends there.
 inline bool is_deep(const Projection& projection, double distance, double other) {
-    return std::abs(distance - other) > 2 * projection.pixel_size(std::min(distance, other));
+    return std::abs(distance - other) > kDepthTolerancePx * projection.pixel_size(std::min(distance, other));
 }
 /// Where the way from a place, `along` as long as it is, crosses an edge: a part of the way. Nothing if it does not.
 /// `p`, `q`: the edge's ends, seen from that place.

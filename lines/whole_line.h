@@ -59,7 +59,7 @@ struct WholeLine {
     double nearness_at(double t) const { return nearness_from + (nearness_to - nearness_from) * t; }
     /// The least nearness in a part of it.
     double lowest_in(double begin, double end) const { return std::min(nearness_at(begin), nearness_at(end)); }
-    double length_px() const { return glm::distance(from, to) / 256; }
+    double length_px() const { return to_pixels(glm::distance(from, to)); }
     /// Whether kernels may take all of it as ScreenLine::is_exact.
     bool is_exact() const {
         const glm::dvec2 along = glm::abs(to - from);

@@ -25,7 +25,7 @@ std::optional<std::uint32_t> WholeLineIndex::find(const LinePiece& piece) const 
 }
 
 double WholeLineIndex::share_of(const WholeLine& line, glm::dvec2 place) {
-    const glm::dvec2 from = line.from / 256.0, along = (line.to - line.from) / 256.0;
+    const glm::dvec2 from = to_pixels(line.from), along = to_pixels(line.to - line.from);
     return glm::dot(place - from, along) / glm::dot(along, along);
 }
 

@@ -93,7 +93,7 @@ class TileStrokes {
     static constexpr int kSamples = StrokeMask::kRows * StrokeMask::kColumns;
     /// How many samples of a pixel are in a mask and not taken.
     int count(const StrokeMask& mask, const StrokeMask& taken = {}) const {
-        return kernels_.count_bits(mask.rows.data(), taken.rows.data());
+        return kernels_.stroke.count_bits(mask.rows.data(), taken.rows.data());
     }
     float share(const StrokeMask& mask, const StrokeMask& taken = {}) const { return share(count(mask, taken)); }
     static float share(int samples) { return static_cast<float>(samples) / kSamples; }

@@ -132,17 +132,17 @@ class StrokePrinter::Printer {
             const int x = rect.x0 + column, y = rect.y0 + row;
             if (const std::optional<LineClass> c = strokes_.only_class(column, row)) {  // mostly
                 const int samples =
-                    kernels_.count_bits(strokes_.mask_of(*c, column, row).rows.data(), nothing.rows.data());
+                    kernels_.stroke.count_bits(strokes_.mask_of(*c, column, row).rows.data(), nothing.rows.data());
                 film.draw_over(x, y, ink_of(*c)[samples]);
                 continue;
             }
             LinePixel pixel;
             LineClassSet present;
-            strokes_.for_classes(column, row,
-                                 [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
-                                     present |= c;
-                                     add(c, opacity, kernels_.count_bits(mask.rows.data(), taken.rows.data()), pixel);
-                                 });
+            strokes_.for_classes(
+                column, row, [&](LineClass c, const StrokeMask& mask, const StrokeMask& taken, float opacity) {
+                    present |= c;
+                    add(c, opacity, kernels_.stroke.count_bits(mask.rows.data(), taken.rows.data()), pixel);
+                });
             color(pixel, present);
             film.draw_over(x, y, pixel);
         }

@@ -39,7 +39,7 @@ class StrokeCanvas {
     void draw(const glm::dvec2& from, const glm::dvec2& to, double radius_px) {
         // Wide strokes lie on each other, and soon most of their pixels are full.
         if (radius_px > kWideRadiusPx && open_part(box_around(from, to, radius_px + 1)).is_empty()) return;
-        kernels_->draw_stroke({{from.x, from.y}, {to.x, to.y}, radius_px},
+        kernels_->stroke.draw({{from.x, from.y}, {to.x, to.y}, radius_px},
                               {masks_.data()->rows.data(), touched_.data(), x0_, y0_, width_, height_, stride_});
     }
 

@@ -26,7 +26,7 @@ class Region {
     explicit Region(const ScreenPolygon& polygon) {
         for (int i = 0; i < polygon.count; ++i) {
             const SubpixelPoint p = polygon.corners[static_cast<std::size_t>(i)];
-            corners_[count_++] = glm::dvec2(p.x, p.y) / double{kSubpixelsPerPixel};
+            corners_[count_++] = to_pixels(glm::dvec2(p.x, p.y));
         }
         double area = 0;
         for (std::size_t i = 2; i < count_; ++i)

@@ -66,7 +66,7 @@ DepthPlane snapped_depth_plane(const Projection& projection, const glm::dvec3 (&
     for (int k = 0; k < 3; ++k) {
         if (!needs_no_clipping(projection, corners[k])) return exact_depth_plane(projection, corners);
         const glm::dvec2 pixel = projection.to_pixel(corners[k]);
-        p[k] = glm::dvec2(snap_to_subpixels(pixel.x), snap_to_subpixels(pixel.y)) / 256.0;
+        p[k] = to_pixels(glm::dvec2(snap_to_subpixels(pixel.x), snap_to_subpixels(pixel.y)));
         q[k] = projection.nearness(corners[k]);
     }
     DepthPlane plane = with_range(projection, corners);

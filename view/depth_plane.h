@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "kernels/subpixel.h"
 #include "view/projection.h"
 
 // The depth of a triangle is a plane on the screen, by which samples and lines are compared.
@@ -24,7 +25,7 @@ struct DepthPlane {
     /// Nearness at a position on the triangle.
     double nearness(glm::dvec2 pixel) const { return std::clamp(extended_to(pixel), lowest, highest); }
     /// How much nearness changes over 1/256 pixel: what snapping may do.
-    double snapping_error() const { return (std::abs(per_x) + std::abs(per_y)) / 256; }
+    double snapping_error() const { return (std::abs(per_x) + std::abs(per_y)) / kSubpixelsPerPixel; }
 };
 
 /// The plane of a triangle given in view space, through its corners where they are drawn, that is,

@@ -11,7 +11,7 @@ namespace burin {
 namespace {
 
 /// Wider gaps between patches are no seams. 1 pixel.
-constexpr double kWidestCrackSubpixels = kWidestCrackPx * kSubpixelsPerPixel;
+constexpr double kWidestCrackSubpixels = to_subpixels(kWidestCrackPx);
 /// A mesh with more than kMostPairs pairs of a border and one about it has heaps of borders: there only borders that
 /// come near are told apart. Where more than kMostNear come near, the border lies in a crowd.
 constexpr std::size_t kMostPairs = std::size_t{1} << 24, kFewAbout = 256, kMostNear = 32;
@@ -46,8 +46,7 @@ std::optional<HalfEdge> seam_partner(const ScreenSurfaces& screen, SurfaceId s, 
     const double own_nearness = edge.nearness_at(on_screen);
     const SurfaceId beyond{s.instance, *partner / 3};
     const SurfaceSet& surfaces = screen.surfaces();
-    const double in_its_plane =
-        surfaces.plane(beyond).nearness(place / double{kSubpixelsPerPixel}) - surfaces.farthest_nearness;
+    const double in_its_plane = surfaces.plane(beyond).nearness(to_pixels(place)) - surfaces.farthest_nearness;
     if (!is_level(screen, own_nearness, other->nearness_at(t), beyond) &&
         !is_level(screen, own_nearness, in_its_plane, beyond)) {
         return std::nullopt;  // it lies before or behind, as a stair's next tread does

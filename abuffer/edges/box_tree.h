@@ -36,7 +36,7 @@ class BoxTree {
     void for_leaf_pairs(const NodePair& task, const Visit& visit) const {
         descend(task_level_, task, visit);
     }
-    /// Calls visit(i, k) for the bits of TileKernels::find_overlaps().
+    /// Calls visit(i, k) for the bits of TileKernels::Intersect::find_overlaps().
     template <typename Visit>
     static void for_bits(std::uint64_t found, const Visit& visit) {
         for (; found != 0; found &= found - 1) {
@@ -54,7 +54,7 @@ class BoxTree {
         const auto end = static_cast<std::uint32_t>(parts.size());
         const std::uint32_t a = nodes.a * kFan, b = nodes.b * kFan;
         const std::uint64_t found =
-            kernels_.find_overlaps(parts.view(), a, std::min(kFan, end - a), b, std::min(kFan, end - b));
+            kernels_.intersect.find_overlaps(parts.view(), a, std::min(kFan, end - a), b, std::min(kFan, end - b));
         // Bits of the pairs within one node: every pair once; a box overlaps itself, which says nothing.
         constexpr std::uint64_t kBehind = 0x0080C0E0F0F8FCFEu, kBehindOrSame = 0x80C0E0F0F8FCFEFFu;
         return a == b ? found & (level == 1 ? kBehind : kBehindOrSame) : found;

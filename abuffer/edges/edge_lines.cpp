@@ -113,8 +113,8 @@ class EdgeLineFinder::Rules {
           fade_(frame.scene->lines.crease_fade()),
           screen_(screen),
           has_both_of_seam_(has_both_of_seam),
-          low_(glm::dvec2(region.x0, region.y0) * 256.0),
-          high_(glm::dvec2(region.x1, region.y1) * 256.0) {}
+          low_(to_subpixels(glm::dvec2(region.x0, region.y0))),
+          high_(to_subpixels(glm::dvec2(region.x1, region.y1))) {}
 
     void visit(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
@@ -289,7 +289,7 @@ class EdgeLineFinder::Rules {
                 owners[1] = screen_.number_of(beyond);
             }
             if (solid_h && solid_g) {
-                const glm::dvec2 middle = edge.at(0.5 * (part.begin + part.end)) / double{kSubpixelsPerPixel};
+                const glm::dvec2 middle = to_pixels(edge.at(0.5 * (part.begin + part.end)));
                 classes |= contact_classes(surfaces_, triangle_of(s, *solid_h), triangle_of(s, *solid_g), middle,
                                            criteria_, &crease_cosine);
             }
@@ -327,7 +327,7 @@ class EdgeLineFinder::Rules {
     glm::dvec2 middle_px(SurfaceId s, HalfEdge h) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const auto ends = edge_on_screen(screen_, s.instance, start_of(mesh, h), end_of(mesh, h));
-        return ends ? ends->at(0.5) / double{kSubpixelsPerPixel} : glm::dvec2(0.0);
+        return ends ? to_pixels(ends->at(0.5)) : glm::dvec2(0.0);
     }
 
     /// `front_side`: of the way from the half-edge's start.

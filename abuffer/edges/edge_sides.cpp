@@ -166,9 +166,7 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
                              : is_beside(instance, h, apex_of(mesh, beyond)) && !is_thin_at(instance, h);
     if (!is_wall) return false;
     const ScreenVertex* const v = screen_.vertices(instance);
-    const auto place = [&](std::uint32_t vertex) {
-        return glm::dvec2(v[vertex].x, v[vertex].y) / double{kSubpixelsPerPixel};
-    };
+    const auto place = [&](std::uint32_t vertex) { return to_pixels(glm::dvec2(v[vertex].x, v[vertex].y)); };
     const glm::dvec2 a = place(start_of(mesh, h)), b = place(end_of(mesh, h)), middle = 0.5 * (a + b);
     if (a == b) return false;
     // The wall leads away from the eye, else this is its foot.
@@ -181,9 +179,7 @@ bool EdgeSides::ends_at_wall(std::uint32_t instance, HalfEdge h, HalfEdge beyond
     if (glm::dot(out, place(apex_of(mesh, h)) - a) > 0) out = -out;
     // A short way beyond the wall is enough: a walk that gets there has come past it.
     const glm::dvec2 past = kPastWallPx * out;
-    if (surely_goes_on(screen_, instance, h, double{kSubpixelsPerPixel} * middle, out,
-                       kSubpixelsPerPixel * kPastWallPx))
-        return false;
+    if (surely_goes_on(screen_, instance, h, to_subpixels(middle), out, to_subpixels(kPastWallPx))) return false;
     const SurfaceWalk walk = walk_to_end(surfaces_, own, middle - past, middle + past, criteria_, kMostTrianglesToWall,
                                          screen_.sharp_edges(instance));
     // Where it turns back behind the wall, it gets farthest anywhere on that.

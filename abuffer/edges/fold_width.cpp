@@ -10,7 +10,7 @@ namespace burin {
 namespace {
 
 /// A fold that turns back by no more than this is no contour (docs/conventions.md).
-constexpr double kNegligibleFoldSubpixels = kNegligibleFoldPx * kSubpixelsPerPixel;
+constexpr double kNegligibleFoldSubpixels = to_subpixels(kNegligibleFoldPx);
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 

@@ -211,7 +211,7 @@ std::optional<std::vector<SurfacePair>> find_intersecting_pairs(const Scene& sce
         };
         std::uint64_t tests = 0;
         tree.for_leaf_pairs((*tasks)[task], [&](std::uint32_t first, std::uint32_t second, std::uint64_t overlapping) {
-            const std::uint64_t pairs = kernels.find_unconnected(corner_lists, first, second, overlapping);
+            const std::uint64_t pairs = kernels.intersect.find_unconnected(corner_lists, first, second, overlapping);
             tests += static_cast<std::uint64_t>(std::popcount(pairs));
             BoxTree::for_bits(pairs, [&](std::uint32_t i, std::uint32_t k) {
                 const auto meeting = test.meeting(triangle(first + i), triangle(second + k));

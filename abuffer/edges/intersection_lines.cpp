@@ -52,8 +52,8 @@ bool overlap(const ScreenTriangle& a, const ScreenTriangle& b) {
 IntersectionLines::IntersectionLines(const Frame& frame, const ScreenSurfaces& screen, PixelRect region)
     : frame_(frame),
       screen_(screen),
-      low_(glm::dvec2(region.x0, region.y0) * 256.0),
-      high_(glm::dvec2(region.x1, region.y1) * 256.0) {}
+      low_(to_subpixels(glm::dvec2(region.x0, region.y0))),
+      high_(to_subpixels(glm::dvec2(region.x1, region.y1))) {}
 
 bool IntersectionLines::are_wanted(const LineClassSet& classes) {
     return !(classes & (LineClass::intersection | LineClassSet(LineClass::object) | LineClass::material)).empty();
@@ -157,7 +157,7 @@ void IntersectionLines::add(const Occluder& a, const Occluder& b, std::vector<Wh
     line.id = LineId::of_surfaces(a.number, b.number);
     const SurfaceId sa = screen_.surface_of(a.number), sb = screen_.surface_of(b.number);
     if (frame_.surfaces.are_of_one_polygon(sa, sb)) return;
-    const glm::dvec2 middle = 0.5 * (line.from + line.to) / 256.0;
+    const glm::dvec2 middle = to_pixels(0.5 * (line.from + line.to));
     const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, middle, frame_.criteria);
     const LineClassSet classes =
         (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;

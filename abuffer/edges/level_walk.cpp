@@ -12,13 +12,13 @@ namespace {
 /// kFarthestPlace of the origin and edges are at most kMostAlongPerSide times as long along the way as across it. 1/256
 /// pixel.
 constexpr double kMargin = 1.0 / 16;
-constexpr double kFarthestPlace = 8192 * kSubpixelsPerPixel;
+constexpr double kFarthestPlace = to_subpixels(8192.0);
 constexpr double kMostAlongPerSide = 256;
-constexpr double kNegligibleFoldSubpixels = kNegligibleFoldPx * kSubpixelsPerPixel;
+constexpr double kNegligibleFoldSubpixels = to_subpixels(kNegligibleFoldPx);
 /// Depths are compared where it gets no farther than by kSnappingPx.
-constexpr double kSnappingSubpixels = kSnappingPx * kSubpixelsPerPixel;
-/// depth_tolerance() is 2 pixels' widths, or more.
-constexpr double kSurelyLevelPx = 1.5;
+constexpr double kSnappingSubpixels = to_subpixels(kSnappingPx);
+/// Surely less than depth_tolerance(), which is kDepthTolerancePx or more.
+constexpr double kSurelyLevelPx = 0.75 * kDepthTolerancePx;
 /// What rounding may do to nearness, and to the share of an edge where the way crosses it.
 constexpr double kNearnessRounding = 0x1p-22, kShareRounding = 0x1p-10;
 constexpr int kMostSteps = 24;

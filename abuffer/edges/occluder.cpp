@@ -133,7 +133,7 @@ std::vector<Occluder> clipped_occluders(const ScreenSurfaces& screen, SurfaceId 
     triangle.instance = s.instance;
     triangle.per_x = plane.per_x / kSubpixelsPerPixel;
     triangle.per_y = plane.per_y / kSubpixelsPerPixel;
-    triangle.nearness = plane.extended_to(corner(0) / 256.0) - surfaces.farthest_nearness;
+    triangle.nearness = plane.extended_to(to_pixels(corner(0))) - surfaces.farthest_nearness;
     for (int i = 2; i < polygon.count; ++i) {
         triangle.vertices = surfaces.mesh_of(s).triangles[s.triangle];
         const glm::dvec2 p[3] = {corner(0), corner(i - 1), corner(i)};

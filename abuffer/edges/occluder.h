@@ -74,8 +74,6 @@ inline bool only_grazes(const ScreenSurfaces& screen, const WholeLine& line, con
 constexpr double kLevelPx = 1.0 / 16;
 /// What is in front by more than this is so for certain: coordinates and places are not exact.
 constexpr double kCertainPx = kLevelPx / 64;
-/// Surfaces no farther apart than this are in contact: depth_tolerance().
-constexpr double kContactPx = 2;
 
 /// What `level_px` pixels' widths are as a step in nearness, at a nearness less farthest_nearness, with what
 /// coordinates are off by.

@@ -39,7 +39,7 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     least_.assign(BlockTable::kSize, kNothing);
     sort_candidates(candidates);
     combine_cells();
-    kernels_.combine_blocks(sample_blocks_, sample_blocks_, least_.data());
+    kernels_.blocks.combine(sample_blocks_, sample_blocks_, least_.data());
     for (const TriangleRun& run : bins_.runs_in(tile)) add_small(run);
     for (const TriangleRun& run : bins_.thin_runs_in(tile)) add_small(run);
     sort_listed();
@@ -158,8 +158,8 @@ void FineBlocks::add_small(const TriangleRun& run) {
     listed_instance_ = run.instance;
     if (nearer_.size() < listed_ + run.count) nearer_.resize(2 * (listed_ + run.count));
     constexpr float kNoLevel = 0;
-    listed_ +=
-        kernels_.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count, nearer_.data() + listed_);
+    listed_ += kernels_.blocks.find_nearer(least_.data(), kNoLevel, kNoLevel, run.triangles, run.count,
+                                           nearer_.data() + listed_);
     // Triangles of several runs are taken together: one run leaves too few to prefetch the next ones meanwhile.
     constexpr std::size_t kEnough = 4 * kAtOnce;
     if (listed_ >= kEnough) sort_listed();
@@ -228,8 +228,8 @@ bool FineBlocks::hides_something(const Box& box, float highest, int block_x, int
 void FineBlocks::sort_triangles(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count) {
     for (std::size_t first = 0; first < count; first += kAtOnce) {
         std::size_t other_count = 0;
-        const std::size_t found = kernels_.sort_hiding(mesh, listed + first, std::min(kAtOnce, count - first),
-                                                       hiding_grid_, found_.data(), others_.data(), &other_count);
+        const std::size_t found = kernels_.fine.sort_hiding(mesh, listed + first, std::min(kAtOnce, count - first),
+                                                            hiding_grid_, found_.data(), others_.data(), &other_count);
         for (std::size_t i = 0; i < found; ++i) triangles_[index_[found_[i].block]].push_back(found_[i].triangle);
         for (std::size_t i = 0; i < other_count; ++i) {
             const std::uint32_t t = others_[i], *const corner = mesh.corners + 3 * static_cast<std::size_t>(t);

@@ -95,11 +95,11 @@ void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Vis
 
 std::size_t FineCells::find_hiding(const FrontBoxes& boxes, std::size_t begin, std::size_t end, const ScreenLine& line,
                                    const ScreenBox& box) {
-    const std::size_t count = kernels_.find_in_front_of_box(boxes, begin, end, box, found_.data());
+    const std::size_t count = kernels_.fine.find_in_front(boxes, begin, end, box, found_.data());
     if (cells_ > 1) {
         for (std::size_t i = 0; i < count; ++i) found_[i] = in_cells_[found_[i]];
     }
-    return kernels_.find_hiding(given_->data(), found_.data(), count, line, found_.data());
+    return kernels_.fine.find_hiding(given_->data(), found_.data(), count, line, found_.data());
 }
 
 ScreenBox FineCells::box_around(glm::dvec2 a, glm::dvec2 b, float low) {

@@ -107,7 +107,7 @@ class FineLines::BlockClipper {
             // What is level hides the most where it is seen instead: what that is, is asked last. It does so along
             // its edges, too, for its neighbour there may turn away.
             HiddenParts parts;
-            kernels_.clip_twice(t, clipped, -coincident - t.slack, level, parts);
+            kernels_.fine.clip_twice(t, clipped, -coincident - t.slack, level, parts);
             // What is hidden already does not become more so.
             if (!parts.is_any_most || parts.most_end <= reached) return true;
             const double most_from = parts.most_begin, most_to = parts.most_end;
@@ -273,8 +273,8 @@ class FineLines::BlockClipper {
             }
         }
         LinePiece s;
-        s.from = line.at(begin) / 256.0;
-        s.to = line.at(end) / 256.0;
+        s.from = to_pixels(line.at(begin));
+        s.to = to_pixels(line.at(end));
         s.classes = classes;
         s.drawn_as = *classes.first();
         s.opacity = line.opacity;
@@ -314,7 +314,7 @@ class FineLines::BlockClipper {
         const double gap = distance_of(p, surfaces.farthest_nearness + nearest) - distance;
         if (gap > depth_tolerance(surfaces, distance, surfaces.plane(other))) return std::nullopt;
         const auto solid = finder_.solid_at_border(own, candidate.part.edge.half_edge);
-        return solid ? contact_classes(surfaces, *solid, other, at / 256.0, criteria_) : LineClassSet{};
+        return solid ? contact_classes(surfaces, *solid, other, to_pixels(at), criteria_) : LineClassSet{};
     }
 
     /// From the edge of the surface to beyond it. 1/256 pixel.

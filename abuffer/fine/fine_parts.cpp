@@ -19,9 +19,7 @@ constexpr double kShortestTipSubpixels = 4;
 constexpr double kOffSubpixels = 8;
 /// Ends of lines are as exact as this.
 constexpr double kSlackSubpixels = 1;
-/// Something is clearly in front if it is nearer by this many pixels' widths.
-constexpr double kClearlyInFrontPx = 2;
-/// No surface beside an edge is so steep that a sample on it is in front by this many times kClearlyInFrontPx.
+/// No surface beside an edge is so steep that a sample on it is in front by this many times kDepthTolerancePx.
 constexpr double kFarInFront = 8;
 
 int floor_to_int(double v) {
@@ -32,7 +30,8 @@ int floor_to_int(double v) {
 /// Whether a piece lies on the line that goes through an edge.
 bool runs_along(const EdgeOnScreen& edge, const LinePiece& piece) {
     const double limit = kOffSubpixels * glm::distance(edge.from, edge.to);
-    return std::abs(edge.side_of(piece.from * 256.0)) <= limit && std::abs(edge.side_of(piece.to * 256.0)) <= limit;
+    return std::abs(edge.side_of(to_subpixels(piece.from))) <= limit &&
+           std::abs(edge.side_of(to_subpixels(piece.to))) <= limit;
 }
 
 /// From where to where an edge runs between two heights, and a bit more. 1/256 pixel.
@@ -174,7 +173,7 @@ void FineParts::find_farthest(const SampleTile& samples) {
                           nullptr,
                           0};
     blocks_.farthest.resize(BlockTable::kSize);
-    kernels_.find_farthest(view, blocks_.farthest.data());
+    kernels_.blocks.find_farthest(view, blocks_.farthest.data());
     areas_.farthest.assign(kAreaPitch * kAreaPitch, std::numeric_limits<float>::infinity());
     const auto blocks_along = [](int count) {
         return static_cast<std::size_t>((count + kBlockSamples - 1) >> kBlockShift);
@@ -192,7 +191,7 @@ FineParts::FineParts(const ScreenSurfaces& screen, const TileKernels& kernels, b
     : screen_(screen),
       kernels_(kernels),
       takes_rests_(takes_rests),
-      level_part_(kClearlyInFrontPx / screen.surfaces().projection.focal_px) {}
+      level_part_(kDepthTolerancePx / screen.surfaces().projection.focal_px) {}
 
 double FineParts::level(double nearness) const {
     return screen_.surfaces().projection.orthographic ? level_part_
@@ -249,7 +248,7 @@ bool FineParts::is_surely_behind(const TileEdge& edge, const SampleTile& samples
 /// Whether all samples around a part of an edge are far in front of it, and so around each square on its way.
 bool FineParts::is_behind(const Squares& squares, const SampleTile& samples, const EdgeOnScreen& edge, double begin,
                           double end) const {
-    const double per_sample = samples.samples_per_pixel / 256.0;
+    const double per_sample = samples.samples_per_pixel / double{kSubpixelsPerPixel};
     const glm::dvec2 first(samples.first_column + 0.5, samples.first_row + 0.5);
     const glm::dvec2 a = edge.at(begin) * per_sample - first, b = edge.at(end) * per_sample - first;
     const auto square_at = [&](double sample, int more, int count) {
@@ -275,7 +274,7 @@ void FineParts::find_open(const SampleTile& samples, const EdgeOnScreen& edge, c
                           Interval part) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const int last = kMergeBlockPx * samples.samples_per_pixel - 1;
-    const double per_sample = samples.samples_per_pixel / 256.0;
+    const double per_sample = samples.samples_per_pixel / double{kSubpixelsPerPixel};
     const glm::dvec2 origin = edge.from * per_sample - 0.5, along = (edge.to - edge.from) * per_sample;
     const glm::dvec2 start = origin + along * part.begin;
     double next[2], step[2];
@@ -337,7 +336,7 @@ bool FineParts::is_open(const SampleTile& samples, glm::ivec2 square, const Edge
         // contact instead, its triangles tell.
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec2 corner(square.x + static_cast<int>(k % 2), square.y + static_cast<int>(k / 2));
-            const glm::dvec2 at = (corner + 0.5) * (256.0 / samples.samples_per_pixel);
+            const glm::dvec2 at = (corner + 0.5) * (double{kSubpixelsPerPixel} / samples.samples_per_pixel);
             if (numbers[k] != a && numbers[k] != b && edge.side_of(at) * inner <= 0) return true;
         }
         return false;
@@ -378,8 +377,8 @@ void FineParts::find_undrawn(const EdgeOnScreen& edge, double begin, double end,
     for (const LinePiece& s : pieces) {
         // A bridge to another line, which only begins at this one.
         if (!runs_along(edge, s)) continue;
-        const double p = glm::dot(s.from * 256.0 - edge.from, along) / square;
-        const double q = glm::dot(s.to * 256.0 - edge.from, along) / square;
+        const double p = glm::dot(to_subpixels(s.from) - edge.from, along) / square;
+        const double q = glm::dot(to_subpixels(s.to) - edge.from, along) / square;
         const Interval piece{std::min(p, q) - slack, std::max(p, q) + slack};
         const std::size_t count = undrawn_.size();
         for (std::size_t i = 0; i < count; ++i) {

@@ -10,7 +10,7 @@ namespace burin {
 namespace {
 
 /// How far from a line its triangles are compared with others at its depth. 2 pixels.
-constexpr double kBesideSubpixels = 512;
+constexpr double kBesideSubpixels = 2 * kSubpixelsPerPixel;
 
 /// Doubled areas are off by less than this, (1/256 pixel)^2.
 constexpr double kAreaRounding = 1;
@@ -110,8 +110,7 @@ bool Contacts::is_flush(const WholeLine& line, double begin, double end, const O
         const double gap = screen_.nearness_of(owner, *beside) - cover.nearness_at(*beside);
         if (gap > level) return false;
         if (gap >= -level)
-            levels[level_count++] = {s, screen_.surface_of(cover.number), *beside / double{kSubpixelsPerPixel},
-                                     places[side] / double{kSubpixelsPerPixel}};
+            levels[level_count++] = {s, screen_.surface_of(cover.number), to_pixels(*beside), to_pixels(places[side])};
     }
     if (level_count == 0) return false;
     bool is_any_flush = false;
@@ -132,8 +131,7 @@ bool Contacts::is_flush(const WholeLine& line, double begin, double end, const O
 /// Whether a face that ends at a line laps over another one there by a narrow strip alone.
 bool Contacts::laps_narrowly(const WholeLine& line, SurfaceId own, const FacePlace& other, glm::dvec2 middle) const {
     if (!line.is_edge()) return false;
-    return burin::laps_narrowly(screen_.surfaces(), own, line.id.half_edge(), other,
-                                middle / double{kSubpixelsPerPixel});
+    return burin::laps_narrowly(screen_.surfaces(), own, line.id.half_edge(), other, to_pixels(middle));
 }
 
 std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, const Occluder& t,
@@ -157,7 +155,7 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, 
     const DepthPlane plane = surfaces.plane(other);
     // What is left of the tolerances, which hardly change, at either end of the line.
     const double here = distance(line.nearness_at(0.5 * (begin + end)));
-    const double behind = depth_tolerance(surfaces, here, plane, kContactPx),
+    const double behind = depth_tolerance(surfaces, here, plane),
                  in_front = depth_tolerance(surfaces, here, plane, kLevelPx);
     const auto farther_at = [&](double part) {
         return distance(t.nearness_at(line.at(part))) - distance(line.nearness_at(part));
@@ -171,7 +169,7 @@ std::optional<LineClassSet> Contacts::classes_of_contact(const WholeLine& line, 
     begin = from + first * length;
     end = from + last * length;
     const glm::dvec2 at = line.at(0.5 * (begin + end));
-    return contact_classes(surfaces, own, other, at / double{kSubpixelsPerPixel}, criteria) & criteria.classes;
+    return contact_classes(surfaces, own, other, to_pixels(at), criteria) & criteria.classes;
 }
 
 /// Whether the bodies of two faces are both towards the eye, both away from it, or both faces are sheets. Of faces near
@@ -227,7 +225,7 @@ std::optional<Occluder> Contacts::what_covers_in_plane(glm::dvec2 place, Surface
                                                        const LineCriteria& criteria) const {
     const ScreenMesh& mesh = screen_.mesh(own.instance);
     if (mesh.partners[mesh.partners[h]] == h) return std::nullopt;
-    const glm::dvec2 at = place / double{kSubpixelsPerPixel};
+    const glm::dvec2 at = to_pixels(place);
     for (HalfEdge g = mesh.partners[h]; g != h; g = mesh.partners[g]) {
         const SurfaceId s{own.instance, g / 3};
         const LineClassSet classes = contact_classes(screen_.surfaces(), own, s, at, criteria);

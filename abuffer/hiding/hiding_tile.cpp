@@ -62,7 +62,7 @@ void HidingTile::fill(std::size_t tile) {
 void HidingTile::add(std::uint32_t instance, std::span<const std::uint32_t> numbers) {
     const ScreenMesh& mesh = screen_.mesh(instance);
     const glm::ivec2 corner = cells_.corner();
-    kernels_.put_crossed(mesh, numbers.data(), numbers.size(), corner.x, corner.y, cells_.add(numbers.size()));
+    kernels_.hide.put_crossed(mesh, numbers.data(), numbers.size(), corner.x, corner.y, cells_.add(numbers.size()));
     set_up_.resize(set_up_.size() + numbers.size(), kNotSetUp);
     if (!finds_pairs_) return;
     const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices - screen_.vertices(0));
@@ -121,7 +121,7 @@ void HidingTile::hide(const WholeLine& line, std::span<const std::uint32_t> near
                                part.end,
                                certain_slack_};
     parts_.resize(std::max(parts_.size(), near.size()));
-    const std::size_t count = kernels_.clip_hidden(planes_.data(), near.size(), plane_line, parts_.data());
+    const std::size_t count = kernels_.hide.clip(planes_.data(), near.size(), plane_line, parts_.data());
     for (std::size_t k = 0; k < count; ++k)
         hide(line, near[parts_[k].triangle], static_cast<const Occluder&>(*planes_[parts_[k].triangle]), parts_[k]);
 }
@@ -146,9 +146,9 @@ void HidingTile::hide(const WholeLine& line, std::uint32_t i, const Occluder& t,
 }
 
 void HidingTile::find_parts(const WholeLine& line, std::uint32_t line_number, std::vector<LinePart>& pieces) {
-    const glm::dvec2 corner = glm::dvec2(rect_.x0, rect_.y0) * 256.0;
+    const glm::dvec2 corner = to_subpixels(glm::dvec2(rect_.x0, rect_.y0));
     double begin = 0, end = 1;
-    if (!clip_to_rect(line, corner, glm::dvec2(rect_.x1, rect_.y1) * 256.0, begin, end)) return;
+    if (!clip_to_rect(line, corner, to_subpixels(glm::dvec2(rect_.x1, rect_.y1)), begin, end)) return;
     contacts_of_line_.clear();
     const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)), snapping = snapping_slack(line);
     line_slack_ = level_slack(frame_.surfaces, nearest) + snapping;
@@ -172,7 +172,7 @@ void HidingTile::find_parts(const WholeLine& line, std::uint32_t line_number, st
 /// Finds where a border ends in contact with a surface that goes on beyond it without any line.
 void HidingTile::find_contacts(const WholeLine& line, const PartInTile& part) {
     if (line.classes.has(LineClass::mark)) return;
-    const double slack = line_slack(frame_.surfaces, line, part.begin, part.end, kContactPx);
+    const double slack = line_slack(frame_.surfaces, line, part.begin, part.end, kDepthTolerancePx);
     cells_.for_crossed(line, part.begin, part.end, slack, kToOneSideSubpixels, [&](std::uint32_t entry) {
         const Occluder& t = triangle(entry);
         if (lies_on(line, t)) return;

@@ -74,7 +74,7 @@ class LineDepths {
         return {column_at(low.x), std::max(std::min((low.y - first_.y) >> kBlockShift, rows_ - 1), begin_row_),
                 column_at(high.x), std::min((high.y - first_.y) >> kBlockShift, end_row_ - 1)};
     }
-    static constexpr int kBeside = 256;  // 1 pixel
+    static constexpr int kBeside = kSubpixelsPerPixel;  // 1 pixel
     /// The range of a polygon in the row of tiles that has a row of blocks. Rows at the rim of the picture stand for
     /// what is beyond it.
     PolygonRows::Range in_row_of_tiles(const PolygonRows& polygon, int y) const {

@@ -76,7 +76,7 @@ void bin_in_front(const ScreenSurfaces& screen, const TileKernels& kernels, cons
     found.resize(Scratch::kRoom);
     tiles.resize(Scratch::kRoom);
     const std::size_t count =
-        kernels.find_in_front(mesh, chunk.begin, chunk.end, lines.grid(), found.data(), tiles.data());
+        kernels.hide.find_in_front(mesh, chunk.begin, chunk.end, lines.grid(), found.data(), tiles.data());
     records.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         if (mesh.facing[found[i]] == edge_on) continue;

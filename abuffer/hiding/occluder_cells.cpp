@@ -8,7 +8,7 @@ namespace burin {
 namespace {
 
 /// Lines are looked up in a cell by parts no longer than an eighth of it. 1/256 pixel for each of its pixels.
-constexpr double kPartOfCell = 256.0 / 8;
+constexpr double kPartOfCell = double{kSubpixelsPerPixel} / 8;
 /// A margin greater than what rounding does to places. 1/256 pixel.
 constexpr float kRounding = 4;
 constexpr float kFar = 1e30f;
@@ -17,7 +17,7 @@ constexpr float kFar = 1e30f;
 
 void OccluderCells::clear(PixelRect rect) {
     rect_ = rect;
-    corner_ = glm::ivec2(rect.x0, rect.y0) * 256;
+    corner_ = glm::ivec2(rect.x0, rect.y0) * kSubpixelsPerPixel;
     count_ = 0;
 }
 
@@ -42,7 +42,7 @@ void OccluderCells::sort(double per_cell) {
     const double wanted = std::sqrt(area * per_cell / std::max(1.0, static_cast<double>(count_)));
     cell_px_ = 1;
     while (cell_px_ < largest && 2 * cell_px_ <= wanted) cell_px_ *= 2;
-    cells_per_subpixel_ = 1 / static_cast<float>(cell_px_ * 256);
+    cells_per_subpixel_ = 1 / static_cast<float>(cell_px_ * kSubpixelsPerPixel);
     columns_ = (rect_.width() + cell_px_ - 1) / cell_px_;
     rows_ = (rect_.height() + cell_px_ - 1) / cell_px_;
     if (columns_ * rows_ == 1) {
@@ -121,8 +121,8 @@ std::size_t OccluderCells::find_crossed(std::size_t cell, const WholeLine& line,
     const bool is_exact = reach == 0 && line.is_exact();
     const glm::vec2 p(line.from + along * (is_exact ? 0 : from) - corner),
         q(line.from + along * (is_exact ? 1 : to) - corner);
-    return kernels_.find_crossed(triangles_.data(), listed_.data(), count, {p.x, p.y, q.x, q.y, low, is_exact, reach},
-                                 found_.data());
+    return kernels_.hide.find_crossed(triangles_.data(), listed_.data(), count,
+                                      {p.x, p.y, q.x, q.y, low, is_exact, reach}, found_.data());
 }
 
 }  // namespace burin

@@ -47,7 +47,7 @@ class OccluderCells {
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
-    float pitch() const { return static_cast<float>(cell_px_ * 256); }
+    float pitch() const { return static_cast<float>(cell_px_ * kSubpixelsPerPixel); }
     Cell cell(int column, int row) const { return cell_at(static_cast<std::size_t>(row * columns_ + column)); }
     /// Numbers of triangles, cell by cell.
     std::span<const std::uint32_t> places() const { return places_; }
@@ -65,7 +65,7 @@ class OccluderCells {
         ++lines_looked_at_;
         const glm::dvec2 corner(corner_), a = line.at(begin) - corner, b = line.at(end) - corner;
         const Range range = range_of(glm::vec2(glm::min(a, b)) - reach, glm::vec2(glm::max(a, b)) + reach);
-        const double size = cell_px_ * 256.0;
+        const double size = cell_px_ * kSubpixelsPerPixel;
         for (int row = range.first_row; row <= range.last_row; ++row) {
             for (int column = range.first_column; column <= range.last_column; ++column) {
                 double from = begin, to = end;

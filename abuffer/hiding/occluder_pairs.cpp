@@ -18,7 +18,8 @@ constexpr float kFar = 1e30f;
 /// The places of the triangles that touch a box.
 std::span<const std::uint32_t> OccluderPairs::touching(std::size_t begin, std::size_t end, const ScreenBox& box,
                                                        float least_x0, float least_y0) {
-    return {found_.data(), kernels_.find_touching(boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
+    return {found_.data(),
+            kernels_.intersect.find_touching(boxes_.view(), begin, end, box, least_x0, least_y0, found_.data())};
 }
 
 std::span<const OccluderPairs::Pair> OccluderPairs::find(const OccluderCells& triangles, PixelRect rect) {

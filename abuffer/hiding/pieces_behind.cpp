@@ -13,8 +13,8 @@ std::vector<LinePiece> pieces_behind(std::span<const WholeLine> lines, std::span
         if (part.transmission == 0 || part.invisibility > needs.most_invisibility) continue;
         const WholeLine& line = lines[part.line];
         LinePiece piece;
-        piece.from = line.at(part.begin) / double{kSubpixelsPerPixel};
-        piece.to = line.at(part.end) / double{kSubpixelsPerPixel};
+        piece.from = to_pixels(line.at(part.begin));
+        piece.to = to_pixels(line.at(part.end));
         piece.line = line.id;
         piece.nearness_from = static_cast<float>(farthest_nearness + line.nearness_at(part.begin));
         piece.nearness_to = static_cast<float>(farthest_nearness + line.nearness_at(part.end));

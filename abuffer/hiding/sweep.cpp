@@ -50,7 +50,7 @@ void HidingSweep::sort(std::vector<double>& values, std::size_t count) {
     constexpr std::size_t kFew = 64;
     if (count < 2) return;
     if (count > kFew) return std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
-    kernels_.sort_few(values.data(), count, sorted_.data());
+    kernels_.sort.few(values.data(), count, sorted_.data());
     values.swap(sorted_);
 }
 

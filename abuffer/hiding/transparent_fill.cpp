@@ -84,7 +84,7 @@ class TransparentTile {
         const double zero = surfaces.farthest_nearness;
         placed.plane = {at.x,
                         at.y,
-                        static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero),
+                        static_cast<float>(plane.extended_to(to_pixels(glm::dvec2(at.x, at.y))) - zero),
                         static_cast<float>(plane.per_x / kSubpixelsPerPixel),
                         static_cast<float>(plane.per_y / kSubpixelsPerPixel),
                         static_cast<float>(plane.lowest - zero),
@@ -110,7 +110,7 @@ class TransparentTile {
     void draw_opaque(std::uint32_t value) {
         const PlacedPolygon p = placed(value);
         for_spans(p.polygon,
-                  [&](int row, int begin, int end) { kernels_.draw_span(view(), row, begin, end, p.plane); });
+                  [&](int row, int begin, int end) { kernels_.draw.span(view(), row, begin, end, p.plane); });
     }
 
     void draw_transparent(std::uint32_t value) {

@@ -10,7 +10,7 @@ inline bool FastDecision::may_be_wall(const ScreenVertex& a, const ScreenVertex&
     const float highest = std::max(std::max(a.nearness, b.nearness), c.nearness),
                 lowest = std::min(std::min(a.nearness, b.nearness), c.nearness);
     if (__builtin_expect(highest - lowest < lowest * level_per_nearness_ + level_, 1)) return false;
-    constexpr double kSnappingSubpixels = kSnappingPx * kSubpixelsPerPixel;
+    constexpr double kSnappingSubpixels = to_subpixels(kSnappingPx);
     const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
     return std::abs(ux * vy - uy * vx) <=
            kSnappingSubpixels * std::max({std::abs(ux), std::abs(uy), std::abs(vx), std::abs(vy)});
@@ -79,13 +79,13 @@ FastDecision::End FastDecision::look_behind(const NeighbourSamples& pair, int i)
     end.tolerance = depth_tolerance(surfaces_, here, behind);
     end.certainly_apart = depth_tolerance(surfaces_, here, behind, kCertainlyApartPx);
     if (stop.has_arrived) {
-        end.gap = distance_of(p, behind.nearness(at / double{kSubpixelsPerPixel})) - here;
+        end.gap = distance_of(p, behind.nearness(to_pixels(at))) - here;
         return end;
     }
     // It ends as well: extend the planes, and take the smaller gap.
     const glm::dvec2 other_end = place(1 - i, stop.fraction);
     const auto extended = [&](const DepthPlane& plane, glm::dvec2 subpixel) {
-        return distance_of(p, plane.extended_to(subpixel / double{kSubpixelsPerPixel}));
+        return distance_of(p, plane.extended_to(to_pixels(subpixel)));
     };
     const double gap_here = extended(behind, at) - here;
     const double gap_there =
@@ -105,7 +105,7 @@ void FastDecision::end_of_surface(const NeighbourSamples& pair, int i, const Fas
     decision.front = i;
     decision.fraction = i == 0 ? walk.fraction : 1 - walk.fraction;
     const auto add_contact = [&](SurfaceId other) {
-        const glm::dvec2 at = pair.place(decision.fraction) / double{kSubpixelsPerPixel};
+        const glm::dvec2 at = to_pixels(pair.place(decision.fraction));
         decision.classes |= contact_classes(surfaces_, own, other, at, criteria_, &decision.crease_cosine);
     };
     const std::uint8_t* const sharp = screen_.sharp_edges(instance);
@@ -157,7 +157,7 @@ bool FastDecision::are_beside(SurfaceId a, SurfaceId b) const {
 
 /// Whether what is seen lies in one plane, or the surface that goes on does so under the one that ends.
 bool FastDecision::may_be_flush(const NeighbourSamples& pair, int ends) const {
-    const glm::dvec2 at = pair.place(0.5) / double{kSubpixelsPerPixel};
+    const glm::dvec2 at = to_pixels(pair.place(0.5));
     const FastWalk& other = *walks_[1 - ends];
     const auto are_flush = [&](SurfaceId a, SurfaceId b) {
         return !are_beside(a, b) && burin::are_flush(surfaces_, a, b, at, criteria_);
@@ -175,7 +175,7 @@ void FastDecision::end_at_sample(const NeighbourSamples& pair) {
     FastWalk& beyond = made_beyond_;
     walker_.walk(pair, kBackwards, beyond, kPassesGoal);
     if (!beyond.is_end_of_surface()) return;
-    const double trifle = (pair.down ? kSampleTrifleY : kSampleTrifleX) * kSubpixelsPerPixel / pair.pitch;
+    const double trifle = to_subpixels(pair.down ? kSampleTrifleY : kSampleTrifleX) / pair.pitch;
     beyond.fraction = std::max(beyond.fraction - trifle, 0.0);
     walks_[0] = &beyond;
 }

@@ -14,7 +14,7 @@ class FastDecision {
     FastDecision(const ScreenSurfaces& screen, const LineCriteria& criteria)
         : screen_(screen), surfaces_(screen.surfaces()), criteria_(criteria), walker_(screen, criteria) {
         const Projection& p = surfaces_.projection;
-        const double deep = 2 / p.focal_px;
+        const double deep = kDepthTolerancePx / p.focal_px;
         level_ = static_cast<float>(deep * (p.orthographic ? 1.0 : surfaces_.farthest_nearness));
         level_per_nearness_ = p.orthographic ? 0.0f : static_cast<float>(deep);
     }
@@ -23,8 +23,8 @@ class FastDecision {
     /// settles most pairs.
     bool is_smooth(const NeighbourSamples& pair) const;
 
-    /// The limits for many pairs at once, TileKernels::find_smooth().
-    SmoothLimits smooth_limits() const { return {level_, level_per_nearness_, kSnappingPx * kSubpixelsPerPixel}; }
+    /// The limits for many pairs at once, TileKernels::Walk::find_smooth().
+    SmoothLimits smooth_limits() const { return {level_, level_per_nearness_, to_subpixels(kSnappingPx)}; }
 
     /// Decides a pair that is not known to be smooth. Returns false where the case is not ordinary; then `decision`
     /// means nothing. Otherwise `decision` is what decide_line() says, as far as classes asked for go, and `nearness`
@@ -56,7 +56,7 @@ class FastDecision {
     FastWalker walker_;
     FastWalk made_[2], made_beyond_;
     const FastWalk* walks_[2];          // from either sample
-    float level_, level_per_nearness_;  // nearness changes by so much where distance does by two pixels' widths
+    float level_, level_per_nearness_;  // nearness changes by this where distance does by kDepthTolerancePx
 };
 
 }  // namespace burin

@@ -87,7 +87,7 @@ class FastWalker::Way {
         const double along = origin_ + fraction_of_way / per_unit_;
         return down_ ? glm::dvec2(across_, along) : glm::dvec2(along, across_);
     }
-    double length_px() const { return std::abs(1 / per_unit_) / kSubpixelsPerPixel; }
+    double length_px() const { return to_pixels(std::abs(1 / per_unit_)); }
 
   private:
     static std::uint32_t next(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
@@ -127,10 +127,10 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
     const FastWalk::Step* before_wall = current;  // where it last got farther at all
     const FastWalk::Step* known_wall = nullptr;   // the last one whose place was asked for
     std::optional<double> wall_part;              // and that
-    const double negligible_fold = kNegligibleFoldPx * kSubpixelsPerPixel / pair.pitch;
+    const double negligible_fold = to_subpixels(kNegligibleFoldPx) / pair.pitch;
     const HalfEdge first_exit = current->exit;
     Slivers slivers{start.triangle};
-    const double snapping = kSnappingPx * kSubpixelsPerPixel / pair.pitch;
+    const double snapping = to_subpixels(kSnappingPx) / pair.pitch;
     const auto end_at = [&result](FastWalk::End end, const FastWalk::Step& at) {
         result.end = end;
         result.triangle = at.triangle;
@@ -174,8 +174,7 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
         bool goes_on = next.left > before_wall->left + kNoAdvance, is_farthest = next.left >= farthest->left;
         if (std::abs(next.left - before_wall->left) < snapping) {
             if (are_apart(way.nearness_at(before_wall->exit), way.nearness_at(next.exit))) {
-                const glm::dvec2 from = way.at(0) / double{kSubpixelsPerPixel},
-                                 along = way.at(1) / double{kSubpixelsPerPixel} - from;
+                const glm::dvec2 from = to_pixels(way.at(0)), along = to_pixels(way.at(1)) - from;
                 if (known_wall != before_wall) wall_part = unsnapped_part(instance, before_wall->exit, from, along);
                 known_wall = before_wall;
                 const auto part = unsnapped_part(instance, next.exit, from, along);
@@ -198,11 +197,11 @@ void FastWalker::walk(const NeighbourSamples& pair, bool backwards, FastWalk& re
 WalkLimits FastWalker::limits(std::int32_t pitch) const {
     const Projection& p = surfaces_.projection;
     constexpr double kRounding = 1e-6;  // as in are_apart()
-    const double deep = (2 - kRounding) / p.focal_px;
+    const double deep = (kDepthTolerancePx - kRounding) / p.focal_px;
     return {1.0 / pitch,
             kNoAdvance,
-            kSnappingPx * kSubpixelsPerPixel / pitch,
-            kNegligibleFoldPx * kSubpixelsPerPixel / pitch,
+            to_subpixels(kSnappingPx) / pitch,
+            to_subpixels(kNegligibleFoldPx) / pitch,
             deep * (p.orthographic ? 1.0 : surfaces_.farthest_nearness),
             p.orthographic ? 0.0 : deep};
 }
@@ -240,7 +239,7 @@ FastWalk::End FastWalker::step_over_seam(const Way& way, std::uint32_t instance,
     if (!beyond.look_at(*entry / 3)) return FastWalk::unsure;
     if (!beyond.crosses(*entry % 3)) return FastWalk::border;
     const double entered = beyond.fraction(*entry % 3);
-    const glm::dvec2 border_px = way.at(from.left) / double{kSubpixelsPerPixel};
+    const glm::dvec2 border_px = to_pixels(way.at(from.left));
     const auto nearness = [&](SurfaceId s) { return plane(s).nearness(border_px) - surfaces_.farthest_nearness; };
     if (std::abs(entered - from.left) * way.length_px() > kWidestCrackPx ||
         !is_level(nearness({instance, from.triangle}), nearness({instance, *entry / 3}), {instance, *entry / 3})) {
@@ -286,7 +285,7 @@ void FastWalker::note_edge(std::uint32_t instance, const FastWalk::Step& left, F
 void FastWalker::note_contact(std::uint32_t instance, std::uint32_t a, std::uint32_t b, glm::dvec2 subpixel,
                               double fraction, FastWalk& result) const {
     const SurfaceId on{instance, a}, to{instance, b};
-    const glm::dvec2 at = subpixel / double{kSubpixelsPerPixel};
+    const glm::dvec2 at = to_pixels(subpixel);
     note(contact_classes(surfaces_, on, to, at, criteria_, &result.crease_cosine), {on, kNoHalfEdge}, fraction, result);
 }
 
@@ -338,7 +337,8 @@ bool FastWalker::are_apart(double nearness_a, double nearness_b) const {
     const Projection& p = surfaces_.projection;
     const double a = surfaces_.farthest_nearness + nearness_a, b = surfaces_.farthest_nearness + nearness_b;
     constexpr double kRounding = 1e-6;
-    if (std::abs(a - b) * p.focal_px < (2 - kRounding) * (p.orthographic ? 1.0 : std::min(a, b))) return false;
+    if (std::abs(a - b) * p.focal_px < (kDepthTolerancePx - kRounding) * (p.orthographic ? 1.0 : std::min(a, b)))
+        return false;
     return is_deep(p, distance_of(p, a), distance_of(p, b));
 }
 

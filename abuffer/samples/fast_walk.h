@@ -91,7 +91,7 @@ class FastWalker {
     /// `passes_goal`: a walk arrives only beyond the other sample, not at it.
     void walk(const NeighbourSamples& pair, bool backwards, FastWalk& result, bool passes_goal = false);
 
-    /// The limits for many walks at once, TileKernels::walk_over_mesh().
+    /// The limits for many walks at once, TileKernels::Walk::over_mesh().
     WalkLimits limits(std::int32_t pitch) const;
     /// Notes the lines that a walk crossed that arrived, by its steps.
     void note_lines(const NeighbourSamples& pair, bool backwards, FastWalk& result);

@@ -75,7 +75,7 @@ bool FlushCover::laps_narrowly(HalfEdge edge, const NeighbourSamples& pair, glm:
     if (edge == kNoHalfEdge) return false;
     const SurfaceSet& surfaces = screen_.surfaces();
     const std::uint32_t instance = pair.surfaces[0].instance;
-    const auto pixel_at = [&](double fraction) { return pair.place(fraction) / double{kSubpixelsPerPixel}; };
+    const auto pixel_at = [&](double fraction) { return to_pixels(pair.place(fraction)); };
     const glm::dvec2 middle = pair.place(0.5);
     const auto laps_over = [&](const FacePlace& other) {
         for (const HalfEdge h : {edge, screen_.mesh(instance).partners[edge]}) {
@@ -104,7 +104,7 @@ bool FlushCover::are_flush(SurfaceId a, SurfaceId b, glm::dvec2 subpixel) const 
     if (a.instance != b.instance) return false;
     if (a == b) return true;
     const SurfaceSet& surfaces = screen_.surfaces();
-    const glm::dvec2 at = subpixel / double{kSubpixelsPerPixel};
+    const glm::dvec2 at = to_pixels(subpixel);
     if (surfaces.order_at(a, b, at).is_apart) return false;  // most are, and this takes less time
     return (contact_classes(surfaces, a, b, at, criteria_) & criteria_.classes).empty() &&
            surfaces.order_near(a, b, at).are_coincident();

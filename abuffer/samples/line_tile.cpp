@@ -103,7 +103,7 @@ void LineTile::find_pairs() {
     pairs_.resize(2 * static_cast<std::size_t>(samples_.columns) * static_cast<std::size_t>(samples_.rows) +
                   kRoomBehindPairs);
     const SampleView tile = visible_.view();
-    pair_count_ = kernels_.find_pairs(tile, pairs_.data());
+    pair_count_ = kernels_.walk.find_pairs(tile, pairs_.data());
     is_smooth_.assign(pair_count_, 0);
     const auto first_id = [&](std::size_t i) { return samples_.ids[first_of(pairs_[i])]; };
     const bool has_one_mesh = screen_.surfaces().instances.size() == 1;
@@ -120,8 +120,8 @@ void LineTile::find_pairs() {
         std::size_t end = has_one_mesh ? pair_count_ : begin + 1;
         while (end < pair_count_ && !is_of_another(first_id(end))) ++end;
         if (mesh.sharp != nullptr && mesh.triangle_count <= kMostToWalk) {
-            kernels_.find_smooth(tile, mesh, fast_.smooth_limits(), pairs_.data() + begin, end - begin,
-                                 is_smooth_.data() + begin);
+            kernels_.walk.find_smooth(tile, mesh, fast_.smooth_limits(), pairs_.data() + begin, end - begin,
+                                      is_smooth_.data() + begin);
         }
         begin = end;
     }
@@ -211,9 +211,9 @@ void LineTile::cross_outlines(std::span<const OutlinePair> pairs, std::size_t& a
             walks.down[i] = down ? ~0u : 0u;
             walks.backwards[i] = pairs[i].from == 1 ? ~0u : 0u;
         }
-        kernels_.walk_over_mesh(mesh, fast_.walker().limits(pitch), walks, pairs.size());
+        kernels_.walk.over_mesh(mesh, fast_.walker().limits(pitch), walks, pairs.size());
         WalkOutlines& found = *found_outlines_;
-        kernels_.find_outlines(mesh, walks, pitch, screen_.surfaces().farthest_nearness, found);
+        kernels_.walk.find_outlines(mesh, walks, pitch, screen_.surfaces().farthest_nearness, found);
         for (std::size_t i = 0; i < found.count; ++i) {
             const OutlinePair& outline = pairs[found.walk[i]];
             is_settled[found.walk[i]] = 1;

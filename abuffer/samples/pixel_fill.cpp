@@ -99,8 +99,8 @@ void PixelFiller::make_looks() {
             ++i;
             continue;
         }
-        kernels_.look(screen_.transform(first.instance), glm::value_ptr(mesh.positions.front()),
-                      screen_.mesh(first.instance), triangles, count, &looks_[i]);
+        kernels_.fill.looks(screen_.transform(first.instance), glm::value_ptr(mesh.positions.front()),
+                            screen_.mesh(first.instance), triangles, count, &looks_[i]);
         for (; count > 0; --count, ++i) fill_ids(numbers_[i], looks_[i]);
     }
 }
@@ -150,9 +150,9 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
     const GeometryRow own{
         row_.distance, {row_.normal[0], row_.normal[1], row_.normal[2]}, {row_.ids[0], row_.ids[1], row_.ids[2]}};
     const bool is_made_in_place = !film.is_whole() && width % 4 == 0;  // see GeometryRow
-    kernels_.put_geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(),
-                          &look_at_[static_cast<std::size_t>(y - rect.y0) * width], width,
-                          is_made_in_place ? film.geometry_place(rect.x0, y, own) : own);
+    kernels_.fill.geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(),
+                           &look_at_[static_cast<std::size_t>(y - rect.y0) * width], width,
+                           is_made_in_place ? film.geometry_place(rect.x0, y, own) : own);
     if (!is_made_in_place) film.put_geometry(rect.x0, rect.x1, y, own);
 }
 
@@ -176,7 +176,7 @@ void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& fil
     for (int y = rect.y0; y < rect.y1; ++y) {
         prefetch(y + kAhead);
         const std::size_t first = samples.index(rect.x0 * s, y * s);
-        kernels_.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
+        kernels_.fill.count_covered(&samples.ids[first], samples.stride, s, rect.width(), covered);
         for (int begin = 0, end; begin < rect.width(); begin = end) {  // a few runs of equal counts
             end = end_of_run(begin);
             film.put_color(rect.x0 + begin, rect.x0 + end, y, paper_[covered[begin]]);

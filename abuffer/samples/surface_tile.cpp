@@ -33,9 +33,9 @@ __attribute__((always_inline)) inline void prefetch(const ScreenMesh& mesh, std:
 SurfaceTile::SurfaceTile(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
                          int samples_per_pixel, const TileKernels& kernels, std::size_t most_contests)
     : screen_(screen), bins_(bins), kernels_(kernels), per_pixel_(samples_per_pixel), contests_(screen, most_contests) {
-    // Two pixels' width at a distance d is a difference in nearness of 2 / (focal * d).
+    // The tolerance at a distance d is a difference in nearness of kDepthTolerancePx / (focal * d).
     const Projection& p = frame.surfaces.projection;
-    const double per_nearness = 2 / p.focal_px;
+    const double per_nearness = kDepthTolerancePx / p.focal_px;
     level_ = static_cast<float>(per_nearness * (p.orthographic ? 1.0 : frame.surfaces.farthest_nearness));
     level_per_nearness_ = p.orthographic ? 0.0f : static_cast<float>(per_nearness);
     hidden_level_ = level_ * level_reach(level_per_nearness_);
@@ -109,7 +109,7 @@ void SurfaceTile::find_farthest() {
         }
         samples.nearness = left_out_.data();
     }
-    kernels_.find_farthest(samples, farthest_.data());
+    kernels_.blocks.find_farthest(samples, farthest_.data());
 }
 
 /// What is hidden by what was drawn so far need not be drawn. The picture does not depend on the order, only the time
@@ -149,12 +149,12 @@ void SurfaceTile::find_seen(const TriangleRun& run, bool has_look) {
     std::uint32_t* const found = seen_.data() + seen_count_;
     std::size_t count = run.count;
     if (has_look) {
-        count = kernels_.find_nearer(farthest_.data(), hidden_level_, hidden_level_per_nearness_, run.triangles,
-                                     run.count, found);
+        count = kernels_.blocks.find_nearer(farthest_.data(), hidden_level_, hidden_level_per_nearness_, run.triangles,
+                                            run.count, found);
     } else {
         for (std::size_t i = 0; i < count; ++i) found[i] = run.triangles[i].triangle;
     }
-    // draw_small() prefetches the rest itself.
+    // Draw::small_triangles() prefetches the rest itself.
     for (std::size_t i = 0; seen_count_ + i < kTrianglesAhead && i < count; ++i)
         prefetch(screen_.mesh(run.instance), found[i]);
     seen_count_ += count;
@@ -169,7 +169,7 @@ void SurfaceTile::draw_seen() {
             contests_.make_room_for(sample_count);
             end = std::min(begin + contests_.room_left() / sample_count, seen_count_);
         }
-        kernels_.draw_small(view(), mesh, seen_.data() + begin, end - begin);
+        kernels_.draw.small_triangles(view(), mesh, seen_.data() + begin, end - begin);
     }
     drawn_ += seen_count_;
     seen_count_ = 0;
@@ -234,7 +234,7 @@ float SurfaceTile::farthest_in_blocks() const {
     return farthest;
 }
 
-/// The greatest nearness that draw_span() may find in a rectangle of samples: at one of its corners, for its
+/// The greatest nearness that Draw::span() may find in a rectangle of samples: at one of its corners, for its
 /// roundings keep the order of numbers, too.
 float SurfaceTile::highest_in(const SpanPlane& plane, int from, int to, int first_row, int end_row) const {
     const std::int32_t pitch = kSubpixelsPerPixel / per_pixel_;
@@ -285,7 +285,7 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
         if (contests_.is_selecting())
             contests_.make_room_for(static_cast<std::size_t>(kBlockSamples * samples_.stride));
         if (scan.fits_doubles()) {
-            drawn += kernels_.draw_polygon(tile, scan.edges().data(), scan.edges().size(),
+            drawn += kernels_.draw.polygon(tile, scan.edges().data(), scan.edges().size(),
                                            {least, first_row, most, end_row}, plane);
             continue;
         }
@@ -294,7 +294,7 @@ int SurfaceTile::draw_large(const LargePolygon& large, bool plain, bool has_look
             const int from = std::max(span.begin - samples_.first_column, least);
             const int to = std::min(span.end - samples_.first_column, most);
             if (from >= to) continue;
-            kernels_.draw_span(tile, row, from, to, plane);
+            kernels_.draw.span(tile, row, from, to, plane);
             drawn += to - from;
         }
     }

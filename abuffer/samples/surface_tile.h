@@ -40,7 +40,7 @@ class SurfaceTile {
     void clear_samples();
     bool is_in_vain() const;
     void find_farthest();
-    /// The highest nearness that is level with what is hidden, as find_nearer() computes it.
+    /// The highest nearness that is level with what is hidden, as Blocks::find_nearer() computes it.
     float highest_level_with_hidden(float nearness) const {
         return nearness + (nearness * hidden_level_per_nearness_ + hidden_level_);
     }

@@ -65,7 +65,7 @@ void WalksAhead::walk_asked() {
             walks.backwards[i] = a.from == 1 ? ~0u : 0u;
             ++end;
         }
-        kernels_.walk_over_mesh(mesh, walker_.limits(pairs_[0].pitch), walks, end - begin);
+        kernels_.walk.over_mesh(mesh, walker_.limits(pairs_[0].pitch), walks, end - begin);
         for (std::size_t i = 0; i < walks.ended_count; ++i) note_end(i, asked_[begin + walks.ended[i]]);
     }
 }

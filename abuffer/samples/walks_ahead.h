@@ -9,7 +9,7 @@
 
 namespace burin {
 
-/// The walks that decisions between many pairs of samples take, made at once by TileKernels::walk_over_mesh(), where
+/// The walks that decisions between many pairs of samples take, made at once by TileKernels::Walk::over_mesh(), where
 /// they are ordinary.
 class WalksAhead {
   public:

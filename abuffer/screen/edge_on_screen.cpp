@@ -45,7 +45,7 @@ std::optional<EdgeOnScreen> clipped_edge(const ScreenSurfaces& screen, std::uint
     const auto end = [&](std::uint32_t vertex, double t, glm::dvec2& place, double& nearness) {
         const ScreenVertex& v = screen.vertices(instance)[vertex];
         const glm::dvec3 cut = glm::mix(p, q, t);
-        place = is_on_screen(v) ? glm::dvec2(v.x, v.y) : projection.to_pixel(cut) * double{kSubpixelsPerPixel};
+        place = is_on_screen(v) ? glm::dvec2(v.x, v.y) : to_subpixels(projection.to_pixel(cut));
         nearness =
             is_on_screen(v) ? static_cast<double>(v.nearness) : projection.nearness(cut) - surfaces.farthest_nearness;
     };

@@ -38,7 +38,7 @@ ScreenTransform transform_of(const SurfaceSet& surfaces, const SurfaceInstance& 
     return t;
 }
 
-/// What TileKernels::project() does, for a mesh with residuals.
+/// What TileKernels::Project::vertices() does, for a mesh with residuals.
 ScreenVertex projected(const SurfaceSet& surfaces, std::uint32_t instance, std::uint32_t vertex) {
     const Projection& p = surfaces.projection;
     const glm::dvec3 view = surfaces.view_position(instance, vertex);
@@ -117,7 +117,7 @@ void ScreenSurfaces::show(std::span<const std::uint32_t> instances, int threads)
                     own[v] = projected(surfaces_, i, static_cast<std::uint32_t>(v));
                 return;
             }
-            kernels_.project(transforms_[i], glm::value_ptr(positions[begin]), end - begin, own + begin);
+            kernels_.project.vertices(transforms_[i], glm::value_ptr(positions[begin]), end - begin, own + begin);
         });
     }
 }
@@ -156,7 +156,7 @@ ScreenMesh ScreenSurfaces::make_mesh(std::uint32_t instance) const {
 double ScreenSurfaces::nearness_of(std::uint32_t number, glm::dvec2 subpixel) const {
     const SurfaceId s = surface_of(number);
     if (facing(number) != off_screen) return extended_nearness(triangle(s), subpixel.x, subpixel.y);
-    return surfaces_.plane(s).extended_to(subpixel / double{kSubpixelsPerPixel}) - surfaces_.farthest_nearness;
+    return surfaces_.plane(s).extended_to(to_pixels(subpixel)) - surfaces_.farthest_nearness;
 }
 
 void ScreenSurfaces::find_line_edges(const TriangleChunk& chunk) {
@@ -165,7 +165,7 @@ void ScreenSurfaces::find_line_edges(const TriangleChunk& chunk) {
     if (sharp_[chunk.instance] == nullptr) {
         std::fill(line_edges + chunk.begin, line_edges + chunk.end, kAll);
     } else {
-        kernels_.find_line_edges(mesh(chunk.instance), chunk.begin, chunk.end, line_edges);
+        kernels_.cull.find_line_edges(mesh(chunk.instance), chunk.begin, chunk.end, line_edges);
     }
 }
 

@@ -141,8 +141,8 @@ class Binner {
         scratch.more_triangles.clear();
         scratch.more_keys.clear();
         CulledTriangles found = scratch.found();
-        kernels_.cull(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_, surfaces_.facings(chunk.instance),
-                      found);
+        kernels_.cull.triangles(surfaces_.mesh(chunk.instance), chunk.begin, chunk.end, grid_,
+                                surfaces_.facings(chunk.instance), found);
         for (std::size_t i = 0; i < found.other_count; ++i)
             add_other({chunk.instance, found.others[i]}, scratch, records);
         sort(chunk.instance, found, scratch, records);
@@ -163,7 +163,7 @@ class Binner {
             count[key] += more;
         };
         const std::uint32_t* const starts = scratch.starts.data();
-        const std::size_t run_count = kernels_.find_runs(found.keys, found.count, scratch.starts.data());
+        const std::size_t run_count = kernels_.sort.find_runs(found.keys, found.count, scratch.starts.data());
         for (std::size_t i = 0; i < run_count; ++i) add(found.keys[starts[i]], starts[i + 1] - starts[i]);
         for (const std::uint32_t key : scratch.more_keys) add(key, 1);
         const std::size_t room = found.count + scratch.more_keys.size() + kRoomBehindRun * scratch.used.size();
@@ -177,7 +177,7 @@ class Binner {
                 .push_back({key / kTriangleKinds, {instance, count[key], kind, 0, small + begin, kNotKnown, 0}});
             begin += std::exchange(count[key], begin) + static_cast<std::uint32_t>(kRoomBehindRun);
         }
-        kernels_.put_runs(found, starts, run_count, count.data(), small);
+        kernels_.sort.put_runs(found, starts, run_count, count.data(), small);
         for (std::size_t i = 0; i < scratch.more_keys.size(); ++i) {
             small[count[scratch.more_keys[i]]++] = scratch.more_triangles[i];
         }
@@ -237,7 +237,7 @@ class Binner {
         const double zero = surfaces_.surfaces().farthest_nearness;
         large.plane.x = at.x;
         large.plane.y = at.y;
-        large.plane.nearness = static_cast<float>(plane.extended_to(glm::dvec2(at.x, at.y) / 256.0) - zero);
+        large.plane.nearness = static_cast<float>(plane.extended_to(to_pixels(glm::dvec2(at.x, at.y))) - zero);
         large.plane.per_x = static_cast<float>(plane.per_x / kSubpixelsPerPixel);
         large.plane.per_y = static_cast<float>(plane.per_y / kSubpixelsPerPixel);
         large.plane.low = static_cast<float>(plane.lowest - zero);

@@ -14,7 +14,7 @@
 
 namespace burin {
 
-/// A triangle that draw_small() cannot draw: large, or cut by the near plane or the guard band.
+/// A triangle that Draw::small_triangles() cannot draw: large, or cut by the near plane or the guard band.
 struct LargePolygon {
     ScreenPolygon polygon;
     SpanPlane plane;

@@ -114,8 +114,8 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
         for (const TileKernels* kernels : all_kernels()) {
             found.emplace_back(4 * (count - begin) + kRoomBehindCulled);
             of_tile.emplace_back(4 * (count - begin) + kRoomBehindCulled);
-            const std::size_t n =
-                kernels->find_in_front(mesh, begin, count, depths.grid(), found.back().data(), of_tile.back().data());
+            const std::size_t n = kernels->hide.find_in_front(mesh, begin, count, depths.grid(), found.back().data(),
+                                                              of_tile.back().data());
             found.back().resize(n);
             of_tile.back().resize(n);
             EXPECT_EQ(found.back(), found[0]) << kernels->name << " trial " << trial;

@@ -101,7 +101,7 @@ TEST(Occluder, TheKernelClipsAsOneByOne) {
             slack};
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<HiddenPart> parts(triangles.size());
-            parts.resize(kernels->clip_hidden(planes.data(), planes.size(), plane_line, parts.data()));
+            parts.resize(kernels->hide.clip(planes.data(), planes.size(), plane_line, parts.data()));
             ASSERT_EQ(parts.size(), expected.size()) << kernels->name << " round " << round;
             for (std::size_t k = 0; k < parts.size(); ++k) {
                 const HiddenPart& p = parts[k];
@@ -143,7 +143,7 @@ TEST(Occluder, TheKernelClipsTwiceAsOnceAndAgain) {
             {line.from.x, line.to.x}, {line.from.y, line.to.y}, {line.nearness_from, line.nearness_to}, begin, end, 0};
         for (const TileKernels* kernels : all_kernels()) {
             HiddenParts parts;
-            kernels->clip_twice(t, clipped, least, slack, parts);
+            kernels->fine.clip_twice(t, clipped, least, slack, parts);
             ASSERT_EQ(parts.is_any_most, is_any_most) << kernels->name << " seed " << seed;
             if (!is_any_most) continue;
             ASSERT_EQ(parts.is_any, is_any) << kernels->name << " seed " << seed;
@@ -176,7 +176,7 @@ TEST(Occluder, FewNumbersAreSorted) {
         read.resize(values.size() + 3);
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<double> sorted(values.size());
-            kernels->sort_few(read.data(), values.size(), sorted.data());
+            kernels->sort.few(read.data(), values.size(), sorted.data());
             EXPECT_EQ(sorted, expected) << kernels->name << " round " << round;
         }
     }

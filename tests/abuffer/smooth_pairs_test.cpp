@@ -1,4 +1,4 @@
-// TileKernels::find_smooth() against FastDecision::is_smooth(), which asks one pair of samples after the other.
+// TileKernels::Walk::find_smooth() against FastDecision::is_smooth(), which asks one pair of samples after the other.
 
 #include <gtest/gtest.h>
 
@@ -74,8 +74,8 @@ Counts compare(const Scene& scene, glm::dvec3 eye, int samples) {
         for (const TileKernels* kernels : all_kernels()) {
             for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
                 std::vector<std::uint8_t> is_smooth(pairs.size(), 7);
-                kernels->find_smooth(view, screen.mesh(i), fast.smooth_limits(), pairs.data(), pairs.size(),
-                                     is_smooth.data());
+                kernels->walk.find_smooth(view, screen.mesh(i), fast.smooth_limits(), pairs.data(), pairs.size(),
+                                          is_smooth.data());
                 for (std::size_t p = 0; p < pairs.size(); ++p) {
                     const bool expected = neighbours[p].surfaces[0].instance == i && fast.is_smooth(neighbours[p]);
                     EXPECT_EQ(is_smooth[p], expected ? 1 : 0) << kernels->name << ", pair " << p << " of tile " << t;

@@ -1,4 +1,4 @@
-// TileKernels::walk_over_mesh() against FastWalker::walk(), which takes one walk after the other.
+// TileKernels::Walk::over_mesh() against FastWalker::walk(), which takes one walk after the other.
 
 #include "abuffer/samples/walks_ahead.h"
 

@@ -47,7 +47,8 @@ TEST(BoxKernels, BoxesThatTouchAreFound) {
             touching += expected.size();
             for (const TileKernels* kernels : all_kernels()) {
                 std::vector<std::uint32_t> found(count);
-                found.resize(kernels->find_touching(boxes.view(), begin, count, own, least_x0, least_y0, found.data()));
+                found.resize(kernels->intersect.find_touching(boxes.view(), begin, count, own, least_x0, least_y0,
+                                                              found.data()));
                 EXPECT_EQ(found, expected) << kernels->name << ' ' << begin << " of " << count;
             }
         }
@@ -94,8 +95,10 @@ TEST(BoxKernels, OverlapsOfEightAndEightAreFound) {
             }
         }
         for (const TileKernels* kernels : all_kernels()) {
-            EXPECT_EQ(kernels->find_overlaps(boxes.view(), 0, a_count, 8, b_count), expected) << kernels->name;
-            EXPECT_EQ(kernels->find_unconnected(corner_lists, 0, 8, expected), expected_unconnected) << kernels->name;
+            EXPECT_EQ(kernels->intersect.find_overlaps(boxes.view(), 0, a_count, 8, b_count), expected)
+                << kernels->name;
+            EXPECT_EQ(kernels->intersect.find_unconnected(corner_lists, 0, 8, expected), expected_unconnected)
+                << kernels->name;
         }
     }
     EXPECT_GT(unconnected, 500);

@@ -16,14 +16,14 @@ namespace {
 
 using namespace test;
 
-/// What cull() finds of all triangles: once for each tile, and the others.
+/// What Cull::triangles() finds of all triangles: once for each tile, and the others.
 struct Culled {
     Culled(const TileKernels& kernels, Triangles& triangles, const TileGrid& grid)
         : keys(4 * triangles.count() + kRoomBehindCulled), others(triangles.count() + kRoomBehindCulled) {
         std::vector<std::uint32_t> numbers(keys.size()), blocks(keys.size());
         std::vector<float> highest(keys.size());
         CulledTriangles found{keys.data(), numbers.data(), highest.data(), blocks.data(), 0, others.data(), 0};
-        kernels.cull(triangles.mesh, 0, triangles.count(), grid, triangles.facing.data(), found);
+        kernels.cull.triangles(triangles.mesh, 0, triangles.count(), grid, triangles.facing.data(), found);
         keys.resize(found.count);
         others.resize(found.other_count);
         for (std::size_t i = 0; i < found.count; ++i) kept.push_back({numbers[i], highest[i], blocks[i]});

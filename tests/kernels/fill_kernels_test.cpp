@@ -32,7 +32,7 @@ TEST(FillKernels, CoveredSamplesAreCounted) {
         }
         for (const TileKernels* kernels : all_kernels()) {
             std::uint8_t counts[64 + 7];
-            kernels->count_covered(tile.ids.data(), tile.stride, s, 64 / s, counts);
+            kernels->fill.count_covered(tile.ids.data(), tile.stride, s, 64 / s, counts);
             for (int x = 0; x < 64 / s; ++x) {
                 int expected = 0;
                 for (int i = 0; i < s * s; ++i) {
@@ -82,11 +82,11 @@ TEST(FillKernels, PixelsLieInThePlanesOfTheirTriangles) {
         for (const TileKernels* kernels : all_kernels()) {
             std::array<float, kCount + 3> distance, normal[3];
             std::array<std::uint32_t, kCount + 3> ids[3];
-            kernels->put_geometry({projection.orthographic, first.x, first.y, projection.focal_px}, looks.data(),
-                                  look_at.data(), kCount,
-                                  {distance.data(),
-                                   {normal[0].data(), normal[1].data(), normal[2].data()},
-                                   {ids[0].data(), ids[1].data(), ids[2].data()}});
+            kernels->fill.geometry({projection.orthographic, first.x, first.y, projection.focal_px}, looks.data(),
+                                   look_at.data(), kCount,
+                                   {distance.data(),
+                                    {normal[0].data(), normal[1].data(), normal[2].data()},
+                                    {ids[0].data(), ids[1].data(), ids[2].data()}});
             for (std::size_t i = 0; i < kCount; ++i) {
                 const TriangleLook& look = looks[look_at[i]];
                 const double expected =
@@ -125,8 +125,8 @@ TEST(FillKernels, NormalsOfTrianglesAreUnitVectors) {
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<float> normals(4 * count + 4, 7.0f);
             std::vector<std::uint8_t> is_thin(count + 1, 7);
-            kernels->triangle_normals(&positions[0].x, count > 0 ? triangles[0].data() : nullptr, count, thin_square,
-                                      normals.data(), is_thin.data());
+            kernels->mesh.normals(&positions[0].x, count > 0 ? triangles[0].data() : nullptr, count, thin_square,
+                                  normals.data(), is_thin.data());
             for (std::size_t t = 0; t < count; ++t) {
                 const auto corner = [&](std::size_t k) { return glm::dvec3(positions[triangles[t][k]]); };
                 const glm::dvec3 p = corner(1) - corner(0), q = corner(2) - corner(0), r = q - p,
@@ -167,13 +167,12 @@ TEST(FillKernels, RoughNormalsAreNearlyNormals) {
         const std::uint32_t* const corners = count > 0 ? triangles[0].data() : nullptr;
         std::vector<float> normals(4 * count);
         std::vector<std::uint8_t> is_thin(count);
-        baseline_kernels().triangle_normals(&positions[0].x, corners, count, thin_square, normals.data(),
-                                            is_thin.data());
+        baseline_kernels().mesh.normals(&positions[0].x, corners, count, thin_square, normals.data(), is_thin.data());
         std::vector<std::int16_t> first;
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<std::int16_t> rough(4 * count + 4, 7);
             std::vector<std::uint8_t> found(count + 1, 7);
-            kernels->rough_normals(&positions[0].x, corners, count, thin_square, rough.data(), found.data());
+            kernels->mesh.rough_normals(&positions[0].x, corners, count, thin_square, rough.data(), found.data());
             for (std::size_t t = 0; t < count; ++t) {
                 double square = 0;
                 for (std::size_t c = 0; c < 3; ++c) {
@@ -226,8 +225,8 @@ TEST(FillKernels, CreasesAreWhatIsNotPlainlySmooth) {
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<std::uint8_t> found(triangles - first + 1, 8);
             std::vector<std::uint32_t> in_doubt(half_edges), expected_doubts;
-            in_doubt.resize(kernels->find_creases(begins.data(), next.data(), normals.data(), first, triangles - first,
-                                                  low, high, found.data(), in_doubt.data()));
+            in_doubt.resize(kernels->mesh.find_creases(begins.data(), next.data(), normals.data(), first,
+                                                       triangles - first, low, high, found.data(), in_doubt.data()));
             for (std::size_t t = first; t < triangles; ++t) {
                 unsigned expected = 8;
                 for (std::size_t k = 0; k < 3; ++k) {

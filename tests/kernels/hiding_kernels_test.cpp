@@ -57,7 +57,7 @@ TEST(HidingKernels, TrianglesThatReachInFrontOfABoxAreFound) {
             some.set_listed(boxes, listed);
             const auto find = [&](const TriangleBoxes& of, std::size_t begin, std::size_t end) {
                 std::vector<std::uint32_t> found(end + TriangleBoxes::kPadding);
-                found.resize(kernels->find_in_front_of_box(of.view(), begin, end, box, found.data()));
+                found.resize(kernels->fine.find_in_front(of.view(), begin, end, box, found.data()));
                 return found;
             };
             for (std::size_t begin = 0; begin <= triangles.size(); begin += 9) {
@@ -115,8 +115,8 @@ TEST(HidingKernels, TrianglesThatMayHideALineAreFound) {
         std::vector<std::vector<std::uint32_t>> found;
         for (const TileKernels* kernels : all_kernels()) {
             found.push_back(listed);  // one list after the other
-            found.back().resize(
-                kernels->find_hiding(triangles.data(), found.back().data(), listed.size(), line, found.back().data()));
+            found.back().resize(kernels->fine.find_hiding(triangles.data(), found.back().data(), listed.size(), line,
+                                                          found.back().data()));
             EXPECT_EQ(found.back(), found[0]) << kernels->name;
         }
         found_count += static_cast<int>(found[0].size());
@@ -188,7 +188,7 @@ TEST(HidingKernels, TrianglesThatOnlyTouchAnExactLineAreNotFound) {
         line.is_exact = true;
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<std::uint32_t> found(kCount);
-            found.resize(kernels->find_hiding(triangles.data(), listed.data(), kCount, line, found.data()));
+            found.resize(kernels->fine.find_hiding(triangles.data(), listed.data(), kCount, line, found.data()));
             for (std::uint32_t i = 0; i < kCount; ++i) {
                 const std::vector<glm::dvec2>& own = corners[i];
                 if (a == b || cross(own[1] - own[0], own[2] - own[0]) == 0) continue;
@@ -259,7 +259,7 @@ TEST(HidingKernels, LinesJustInsideLargeTrianglesAreFound) {
                               static_cast<float>(b.y), 0.5f};
         for (const TileKernels* kernels : all_kernels()) {
             std::uint32_t number = 0;
-            ASSERT_EQ(kernels->find_hiding(&triangle, &number, 1, line, &number), 1u)
+            ASSERT_EQ(kernels->fine.find_hiding(&triangle, &number, 1, line, &number), 1u)
                 << kernels->name << " round " << round;
         }
     }
@@ -284,7 +284,7 @@ TEST(HidingKernels, TrianglesArePutAsLinesCrossThem) {
         const int x = random.integer(-5000, 50000), y = random.integer(-50000, 5000);
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<CrossedTriangle> put(numbers.size() + 7);
-            kernels->put_crossed(triangles.mesh, numbers.data(), numbers.size(), x, y, put.data());
+            kernels->hide.put_crossed(triangles.mesh, numbers.data(), numbers.size(), x, y, put.data());
             for (std::size_t i = 0; i < numbers.size(); ++i) {
                 const std::uint32_t t = numbers[i] - triangles.mesh.first_number;
                 const auto corner = [&](std::uint32_t k) {

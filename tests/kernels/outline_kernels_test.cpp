@@ -72,7 +72,7 @@ TEST(OutlineKernels, FindWhereWalksLeaveSurfaces) {
         const std::int32_t pitch = 32 << random.integer(0, 2);
         const double farthest = random.real(0, 1);
         for (const TileKernels* kernels : all_kernels()) {
-            kernels->find_outlines(given.mesh, walks, pitch, farthest, *found);
+            kernels->walk.find_outlines(given.mesh, walks, pitch, farthest, *found);
             std::size_t at = 0;
             for (std::size_t i = 0; i < walks.ended_count; ++i) {
                 const std::uint32_t exit = walks.exit[walks.end_step[i]], t = exit / 3, w = walks.ended[i];

@@ -121,8 +121,8 @@ TEST(SortHiding, TrianglesAreFoundInBlocksWhereTheyAreNearer) {
             std::vector<HidingInBlock> found(4 * listed.size());
             std::vector<std::uint32_t> others(listed.size());
             std::size_t others_found = 0;
-            found.resize(kernels->sort_hiding(mesh, listed.data(), listed.size(), grid, found.data(), others.data(),
-                                              &others_found));
+            found.resize(kernels->fine.sort_hiding(mesh, listed.data(), listed.size(), grid, found.data(),
+                                                   others.data(), &others_found));
             others.resize(others_found);
             std::vector<Entry> entries;
             for (const HidingInBlock& f : found) entries.push_back(entry(f.block, f.triangle));

@@ -40,7 +40,7 @@ TEST(SortKernels, TrianglesGoToTheListsOfTheirKeys) {
         triangles += count;
         expected_starts.push_back(static_cast<std::uint32_t>(count));
         for (const TileKernels* kernels : all_kernels()) {
-            const std::size_t found = kernels->find_runs(keys.data(), count, starts.data());
+            const std::size_t found = kernels->sort.find_runs(keys.data(), count, starts.data());
             ASSERT_EQ(
                 std::vector<std::uint32_t>(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(found) + 1),
                 expected_starts)
@@ -53,7 +53,7 @@ TEST(SortKernels, TrianglesGoToTheListsOfTheirKeys) {
             }
             constexpr TileTriangle kUntouched{77, 77, 77};
             std::vector<TileTriangle> sorted(room + 1, kUntouched);
-            kernels->put_runs(culled, starts.data(), found, next.data(), sorted.data());
+            kernels->sort.put_runs(culled, starts.data(), found, next.data(), sorted.data());
             std::size_t at = 0;
             for (const auto& [key, list] : lists) {
                 for (const std::size_t i : list) {

@@ -46,11 +46,11 @@ TEST(TileKernels, TrianglesAreDrawnAsSampleBySample) {
                     std::vector<std::uint32_t> numbers(count);
                     for (std::size_t i = 0; i < count; ++i) numbers[i] = drawable[first + i].triangle;
                     if (with_look) {
-                        kernels->find_farthest(view_of(tile), farthest.data());
-                        numbers.resize(
-                            kernels->find_nearer(farthest.data(), 0, 0, &drawable[first], count, numbers.data()));
+                        kernels->blocks.find_farthest(view_of(tile), farthest.data());
+                        numbers.resize(kernels->blocks.find_nearer(farthest.data(), 0, 0, &drawable[first], count,
+                                                                   numbers.data()));
                     }
-                    kernels->draw_small(view_of(tile), triangles.mesh, numbers.data(), numbers.size());
+                    kernels->draw.small_triangles(view_of(tile), triangles.mesh, numbers.data(), numbers.size());
                     drawn += numbers.size();
                 }
                 if (!with_look) {
@@ -105,13 +105,13 @@ TEST(TileKernels, PolygonsAreDrawnRowByRow) {
             const int from = std::max(span.begin - first_column, rect.first_column),
                       to = std::min(span.end - first_column, rect.end_column);
             if (from >= to) continue;
-            baseline_kernels().draw_span(view_of(expected), row, from, to, plane);
+            baseline_kernels().draw.span(view_of(expected), row, from, to, plane);
             count += to - from;
         }
         drawn += count;
         for (const TileKernels* kernels : all_kernels()) {
             SampleTile found = tile;
-            EXPECT_EQ(kernels->draw_polygon(view_of(found), scan.edges().data(), scan.edges().size(), rect, plane),
+            EXPECT_EQ(kernels->draw.polygon(view_of(found), scan.edges().data(), scan.edges().size(), rect, plane),
                       count)
                 << kernels->name << " seed " << seed;
             EXPECT_EQ(found.ids, expected.ids) << kernels->name << " seed " << seed;
@@ -147,7 +147,7 @@ TEST(TileKernels, WhatIsLevelHangsOnNoOrder) {
                 view.contests = contests.data();
                 view.contest_count = &contest_count;
                 view.contest_capacity = static_cast<std::uint32_t>(contests.size());
-                for (const SpanPlane& plane : planes) kernels->draw_span(view, 0, 0, kColumns, plane);
+                for (const SpanPlane& plane : planes) kernels->draw.span(view, 0, 0, kColumns, plane);
                 const std::vector<std::uint32_t> ids(tile.ids.begin(), tile.ids.begin() + kColumns);
                 if (first.empty()) first = ids;
                 ASSERT_EQ(ids, first) << kernels->name << " seed " << seed;
@@ -188,8 +188,8 @@ TEST(TileKernels, LosersBehindTheLastOneAreNotNoted) {
                     return SpanPlane{0, 0, z, 0, 0, z, z, plane_id};
                 };
                 const SpanPlane far = plane_of(loser, id), near = plane_of(1.05f, 31);
-                kernels->draw_span(view, 0, 0, kColumns, loser_is_first ? far : near);
-                kernels->draw_span(view, 0, 0, kColumns, loser_is_first ? near : far);
+                kernels->draw.span(view, 0, 0, kColumns, loser_is_first ? far : near);
+                kernels->draw.span(view, 0, 0, kColumns, loser_is_first ? near : far);
                 ASSERT_EQ(contest_count, is_noted ? 8u : 1u) << kernels->name << " " << loser << " " << id;
                 for (std::uint32_t i = 0; i < contest_count; ++i) {
                     EXPECT_EQ(contests[i].loser, id);
@@ -223,7 +223,7 @@ TEST(TileKernels, EdgesThatMayBeLinesAreFound) {
         mesh.facing = facing.data();
         mesh.sharp = sharp.data();
         mesh.partners = partners.data();
-        kernels->find_line_edges(mesh, 3, kCount - 7, found.data());
+        kernels->cull.find_line_edges(mesh, 3, kCount - 7, found.data());
         int plain = 0, sharp_ones = 0;
         for (std::uint32_t t = 0; t < kCount; ++t) {
             const bool has_side = facing[t] == clockwise || facing[t] == counterclockwise;
@@ -284,10 +284,10 @@ TEST(TileKernels, NearerTrianglesAreFound) {
             if (is_nearer) expected.push_back(t.triangle);
         }
         for (const TileKernels* kernels : all_kernels()) {
-            kernels->combine_blocks(kColumns, kRows, least.data());
+            kernels->blocks.combine(kColumns, kRows, least.data());
             std::vector<std::uint32_t> found(triangles.size());
-            found.resize(kernels->find_nearer(least.data(), level, per_nearness, triangles.data(), triangles.size(),
-                                              found.data()));
+            found.resize(kernels->blocks.find_nearer(least.data(), level, per_nearness, triangles.data(),
+                                                     triangles.size(), found.data()));
             EXPECT_EQ(found, expected) << kernels->name << " round " << round;
         }
     }
@@ -327,7 +327,7 @@ TEST(TileKernels, StrokesCoverWhatIsNear) {
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<std::uint32_t> masks = before;
             std::vector<std::uint8_t> touched(pixels, 0);
-            kernels->draw_stroke(s, {masks.data(), touched.data(), x0, y0, width, height, stride});
+            kernels->stroke.draw(s, {masks.data(), touched.data(), x0, y0, width, height, stride});
             for (std::size_t i = 0; i < pixels; ++i) {
                 const auto column = static_cast<int>(i) % stride, row = static_cast<int>(i) / stride;
                 bool is_any = false, may_be_any = false;
@@ -391,8 +391,8 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
         for (std::size_t i = 0; i < kernels.size(); ++i) {
             vertices[i].resize(999);
             looks[i].resize(333);
-            kernels[i]->project(t, positions.data(), 999, vertices[i].data());
-            kernels[i]->look(t, positions.data(), mesh, numbers.data(), 333, looks[i].data());
+            kernels[i]->project.vertices(t, positions.data(), 999, vertices[i].data());
+            kernels[i]->fill.looks(t, positions.data(), mesh, numbers.data(), 333, looks[i].data());
         }
         int seen = 0;
         for (const ScreenVertex& v : vertices[0]) seen += v.x != ScreenVertex::kOffScreen;
@@ -413,7 +413,7 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
         hidden[i] = random.bits();
         expected += std::popcount(rows[i] & ~hidden[i]);
     }
-    for (const TileKernels* set : kernels) EXPECT_EQ(set->count_bits(rows, hidden), expected);
+    for (const TileKernels* set : kernels) EXPECT_EQ(set->stroke.count_bits(rows, hidden), expected);
 }
 
 TEST(TileKernels, FindPairsOfSurfacesThatAreNotPlainOrNotLevel) {
@@ -449,7 +449,7 @@ TEST(TileKernels, FindPairsOfSurfacesThatAreNotPlainOrNotLevel) {
         }
         for (const TileKernels* kernels : all_kernels()) {
             std::vector<SamplePair> pairs(2 * tile.ids.size() + kRoomBehindPairs);
-            pairs.resize(kernels->find_pairs(view, pairs.data()));
+            pairs.resize(kernels->walk.find_pairs(view, pairs.data()));
             std::vector<std::array<int, 3>> found;
             for (const SamplePair& p : pairs) found.push_back({p.row(), p.column(), p.down()});
             std::sort(found.begin(), found.end());

@@ -159,7 +159,7 @@ std::vector<std::uint32_t> find_crossed(const TileKernels& kernels, std::span<co
     const std::size_t count = listed.size();
     listed.resize(count + kMore, kNoTriangle);
     std::vector<std::uint32_t> found(count + kMore);
-    found.resize(kernels.find_crossed(triangles.data(), listed.data(), count, line, found.data()));
+    found.resize(kernels.hide.find_crossed(triangles.data(), listed.data(), count, line, found.data()));
     return found;
 }
 
