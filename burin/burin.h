@@ -177,7 +177,7 @@ typedef struct burin_picture burin_picture;
 /** Draws a scene. `view`, `options`: NULL for all as usual. The same scene and view give the same bits, whatever the
  * options and the machine, and those that the program writes. */
 BURIN_API burin_picture* burin_render(burin_scene* scene, const burin_view* view, const burin_options* options);
-/** Stops what a scene is doing (burin_render(), burin_load(), burin_load_text() or burin_add_mesh()): that call soon
+/** Stops what a scene is doing (burin_render(), burin_find_lines(), burin_load() ...): that call soon
  * fails with BURIN_STOPPED. From any thread. A call that begins later is not stopped. */
 BURIN_API void burin_cancel(burin_scene* scene);
 /** NULL is allowed. */
@@ -210,28 +210,35 @@ BURIN_API int burin_pixels(const burin_picture* picture, uint8_t* out, int chann
 /** The lines of a picture, found once, independent of the scene: to be read as columns of numbers, and drawn. */
 typedef struct burin_drawing burin_drawing;
 
-/** Finds the lines that burin_render() would draw: visible ones, and hidden ones where the scene draws them
- * ("lines.hidden.style=solid"). `options.layers`: of the pictures that are drawn of it. */
+/** Finds the lines that burin_render() would draw: visible ones, and those that surfaces hide where the scene draws
+ * them ("lines.hidden.style=solid" or "dashed"). `options.layers`: of the pictures that are drawn of it. */
 BURIN_API burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, const burin_options* options);
 /** Draws a drawing's lines over its surfaces: the bits of burin_render(). `style`: must be NULL, the look of the scene
- * when the lines were found. `options`: the drawing has its layers already. */
+ * when the lines were found. Of `options` only `threads` counts: the drawing has its layers already. */
 BURIN_API burin_picture* burin_draw(const burin_drawing* drawing, const char* style, const burin_options* options);
 /** NULL is allowed. Pictures live on. */
 BURIN_API void burin_drawing_free(burin_drawing* drawing);
 
-/** A column of a drawing: a value for each of its straight pieces, visible ones first. `type` gets its burin_type,
- * `count` the number of pieces; either may be NULL. It is made when it is first asked for; the drawing owns it.
+/* clang-format off */
+/** A column of a drawing: a value for each of its straight pieces. `type` gets its burin_type, `count` the number of
+ * pieces; either may be NULL. It is made when it is first asked for, and lives as long as the drawing, which owns it.
  *
- * | name | type | meaning |
- * |---|---|---|
- * | x0 y0 x1 y1 | double | the piece's ends, in pixels from the upper left corner of the whole picture, y down |
- * | nearness0 nearness1 | float | of the line's surface at the ends: 1 / depth along the view axis; orthographic:
- * -depth | | line | uint64 | which line it is part of: an edge of an object, or where two surfaces meet; equal numbers,
- * one line | | object | uint32 | the line's object, as in the channel id.object | | material | uint32 | the line's
- * material, as in the channel id.material; 0: edges that no polygon has | | classes | uint16 | all line classes that
- * apply: bit 0 mark, 1 border, 2 silhouette, 3 intersection, 4 object, 5 material, 6 crease, 7 polygon | | invisibility
- * | uint8 | how many opaque surfaces are in front; 0: it is seen; 255: that many or more | */
+ * Pieces are lines as they were found: contours lie on edges of the mesh, and nothing is cut into dashes. A line comes
+ * in many of them, found in squares of the picture; its number joins them. Some reach beyond the picture or the crop.
+ * Those that no surface is in front of come first, then hidden ones and those seen through transparent surfaces.
+ *
+ *     name                 type    meaning
+ *     x0 y0 x1 y1          double  the piece's ends, in pixels from the upper left corner of the whole picture, y down
+ *     nearness0 nearness1  float   of the line's surface at the ends: 1 / depth along the view axis; orthographic: -depth
+ *     line                 uint64  which line it is part of, an edge or where two surfaces meet: equal numbers, one line
+ *     object               uint32  the line's object, as in the channel id.object
+ *     material             uint32  the line's material, as in the channel id.material; 0: an edge that no polygon has
+ *     classes              uint16  the line classes that apply, of those that the scene draws ("lines.draw"), as bits:
+ *                                  1 mark, 2 border, 4 silhouette, 8 intersection, 16 object, 32 material, 64 crease,
+ *                                  128 polygon; the lowest one is what the line is called and drawn as
+ *     invisibility         uint8   how many opaque surfaces are in front; 0: none; 255: that many or more */
 BURIN_API const void* burin_column(burin_drawing* drawing, const char* name, int32_t* type, uint64_t* count);
+/* clang-format on */
 
 /* ---- files ---- */
 

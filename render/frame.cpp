@@ -32,7 +32,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     frame.height = height;
     frame.crop = crop;
     frame.needs = needs_of(scene);
-    frame.criteria.classes = scene.lines.classes;
+    frame.criteria.classes = frame.needs.classes;
     frame.criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
 
     std::vector<Box> mesh_boxes;

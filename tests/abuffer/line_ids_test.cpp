@@ -61,7 +61,10 @@ TEST(LineIds, AnEdgeOfAnyNumberOfPolygonsIsOneLine) {
         const auto is_on_edge = [&](const LinePiece& piece) {
             const glm::dvec2 along = glm::normalize(b - a);
             const auto distance = [&](glm::dvec2 p) { return std::abs(along.x * (p - a).y - along.y * (p - a).x); };
-            return std::max(distance(piece.from), distance(piece.to)) < 0.02 && glm::distance(piece.from, piece.to) > 2;
+            const double share = glm::dot(0.5 * (piece.from + piece.to) - a, along) / glm::distance(a, b);
+            // A sheet that is seen edge-on has its other sides on the same line of the picture, beyond this edge.
+            return share > 0 && share < 1 && std::max(distance(piece.from), distance(piece.to)) < 0.02 &&
+                   glm::distance(piece.from, piece.to) > 2;
         };
         std::set<LineId> ids;
         for (const auto& lists : {drawing.visible(), drawing.behind()}) {

@@ -93,7 +93,7 @@ TEST_P(Drawings, OfFoundLinesAreTheRenderedPicture) {
     for (const Look& look : looks()) expect_same(BURIN_SOURCE_FOLDER "/scenes/" + GetParam() + ".toml", look);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, Drawings, ::testing::ValuesIn(scene_names()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& scene) { return scene.param; });
 
 }  // namespace
 }  // namespace burin
