@@ -17,76 +17,25 @@ constexpr int kTilePx = HiddenStrokes::kTilePx;
 
 }  // namespace
 
-/// Bins sort pieces to the tiles that their strokes reach, in the order of the lists.
-class StrokePrinter::Bins {
-  public:
-    Bins(const Lists& segments, PixelRect region, double reach_px)
-        : region_(region),
-          columns_((region.width() + kTilePx - 1) / kTilePx),
-          rows_((region.height() + kTilePx - 1) / kTilePx) {
-        end_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-        std::vector<Place> places;
-        for (const auto& list : segments) {
-            for (const LinePiece& s : list) {
+/// A part of the picture in tiles, and the pieces whose strokes reach each, in the order of the lists.
+struct StrokePrinter::Bins {
+    PixelTiles tiles;
+    TileLists<const LinePiece*> pieces;
+
+    Bins(const Lists& lists, PixelRect part, double reach_px) : tiles(part, kTilePx) {
+        std::vector<std::vector<TileLists<const LinePiece*>::Record>> records(1);
+        for (const std::span<const LinePiece> list : lists) {
+            for (const LinePiece& piece : list) {
                 constexpr std::ptrdiff_t kAhead = 16;
-                if (list.data() + list.size() - &s > kAhead) __builtin_prefetch(&s + kAhead);
-                const std::optional<Place> place = place_of(s, reach_px);
-                if (!place) continue;
-                places.push_back(*place);
-                for_tiles(*place, [&](std::size_t tile) { ++end_[tile + 1]; });
+                if (list.data() + list.size() - &piece > kAhead) __builtin_prefetch(&piece + kAhead);
+                tiles.visit(glm::min(piece.from, piece.to) - reach_px, glm::max(piece.from, piece.to) + reach_px,
+                            [&](std::uint32_t tile) {
+                                records[0].push_back({tile, &piece});
+                            });
             }
         }
-        for (std::size_t i = 1; i < end_.size(); ++i) end_[i] += end_[i - 1];
-        sorted_.resize(end_.back());
-        std::vector<std::size_t> next = end_;
-        for (const Place& place : places) {
-            for_tiles(place, [&](std::size_t tile) { sorted_[next[tile]++] = place.segment; });
-        }
+        pieces = TileLists<const LinePiece*>(records, tiles.count());
     }
-    std::size_t tile_count() const { return end_.size() - 1; }
-    PixelRect tile(std::size_t i) const {
-        const int x0 = region_.x0 + static_cast<int>(i) % columns_ * kTilePx;
-        const int y0 = region_.y0 + static_cast<int>(i) / columns_ * kTilePx;
-        return {x0, y0, std::min(x0 + kTilePx, region_.x1), std::min(y0 + kTilePx, region_.y1)};
-    }
-    std::span<const LinePiece* const> segments(std::size_t i) const {
-        return {sorted_.data() + end_[i], end_[i + 1] - end_[i]};
-    }
-
-  private:
-    /// A piece and the columns and rows of tiles that its stroke may reach, the last ones included.
-    struct Place {
-        const LinePiece* segment;
-        int x0, y0, x1, y1;
-    };
-    std::optional<Place> place_of(const LinePiece& s, double reach) const {
-        struct Range {
-            double low, high;
-        };
-        const auto range = [reach](double from, double to, int origin) {
-            return Range{(std::min(from, to) - reach - origin) / double(kTilePx),
-                         (std::max(from, to) + reach - origin) / double(kTilePx)};
-        };
-        // Most pieces that reach no tile lie above or below all of them.
-        const Range y = range(s.from.y, s.to.y, region_.y0);
-        if (!(y.high >= 0 && y.low < rows_)) return std::nullopt;
-        const Range x = range(s.from.x, s.to.x, region_.x0);
-        if (!(x.high >= 0 && x.low < columns_)) return std::nullopt;
-        return Place{&s, static_cast<int>(std::max(x.low, 0.0)), static_cast<int>(std::max(y.low, 0.0)),
-                     static_cast<int>(std::min(x.high, columns_ - 1.0)),
-                     static_cast<int>(std::min(y.high, rows_ - 1.0))};
-    }
-    template <typename Visit>
-    void for_tiles(const Place& place, const Visit& visit) const {
-        for (int y = place.y0; y <= place.y1; ++y) {
-            for (int x = place.x0; x <= place.x1; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
-        }
-    }
-
-    PixelRect region_;
-    int columns_, rows_;
-    std::vector<std::size_t> end_;
-    std::vector<const LinePiece*> sorted_;
 };
 
 namespace {
@@ -231,11 +180,11 @@ StrokePrinter::Bins StrokePrinter::sort(PixelRect part, const Lists& lines) cons
 }
 
 void StrokePrinter::print(int worker, const Bins& bins, std::size_t index, HiddenStrokes* behind) {
-    const auto lines = bins.segments(index);
+    const auto lines = bins.pieces.of(index);
     const bool has_behind = behind != nullptr && behind->has_any(index);
     if (lines.empty() && !has_behind) return;
     Printer& printer = printers_[static_cast<std::size_t>(worker)];
-    const PixelRect tile = bins.tile(index);
+    const PixelRect tile = bins.tiles.tile(index);
     printer.draw(lines, tile, filter_ ? FilterTable::kReach : 0);
     if (has_behind) behind->draw_below(worker, index, printer.strokes(), film_);
     if (filter_) {
@@ -248,13 +197,13 @@ void StrokePrinter::print(int worker, const Bins& bins, std::size_t index, Hidde
 
 void StrokePrinter::draw(PixelRect part, const Lists& lines, HiddenStrokes* behind) {
     const Bins bins = sort(part, lines);
-    parallel_for(bins.tile_count(), static_cast<int>(printers_.size()),
+    parallel_for(bins.tiles.count(), static_cast<int>(printers_.size()),
                  [&](std::size_t i, int worker) { print(worker, bins, i, behind); });
 }
 
 void StrokePrinter::draw_as(int worker, PixelRect part, const Lists& lines) {
     const Bins bins = sort(part, lines);
-    for (std::size_t i = 0; i < bins.tile_count(); ++i) print(worker, bins, i, nullptr);
+    for (std::size_t i = 0; i < bins.tiles.count(); ++i) print(worker, bins, i, nullptr);
 }
 
 }  // namespace burin

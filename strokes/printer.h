@@ -28,7 +28,7 @@ class StrokePrinter {
     void draw_as(int worker, PixelRect part, const Lists& lines);
 
   private:
-    class Bins;
+    struct Bins;
     class Printer;
     Bins sort(PixelRect part, const Lists& lines) const;
     void print(int worker, const Bins& bins, std::size_t tile, HiddenStrokes* behind);
