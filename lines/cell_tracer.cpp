@@ -29,27 +29,27 @@ glm::dvec2 inwards(const LineCrossing& c, glm::dvec2 center) {
 }
 
 /// A piece that starts or ends at the crossing whose line it is.
-void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 center, std::vector<LinePiece>& segments,
+void add(const LineCrossing& style, glm::dvec2 from, glm::dvec2 to, glm::dvec2 center, std::vector<LinePiece>& pieces,
          const LineCrossing* other_end = nullptr) {
     if (from == to) return;
-    LinePiece& segment = segments.emplace_back();  // in place: copying would wait for what was just stored
-    segment.from = from;
-    segment.to = to;
-    segment.is_drawn = !style.classes.empty();
-    segment.drawn_as = style.classes.first().value_or(LineClass::silhouette);
-    segment.occludes = style.occludes;
-    segment.nearness_from = static_cast<float>(style.nearness);
-    segment.nearness_to = other_end == nullptr ? segment.nearness_from : static_cast<float>(other_end->nearness);
+    LinePiece& piece = pieces.emplace_back();  // in place: copying would wait for what was just stored
+    piece.from = from;
+    piece.to = to;
+    piece.is_drawn = !style.classes.empty();
+    piece.drawn_as = style.classes.first().value_or(LineClass::silhouette);
+    piece.occludes = style.occludes;
+    piece.nearness_from = static_cast<float>(style.nearness);
+    piece.nearness_to = other_end == nullptr ? piece.nearness_from : static_cast<float>(other_end->nearness);
     // y runs down: what is to the left of the way has a negative cross product.
     const glm::dvec2 in = inwards(style, center);
     const double side = cross(in, style.towards_front);
     // The corner lies beyond the cell: the piece runs back to it.
     constexpr double kBack = 1e-6;
     const bool runs_back = glm::dot((to == style.pixel ? from : to) - style.pixel, in) < -kBack * glm::length(in);
-    segment.front_on_left = ((to == style.pixel) != runs_back ? -side : side) < 0;
-    segment.line = style.line;
-    segment.classes = style.classes;
-    segment.opacity = style.opacity;
+    piece.front_on_left = ((to == style.pixel) != runs_back ? -side : side) < 0;
+    piece.line = style.line;
+    piece.classes = style.classes;
+    piece.opacity = style.opacity;
 }
 
 bool has_edge(const LineCrossing& c) { return c.edge_ends[0] != c.edge_ends[1]; }
@@ -66,7 +66,7 @@ bool has_direction(const LineCrossing& c) { return c.along != glm::dvec2(0.0); }
 }  // namespace
 
 void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high, bool has_bridges,
-                std::vector<LinePiece>& segments) {
+                std::vector<LinePiece>& pieces) {
     const glm::dvec2 center = 0.5 * (low + high);
     const auto runs_through = [&](const LineCrossing& c) {
         return has_edge(c) && !c.classes.empty() && !is_inside(c.edge_ends[0], low, high) &&
@@ -83,8 +83,8 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
                 // The corner of an intersection may lie beyond a side whose samples do not see it.
                 const glm::dvec2 beyond = has_edge(a) == has_edge(b) ? glm::dvec2(0.0) : 0.25 * (high - low);
                 if (corner && is_inside(*corner, low - beyond, high + beyond)) {
-                    add(a, a.pixel, *corner, center, segments);
-                    add(b, *corner, b.pixel, center, segments);
+                    add(a, a.pixel, *corner, center, pieces);
+                    add(b, *corner, b.pixel, center, pieces);
                     return;
                 }
             }
@@ -92,11 +92,11 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
                 return;
             // There is no corner: half of the way looks like one line, half like the other.
             const glm::dvec2 middle = 0.5 * (a.pixel + b.pixel);
-            add(a, a.pixel, middle, center, segments);
-            add(b, middle, b.pixel, center, segments);
+            add(a, a.pixel, middle, center, pieces);
+            add(b, middle, b.pixel, center, pieces);
             return;
         }
-        add(a, a.pixel, b.pixel, center, segments, &b);
+        add(a, a.pixel, b.pixel, center, pieces, &b);
     };
     /// Ends a crossing's line at the line between two others.
     const auto end_at = [&](const LineCrossing& c, glm::dvec2 from, glm::dvec2 to) {
@@ -110,7 +110,7 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
             if (!is_met && !has_bridges && runs_through(c)) return;
             if (is_met) end = *met;
         }
-        add(c, c.pixel, end, center, segments);
+        add(c, c.pixel, end, center, pieces);
     };
 
     switch (crossings.size()) {
@@ -120,10 +120,10 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
             const LineCrossing& c = *crossings[0];
             if (!has_edge(c)) return;
             for (const glm::dvec2& p : c.edge_ends) {
-                if (is_inside(p, low, high)) return add(c, c.pixel, p, center, segments);
+                if (is_inside(p, low, high)) return add(c, c.pixel, p, center, pieces);
             }
             add(c, c.pixel, c.pixel + c.along * (glm::dot(center - c.pixel, c.along) / glm::dot(c.along, c.along)),
-                center, segments);
+                center, pieces);
             return;
         }
         case 2:

@@ -22,6 +22,6 @@ namespace burin {
 /// run through the cell, of which one ends a surface, are joined though they do not meet. Else what is missing of
 /// them is expected to be found along their edges, if they can be told apart.
 void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, glm::dvec2 high, bool has_bridges,
-                std::vector<LinePiece>& segments);
+                std::vector<LinePiece>& pieces);
 
 }  // namespace burin

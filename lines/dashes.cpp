@@ -180,7 +180,7 @@ void add_pieces(const ChainsOfPieces& chains, const ChainsOfPieces::Chain& chain
 
 }  // namespace
 
-std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePiece>>& segments,
+std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePiece>>& lists,
                                            std::array<double, 2> dash_px, double width_px, PixelRect picture,
                                            std::span<const WholeLine> features, const SurfaceSet& surfaces) {
     std::vector<std::vector<LinePiece>> result(1);
@@ -189,7 +189,7 @@ std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePie
     const LineDashes of_features(features, surfaces, pen.period_px(), shared);
     const WholeLineIndex on_mesh(features);
     std::vector<const LinePiece*> others;
-    for (const auto& list : segments) {
+    for (const auto& list : lists) {
         for (const LinePiece& s : list) {
             if (!s.is_drawn) {
                 result[0].push_back(s);
@@ -221,9 +221,9 @@ std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePie
     return result;
 }
 
-CourseIndex courses_of(const std::vector<std::vector<LinePiece>>& segments, PixelRect picture, double reach_px) {
+CourseIndex courses_of(const std::vector<std::vector<LinePiece>>& lists, PixelRect picture, double reach_px) {
     CourseIndex courses(picture, reach_px);
-    for (const auto& list : segments) {
+    for (const auto& list : lists) {
         for (const LinePiece& s : list) {
             const bool is_solid = s.is_drawn && s.opacity == 255;  // hidden lines shine through what fades
             if (is_solid && glm::distance(s.from, s.to) >= courses.shortest_px()) courses.add(s.from, s.to);

@@ -30,12 +30,12 @@ namespace burin {
 /// Lines that lie on each other share their dashes (SharedDashes): features first.
 ///
 /// The dashes depend on nothing but where the lines are, if all lines of the picture are given.
-std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePiece>>& segments,
+std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePiece>>& lists,
                                            std::array<double, 2> dash_px, double width_px, PixelRect picture,
                                            std::span<const WholeLine> features, const SurfaceSet& surfaces);
 
 /// Keeps by place where visible lines are, in a picture of this size: hidden lines have no dashes there, or these would
 /// fill the gaps of the visible ones.
-CourseIndex courses_of(const std::vector<std::vector<LinePiece>>& segments, PixelRect picture, double reach_px);
+CourseIndex courses_of(const std::vector<std::vector<LinePiece>>& lists, PixelRect picture, double reach_px);
 
 }  // namespace burin

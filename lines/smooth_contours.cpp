@@ -50,9 +50,9 @@ SmoothContours::SmoothContours(const SurfaceSet& surfaces, double cos_crease_ang
     for (const SurfaceInstance& instance : surfaces.instances) smooth_of_.push_back(&meshes_[numbers[instance.mesh]]);
 }
 
-bool SmoothContours::is_fold(const LinePiece& segment) const {
-    if (segment.drawn_as != LineClass::silhouette || !segment.line.is_edge()) return false;
-    return !smooth_of_[segment.line.instance()]->is_sharp(segment.line.half_edge());
+bool SmoothContours::is_fold(const LinePiece& piece) const {
+    if (piece.drawn_as != LineClass::silhouette || !piece.line.is_edge()) return false;
+    return !smooth_of_[piece.line.instance()]->is_sharp(piece.line.half_edge());
 }
 
 FoldMap SmoothContours::map_of(LineId edge) const {
@@ -147,9 +147,9 @@ void SmoothContours::move(std::vector<std::vector<LinePiece>>& lists, int thread
     lists.push_back(std::move(joints.pieces));
 }
 
-void SmoothContours::move(std::vector<LinePiece>& segments) const {
+void SmoothContours::move(std::vector<LinePiece>& pieces) const {
     std::vector<LinePiece> moved;
-    for (const LinePiece& s : segments) {
+    for (const LinePiece& s : pieces) {
         const FoldMap map = is_fold(s) ? map_of(s.line) : FoldMap();
         if (map.is_moved()) {
             add_pieces(s, map.moved(s.from, s.to), moved);
@@ -157,7 +157,7 @@ void SmoothContours::move(std::vector<LinePiece>& segments) const {
             moved.push_back(s);
         }
     }
-    segments.swap(moved);
+    pieces.swap(moved);
 }
 
 }  // namespace burin

@@ -31,10 +31,10 @@ class SmoothContours {
     /// Moves the folds among all visible lines of a picture, and adds a list of what joins them.
     void move(std::vector<std::vector<LinePiece>>& lists, int threads) const;
     /// Moves the folds among some pieces, each by itself.
-    void move(std::vector<LinePiece>& segments) const;
+    void move(std::vector<LinePiece>& pieces) const;
 
   private:
-    bool is_fold(const LinePiece& segment) const;
+    bool is_fold(const LinePiece& piece) const;
     FoldMap map_of(LineId edge) const;
 
     const SurfaceSet& surfaces_;

@@ -4,12 +4,12 @@
 
 namespace burin {
 
-void FadedStrokes::draw(std::span<const LinePiece* const> segments, PixelRect rect,
+void FadedStrokes::draw(std::span<const LinePiece* const> pieces, PixelRect rect,
                         const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke) {
     masks_.clear();
     width_ = (rect.width() + 7) / 8 * 8;
     std::vector<Kind> kinds;
-    for (const LinePiece* s : segments) {
+    for (const LinePiece* s : pieces) {
         if (s->is_drawn && s->opacity < 255) kinds.push_back(kind_of(*s));
     }
     if (kinds.empty()) return;
@@ -18,8 +18,8 @@ void FadedStrokes::draw(std::span<const LinePiece* const> segments, PixelRect re
     touched_.assign(static_cast<std::size_t>(width_ * rect.height()), 0);
     for (const Kind kind : kinds) {
         canvas_.reset(rect.x0, rect.y0, rect.width(), rect.height());
-        for (std::size_t i = 0; i < segments.size(); ++i) {
-            if (segments[i]->is_drawn && kind_of(*segments[i]) == kind) draw_stroke(i, canvas_);
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            if (pieces[i]->is_drawn && kind_of(*pieces[i]) == kind) draw_stroke(i, canvas_);
         }
         canvas_.for_touched([&](int column, int row) {
             const auto pixel = static_cast<std::uint32_t>(row * width_ + column);

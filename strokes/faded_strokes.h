@@ -20,7 +20,7 @@ class FadedStrokes {
     explicit FadedStrokes(const TileKernels& kernels) : canvas_(kernels) {}
 
     /// Draws the pieces that are not opaque, by calling draw_stroke(index, canvas) for each.
-    void draw(std::span<const LinePiece* const> segments, PixelRect rect,
+    void draw(std::span<const LinePiece* const> pieces, PixelRect rect,
               const std::function<void(std::size_t, StrokeCanvas&)>& draw_stroke);
 
     /// Whether a pixel of the rectangle has any of these strokes.

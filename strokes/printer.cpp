@@ -64,8 +64,8 @@ class StrokePrinter::Printer {
         : style_(frame.scene->lines.style), kernels_(kernels), strokes_(frame, kernels) {}
 
     /// Draws a tile's strokes into masks, for print() and for whoever asks for strokes().
-    void draw(std::span<const LinePiece* const> segments, PixelRect rect, int reach) {
-        strokes_.draw(segments, {rect.x0 - reach, rect.y0 - reach, rect.x1 + reach, rect.y1 + reach});
+    void draw(std::span<const LinePiece* const> pieces, PixelRect rect, int reach) {
+        strokes_.draw(pieces, {rect.x0 - reach, rect.y0 - reach, rect.x1 + reach, rect.y1 + reach});
     }
     const VisibleStrokes& strokes() const { return strokes_; }
 

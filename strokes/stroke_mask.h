@@ -35,7 +35,7 @@ class StrokeCanvas {
         bool is_empty() const { return x0 >= x1 || y0 >= y1; }
     };
 
-    /// Adds all that is closer than `radius_px` to a segment: a round pen's stroke.
+    /// Adds all that is closer than `radius_px` to a piece: a round pen's stroke.
     void draw(const glm::dvec2& from, const glm::dvec2& to, double radius_px) {
         // Wide strokes lie on each other, and soon most of their pixels are full.
         if (radius_px > kWideRadiusPx && open_part(box_around(from, to, radius_px + 1)).is_empty()) return;

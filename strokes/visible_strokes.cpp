@@ -30,10 +30,10 @@ VisibleStrokes::VisibleStrokes(const Frame& frame, const TileKernels& kernels)
     for (StrokeCanvas& canvas : canvases_) canvas = StrokeCanvas(kernels);
 }
 
-void VisibleStrokes::draw(std::span<const LinePiece* const> segments, PixelRect rect) {
+void VisibleStrokes::draw(std::span<const LinePiece* const> pieces, PixelRect rect) {
     rect_ = rect;
     LineClassSet present;
-    for (const LinePiece* s : segments) {
+    for (const LinePiece* s : pieces) {
         if (s->is_drawn && s->opacity == 255) present |= s->drawn_as;
     }
     classes_.clear();
@@ -43,21 +43,21 @@ void VisibleStrokes::draw(std::span<const LinePiece* const> segments, PixelRect 
         classes_.push_back(line_class);
         canvas_of(line_class).reset(rect.x0, rect.y0, rect.width(), rect.height());
     }
-    if (needs_clipping(segments)) return draw_clipped(segments);
-    for (const LinePiece* s : segments) {
+    if (needs_clipping(pieces)) return draw_clipped(pieces);
+    for (const LinePiece* s : pieces) {
         if (s->is_drawn && s->opacity == 255) canvas_of(s->drawn_as).draw(s->from, s->to, pen_.radius_px);
     }
-    faded_.draw(segments, rect, [&](std::size_t i, StrokeCanvas& canvas) {
-        canvas.draw(segments[i]->from, segments[i]->to, pen_.radius_px);
+    faded_.draw(pieces, rect, [&](std::size_t i, StrokeCanvas& canvas) {
+        canvas.draw(pieces[i]->from, pieces[i]->to, pen_.radius_px);
     });
 }
 
 /// Whether strokes would lie over surfaces in front. They do not where the boundary of such a surface is drawn, too:
 /// its stroke covers what others cover of the surface, unless their class comes first.
-bool VisibleStrokes::needs_clipping(std::span<const LinePiece* const> segments) const {
+bool VisibleStrokes::needs_clipping(std::span<const LinePiece* const> pieces) const {
     if (side_ != StrokeSide::both) return true;
     bool has_faded = false, has_undrawn = false;
-    for (const LinePiece* s : segments) {
+    for (const LinePiece* s : pieces) {
         has_faded = has_faded || (s->is_drawn && s->opacity < 255);
         has_undrawn = has_undrawn || !s->is_drawn;
         if (s->occludes && s->is_drawn && !classes_.empty() && s->drawn_as > classes_.front()) return true;
@@ -65,9 +65,9 @@ bool VisibleStrokes::needs_clipping(std::span<const LinePiece* const> segments) 
     return has_undrawn && (has_faded || !classes_.empty());
 }
 
-void VisibleStrokes::draw_clipped(std::span<const LinePiece* const> segments) {
+void VisibleStrokes::draw_clipped(std::span<const LinePiece* const> pieces) {
     pieces_.clear();
-    for (const LinePiece* s : segments) {
+    for (const LinePiece* s : pieces) {
         pieces_.push_back(
             {s->from, s->to, depth_px(s->nearness_from), depth_px(s->nearness_to), s->occludes, s->front_on_left});
     }
@@ -76,10 +76,10 @@ void VisibleStrokes::draw_clipped(std::span<const LinePiece* const> segments) {
     const glm::dvec2 middle(0.5 * (rect_.x0 + rect_.x1), 0.5 * (rect_.y0 + rect_.y1));
     const StrokeCanvas::Box all{0, 0, rect_.width(), rect_.height()};
     for (const LineClass c : classes_) {
-        find_boundaries(segments, c);
+        find_boundaries(pieces, c);
         std::vector<Near> strokes;
-        for (std::size_t i = 0; i < segments.size(); ++i) {
-            if (!segments[i]->is_drawn || segments[i]->opacity < 255 || segments[i]->drawn_as != c) continue;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            if (!pieces[i]->is_drawn || pieces[i]->opacity < 255 || pieces[i]->drawn_as != c) continue;
             strokes.push_back({is_wide ? distance_to(middle, pieces_[i]) : 0, i});
         }
         // Strokes make the same masks in any order. The nearest ones come first: where they are wide they fill the
@@ -91,17 +91,17 @@ void VisibleStrokes::draw_clipped(std::span<const LinePiece* const> segments) {
         }
     }
     std::optional<LineClass> bounded;
-    faded_.draw(segments, rect_, [&](std::size_t i, StrokeCanvas& canvas) {
-        if (bounded != segments[i]->drawn_as) find_boundaries(segments, *(bounded = segments[i]->drawn_as));
+    faded_.draw(pieces, rect_, [&](std::size_t i, StrokeCanvas& canvas) {
+        if (bounded != pieces[i]->drawn_as) find_boundaries(pieces, *(bounded = pieces[i]->drawn_as));
         clipper_.draw(pieces_[i], pen_.radius_px, side_, canvas);
     });
 }
 
 /// Finds the boundaries that hide strokes of a class.
-void VisibleStrokes::find_boundaries(std::span<const LinePiece* const> segments, LineClass line_class) {
+void VisibleStrokes::find_boundaries(std::span<const LinePiece* const> pieces, LineClass line_class) {
     boundaries_.clear();
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        const LinePiece& s = *segments[i];
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const LinePiece& s = *pieces[i];
         if (s.occludes && (side_ != StrokeSide::both || !s.is_drawn || s.drawn_as > line_class)) {
             boundaries_.push_back(&pieces_[i]);
         }

@@ -20,8 +20,8 @@ class VisibleStrokes {
   public:
     explicit VisibleStrokes(const Frame& frame, const TileKernels& kernels = best_kernels());
 
-    /// Draws the masks of a rectangle. `segments`: all pieces within the pen's radius of it, drawn or not.
-    void draw(std::span<const LinePiece* const> segments, PixelRect rect);
+    /// Draws the masks of a rectangle. `pieces`: all pieces within the pen's radius of it, drawn or not.
+    void draw(std::span<const LinePiece* const> pieces, PixelRect rect);
 
     const Pen& pen() const { return pen_; }
     PixelRect rect() const { return rect_; }
@@ -70,9 +70,9 @@ class VisibleStrokes {
   private:
     StrokeCanvas& canvas_of(LineClass c) { return canvases_[static_cast<std::size_t>(c)]; }
     const StrokeCanvas& canvas_of(LineClass c) const { return canvases_[static_cast<std::size_t>(c)]; }
-    bool needs_clipping(std::span<const LinePiece* const> segments) const;
-    void find_boundaries(std::span<const LinePiece* const> segments, LineClass line_class);
-    void draw_clipped(std::span<const LinePiece* const> segments);
+    bool needs_clipping(std::span<const LinePiece* const> pieces) const;
+    void find_boundaries(std::span<const LinePiece* const> pieces, LineClass line_class);
+    void draw_clipped(std::span<const LinePiece* const> pieces);
     double depth_px(float nearness) const;
 
     const Projection& projection_;

@@ -60,7 +60,7 @@ class FineLines::BlockClipper {
     /// Calls add_visible() for all candidates, the nearest first, but for those that strokes of nearer ones surely
     /// cover.
     void add_not_covered(std::span<const FineCandidate> candidates, std::span<const std::uint32_t> numbers,
-                         std::vector<LinePiece>& segments) {
+                         std::vector<LinePiece>& pieces) {
         order_.clear();
         for (const std::uint32_t i : numbers) {
             const FineCandidate& c = candidates[i];
@@ -69,12 +69,12 @@ class FineLines::BlockClipper {
         std::sort(order_.begin(), order_.end());
         notes_drawn_ = true;
         for (const auto& [far, i] : order_) {
-            if (!is_covered(candidates[i])) add_visible(candidates[i], segments);
+            if (!is_covered(candidates[i])) add_visible(candidates[i], pieces);
         }
         notes_drawn_ = false;
     }
 
-    void add_visible(const FineCandidate& candidate, std::vector<LinePiece>& segments) {
+    void add_visible(const FineCandidate& candidate, std::vector<LinePiece>& pieces) {
         const WholeLine& line = candidate.line;
         const double begin = candidate.part.begin, end = candidate.part.end;
         const double nearest = std::max(line.nearness_at(begin), line.nearness_at(end)),
@@ -133,15 +133,15 @@ class FineLines::BlockClipper {
                   [](const Interval& p, const Interval& q) { return p.begin < q.begin; });
         reached = begin;
         for (const Interval& h : hidden_) {
-            add_wide(candidate, reached, h.begin, shortest, segments);
+            add_wide(candidate, reached, h.begin, shortest, pieces);
             reached = std::max(reached, h.end);
         }
-        add_wide(candidate, reached, end, shortest, segments);
+        add_wide(candidate, reached, end, shortest, pieces);
     }
 
     /// Adds all of a candidate, whatever is in front of it.
-    void add_all(const FineCandidate& candidate, std::vector<LinePiece>& segments) {
-        add(candidate, candidate.part.begin, candidate.part.end, segments);
+    void add_all(const FineCandidate& candidate, std::vector<LinePiece>& pieces) {
+        add(candidate, candidate.part.begin, candidate.part.end, pieces);
     }
 
   private:
@@ -217,7 +217,7 @@ class FineLines::BlockClipper {
 
     /// Adds what is no negligible fold.
     void add_wide(const FineCandidate& candidate, double begin, double end, double shortest,
-                  std::vector<LinePiece>& segments) {
+                  std::vector<LinePiece>& pieces) {
         if (candidate.line.classes.has(LineClass::silhouette) && !candidate.line.is_wire) {
             const double step = kWidthStepPx / candidate.line.length_px();
             // At a vertex rounding says which triangle one gets to.
@@ -235,7 +235,7 @@ class FineLines::BlockClipper {
                 while (end - begin > shortest && !is_wide_at(end)) end = std::max(begin, end - step);
             }
         }
-        if (end - begin > shortest) add(candidate, begin, end, segments);
+        if (end - begin > shortest) add(candidate, begin, end, pieces);
     }
 
     /// Whether both surfaces at a contour go on for more than a negligible fold.
@@ -261,7 +261,7 @@ class FineLines::BlockClipper {
                            line.nearness_at(t), 0) != Ring::none;
     }
 
-    void add(const FineCandidate& candidate, double begin, double end, std::vector<LinePiece>& segments) {
+    void add(const FineCandidate& candidate, double begin, double end, std::vector<LinePiece>& pieces) {
         const WholeLine& line = candidate.line;
         LineClassSet classes = line.classes;
         bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
@@ -286,7 +286,7 @@ class FineLines::BlockClipper {
         s.nearness_to = static_cast<float>(zero + line.nearness_at(end));
         s.occludes = occludes;
         s.front_on_left = is_front_on_left(candidate);
-        segments.push_back(s);
+        pieces.push_back(s);
         if (notes_drawn_ && line.opacity == 255)
             drawn_.add(line, begin, end, {s.drawn_as, s.occludes, s.front_on_left});
     }
@@ -367,7 +367,7 @@ FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const Tri
 
 FineLines::~FineLines() = default;
 
-void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vector<LinePiece>& segments) {
+void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vector<LinePiece>& pieces) {
     find_candidates(parts);
     if (candidates_.empty()) return;
     blocks_.fill(tile, candidates_);
@@ -377,11 +377,11 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
         clipper_->set_triangles(blocks_.triangles(block),
                                 glm::ivec2(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y))),
                                 blocks_.candidates(block).size());
-        find_in_block(block, segments);
+        find_in_block(block, pieces);
     }
 }
 
-void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& segments) {
+void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& pieces) {
     const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
     const auto are_few = [&](std::size_t count) {
         const std::size_t per_cell = clipper_->triangles_per_cell();
@@ -389,8 +389,8 @@ void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& segment
     };
     if (are_few(numbers.size())) {
         if (numbers.size() > kFewCandidates && !draws_each_)
-            return clipper_->add_not_covered(candidates_, numbers, segments);
-        for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], segments);
+            return clipper_->add_not_covered(candidates_, numbers, pieces);
+        for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], pieces);
         return;
     }
     // Samples tell nothing about loose edges: where these alone are too many, all of them are drawn.
@@ -400,9 +400,9 @@ void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& segment
     for (const std::uint32_t i : numbers) {
         if (!is_loose_one(i)) continue;
         if (are_few_loose) {
-            clipper_->add_visible(candidates_[i], segments);
+            clipper_->add_visible(candidates_[i], pieces);
         } else {
-            clipper_->add_all(candidates_[i], segments);
+            clipper_->add_all(candidates_[i], pieces);
         }
     }
 }

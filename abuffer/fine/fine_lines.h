@@ -25,7 +25,7 @@ class FineLines {
     ~FineLines();
 
     /// Adds what is visible of the parts that are lines, all of one tile.
-    void find(std::size_t tile, std::span<const FinePart> parts, std::vector<LinePiece>& segments);
+    void find(std::size_t tile, std::span<const FinePart> parts, std::vector<LinePiece>& pieces);
 
   private:
     class BlockClipper;
@@ -34,7 +34,7 @@ class FineLines {
     bool is_loose(const FineEdge& edge) const {
         return edge.half_edge >= 3 * screen_.mesh(edge.instance).triangle_count;
     }
-    void find_in_block(std::size_t block, std::vector<LinePiece>& segments);
+    void find_in_block(std::size_t block, std::vector<LinePiece>& pieces);
 
     const ScreenSurfaces& screen_;
     bool draws_each_;

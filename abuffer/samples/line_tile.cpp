@@ -263,7 +263,7 @@ void LineTile::decide_all(std::span<const SamplePair> pairs) {
     }
 }
 
-void LineTile::find_lines(std::size_t tile, std::vector<LinePiece>& segments) {
+void LineTile::find_lines(std::size_t tile, std::vector<LinePiece>& pieces) {
     flush_.set_tile(tile);
     pitch_px_ = 1.0 / samples_.samples_per_pixel;  // exact
     const std::size_t size = 2 * samples_.ids.size();
@@ -271,11 +271,11 @@ void LineTile::find_lines(std::size_t tile, std::vector<LinePiece>& segments) {
     find_crossings();
     pieces_.clear();
     trace_cells(pieces_);
-    merger_.merge(pieces_, segments);
+    merger_.merge(pieces_, pieces);
     for (const SamplePair& place : std::span(crossing_places_).first(crossing_count_)) crossing_between(place) = 0;
 }
 
-void LineTile::trace_cells(std::vector<LinePiece>& segments) {
+void LineTile::trace_cells(std::vector<LinePiece>& pieces) {
     const auto stride = static_cast<std::size_t>(samples_.stride);
     const bool has_bridges = !completes_lines(frame_);
     const int block_shift = std::countr_zero(static_cast<unsigned>(kMergeBlockPx * samples_.samples_per_pixel));
@@ -299,10 +299,10 @@ void LineTile::trace_cells(std::vector<LinePiece>& segments) {
         for (std::size_t k = 0; k < count; ++k) found[k] = &crossings_[numbers[k] - 1];
         const glm::dvec2 low((samples_.first_column + column + 0.5) * pitch_px_,
                              (samples_.first_row + row + 0.5) * pitch_px_);
-        std::size_t fresh = segments.size();
-        trace_cell({found.data(), count}, low, low + pitch_px_, has_bridges, segments);
+        std::size_t fresh = pieces.size();
+        trace_cell({found.data(), count}, low, low + pitch_px_, has_bridges, pieces);
         const std::uint32_t block = block_of(samples_.first_row + row) << 16 | block_of(samples_.first_column + column);
-        for (; fresh < segments.size(); ++fresh) segments[fresh].block = block;
+        for (; fresh < pieces.size(); ++fresh) pieces[fresh].block = block;
     };
     const std::span places = std::span(crossing_places_).first(crossing_count_);
     std::uint32_t number = 0;

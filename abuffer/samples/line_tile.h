@@ -26,7 +26,7 @@ class LineTile {
              const TileKernels& kernels);
 
     /// Adds the pieces of lines of a tile, which was drawn last.
-    void find_lines(std::size_t tile, std::vector<LinePiece>& segments);
+    void find_lines(std::size_t tile, std::vector<LinePiece>& pieces);
 
   private:
     glm::dvec2 position(int column, int row) const;
@@ -58,7 +58,7 @@ class LineTile {
     LineCrossing& next_crossing();
     void add_crossing(const SamplePair& pair);
     void decide_all(std::span<const SamplePair> pairs);
-    void trace_cells(std::vector<LinePiece>& segments);
+    void trace_cells(std::vector<LinePiece>& pieces);
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
