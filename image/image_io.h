@@ -6,20 +6,12 @@
 #include <vector>
 
 #include "base/byte_sink.h"
+#include "image/display_image.h"
 #include "image/image.h"
 
 // A film over paper becomes a picture for the screen, and that a PNG or a TIFF.
 
 namespace burin {
-
-/// A picture for the screen: rows from the top, 3 or 4 values per pixel, sRGB-encoded, 0..65535,
-/// alpha not multiplied in.
-struct DisplayImage {
-    int width = 0;
-    int height = 0;
-    int channels = 3;
-    std::vector<std::uint16_t> pixels;
-};
 
 /// sRGB transfer function (IEC 61966-2-1): linear light 0..1 to code value 0..1, and back.
 float srgb_from_linear(float linear);

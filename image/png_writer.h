@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/byte_sink.h"
-#include "image/image_io.h"
+#include "image/display_image.h"
 
 namespace burin {
 

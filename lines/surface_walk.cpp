@@ -6,9 +6,9 @@
 #include <iterator>
 #include <limits>
 
+#include "kernels/screen_triangle.h"
 #include "lines/circle_finder.h"
 #include "lines/seam_sight.h"
-#include "lines/sharp_edges.h"
 
 namespace burin {
 namespace {
@@ -173,7 +173,7 @@ class Walker {
     }
 
     bool is_sliver_here(SurfaceId s) const {
-        const bool may_be_sliver = sharp_ == nullptr || (sharp_[s.triangle] & kThinTriangle) != 0;
+        const bool may_be_sliver = sharp_ == nullptr || (sharp_[s.triangle] & kMayBeSliver) != 0;
         return may_be_sliver && is_sliver(surfaces_, s);
     }
 
