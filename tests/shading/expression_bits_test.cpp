@@ -61,6 +61,37 @@ TEST(ExpressionBits, AreEqualForAllInstructionSetsAndBatches) {
     EXPECT_LT(not_numbers, values / 2);
 }
 
+/// What is computed when a program is compiled has the bits that samples would have: variables become parameters of the
+/// same values.
+TEST(ExpressionBits, OfConstantsAreThoseOfSamples) {
+    std::size_t compared = 0;
+    for (std::uint64_t trial = 0; trial < 3000; ++trial) {
+        Random random(trial);
+        const std::string text = written(random_expression(random, random.integer(1, 5), true, true), random);
+        if (!fault_of(text, {.is_color = true}).empty()) continue;  // too large
+        const ExpressionProgram varying = compile_expression(text, test_symbols(), {.is_color = true});
+        const Columns columns(varying, 1, true, trial);
+        ExpressionSymbols symbols = test_symbols();
+        for (const ExpressionVariable& variable : symbols.variables) {
+            ExpressionParameter parameter{variable.name, variable.type, {}};
+            for (std::size_t k = 0; k < varying.inputs().size(); ++k) {
+                const ExpressionInput& input = varying.inputs()[k];
+                if (input.name == variable.name) parameter.value[input.component] = columns.values[k][0];
+            }
+            symbols.parameters.push_back(parameter);
+        }
+        symbols.variables.clear();
+        const ExpressionProgram constant = compile_expression(text, symbols, {.is_color = true});
+        ASSERT_TRUE(constant.is_constant(0)) << text;
+        const Columns none(constant, 1, false, 0);
+        ASSERT_EQ(bits_of(evaluate_in_batches(constant, none, 1, 1, best_expression_kernels())),
+                  bits_of(evaluate_in_batches(varying, columns, 1, 1, best_expression_kernels())))
+            << "trial " << trial << ": " << text;
+        ++compared;
+    }
+    EXPECT_GT(compared, 2900u);
+}
+
 /// A program does not read or write behind the samples that it gets.
 TEST(ExpressionBits, NothingBehindTheSamplesIsTouched) {
     const ExpressionProgram program = compile_expression("depth * 2 + s", test_symbols(), {});
