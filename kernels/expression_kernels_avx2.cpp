@@ -1,0 +1,25 @@
+#include "kernels/expression_kernels.h"
+
+// Compiled with AVX2 where the compiler can (see CMakeLists.txt), and used where the machine can.
+#ifdef __AVX2__
+
+#include "kernels/expression_kernels.inc"
+
+namespace burin {
+
+const ExpressionKernels* avx2_expression_kernels() {
+    static constexpr ExpressionKernels kernels = expression_kernels_named("avx2");
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") ? &kernels : nullptr;
+}
+
+}  // namespace burin
+
+#else
+
+namespace burin {
+
+const ExpressionKernels* avx2_expression_kernels() { return nullptr; }
+
+}  // namespace burin
+
+#endif
