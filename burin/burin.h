@@ -10,7 +10,7 @@
  * - Numbers of materials, meshes and objects count from 1 and are not used twice in a scene; 0 stands for none.
  * - Axes, units and channels are those of docs/conventions.md: world right-handed, +Y up unless the camera says
  *   otherwise, row 0 of a picture is the top, colours are linear, angles in degrees.
- * - Different scenes and pictures may be used on different threads at once, one of them by one thread at a time.
+ * - Different scenes, drawings and pictures may be used on different threads at once, one of them by one at a time.
  *   burin_cancel() may be called at any time. */
 #ifndef BURIN_BURIN_H
 #define BURIN_BURIN_H
@@ -95,7 +95,8 @@ typedef struct burin_mesh {
     uint64_t corner_count;            /**< at most 2^32 - 1 */
     const int32_t* polygon_sizes;     /**< corners of each polygon; NULL: all are triangles */
     uint64_t polygon_count;           /**< 0 will do without polygon_sizes */
-    const int32_t* polygon_materials; /**< number of each one's material, or 0: light grey; NULL: all 0 */
+    const int32_t* polygon_materials; /**< number of each one's material; 0: light grey, which gets a
+                                           number of its own when it is first needed; NULL: all 0 */
     const int32_t* polygon_objects;   /**< which part each one belongs to, from 0: parts are welded on their own, and
                                            where they touch is a line of class `object`; NULL: all are one */
     uint64_t object_count;            /**< how many parts; 0 will do without polygon_objects */
@@ -121,7 +122,8 @@ typedef struct burin_object {
 
 /** Adds an object. Returns its number. */
 BURIN_API int burin_add_object(burin_scene* scene, const burin_object* object);
-/** Puts an object that was added or loaded somewhere else: `to_world` replaces its matrix. */
+/** Puts an object that was added or loaded somewhere else: `to_world` replaces its matrix. All 0: as in burin_object.
+ */
 BURIN_API int burin_move_object(burin_scene* scene, int object, const double to_world[16]);
 BURIN_API int burin_remove_object(burin_scene* scene, int object);
 /** Removes all objects. Meshes and materials that were added, settings and cameras stay. */
@@ -214,7 +216,8 @@ typedef struct burin_drawing burin_drawing;
  * them ("lines.hidden.style=solid" or "dashed"). `options.layers`: of the pictures that are drawn of it. */
 BURIN_API burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, const burin_options* options);
 /** Draws a drawing's lines over its surfaces: the bits of burin_render(). `style`: must be NULL, the look of the scene
- * when the lines were found. Of `options` only `threads` counts: the drawing has its layers already. */
+ * when the lines were found. Of `options` only `threads` counts; `layers` must be NULL, for the drawing has its own. It
+ * cannot be stopped. */
 BURIN_API burin_picture* burin_draw(const burin_drawing* drawing, const char* style, const burin_options* options);
 /** NULL is allowed. Pictures live on. */
 BURIN_API void burin_drawing_free(burin_drawing* drawing);
@@ -223,8 +226,11 @@ BURIN_API void burin_drawing_free(burin_drawing* drawing);
 /** A column of a drawing: a value for each of its straight pieces. `type` gets its burin_type, `count` the number of
  * pieces; either may be NULL. It is made when it is first asked for, and lives as long as the drawing, which owns it.
  *
- * Pieces are lines as they were found: contours lie on edges of the mesh, and nothing is cut into dashes. A line comes
- * in many of them, found in squares of the picture; its number joins them. Some reach beyond the picture or the crop.
+ * Pieces are lines as they were found: contours run along edges of the mesh, also where the scene draws smooth ones, and
+ * nothing is cut into dashes. A line comes in many of them, in no order and either way round; its number joins them.
+ * Along a line they lie on it to 1/256 pixel; where it ends at a vertex or is covered, a visible piece may end up to the
+ * distance of two samples (half a pixel at 2 samples) early or late, or run there in the direction of the line it meets.
+ * Some lie beyond the crop or the picture, by as much as strokes reach; with dashes those of the whole picture are found.
  * Those that no surface is in front of come first, then hidden ones and those seen through transparent surfaces.
  *
  *     name                 type    meaning
@@ -232,7 +238,7 @@ BURIN_API void burin_drawing_free(burin_drawing* drawing);
  *     nearness0 nearness1  float   of the line's surface at the ends: 1 / depth along the view axis; orthographic: -depth
  *     line                 uint64  which line it is part of, an edge or where two surfaces meet: equal numbers, one line
  *     object               uint32  the line's object, as in the channel id.object
- *     material             uint32  the line's material, as in the channel id.material; 0: an edge that no polygon has
+ *     material             uint32  the line's material, as in the channel id.material; 0: an edge without any polygon
  *     classes              uint16  the line classes that apply, of those that the scene draws ("lines.draw"), as bits:
  *                                  1 mark, 2 border, 4 silhouette, 8 intersection, 16 object, 32 material, 64 crease,
  *                                  128 polygon; the lowest one is what the line is called and drawn as

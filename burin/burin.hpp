@@ -4,6 +4,7 @@
 
 #include <burin/burin.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -91,6 +92,16 @@ struct Options {
     std::function<bool(double)> progress{};
 };
 
+/// The bytes of a file of a picture or a drawing.
+inline std::vector<std::byte> encoded(const void* picture_or_drawing, const std::string& format) {
+    std::uint8_t* bytes = nullptr;
+    std::uint64_t count = 0;
+    checked(burin_encode(picture_or_drawing, format.c_str(), nullptr, &bytes, &count));
+    const std::unique_ptr<std::uint8_t, void (*)(std::uint8_t*)> owner(bytes, burin_bytes_free);
+    const auto* const first = reinterpret_cast<const std::byte*>(bytes);
+    return {first, first + count};
+}
+
 /// A picture's channels, which it owns.
 class Picture {
   public:
@@ -121,14 +132,7 @@ class Picture {
     /// The whole picture for a display, of the view's size; see burin_pixels().
     void pixels(std::uint8_t* out, int channels) const { checked(burin_pixels(get(), out, channels)); }
     /// The bytes of a file: "exr", "png", "png16", "tif", "tif16".
-    std::vector<std::byte> encode(const std::string& format) const {
-        std::uint8_t* bytes = nullptr;
-        std::uint64_t count = 0;
-        checked(burin_encode(get(), format.c_str(), nullptr, &bytes, &count));
-        const std::unique_ptr<std::uint8_t, void (*)(std::uint8_t*)> owner(bytes, burin_bytes_free);
-        const auto* const first = reinterpret_cast<const std::byte*>(bytes);
-        return {first, first + count};
-    }
+    std::vector<std::byte> encode(const std::string& format) const { return encoded(get(), format); }
     /// Into a file, whose suffix says the format.
     void write(const std::string& path) const { checked(burin_write(get(), nullptr, nullptr, path.c_str())); }
     burin_picture* get() const noexcept { return picture_.get(); }
@@ -155,7 +159,8 @@ class Drawing {
         checked(burin_column(get(), "line", nullptr, &count));
         return static_cast<std::size_t>(count);
     }
-    /// A column; see burin_column(). T: the column's type.
+    /// A column; see burin_column(). T: the column's type. It is made when it is first asked for: by one thread at a
+    /// time.
     template <typename T>
     std::span<const T> column(const std::string& name) const {
         std::int32_t type = 0;
@@ -171,6 +176,9 @@ class Drawing {
         o.threads = threads;
         return Picture(checked(burin_draw(get(), nullptr, &o)));
     }
+    /// The bytes of a file, and a file, of the picture that draw() makes; see Picture.
+    std::vector<std::byte> encode(const std::string& format) const { return encoded(get(), format); }
+    void write(const std::string& path) const { checked(burin_write(get(), nullptr, nullptr, path.c_str())); }
     burin_drawing* get() const noexcept { return drawing_.get(); }
 
   private:
@@ -242,6 +250,11 @@ class Scene {
         m.polygon_materials = mesh.polygon_materials.empty() ? nullptr : mesh.polygon_materials.data();
         m.polygon_objects = mesh.polygon_objects.empty() ? nullptr : mesh.polygon_objects.data();
         m.object_count = names.size();
+        if (names.empty()) {  // parts without names
+            for (const std::int32_t part : mesh.polygon_objects) {
+                m.object_count = std::max(m.object_count, static_cast<std::uint64_t>(std::max(part, 0)) + 1);
+            }
+        }
         m.object_names = names.empty() ? nullptr : names.data();
         m.marked_edges = mesh.marked_edges.data();
         m.marked_edge_count = mesh.marked_edges.size() / 2;

@@ -19,7 +19,7 @@ namespace {
 void add_pieces(const LineDrawing::Lists& lists, burin_drawing& drawing) {
     for (const std::span<const LinePiece> list : lists) {
         std::copy_if(list.begin(), list.end(), std::back_inserter(drawing.pieces),
-                     [](const LinePiece& piece) { return piece.is_drawn; });
+                     [](const LinePiece& piece) { return piece.is_drawn && piece.from != piece.to; });
     }
 }
 
@@ -102,6 +102,15 @@ const std::vector<ColumnKind>& column_kinds() {
     return kinds;
 }
 
+/// Throws UsageError for what is no drawing.
+template <typename Drawing>
+Drawing& checked_drawing(Drawing* given) {
+    if (required(given, "drawing").kind != OutputKind::drawing) {
+        throw UsageError("drawing: this is no drawing of burin_find_lines()");
+    }
+    return *given;
+}
+
 const ColumnKind& column_named(std::string_view name) {
     const auto& kinds = column_kinds();
     const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const ColumnKind& k) { return k.name == name; });
@@ -149,7 +158,7 @@ void burin_drawing_free(burin_drawing* drawing) { delete drawing; }
 
 burin_picture* burin_draw(const burin_drawing* drawing, const char* style, const burin_options* options) {
     return guarded_pointer([&] {
-        const burin_drawing& from = required(drawing, "drawing");
+        const burin_drawing& from = checked_drawing(drawing);
         if (style != nullptr) throw UsageError("style: must be NULL; styles come in a later version");
         const OptionsInput given = checked_options(read_struct_or_default(options, "options"));
         if (given.layers) throw UsageError("options.layers: a drawing has the layers of its burin_find_lines()");
@@ -159,7 +168,7 @@ burin_picture* burin_draw(const burin_drawing* drawing, const char* style, const
 
 const void* burin_column(burin_drawing* drawing, const char* name, int32_t* type, uint64_t* count) {
     return guarded_pointer([&]() -> const void* {
-        burin_drawing& of = required(drawing, "drawing");
+        burin_drawing& of = checked_drawing(drawing);
         const ColumnKind& kind = column_named(&required(name, "name"));
         if (type != nullptr) *type = kind.type;
         if (count != nullptr) *count = of.pieces.size();
