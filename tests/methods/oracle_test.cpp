@@ -85,6 +85,10 @@ TEST(Oracle, Engine) {
         << "install assimp-testmodels (scripts/install-dependencies does)";
     const Scene scene = load_scene(bare_model_scene(BURIN_ENGINE, {}));
     for (const glm::dvec3& d : kDirections) expect_agreement(scene, fitted(scene, d, 1.6), 256, 160, "engine");
+}
+
+TEST(Oracle, EngineByItsOwnCamera) {
+    const Scene scene = load_scene(bare_model_scene(BURIN_ENGINE, {}));
     const Camera own = resolve_camera(scene.cameras.front(), scene_points(scene), 1.6);
     expect_agreement(scene, own, 256, 160, "engine, its own camera");
 }
