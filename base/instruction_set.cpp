@@ -21,7 +21,9 @@ std::optional<InstructionSet> set_of_word(std::string_view word) {
     return std::nullopt;
 }
 
-bool has(InstructionSet set) {
+}  // namespace
+
+bool has_instruction_set(InstructionSet set) {
 #ifdef __x86_64__
     switch (set) {
         case InstructionSet::baseline:
@@ -37,8 +39,6 @@ bool has(InstructionSet set) {
     return set == InstructionSet::baseline;
 }
 
-}  // namespace
-
 InstructionSet allowed_instruction_set() {
     static const InstructionSet allowed = [] {
         const char* const word = std::getenv(kVariable);
@@ -53,7 +53,7 @@ void check_instruction_set() {
     const auto set = set_of_word(word);
     const std::string name = std::string(kVariable) + "=" + word;
     if (!set) throw UsageError(name + ": unknown; give baseline, avx2 or avx512");
-    if (!has(*set))
+    if (!has_instruction_set(*set))
         throw UsageError(name + ": this processor has no such instructions; give baseline, or leave it out");
 }
 

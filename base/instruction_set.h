@@ -8,6 +8,9 @@ namespace burin {
 /// Each set includes those before it.
 enum class InstructionSet { baseline, avx2, avx512 };
 
+/// Whether this processor has a set.
+bool has_instruction_set(InstructionSet set);
+
 /// The most that kernels may use. Usually avx512, which means: all that this processor has. The
 /// environment variable BURIN_KERNELS (baseline, avx2 or avx512) lowers it, so that tests can draw
 /// with each set on one machine; pictures are the same to the bit. Read once; an unknown word

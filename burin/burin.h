@@ -228,9 +228,9 @@ BURIN_API void burin_drawing_free(burin_drawing* drawing);
  *
  * Pieces are lines as they were found: contours run along edges of the mesh, also where the scene draws smooth ones, and
  * nothing is cut into dashes. A line comes in many of them, in no order and either way round; its number joins them.
- * Along a line they lie on it to 1/256 pixel; where it ends at a vertex or is covered, a visible piece may end up to the
- * distance of two samples (half a pixel at 2 samples) early or late, or run there in the direction of the line it meets.
- * Some lie beyond the crop or the picture, by as much as strokes reach; with dashes those of the whole picture are found.
+ * Where a line ends at a vertex or is covered, a visible piece may end early or late, or leave the line, by about the
+ * distance of two samples: half a pixel at 2 samples. Some pieces lie beside the crop or the picture, as strokes from
+ * there may reach into it; with dashes those of the whole picture are found, whatever the crop.
  * Those that no surface is in front of come first, then hidden ones and those seen through transparent surfaces.
  *
  *     name                 type    meaning

@@ -9,7 +9,6 @@
 
 #include "burin/failure.h"
 #include "burin/running.h"
-#include "burin/scene_for_frame.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
 
@@ -134,22 +133,18 @@ using namespace burin;
 
 burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, const burin_options* options) {
     return guarded_pointer([&] {
-        StoppableCall call(required(scene, "scene"));
-        const burin_view seen = read_struct_or_default(view, "view");
-        const OptionsInput given = checked_options(read_struct_or_default(options, "options"));
-        const SceneForFrame ready(*scene, seen, given);
-        RunProgress progress(given, *scene);
-        auto drawing = std::make_unique<burin_drawing>(film_of(ready.frame(), given));
-        Frame frame = ready.frame();
+        const FrameCall call(scene, view, options);
+        Frame frame = call.ready().frame();
         frame.needs.tells_invisibility = true;
-        const RunOptions run{given.threads, progress.get(), given.memory_bytes};
-        LineDrawing found = with_option_names([&] { return find_drawing(frame, run, drawing->surfaces); });
+        const int threads = call.given().threads;
+        auto drawing = std::make_unique<burin_drawing>(film_of(frame, call.given()));
+        LineDrawing found = with_option_names([&] { return find_drawing(frame, call.run(), drawing->surfaces); });
         add_pieces(found.visible(), *drawing);
         add_pieces(found.behind(), *drawing);
         find_owners(frame.surfaces, *drawing);
-        drawing->inked = laid_out_if_needed(std::move(found), frame, given.threads);
-        keep_frame(ready, *drawing);
-        drawing->threads = given.threads;
+        drawing->inked = laid_out_if_needed(std::move(found), frame, threads);
+        keep_frame(call.ready(), *drawing);
+        drawing->threads = threads;
         return drawing.release();
     });
 }

@@ -6,7 +6,6 @@
 
 #include "burin/failure.h"
 #include "burin/running.h"
-#include "burin/scene_for_frame.h"
 #include "methods/abuffer.h"
 #include "output/film_files.h"
 
@@ -45,15 +44,11 @@ using namespace burin;
 
 burin_picture* burin_render(burin_scene* scene, const burin_view* view, const burin_options* options) {
     return guarded_pointer([&] {
-        StoppableCall call(required(scene, "scene"));
-        const burin_view seen = read_struct_or_default(view, "view");
-        const OptionsInput given = checked_options(read_struct_or_default(options, "options"));
-        const SceneForFrame prepared(*scene, seen, given);
-        RunProgress progress(given, *scene);
-        const RunOptions run{given.threads, progress.get(), given.memory_bytes};
-        Film film = film_of(prepared.frame(), given);
-        with_option_names([&] { return render_abuffer(prepared.frame(), run, film); });
-        return new burin_picture(std::move(film), prepared.scene().picture, given.threads);
+        const FrameCall call(scene, view, options);
+        const Frame& frame = call.ready().frame();
+        Film film = film_of(frame, call.given());
+        with_option_names([&] { return render_abuffer(frame, call.run(), film); });
+        return new burin_picture(std::move(film), call.ready().scene().picture, call.given().threads);
     });
 }
 

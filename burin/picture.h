@@ -3,13 +3,18 @@
 #include <string>
 
 #include "burin/burin.h"
+#include "burin/view_input.h"
 #include "render/film.h"
+#include "render/frame.h"
 #include "scene/scene.h"
 
 namespace burin {
 
 /// What is encoded and written through a `const void*` begins with this.
 enum class OutputKind : std::uint32_t { picture = 0x62757270, drawing = 0x62757264 };
+
+/// A film with the layers that options ask for. Throws UsageError where it would have no channel.
+Film film_of(const Frame& frame, const OptionsInput& options);
 
 }  // namespace burin
 

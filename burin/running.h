@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "burin/scene_state.h"
+#include "burin/failure.h"
+#include "burin/scene_for_frame.h"
 #include "burin/view_input.h"
-#include "render/film.h"
-#include "render/frame.h"
+#include "render/method.h"
 
 namespace burin {
 
@@ -41,7 +41,27 @@ auto with_option_names(const Work& work) {
     }
 }
 
-/// A film with the layers that options ask for. Throws UsageError where it would have no channel.
-Film film_of(const Frame& frame, const OptionsInput& options);
+/// A call that finds or draws one view of a scene: all that its work needs, checked and made ready.
+class FrameCall {
+  public:
+    /// Throws InputError, UsageError and Interrupted.
+    FrameCall(burin_scene* scene, const burin_view* view, const burin_options* options)
+        : call_(required(scene, "scene")),
+          given_(checked_options(read_struct_or_default(options, "options"))),
+          ready_(*scene, read_struct_or_default(view, "view"), given_),
+          progress_(given_, *scene),
+          run_{given_.threads, progress_.get(), given_.memory_bytes} {}
+
+    const OptionsInput& given() const { return given_; }
+    const SceneForFrame& ready() const { return ready_; }
+    const RunOptions& run() const { return run_; }
+
+  private:
+    StoppableCall call_;
+    OptionsInput given_;
+    SceneForFrame ready_;
+    RunProgress progress_;
+    RunOptions run_;
+};
 
 }  // namespace burin

@@ -1,3 +1,4 @@
+#include "base/instruction_set.h"
 #include "kernels/expression_kernels.h"
 
 // Compiled with AVX2 where the compiler can (see CMakeLists.txt), and used where the machine can.
@@ -9,7 +10,7 @@ namespace burin {
 
 const ExpressionKernels* avx2_expression_kernels() {
     static constexpr ExpressionKernels kernels = expression_kernels_named("avx2");
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") ? &kernels : nullptr;
+    return has_instruction_set(InstructionSet::avx2) ? &kernels : nullptr;
 }
 
 }  // namespace burin

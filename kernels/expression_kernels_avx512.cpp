@@ -1,3 +1,4 @@
+#include "base/instruction_set.h"
 #include "kernels/expression_kernels.h"
 
 // Compiled with AVX-512 where the compiler can (see CMakeLists.txt), and used where the machine can.
@@ -9,10 +10,7 @@ namespace burin {
 
 const ExpressionKernels* avx512_expression_kernels() {
     static constexpr ExpressionKernels kernels = expression_kernels_named("avx512");
-    const bool has_all = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-                         __builtin_cpu_supports("popcnt");
-    return has_all ? &kernels : nullptr;
+    return has_instruction_set(InstructionSet::avx512) ? &kernels : nullptr;
 }
 
 }  // namespace burin

@@ -1,3 +1,4 @@
+#include "base/instruction_set.h"
 #include "kernels/level_reach.h"
 #include "kernels/mesh_walks.h"
 #include "kernels/tile_kernels.h"
@@ -11,7 +12,7 @@ namespace burin {
 
 const TileKernels* avx2_kernels() {
     static constexpr TileKernels kernels = kernels_named("avx2");
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") ? &kernels : nullptr;
+    return has_instruction_set(InstructionSet::avx2) ? &kernels : nullptr;
 }
 
 }  // namespace burin

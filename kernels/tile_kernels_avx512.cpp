@@ -1,3 +1,4 @@
+#include "base/instruction_set.h"
 #include "kernels/level_reach.h"
 #include "kernels/mesh_walks.h"
 #include "kernels/tile_kernels.h"
@@ -12,10 +13,7 @@ namespace burin {
 
 const TileKernels* avx512_kernels() {
     static constexpr TileKernels kernels = kernels_named("avx512");
-    const bool has_all = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-                         __builtin_cpu_supports("popcnt");
-    return has_all ? &kernels : nullptr;
+    return has_instruction_set(InstructionSet::avx512) ? &kernels : nullptr;
 }
 
 }  // namespace burin

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cmath>
+
 #include "lines/line_class.h"
 
 namespace burin {
 
-/// DrawingNeeds is the one word that a look says to finding: which lines must be found, how far around, and what must
-/// be known of them. What is found depends on nothing else of a look, so that one drawing serves all looks that need no
-/// more than it has.
+/// DrawingNeeds says what the looks of a picture ask of finding: how much of its lines must be found, how far around,
+/// and what must be known of them. What is found depends on nothing else of a look, so that one drawing serves all
+/// looks that need no more than it has. What a line is, LineCriteria say.
 struct DrawingNeeds {
     static constexpr int kAnyInvisibility = 255;
 
@@ -34,8 +36,8 @@ struct DrawingNeeds {
     bool behind() const { return most_invisibility > 0 || is_transparent; }
     /// Whether rows of a picture can be drawn as soon as the lines that reach them are known.
     bool rows_stand_alone() const { return !whole_picture && !whole_picture_behind; }
-    /// How far around pixels lines must be found: that of strokes, and the pixel that a rounded border may cut off.
-    int margin_px() const { return static_cast<int>(reach_px) + (reach_px > static_cast<int>(reach_px) ? 1 : 0) + 1; }
+    /// How many pixels around those that are drawn lines must be found in: as far as strokes reach, and one more.
+    int margin_px() const { return static_cast<int>(std::ceil(reach_px)) + 1; }
 };
 
 }  // namespace burin

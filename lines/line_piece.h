@@ -35,6 +35,12 @@ struct LinePiece {
 };
 static_assert(sizeof(LinePiece) == 64, "a line of the cache");
 
+/// Makes a piece end where another one ends that goes on from it.
+inline void extend(LinePiece& piece, const LinePiece& by) {
+    piece.to = by.to;
+    piece.nearness_to = by.nearness_to;
+}
+
 /// Whether a piece behind surfaces begins where another piece of its line ends and looks like it, however many opaque
 /// surfaces are in front of either.
 inline bool goes_on_alike(const LinePiece& before, const LinePiece& next) {

@@ -125,8 +125,7 @@ void PieceMerger::merge(std::span<LinePiece> pieces, std::vector<LinePiece>& mer
             const LinePiece& piece = pieces[i];
             if (!is_first && continues(merged.back(), piece)) {
                 LinePiece& last = merged.back();
-                last.to = piece.to;
-                last.nearness_to = piece.nearness_to;
+                extend(last, piece);
                 last.occludes = last.occludes || piece.occludes;
                 last.classes |= piece.classes;
             } else {

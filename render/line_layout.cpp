@@ -29,7 +29,7 @@ std::vector<LinePiece> joined(const LineDrawing::Lists& lists) {
     for (const std::span<const LinePiece> list : lists) {
         for (const LinePiece& piece : list) {
             if (!pieces.empty() && goes_on_alike(pieces.back(), piece)) {
-                pieces.back().to = piece.to;
+                extend(pieces.back(), piece);
             } else {
                 pieces.push_back(piece);
             }

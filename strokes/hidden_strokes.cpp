@@ -18,7 +18,7 @@ void for_strokes(std::span<const LinePiece> pieces, const LineStyle& style, std:
         const LinePiece* piece = &pieces[i];
         for (; i + 1 < pieces.size() && goes_on_alike(*piece, pieces[i + 1]); ++i) {
             if (piece == &pieces[i]) piece = &joined.emplace_back(pieces[i]);
-            joined.back().to = pieces[i + 1].to;
+            extend(joined.back(), pieces[i + 1]);
         }
         if (piece->transmission > 0 && !(piece->is_hidden() && style.hidden.style == HiddenStyle::none)) use(*piece);
     }

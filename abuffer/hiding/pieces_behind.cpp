@@ -24,8 +24,7 @@ std::vector<LinePiece> pieces_behind(std::span<const WholeLine> lines, std::span
         piece.transmission = part.transmission;
         piece.invisibility = part.invisibility;
         if (!needs.tells_invisibility && !pieces.empty() && goes_on_alike(pieces.back(), piece)) {
-            pieces.back().to = piece.to;
-            pieces.back().nearness_to = piece.nearness_to;
+            extend(pieces.back(), piece);
         } else {
             pieces.push_back(piece);
         }
