@@ -230,7 +230,8 @@ BURIN_API void burin_drawing_free(burin_drawing* drawing);
  * nothing is cut into dashes. A line comes in many of them, in no order and either way round; its number joins them.
  * Where a line ends at a vertex or is covered, a visible piece may end early or late, or leave the line, by about the
  * distance of two samples: half a pixel at 2 samples. Some pieces lie beside the crop or the picture, as strokes from
- * there may reach into it; with dashes those of the whole picture are found, whatever the crop.
+ * there may reach into it; with dashes those of the whole picture are found, whatever the crop. None is shorter than
+ * 1/1024 pixel.
  * Those that no surface is in front of come first, then hidden ones and those seen through transparent surfaces.
  *
  *     name                 type    meaning

@@ -15,10 +15,15 @@
 namespace burin {
 namespace {
 
+/// Shorter pieces are left out of the columns: where a vertex lies exactly between samples, finding leaves a dot of an
+/// edge that is no line, such as a diagonal within a polygon.
+constexpr double kShortestPx = 1.0 / 1024;
+
 void add_pieces(const LineDrawing::Lists& lists, burin_drawing& drawing) {
     for (const std::span<const LinePiece> list : lists) {
-        std::copy_if(list.begin(), list.end(), std::back_inserter(drawing.pieces),
-                     [](const LinePiece& piece) { return piece.is_drawn && piece.from != piece.to; });
+        std::copy_if(list.begin(), list.end(), std::back_inserter(drawing.pieces), [](const LinePiece& piece) {
+            return piece.is_drawn && glm::distance(piece.from, piece.to) >= kShortestPx;
+        });
     }
 }
 

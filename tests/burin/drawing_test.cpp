@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tests/burin/shapes.h"
+#include "tests/support/random.h"
 
 namespace burin::test {
 namespace {
@@ -93,6 +94,32 @@ TEST(LibraryDrawing, ColumnsTellTheLinesOfACube) {
     EXPECT_EQ(lines[0].size(), 4u);
     EXPECT_EQ(lines[1].size(), 8u);
     EXPECT_EQ(lines.size(), 2u);
+}
+
+/// From anywhere, a cube has its twelve edges as lines, and each piece has a direction.
+TEST(LibraryDrawing, PiecesHaveADirection) {
+    Scene scene;
+    scene.add(cube().mesh());
+    scene.set("lines.hidden.style=solid");
+    Random random(1);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const glm::dvec3 back = random.direction();
+        const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.3, 1, 0.2), back)),
+                         up = glm::cross(back, right);
+        const glm::dvec3 eye = glm::dvec3(0.5) + 4.0 * back;
+        const View view{.width = 160,
+                        .height = 120,
+                        .camera_to_world = {right.x, up.x, back.x, eye.x, right.y, up.y, back.y, eye.y, right.z, up.z,
+                                            back.z, eye.z, 0, 0, 0, 1}};
+        const Drawing drawing = scene.find_lines(view);
+        const auto x0 = drawing.column<double>("x0"), y0 = drawing.column<double>("y0");
+        const auto x1 = drawing.column<double>("x1"), y1 = drawing.column<double>("y1");
+        const auto line = drawing.column<std::uint64_t>("line");
+        for (std::size_t i = 0; i < x0.size(); ++i) {
+            ASSERT_GE(std::hypot(x1[i] - x0[i], y1[i] - y0[i]), 1.0 / 1024) << trial << ' ' << x0[i] << ' ' << y0[i];
+        }
+        EXPECT_LE(std::set<std::uint64_t>(line.begin(), line.end()).size(), 12u) << trial;
+    }
 }
 
 TEST(LibraryDrawing, RefusesWhatItHasNot) {
