@@ -10,6 +10,7 @@
 #include "abuffer/fine/fine_lines.h"
 #include "abuffer/samples/line_tile.h"
 #include "abuffer/samples/pixel_fill.h"
+#include "abuffer/samples/surface_beyond.h"
 #include "abuffer/screen/sampling.h"
 #include "base/interrupt.h"
 #include "base/parallel.h"
@@ -77,7 +78,8 @@ class VisiblePass::Worker {
           surface_(frame, screen, bins, samples_per_pixel_of(frame), kernels),
           line_tile_(frame, screen, bins, surface_, kernels),
           filler_(frame, screen, kernels),
-          fine_parts_(screen, kernels, completes_lines(frame)) {
+          fine_parts_(screen, kernels, completes_lines(frame)),
+          needs_beyond_(frame.needs.surfaces_beyond) {
         if (fine_edges_ != nullptr)
             fine_lines_.emplace(frame, screen, bins, kernels, region, frame.needs.whole_picture);
     }
@@ -97,6 +99,7 @@ class VisiblePass::Worker {
             times.raster += lap.lap();
             line_tile_.find_lines(tile, lines_);
             if (fine_edges_ != nullptr) add_fine_lines(tile);
+            if (needs_beyond_) find_surfaces_beyond(surface_.samples(), lines_);
             times.lines += lap.lap();
             filler_.fill(surface_, film);
         }
@@ -121,6 +124,7 @@ class VisiblePass::Worker {
     PixelFiller filler_;
     FineParts fine_parts_;
     std::optional<FineLines> fine_lines_;
+    bool needs_beyond_;
     std::vector<FinePart> parts_;
     std::vector<LinePiece> lines_;  // of a tile: a list of its own would grow in memory that all threads share
 };

@@ -146,15 +146,15 @@ class ChainsOfLines {
 
 }  // namespace
 
-LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px) {
+LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surfaces, std::optional<double> period_px) {
     LineChains chains;
     chains.positions.resize(lines.size());
     ChainsOfLines(lines, surfaces).for_chains([&](std::span<const std::uint32_t> chain, bool is_loop) {
         double scale = 1;
-        if (is_loop) {
+        if (is_loop && period_px) {
             double total = 0;
             for (const std::uint32_t end : chain) total += lines[end / 2].length_px();
-            if (total > 0) scale = period_px * std::max(1.0, std::round(total / period_px)) / total;
+            if (total > 0) scale = *period_px * std::max(1.0, std::round(total / *period_px)) / total;
         }
         double at = 0;
         for (const std::uint32_t end : chain) {
@@ -164,6 +164,8 @@ LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surface
             chains.lines.push_back(end / 2);
         }
         chains.chain_ends.push_back(chains.lines.size());
+        chains.is_loop.push_back(is_loop);
+        chains.length_px.push_back(at);
     });
     return chains;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct LineChains {
     /// its coordinates.
     std::vector<std::uint32_t> lines;
     std::vector<std::size_t> chain_ends;
+    std::vector<bool> is_loop;      ///< of each chain
+    std::vector<double> length_px;  ///< of each chain, as positions count
 };
 
 /// Lines that alone have a node in common follow each other in a chain; of more, those of one class if they are two,
@@ -26,7 +29,8 @@ struct LineChains {
 ///
 /// A chain begins at its end, or on a loop at its vertex, that comes first by its coordinates in the mesh: where dashes
 /// begin depends on neither the view nor the order of triangles. Positions on a loop are scaled so that a whole number
-/// of periods fits.
-LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px);
+/// of periods fits, if there is a period.
+LineChains chains_of(std::span<const WholeLine> lines, const SurfaceSet& surfaces,
+                     std::optional<double> period_px = std::nullopt);
 
 }  // namespace burin

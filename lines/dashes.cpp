@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <tuple>
 #include <utility>
 
 #include "lines/dash_pen.h"
-#include "lines/end_links.h"
 #include "lines/line_dashes.h"
+#include "lines/piece_chains.h"
 #include "lines/shared_dashes.h"
 #include "lines/whole_line_index.h"
 
@@ -17,113 +15,6 @@ namespace {
 
 /// Loops smaller than this come from samples beside a vertex, not from anything to be seen.
 constexpr double kSmallestLoopPx = 1.0 / 16;
-
-/// Whether a place is higher on the screen or, at the same height, further left.
-bool is_higher(glm::dvec2 a, glm::dvec2 b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); }
-
-/// ChainsOfPieces links the ends of pieces that follow each other.
-class ChainsOfPieces {
-  public:
-    struct Chain {
-        std::vector<std::uint32_t> ends;  // by which each piece is entered
-        bool is_closed = false;
-    };
-
-    explicit ChainsOfPieces(std::vector<const LinePiece*> pieces) : pieces_(std::move(pieces)), links_(pieces_.size()) {
-        link();
-    }
-
-    const LinePiece& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
-    double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
-
-    /// All chains, in the order of where they begin.
-    std::vector<Chain> all() const {
-        std::vector<Chain> chains;
-        links_.for_chains([&](const std::vector<std::uint32_t>& ends, bool is_closed) {
-            chains.push_back({ends, is_closed});
-            put_in_order(chains.back());
-        });
-        const auto is_before = [this](std::uint32_t a, std::uint32_t b) { return is_higher(place(a), place(b)); };
-        std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
-            if (std::lexicographical_compare(a.ends.begin(), a.ends.end(), b.ends.begin(), b.ends.end(), is_before))
-                return true;
-            if (std::lexicographical_compare(b.ends.begin(), b.ends.end(), a.ends.begin(), a.ends.end(), is_before))
-                return false;
-            return is_before(a.ends.back() ^ 1, b.ends.back() ^ 1);
-        });
-        return chains;
-    }
-
-  private:
-    glm::dvec2 place(std::uint32_t end) const { return end % 2 == 0 ? pieces_[end / 2]->from : pieces_[end / 2]->to; }
-
-    void link() {
-        std::vector<std::uint32_t> ends(2 * pieces_.size());
-        for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
-        std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
-            const glm::dvec2 p = place(a), q = place(b);
-            return p != q ? is_higher(p, q) : a < b;
-        });
-        for (std::size_t i = 0; i < ends.size();) {
-            std::size_t next = i + 1;
-            while (next < ends.size() && place(ends[next]) == place(ends[i])) ++next;
-            link_node(
-                {ends.begin() + static_cast<std::ptrdiff_t>(i), ends.begin() + static_cast<std::ptrdiff_t>(next)});
-            i = next;
-        }
-    }
-
-    void link_node(std::vector<std::uint32_t> ends) {
-        link_pairs(ends, [&](std::uint32_t end) { return piece(end).line; });
-        std::erase_if(ends, [&](std::uint32_t end) { return !links_.is_free(end); });
-        if (ends.size() != 2) link_pairs(ends, [&](std::uint32_t end) { return piece(end).drawn_as; });
-        if (ends.size() == 2) link_pairs(ends, [](std::uint32_t) { return 0; });
-    }
-
-    /// Links two ends with equal keys, if there is no third one.
-    template <typename Key>
-    void link_pairs(const std::vector<std::uint32_t>& ends, const Key& key) {
-        for (const std::uint32_t a : ends) {
-            std::uint32_t partner = a;
-            int count = 0;
-            for (const std::uint32_t b : ends) {
-                if (b == a || key(b) != key(a)) continue;
-                partner = b;
-                ++count;
-            }
-            if (count == 1) links_.link(a, partner);
-        }
-    }
-
-    static void reverse(Chain& chain) {
-        std::reverse(chain.ends.begin(), chain.ends.end());
-        for (std::uint32_t& end : chain.ends) end ^= 1;
-    }
-
-    /// Makes a chain begin where dashes begin.
-    void put_in_order(Chain& chain) const {
-        const glm::dvec2 first = place(chain.ends.front()), last = place(chain.ends.back() ^ 1);
-        if (first != last) {
-            if (is_higher(last, first)) reverse(chain);
-            return;
-        }
-        double area = 0;
-        for (const std::uint32_t end : chain.ends) {
-            const glm::dvec2 a = place(end) - first, b = place(end ^ 1) - first;
-            area += a.x * b.y - a.y * b.x;
-        }
-        if (area < 0) reverse(chain);  // y runs down: clockwise is positive
-        if (!chain.is_closed) return;
-        const auto highest = std::min_element(chain.ends.begin(), chain.ends.end(), [&](auto a, auto b) {
-            const glm::dvec2 p = place(a), q = place(b);
-            return p != q ? is_higher(p, q) : is_higher(place(a ^ 1), place(b ^ 1));
-        });
-        std::rotate(chain.ends.begin(), highest, chain.ends.end());
-    }
-
-    std::vector<const LinePiece*> pieces_;
-    EndLinks links_;
-};
 
 /// Adds the dashes of a part of a piece.
 void draw(const LinePiece& piece, const DashPart& part, const DashPen& pen, std::vector<LinePiece>& drawn) {
@@ -157,14 +48,14 @@ void draw_on_feature(const LinePiece& piece, double first, double last, const Li
 }
 
 /// Whether a chain is long enough to be drawn: hooks of facets, and loops from samples beside a vertex, are not.
-bool is_drawn(const ChainsOfPieces& chains, const ChainsOfPieces::Chain& chain, double width_px) {
+bool is_drawn(const PieceChains& chains, const PieceChains::Chain& chain, double width_px) {
     double total = 0;
     for (const std::uint32_t end : chain.ends) total += chains.length(end);
     return total >= (chain.is_closed ? kSmallestLoopPx : std::max(1.0, width_px));
 }
 
 /// Adds a chain's pieces with where they stand.
-void add_pieces(const ChainsOfPieces& chains, const ChainsOfPieces::Chain& chain, double period_px,
+void add_pieces(const PieceChains& chains, const PieceChains::Chain& chain, double period_px,
                 std::vector<DashPiece>& pieces) {
     double total = 0, at = 0;
     for (const std::uint32_t end : chain.ends) total += chains.length(end);
@@ -204,11 +95,11 @@ std::vector<std::vector<LinePiece>> dashed(const std::vector<std::vector<LinePie
             }
         }
     }
-    const ChainsOfPieces chains(std::move(others));
+    const PieceChains chains(std::move(others));
     std::vector<const LinePiece*> drawn;
     std::vector<DashPiece> pieces;
     std::vector<std::size_t> chain_ends;
-    for (const ChainsOfPieces::Chain& chain : chains.all()) {
+    for (const PieceChains::Chain& chain : chains.all()) {
         if (!is_drawn(chains, chain, width_px)) continue;
         add_pieces(chains, chain, pen.period_px(), pieces);
         for (const std::uint32_t end : chain.ends) drawn.push_back(&chains.piece(end));

@@ -29,6 +29,8 @@ struct DrawingNeeds {
     /// Strokes are drawn on one side of their lines: pieces must not overlap, so they are sampled more finely instead
     /// of being completed from the mesh.
     bool one_sided = false;
+    /// Of visible lines where a surface ends it must be known which surface is seen beyond: LinePiece::beyond.
+    bool surfaces_beyond = false;
     /// How far from a line its stroke may change pixels.
     double reach_px = 1;
 

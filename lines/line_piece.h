@@ -19,15 +19,19 @@ struct LinePiece {
     LineId line;
     float nearness_from = 0, nearness_to = 0;  ///< at either end, of the surface that the line lies on
     std::uint32_t block = 0;                   ///< pieces that are seen are merged within one block of the picture only
-    LineClassSet classes;                      ///< all that apply somewhere on it, among those asked for
+    /// The triangle, by its number through all instances, that is seen on the other side of a visible line where a
+    /// surface ends. Only if DrawingNeeds::surfaces_beyond asks for it.
+    std::uint32_t beyond = kNoSurface;
+    static constexpr std::uint32_t kNoSurface = ~0u;  ///< the background, or not known
+    LineClassSet classes;                             ///< all that apply somewhere on it, among those asked for
     LineClass drawn_as = LineClass::silhouette;
     std::uint8_t opacity = 255;       ///< of the line itself, 255 = full; less where it fades
     std::uint8_t transmission = 255;  ///< what transparent surfaces in front let through, 255 = all
     /// Quantitative invisibility (Appel 1967): how many opaque surfaces are in front. 255: that many or more.
     std::uint8_t invisibility = 0;
-    bool is_drawn = true;        ///< else it only hides strokes
-    bool occludes = false;       ///< a surface ends here; else the line lies on one, or between two in contact
-    bool front_on_left = false;  ///< of the way from `from` to `to`, as seen on the screen
+    bool is_drawn : 1 = true;        ///< else it only hides strokes
+    bool occludes : 1 = false;       ///< a surface ends here; else the line lies on one, or between two in contact
+    bool front_on_left : 1 = false;  ///< of the way from `from` to `to`, as seen on the screen
 
     bool is_hidden() const { return invisibility > 0; }
     /// The opacity of the line as it is seen.

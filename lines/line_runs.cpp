@@ -1,0 +1,172 @@
+#include "lines/line_runs.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "lines/chains.h"
+#include "lines/piece_chains.h"
+#include "lines/whole_line_index.h"
+
+namespace burin {
+namespace {
+
+/// Pieces of one chain that are no farther apart along it are one run: a vertex may lie between them.
+constexpr double kTogetherPx = 0.5;
+/// Chains that end closer to where they began are seen as a loop.
+constexpr double kClosedPx = 1.0 / 256;
+
+void turn(LinePiece& piece) {
+    std::swap(piece.from, piece.to);
+    std::swap(piece.nearness_from, piece.nearness_to);
+    piece.front_on_left = !piece.front_on_left;
+}
+
+/// FeatureRuns collects the pieces that lie on whole lines, and makes runs of them.
+class FeatureRuns {
+  public:
+    FeatureRuns(std::span<const WholeLine> features, const SurfaceSet& surfaces)
+        : features_(features), index_(features), chains_(chains_of(features, surfaces)), chain_of_(features.size()) {
+        std::size_t begin = 0;
+        for (std::uint32_t chain = 0; chain < chains_.chain_ends.size(); ++chain) {
+            for (std::size_t i = begin; i < chains_.chain_ends[chain]; ++i) chain_of_[chains_.lines[i]] = chain;
+            begin = chains_.chain_ends[chain];
+        }
+    }
+
+    /// Takes the piece if it lies on a feature.
+    bool take(const LinePiece& piece) {
+        const auto line = index_.find(piece);
+        if (!line) return false;
+        const auto& [at_from, at_to] = chains_.positions[*line];
+        const auto place = [&](glm::dvec2 p) {
+            return glm::mix(at_from, at_to, WholeLineIndex::share_of(features_[*line], p));
+        };
+        Placed placed{chain_of_[*line], piece.is_hidden(), {piece, place(piece.from), place(piece.to)}};
+        if (placed.piece.at_to_px < placed.piece.at_from_px) {
+            turn(placed.piece.piece);
+            std::swap(placed.piece.at_from_px, placed.piece.at_to_px);
+        }
+        placed_.push_back(placed);
+        return true;
+    }
+
+    void add_to(LineRuns& runs) {
+        std::sort(placed_.begin(), placed_.end(), [](const Placed& a, const Placed& b) {
+            const auto key = [](const Placed& p) {
+                return std::tuple(p.chain, p.is_hidden, p.piece.at_from_px, p.piece.at_to_px, p.piece.piece.from.x,
+                                  p.piece.piece.from.y, p.piece.piece.line.bits);
+            };
+            return key(a) < key(b);
+        });
+        for (std::size_t begin = 0, end = 0; begin < placed_.size(); begin = end) {
+            const auto is_of_chain = [&](const Placed& p) {
+                return p.chain == placed_[begin].chain && p.is_hidden == placed_[begin].is_hidden;
+            };
+            while (end < placed_.size() && is_of_chain(placed_[end])) ++end;
+            add_chain(std::span(placed_).subspan(begin, end - begin), runs);
+        }
+    }
+
+  private:
+    struct Placed {
+        std::uint32_t chain;
+        bool is_hidden;
+        RunPiece piece;
+    };
+
+    void add_chain(std::span<const Placed> placed, LineRuns& runs) const {
+        const std::uint32_t chain = placed.front().chain;
+        const double length = chains_.length_px[chain];
+        LineRun run;
+        run.is_hidden = placed.front().is_hidden;
+        run.chain_length_px = length;
+        run.chain_is_closed = chains_.is_loop[chain];
+        run.chain_start = features_[chains_.lines[chain == 0 ? 0 : chains_.chain_ends[chain - 1]]].id;
+        // What is beyond the beginning of a loop goes on from its end.
+        std::size_t first = 0;
+        if (run.chain_is_closed && placed.front().piece.at_from_px < kTogetherPx &&
+            placed.back().piece.at_to_px > length - kTogetherPx) {
+            while (first + 1 < placed.size() && goes_on(placed[first], placed[first + 1])) ++first;
+            first = (first + 1) % placed.size();
+        }
+        run.is_closed = first == 0 && run.chain_is_closed && covers_all(placed, length);
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            const std::size_t k = (first + i) % placed.size();
+            const bool begins = i == 0 || (k == 0 ? run.is_closed : !goes_on(placed[k - 1], placed[k]));
+            if (begins) {
+                run.first = runs.pieces.size();
+                run.count = 0;
+                runs.runs.push_back(run);
+            }
+            RunPiece piece = placed[k].piece;
+            if (k < first) {
+                piece.at_from_px += length;
+                piece.at_to_px += length;
+            }
+            runs.pieces.push_back(piece);
+            ++runs.runs.back().count;
+        }
+    }
+    static bool goes_on(const Placed& a, const Placed& b) {
+        return b.piece.at_from_px <= a.piece.at_to_px + kTogetherPx;
+    }
+    static bool covers_all(std::span<const Placed> placed, double length) {
+        for (std::size_t i = 1; i < placed.size(); ++i) {
+            if (!goes_on(placed[i - 1], placed[i])) return false;
+        }
+        return placed.front().piece.at_from_px < kTogetherPx && placed.back().piece.at_to_px > length - kTogetherPx;
+    }
+
+    std::span<const WholeLine> features_;
+    WholeLineIndex index_;
+    LineChains chains_;
+    std::vector<std::uint32_t> chain_of_;  // of each feature
+    std::vector<Placed> placed_;
+};
+
+/// Adds the runs of lines that stand along themselves.
+void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, LineRuns& runs) {
+    const PieceChains chains(std::move(pieces));
+    for (const PieceChains::Chain& chain : chains.all()) {
+        LineRun run;
+        run.first = runs.pieces.size();
+        run.count = chain.ends.size();
+        run.is_hidden = is_hidden;
+        double at = 0;
+        for (const std::uint32_t end : chain.ends) {
+            RunPiece piece{chains.piece(end), at, at + chains.length(end)};
+            if (!EndLinks::is_beginning(end)) turn(piece.piece);
+            at = piece.at_to_px;
+            runs.pieces.push_back(piece);
+        }
+        run.is_closed = chain.is_closed || glm::distance(runs.pieces[run.first].piece.from,
+                                                         runs.pieces.back().piece.to) < kClosedPx;
+        run.chain_length_px = at;
+        run.chain_is_closed = run.is_closed;
+        runs.runs.push_back(run);
+    }
+}
+
+}  // namespace
+
+LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces) {
+    LineRuns runs;
+    FeatureRuns of_features(features, surfaces);
+    std::vector<const LinePiece*> seen, hidden;
+    for (const LineDrawing::Lists* lists : {&visible, &behind}) {
+        for (const std::span<const LinePiece> list : *lists) {
+            for (const LinePiece& piece : list) {
+                if (!piece.is_drawn || piece.from == piece.to || of_features.take(piece)) continue;
+                (piece.is_hidden() ? hidden : seen).push_back(&piece);
+            }
+        }
+    }
+    of_features.add_to(runs);
+    add_others(std::move(seen), false, runs);
+    add_others(std::move(hidden), true, runs);
+    return runs;
+}
+
+}  // namespace burin

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "image/image.h"
+#include "lines/line_drawing.h"
+#include "lines/whole_line.h"
+#include "view/surface_set.h"
+
+// Line shading draws runs: what the eye follows as one line.
+
+namespace burin {
+
+/// What stops a run at one of its ends.
+enum class RunEnd : std::uint8_t {
+    free,      ///< nothing: a vertex where no line goes on, a cusp, the end of a border
+    corner,    ///< another line goes on there
+    occluded,  ///< a nearer surface passes in front, or begins or ceases to hide it
+    frame,     ///< the border of the picture
+};
+
+/// A piece of a run, which runs as the run does, and where its ends stand along the chain.
+struct RunPiece {
+    LinePiece piece;
+    double at_from_px = 0, at_to_px = 0;
+};
+
+/// A LineRun is the longest part of a chain that is all seen or all hidden.
+struct LineRun {
+    std::size_t first = 0, count = 0;  ///< in LineRuns::pieces
+    bool is_hidden = false;
+    bool is_closed = false;  ///< it is a loop: its last piece ends where its first one begins
+    std::array<RunEnd, 2> ends{RunEnd::free, RunEnd::free};
+    double chain_length_px = 0;
+    bool chain_is_closed = false;
+    /// The edge of the mesh that its chain begins with, which does not depend on the view; none for contours and
+    /// intersections.
+    LineId chain_start;
+};
+
+/// The lines of a picture as runs. Their order depends on nothing but the lines.
+struct LineRuns {
+    std::vector<RunPiece> pieces;
+    std::vector<LineRun> runs;
+
+    std::span<const RunPiece> pieces_of(const LineRun& run) const {
+        return std::span(pieces).subspan(run.first, run.count);
+    }
+    double length_px(const LineRun& run) const {
+        return run.count == 0 ? 0 : pieces[run.first + run.count - 1].at_to_px - pieces[run.first].at_from_px;
+    }
+};
+
+/// Makes runs of the pieces of a picture that are drawn. `features`: edges that are lines from anywhere, as wholes; runs
+/// of those stand along the chains of these (chains_of()), seen or not. All other lines are chained piece by piece
+/// (PieceChains), and stand along what is seen of them. Where a chain is a loop that is seen in part, what is beyond its
+/// beginning stands beyond its length.
+LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces);
+
+}  // namespace burin

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "lines/end_links.h"
+#include "lines/line_piece.h"
+
+namespace burin {
+
+/// PieceChains links pieces that follow each other on the screen, over tiles and over edges of the mesh: pieces whose
+/// ends are at one place, to the bit. Where more than two meet, those of one line belong together, else those of one
+/// class if they are two; the others end there.
+class PieceChains {
+  public:
+    struct Chain {
+        std::vector<std::uint32_t> ends;  ///< by which each piece is entered: 2i is the beginning of piece i
+        bool is_closed = false;
+    };
+
+    /// The pieces, which have lengths, must stay.
+    explicit PieceChains(std::vector<const LinePiece*> pieces);
+
+    const LinePiece& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
+    double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
+
+    /// All chains, in the order of where they begin: at the end that is higher on the screen (of two level ones, the
+    /// left one). A closed one begins at its highest point and runs clockwise. This depends on nothing but where the
+    /// pieces are.
+    std::vector<Chain> all() const;
+
+  private:
+    glm::dvec2 place(std::uint32_t end) const { return end % 2 == 0 ? pieces_[end / 2]->from : pieces_[end / 2]->to; }
+    void link();
+    void link_node(std::vector<std::uint32_t> ends);
+    template <typename Key>
+    void link_pairs(const std::vector<std::uint32_t>& ends, const Key& key);
+    void put_in_order(Chain& chain) const;
+
+    std::vector<const LinePiece*> pieces_;
+    EndLinks links_;
+};
+
+}  // namespace burin
