@@ -11,6 +11,7 @@
 #include "burin/running.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
+#include "view/surface_numbers.h"
 
 namespace burin {
 namespace {
@@ -30,22 +31,11 @@ void add_pieces(const LineDrawing::Lists& lists, burin_drawing& drawing) {
 /// Which object and material each piece's line belongs to: those of its edge's first triangle, or of the first one of
 /// two that pass through each other. A loose edge has no material.
 void find_owners(const SurfaceSet& surfaces, burin_drawing& drawing) {
-    std::vector<std::uint64_t> first_triangle;  // of each instance, among all
-    std::uint64_t count = 0;
-    for (const SurfaceInstance& instance : surfaces.instances) {
-        first_triangle.push_back(count);
-        count += instance.mesh->triangles.size();
-    }
+    const SurfaceNumbers numbers(surfaces);
     for (const LinePiece& piece : drawing.pieces) {
         const LineId line = piece.line;
-        SurfaceId surface;
-        if (line.is_edge()) {
-            surface = {line.instance(), line.half_edge() / 3};
-        } else if (const std::uint64_t number = line.lower_surface(); number < count) {
-            const auto next = std::upper_bound(first_triangle.begin(), first_triangle.end(), number);
-            surface.instance = static_cast<std::uint32_t>(next - first_triangle.begin() - 1);
-            surface.triangle = static_cast<std::uint32_t>(number - first_triangle[surface.instance]);
-        }
+        const SurfaceId surface =
+            line.is_edge() ? SurfaceId{line.instance(), line.half_edge() / 3} : numbers.of(line.lower_surface());
         const bool is_loose = line.is_edge() && surfaces.instances[line.instance()].mesh->is_loose(line.half_edge());
         drawing.object.push_back(surfaces.object_id(surface));
         drawing.material.push_back(is_loose ? 0 : surfaces.material_id(surface));

@@ -1,0 +1,169 @@
+#include "shading/ink/line_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lines/vertex_normal.h"
+
+namespace burin {
+namespace {
+
+glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
+glm::dvec2 middle_of(const LinePiece& piece) { return 0.5 * (piece.from + piece.to); }
+
+}  // namespace
+
+/// The unit vector to the eye from an end of a piece, in view space.
+glm::dvec3 LineSidesFinder::to_eye(const LinePiece& piece, int end) const {
+    glm::dvec3 origin, direction;
+    surfaces_.projection.view_ray(end == 0 ? piece.from : piece.to, origin, direction);
+    return -unit(direction);
+}
+
+/// How much a triangle turns to the eye: N · V, 0 to 1.
+double LineSidesFinder::facing(SurfaceId s, glm::dvec2 place) const {
+    glm::dvec3 origin, direction;
+    surfaces_.projection.view_ray(place, origin, direction);
+    return std::abs(glm::dot(surfaces_.view_normal(s), unit(direction)));
+}
+
+LineSides LineSidesFinder::sides_of(const LinePiece& piece, bool has_normals) const {
+    LineSides sides;
+    if (piece.line.is_none()) return sides;
+    if (piece.line.is_edge()) {
+        add_edge(piece, sides, has_normals);
+    } else {
+        add_meeting(piece, sides);
+        if (has_normals) set_flat_normals(piece, sides);
+    }
+    if (sides.front_object == 0) sides.front_object = surfaces_.object_id(sides.front);
+    return sides;
+}
+
+/// A line where two surfaces meet, or of which the mesh does not say why it is there.
+void LineSidesFinder::add_meeting(const LinePiece& piece, LineSides& sides) const {
+    SurfaceId a = numbers_.of(piece.line.lower_surface()), b = numbers_.of(piece.line.member());
+    const glm::dvec2 place = middle_of(piece);
+    if (a.is_background()) std::swap(a, b);
+    if (!a.is_background() && !b.is_background()) {
+        const bool is_b_first =
+            piece.occludes ? surfaces_.plane(b).nearness(place) > surfaces_.plane(a).nearness(place)
+                           : facing(b, place) > facing(a, place);
+        if (is_b_first) std::swap(a, b);
+    }
+    sides.front = a;
+    sides.other = b;
+    sides.is_beyond = piece.occludes;
+}
+
+void LineSidesFinder::add_edge(const LinePiece& piece, LineSides& sides, bool has_normals) const {
+    const std::uint32_t instance = piece.line.instance();
+    const Mesh& mesh = *surfaces_.instances[instance].mesh;
+    const HalfEdge h = piece.line.half_edge();
+    if (mesh.is_loose(h)) {
+        sides.front_object = surfaces_.instances[instance].object_id;
+        return;
+    }
+    const glm::dvec2 place = middle_of(piece);
+    Face best, second;
+    std::size_t count = 0;
+    for (HalfEdge at = h; count == 0 || at != h; at = mesh.next_on_edge[at]) {
+        const SurfaceId s{instance, at / 3};
+        const Face face{at, s, facing(s, place)};
+        const auto comes_before = [this](const Face& a, const Face& b) {
+            if (b.half_edge == kNoHalfEdge) return true;
+            return a.facing != b.facing ? a.facing > b.facing
+                                        : surfaces_.polygon_id(a.surface) < surfaces_.polygon_id(b.surface);
+        };
+        if (comes_before(face, best)) {
+            second = best;
+            best = face;
+        } else if (comes_before(face, second)) {
+            second = face;
+        }
+        ++count;
+    }
+    sides.front = best.surface;
+    sides.is_beyond = piece.occludes;
+    if (count == 2) add_fold(piece, best, second, sides);
+    if (piece.occludes) {
+        // Of a fold, the face that is seen is the one that turns to the eye, which is the nearer one beside the edge.
+        sides.other = numbers_.of(piece.beyond);
+        if (piece.beyond == LinePiece::kNoSurface) sides.other = kBackground;
+    } else {
+        sides.other = second.surface;
+    }
+    if (!has_normals) return;
+    set_flat_normals(piece, sides);
+    const bool is_contour = piece.occludes && count == 2;
+    const bool may_be_smooth = is_contour || piece.drawn_as == LineClass::polygon || piece.drawn_as == LineClass::mark;
+    if (may_be_smooth && is_smooth_edge(mesh, h, cos_crease_angle_)) add_smooth_normals(piece, h, is_contour, sides);
+}
+
+/// The angle at an edge of two polygons, and whether it sticks out as seen from the side of the first one that the eye
+/// sees.
+void LineSidesFinder::add_fold(const LinePiece& piece, const Face& a, const Face& b, LineSides& sides) const {
+    const Mesh& mesh = surfaces_.mesh_of(a.surface);
+    const glm::dvec3 n_a = surfaces_.view_normal(a.surface), n_b = surfaces_.view_normal(b.surface);
+    const auto start_of = [&mesh](HalfEdge h) { return mesh.triangles[h / 3][h % 3]; };
+    const bool are_alike = start_of(a.half_edge) != start_of(b.half_edge);
+    const double cosine = std::clamp(are_alike ? glm::dot(n_a, n_b) : -glm::dot(n_a, n_b), -1.0, 1.0);
+    const bool is_contour = piece.occludes && is_smooth_edge(mesh, a.half_edge, cos_crease_angle_);
+    sides.dihedral_deg = is_contour ? 0 : static_cast<float>(glm::degrees(std::acos(cosine)));
+    constexpr double kFlatSine = 1e-9;
+    // Whether b's far corner lies below a's plane, on the side of a that the eye sees.
+    const auto corner = [&](HalfEdge h, unsigned k) {
+        return surfaces_.view_position(a.surface.instance, mesh.triangles[h / 3][(h % 3 + k) % 3]);
+    };
+    const glm::dvec3 towards = surfaces_.normal_towards_eye(a.surface, middle_of(piece));
+    const glm::dvec3 way = corner(b.half_edge, 2) - corner(b.half_edge, 0);
+    const double above = glm::dot(unit(way), towards);
+    sides.convex = above < -kFlatSine ? 1 : above > kFlatSine ? -1 : 0;
+}
+
+void LineSidesFinder::set_flat_normals(const LinePiece& piece, LineSides& sides) const {
+    const auto set = [&](SurfaceId s, glm::dvec3 (&normals)[2]) {
+        if (s.is_background()) return;
+        normals[0] = surfaces_.normal_towards_eye(s, piece.from);
+        normals[1] = surfaces_.normal_towards_eye(s, piece.to);
+    };
+    set(sides.front, sides.front_normals);
+    set(sides.other, sides.other_normals);
+}
+
+/// Normals of the smooth surface that the mesh stands for; a contour's are at right angles to the line of sight.
+void LineSidesFinder::add_smooth_normals(const LinePiece& piece, HalfEdge h, bool is_contour, LineSides& sides) const {
+    const SurfaceInstance& instance = surfaces_.instances[piece.line.instance()];
+    const Mesh& mesh = *instance.mesh;
+    const HalfEdge next = h - h % 3 + (h % 3 + 1) % 3;
+    const auto& t = mesh.triangles[h / 3];
+    const glm::dvec3 ends[2] = {surfaces_.view_position(piece.line.instance(), t[h % 3]),
+                                surfaces_.view_position(piece.line.instance(), t[(h % 3 + 1) % 3])};
+    const glm::dvec3 normals[2] = {
+        unit(instance.normal_to_view * smooth_normal_at(mesh, h, cos_crease_angle_)),
+        unit(instance.normal_to_view * smooth_normal_at(mesh, next, cos_crease_angle_))};
+    const glm::dvec3 along = ends[1] - ends[0];
+    for (int end = 0; end < 2; ++end) {
+        const double depth = surfaces_.projection.distance(end == 0 ? piece.nearness_from : piece.nearness_to);
+        glm::dvec3 origin, direction;
+        surfaces_.projection.view_ray(end == 0 ? piece.from : piece.to, origin, direction);
+        const glm::dvec3 place = origin + direction * depth;
+        const double square = glm::dot(along, along);
+        const double share = square > 0 ? std::clamp(glm::dot(place - ends[0], along) / square, 0.0, 1.0) : 0.0;
+        glm::dvec3 normal = unit(glm::mix(normals[0], normals[1], share));
+        const glm::dvec3 eye = to_eye(piece, end);
+        if (is_contour) normal = unit(normal - eye * glm::dot(normal, eye));
+        if (!is_contour && glm::dot(normal, eye) < 0) normal = -normal;
+        // A contour's normal points away from the surface that ends: to the side beyond it on the screen.
+        if (is_contour) {
+            const glm::dvec2 way = piece.to - piece.from;
+            const glm::dvec2 left(way.y, -way.x), outwards = piece.front_on_left ? -left : left;
+            if (normal.x * outwards.x - normal.y * outwards.y < 0) normal = -normal;
+        }
+        sides.front_normals[end] = normal;
+        if (!is_contour) sides.other_normals[end] = normal;
+    }
+}
+
+}  // namespace burin

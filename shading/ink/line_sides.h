@@ -1,0 +1,56 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "lines/line_piece.h"
+#include "view/surface_numbers.h"
+#include "view/surface_set.h"
+
+namespace burin {
+
+/// What is on the two sides of a piece of a line. The front side is the surface that ends there or, where the line lies
+/// on surfaces, the face that turns to the eye more (of equal ones, the first by object, then polygon). docs/shading/
+/// variables.md says for each class what the sides are.
+struct LineSides {
+    SurfaceId front, other;         ///< kBackground: nothing
+    bool is_beyond = false;         ///< `other` is seen behind the line; else it touches the line
+    std::uint32_t front_object = 0;  ///< from 1; a loose edge has one although it has no surface
+    float dihedral_deg = 0;         ///< between the normals of the two polygons of an edge, 0 = flat
+    int convex = 0;                 ///< 1: the edge sticks out, -1: it goes inwards, 0: neither, or no edge of two
+    /// Unit normals of both sides at the ends of the piece, in view space, towards the eye; 0: none.
+    glm::dvec3 front_normals[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};
+    glm::dvec3 other_normals[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};
+};
+
+/// LineSidesFinder says what is on the two sides of pieces, from the meshes. It may be used by several threads.
+class LineSidesFinder {
+  public:
+    /// `cos_crease_angle`: surfaces are smooth over edges that turn by less.
+    LineSidesFinder(const SurfaceSet& surfaces, double cos_crease_angle)
+        : surfaces_(surfaces), numbers_(surfaces), cos_crease_angle_(cos_crease_angle) {}
+
+    /// `has_normals`: whether normals are asked for; else they stay 0.
+    LineSides sides_of(const LinePiece& piece, bool has_normals) const;
+
+  private:
+    /// A face at an edge: a half-edge of it.
+    struct Face {
+        HalfEdge half_edge = kNoHalfEdge;
+        SurfaceId surface;
+        double facing = -1;
+    };
+    void add_edge(const LinePiece& piece, LineSides& sides, bool has_normals) const;
+    void add_meeting(const LinePiece& piece, LineSides& sides) const;
+    void add_fold(const LinePiece& piece, const Face& a, const Face& b, LineSides& sides) const;
+    void add_smooth_normals(const LinePiece& piece, HalfEdge h, bool is_contour, LineSides& sides) const;
+    void set_flat_normals(const LinePiece& piece, LineSides& sides) const;
+    double facing(SurfaceId s, glm::dvec2 place) const;
+    glm::dvec3 to_eye(const LinePiece& piece, int end) const;
+
+    const SurfaceSet& surfaces_;
+    SurfaceNumbers numbers_;
+    double cos_crease_angle_;
+};
+
+}  // namespace burin
