@@ -29,9 +29,9 @@ struct InkPoint {
 
 /// Where a stroke lies among the others of a pixel. What is less lies above what is greater.
 struct InkOrder {
-    std::int32_t below = 0;   ///< minus the style's priority
-    bool is_hidden = false;   ///< some opaque surface is in front of the line: it lies below all visible ones
-    std::uint32_t set = 0;    ///< number of the line set
+    std::int32_t below = 0;  ///< minus the style's priority
+    bool is_hidden = false;  ///< some opaque surface is in front of the line: it lies below all visible ones
+    std::uint32_t set = 0;   ///< number of the line set
     LineClass drawn_as = LineClass::silhouette;
     auto operator<=>(const InkOrder&) const = default;
 };
@@ -52,7 +52,7 @@ struct InkStroke {
     StrokeCaps caps = StrokeCaps::round;  ///< of its two ends; joins are always round
     InkBlend blend = InkBlend::over;
     StrokeSide side = StrokeSide::both;
-    bool is_closed = false;  ///< its last point is its first one
+    bool is_closed = false;   ///< its last point is its first one
     bool is_constant = true;  ///< all its points have one width, opacity and colour
     /// How far around it strokes behind are erased, in pixels, where they are at least halo_depth_px[1] pixels' widths
     /// farther; from halo_depth_px[0] on this grows linearly.
