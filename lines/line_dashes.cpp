@@ -1,10 +1,20 @@
 #include "lines/line_dashes.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "lines/chains.h"
 
 namespace burin {
 
 bool is_feature(const WholeLine& line) { return !(line.classes == LineClassSet(LineClass::silhouette)); }
+
+std::vector<WholeLine> features_of(std::span<const WholeLine> lines) {
+    std::vector<WholeLine> features;
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(features),
+                 [](const WholeLine& line) { return line.is_edge() && is_feature(line); });
+    return features;
+}
 
 LineDashes::LineDashes(std::span<const WholeLine> lines, const SurfaceSet& surfaces, double period_px,
                        SharedDashes& shared)

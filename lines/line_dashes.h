@@ -14,6 +14,9 @@ namespace burin {
 
 /// Whether an edge of the mesh is a line from anywhere, and no mere contour.
 bool is_feature(const WholeLine& line);
+/// The edges among whole lines that are features. Intersections are found only where a picture has lines behind
+/// surfaces, and what stands along visible lines must not depend on that.
+std::vector<WholeLine> features_of(std::span<const WholeLine> lines);
 
 /// LineDashes lays out the dashes of lines of the mesh along their chains, and says which parts of a line are drawn.
 class LineDashes {

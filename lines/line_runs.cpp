@@ -140,8 +140,8 @@ void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, LineRuns& 
             at = piece.at_to_px;
             runs.pieces.push_back(piece);
         }
-        run.is_closed = chain.is_closed || glm::distance(runs.pieces[run.first].piece.from,
-                                                         runs.pieces.back().piece.to) < kClosedPx;
+        run.is_closed = chain.is_closed ||
+                        glm::distance(runs.pieces[run.first].piece.from, runs.pieces.back().piece.to) < kClosedPx;
         run.chain_length_px = at;
         run.chain_is_closed = run.is_closed;
         runs.runs.push_back(run);

@@ -59,10 +59,9 @@ glm::dvec3 smooth_normal_at(const Mesh& mesh, HalfEdge corner, double cos_crease
         if (at == corner && count > 1) break;  // all around
     }
     // Sums depend on their order, and that must not depend on the triangles'.
-    std::sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const glm::dvec3& a, const glm::dvec3& b) {
-                  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-              });
+    std::sort(
+        parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
+        [](const glm::dvec3& a, const glm::dvec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < count; ++i) sum += parts[i];
     return unit(sum);

@@ -1,5 +1,7 @@
 #include "render/drawing_needs.h"
 
+#include <algorithm>
+
 #include "shading/dash_style.h"
 
 namespace burin {
@@ -18,6 +20,24 @@ DrawingNeeds needs_of(const Scene& scene) {
     needs.whole_lines = is_dashed || is_dashed_behind;
     needs.one_sided = lines.style.side != StrokeSide::both;
     needs.reach_px = lines.style.reach_px();
+    return needs;
+}
+
+DrawingNeeds needs_of(const Scene& scene, const SheetNeeds& sheet) {
+    // Lines farther beside the picture than this leave no ink in it, however wide a sheet makes them.
+    constexpr float kFarthestPx = 64;
+    DrawingNeeds needs;
+    needs.classes = sheet.classes;
+    needs.most_invisibility = sheet.most_invisibility;
+    needs.tells_invisibility = sheet.tells_invisibility;
+    needs.is_transparent = has_transparent_surfaces(scene);
+    needs.whole_picture = true;
+    needs.whole_picture_behind = needs.behind();
+    needs.whole_lines = sheet.chains;
+    needs.surfaces_beyond = sheet.sides;
+    needs.one_sided = sheet.one_sided;
+    needs.reach_px =
+        static_cast<double>(std::min(sheet.most_reach_px, kFarthestPx)) + reach_px(scene.lines.style.filter);
     return needs;
 }
 

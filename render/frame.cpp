@@ -20,6 +20,15 @@ glm::dmat3 cofactors(const glm::dmat4& m) {
     return {glm::cross(b, c), glm::cross(c, a), glm::cross(a, b)};
 }
 
+SheetContext sheet_context_of(const Scene& scene, int width, int height) {
+    SheetContext context;
+    for (const SceneObject& object : scene.objects) context.objects.push_back(object.name);
+    for (const Material& material : scene.materials) context.materials.push_back(material.name);
+    context.width_px = width;
+    context.height_px = height;
+    return context;
+}
+
 }  // namespace
 
 Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop,
@@ -31,7 +40,9 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     frame.width = width;
     frame.height = height;
     frame.crop = crop;
-    frame.needs = needs_of(scene);
+    if (scene.sheet)
+        frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(scene, width, height));
+    frame.needs = frame.sheet ? needs_of(scene, frame.sheet->needs()) : needs_of(scene);
     frame.criteria.classes = frame.needs.classes;
     frame.criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "image/image.h"
@@ -7,6 +8,7 @@
 #include "lines/surface_walk.h"
 #include "render/prepared.h"
 #include "scene/scene.h"
+#include "shading/sheet/compiled_sheet.h"
 #include "view/surface_set.h"
 
 namespace burin {
@@ -22,6 +24,8 @@ struct Frame {
     PixelRect crop;  ///< the part to render
     SurfaceSet surfaces;
     LineCriteria criteria;
+    /// The scene's style sheet, made ready for this picture; nullptr: the scene's line style says how lines look.
+    std::shared_ptr<const CompiledSheet> sheet;
     DrawingNeeds needs;  ///< what the looks of the scene ask for
 
     const Material& material_of(SurfaceId s) const { return scene->materials[surfaces.material_id(s) - 1]; }

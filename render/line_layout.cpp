@@ -2,26 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "lines/dashes.h"
 #include "lines/dashes_behind.h"
+#include "lines/line_dashes.h"
 #include "lines/smooth_contours.h"
 #include "shading/dash_style.h"
 
 namespace burin {
 namespace {
-
-/// Edges that are lines from anywhere. Intersections are found only where a picture has lines behind surfaces, and
-/// visible dashes must not depend on that.
-std::vector<WholeLine> features_of(std::span<const WholeLine> lines) {
-    std::vector<WholeLine> features;
-    std::copy_if(lines.begin(), lines.end(), std::back_inserter(features),
-                 [](const WholeLine& line) { return line.is_edge() && is_feature(line); });
-    return features;
-}
 
 /// Pieces behind surfaces, of which those that are one line to the eye become one.
 std::vector<LinePiece> joined(const LineDrawing::Lists& lists) {

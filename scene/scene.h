@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "scene/camera.h"
 #include "scene/method_settings.h"
 #include "shading/line_style.h"
+#include "shading/sheet/style_sheet.h"
 #include "shading/surface_shader.h"
 
 // A scene is what a picture is made of: meshes, objects, materials, cameras and settings; it computes nothing.
@@ -65,6 +67,7 @@ struct Scene {
     bool camera_is_default = false;       ///< the input has no camera
     PictureSettings picture;
     LineSettings lines;
+    std::shared_ptr<const StyleSheet> sheet;  ///< says how lines look instead of `lines`; nullptr: none
     SurfaceStyle surfaces;
     AbufferSettings abuffer;
     PatelSettings patel;

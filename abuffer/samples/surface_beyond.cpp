@@ -47,8 +47,7 @@ void find_surfaces_beyond(const SampleTile& samples, std::span<LinePiece> pieces
         if (length == 0) continue;
         // y runs down: what is to the left of the way (x, y) lies in direction (y, -x).
         const glm::dvec2 left(along.y / length, -along.x / length);
-        const std::uint32_t id =
-            id_beside(samples, 0.5 * (piece.from + piece.to), piece.front_on_left ? -left : left);
+        const std::uint32_t id = id_beside(samples, 0.5 * (piece.from + piece.to), piece.front_on_left ? -left : left);
         piece.beyond = id == SampleTile::kBackground ? LinePiece::kNoSurface : id >> 1;
     }
 }

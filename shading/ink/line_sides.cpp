@@ -47,9 +47,8 @@ void LineSidesFinder::add_meeting(const LinePiece& piece, LineSides& sides) cons
     const glm::dvec2 place = middle_of(piece);
     if (a.is_background()) std::swap(a, b);
     if (!a.is_background() && !b.is_background()) {
-        const bool is_b_first =
-            piece.occludes ? surfaces_.plane(b).nearness(place) > surfaces_.plane(a).nearness(place)
-                           : facing(b, place) > facing(a, place);
+        const bool is_b_first = piece.occludes ? surfaces_.plane(b).nearness(place) > surfaces_.plane(a).nearness(place)
+                                               : facing(b, place) > facing(a, place);
         if (is_b_first) std::swap(a, b);
     }
     sides.front = a;
@@ -123,7 +122,7 @@ void LineSidesFinder::add_fold(const LinePiece& piece, const Face& a, const Face
 }
 
 void LineSidesFinder::set_flat_normals(const LinePiece& piece, LineSides& sides) const {
-    const auto set = [&](SurfaceId s, glm::dvec3 (&normals)[2]) {
+    const auto set = [&](SurfaceId s, glm::dvec3(&normals)[2]) {
         if (s.is_background()) return;
         normals[0] = surfaces_.normal_towards_eye(s, piece.from);
         normals[1] = surfaces_.normal_towards_eye(s, piece.to);
@@ -140,9 +139,8 @@ void LineSidesFinder::add_smooth_normals(const LinePiece& piece, HalfEdge h, boo
     const auto& t = mesh.triangles[h / 3];
     const glm::dvec3 ends[2] = {surfaces_.view_position(piece.line.instance(), t[h % 3]),
                                 surfaces_.view_position(piece.line.instance(), t[(h % 3 + 1) % 3])};
-    const glm::dvec3 normals[2] = {
-        unit(instance.normal_to_view * smooth_normal_at(mesh, h, cos_crease_angle_)),
-        unit(instance.normal_to_view * smooth_normal_at(mesh, next, cos_crease_angle_))};
+    const glm::dvec3 normals[2] = {unit(instance.normal_to_view * smooth_normal_at(mesh, h, cos_crease_angle_)),
+                                   unit(instance.normal_to_view * smooth_normal_at(mesh, next, cos_crease_angle_))};
     const glm::dvec3 along = ends[1] - ends[0];
     for (int end = 0; end < 2; ++end) {
         const double depth = surfaces_.projection.distance(end == 0 ? piece.nearness_from : piece.nearness_to);

@@ -13,11 +13,11 @@ namespace burin {
 /// on surfaces, the face that turns to the eye more (of equal ones, the first by object, then polygon). docs/shading/
 /// variables.md says for each class what the sides are.
 struct LineSides {
-    SurfaceId front, other;         ///< kBackground: nothing
-    bool is_beyond = false;         ///< `other` is seen behind the line; else it touches the line
+    SurfaceId front, other;          ///< kBackground: nothing
+    bool is_beyond = false;          ///< `other` is seen behind the line; else it touches the line
     std::uint32_t front_object = 0;  ///< from 1; a loose edge has one although it has no surface
-    float dihedral_deg = 0;         ///< between the normals of the two polygons of an edge, 0 = flat
-    int convex = 0;                 ///< 1: the edge sticks out, -1: it goes inwards, 0: neither, or no edge of two
+    float dihedral_deg = 0;          ///< between the normals of the two polygons of an edge, 0 = flat
+    int convex = 0;                  ///< 1: the edge sticks out, -1: it goes inwards, 0: neither, or no edge of two
     /// Unit normals of both sides at the ends of the piece, in view space, towards the eye; 0: none.
     glm::dvec3 front_normals[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};
     glm::dvec3 other_normals[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};

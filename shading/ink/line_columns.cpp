@@ -1,0 +1,318 @@
+#include "shading/ink/line_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/parallel.h"
+#include "kernels/expression_kernels.h"
+
+namespace burin {
+namespace {
+
+using V = Variable;
+constexpr std::size_t kChunk = 256;
+
+glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
+
+/// The direction of (x, y) in degrees, equal on all machines.
+float angle_deg(double y, double x) {
+    const float given[2] = {static_cast<float>(y), static_cast<float>(x)};
+    float angle = 0;
+    const ExpressionBlock block{&angle, {{&given[0], 0}, {&given[1], 0}, {nullptr, 0}}, 1, nullptr, 0};
+    best_expression_kernels().loops[static_cast<std::size_t>(ExpressionOperation::angle)](block);
+    return angle;
+}
+
+/// Of a line on the screen, where y runs down.
+float direction_deg(const LinePiece& piece) {
+    const glm::dvec2 way = piece.to - piece.from;
+    const float angle = angle_deg(-way.y, way.x);
+    const float positive = angle < 0 ? angle + 180 : angle;
+    return positive >= 180 ? positive - 180 : positive;
+}
+
+double end_distance_px(const LineRuns& runs, const LineRun& run, double at) {
+    double least = std::numeric_limits<double>::infinity();
+    if (run.is_closed) return least;
+    if (run.ends[0] == RunEnd::free) least = std::min(least, at - runs.pieces[run.first].at_from_px);
+    if (run.ends[1] == RunEnd::free) least = std::min(least, runs.pieces[run.first + run.count - 1].at_to_px - at);
+    return std::max(least, 0.0);
+}
+
+}  // namespace
+
+/// The columns that fill() writes: nullptr where one is not asked for.
+struct LineColumns::Columns {
+    VariableColumns& of;
+    std::size_t count;
+
+    float* place(Variable v, std::size_t component = 0) const { return const_cast<float*>(of.of(v, component)); }
+    /// Computes a number for each sample.
+    template <typename Compute>
+    void each(Variable v, const Compute& compute) const {
+        float* const to = place(v);
+        if (to == nullptr) return;
+        for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<float>(compute(i));
+    }
+    /// Computes a triple for each sample.
+    template <typename Compute>
+    void each_triple(Variable v, const Compute& compute) const {
+        if (place(v, 0) == nullptr && place(v, 1) == nullptr && place(v, 2) == nullptr) return;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto triple = compute(i);
+            for (int k = 0; k < 3; ++k) {
+                if (float* const to = place(v, static_cast<std::size_t>(k))) to[i] = static_cast<float>(triple[k]);
+            }
+        }
+    }
+};
+
+LineColumns::LineColumns(const LineSurroundings& around, const LineRuns& runs, const VariableSet& variables,
+                         int threads)
+    : around_(around), runs_(runs), sides_(runs.pieces.size()) {
+    const bool has_normals = variables.has(V::N) || variables.has(V::N2) || variables.has(V::facing) ||
+                             variables.has(V::facing2) || variables.has(V::light) || variables.has(V::light2);
+    const LineSidesFinder finder(*around.surfaces, around.cos_crease_angle);
+    parallel_for((runs.pieces.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+        for (std::size_t i = chunk * kChunk; i < std::min(runs.pieces.size(), (chunk + 1) * kChunk); ++i)
+            sides_[i] = finder.sides_of(runs.pieces[i].piece, has_normals);
+    });
+    std::map<std::string_view, std::uint32_t> seen;
+    for (const std::string& name : around.objects) same_name_.push_back(seen[name]++);
+    if (!variables.has(V::s_world)) return;
+    world_length_.resize(runs.pieces.size());
+    for (std::uint32_t r = 0; r < runs.runs.size(); ++r) {
+        const LineRun& run = runs.runs[r];
+        double length = 0;
+        const auto position = [&](std::size_t piece, double share) {
+            const LineSample sample{r, static_cast<std::uint32_t>(piece), share};
+            glm::dvec3 origin, direction;
+            around_.surfaces->projection.view_ray(place_of(sample), origin, direction);
+            return origin + direction * depth_at(sample);
+        };
+        for (std::size_t i = run.first; i < run.first + run.count; ++i) {
+            world_length_[i] = length;
+            length += glm::distance(position(i, 0), position(i, 1));
+        }
+    }
+}
+
+double LineColumns::depth_at(const LineSample& sample) const {
+    const LinePiece& p = runs_.pieces[sample.piece].piece;
+    return around_.surfaces->projection.distance(
+        glm::mix(static_cast<double>(p.nearness_from), static_cast<double>(p.nearness_to), sample.share));
+}
+
+LineHash LineColumns::object_hash(std::size_t piece, const SampleVariant& variant) const {
+    LineHash hash(variant.seed);
+    const std::uint32_t object = object_of(piece);
+    if (object > 0 && object <= around_.objects.size()) {
+        hash.add(std::string_view(around_.objects[object - 1])).add(std::uint64_t{same_name_[object - 1]});
+    }
+    return hash.add(std::uint64_t{variant.copy});
+}
+
+LineHash LineColumns::chain_hash(const LineRun& run, const SampleVariant& variant) const {
+    LineHash hash = object_hash(run.first, variant);
+    const LineId start = run.chain_start;
+    if (start.is_none() || !start.is_edge()) {
+        return hash.add(name_of(runs_.pieces[run.first].piece.drawn_as));
+    }
+    const Mesh& mesh = *around_.surfaces->instances[start.instance()].mesh;
+    const HalfEdge h = start.half_edge();
+    std::array<std::uint32_t, 2> ends;
+    if (mesh.is_loose(h)) {
+        ends = mesh.loose_edge(h);
+    } else {
+        const auto& t = mesh.triangles[h / 3];
+        ends = {t[h % 3], t[(h % 3 + 1) % 3]};
+    }
+    // The sum does not depend on which way round the edge runs.
+    std::uint64_t sum = 0;
+    for (const std::uint32_t end : ends) {
+        const glm::vec3 p = mesh.positions[end];
+        sum += LineHash().add(p.x).add(p.y).add(p.z).bits();
+    }
+    return hash.add(sum);
+}
+
+LineColumns::InObject LineColumns::in_object(const LineSample& sample) const {
+    const Projection& projection = around_.surfaces->projection;
+    const double depth = depth_at(sample);
+    glm::dvec3 origin, direction;
+    projection.view_ray(place_of(sample), origin, direction);
+    const glm::dvec3 view = origin + direction * depth;
+    const std::uint32_t object = object_of(sample.piece);
+    if (object == 0) return {view, projection.pixel_size(depth)};
+    const SurfaceInstance& instance = around_.surfaces->instances[object - 1];
+    const glm::dmat3 linear(instance.to_view);
+    const double scale = std::cbrt(std::abs(glm::determinant(linear)));
+    return {glm::inverse(linear) * (view - glm::dvec3(instance.to_view[3])) + instance.mesh->origin,
+            projection.pixel_size(depth) / std::max(scale, 1e-300)};
+}
+
+/// The depth of what is seen behind a line, beside it, less that of the line.
+float LineColumns::gap_at(const LineSample& sample) const {
+    const LineSides& sides = sides_of(sample.piece);
+    if (!sides.is_beyond) return 0;
+    if (sides.other.is_background()) return std::numeric_limits<float>::infinity();
+    const Projection& projection = around_.surfaces->projection;
+    const double behind =
+        projection.distance(around_.surfaces->plane(sides.other).nearness(place_of(sample)));
+    return static_cast<float>(std::max(behind - depth_at(sample), 0.0));
+}
+
+void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& variables,
+                       const SampleVariant& variant, SampleColumns& columns) const {
+    const std::size_t n = samples.size();
+    columns.columns_ = {};
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < kVariableCount; ++v) {
+        for (std::size_t k = 0; k < 3; ++k) count += variables.has(static_cast<V>(v), k) ? 1 : 0;
+    }
+    columns.numbers_.resize(count * n);
+    float* next = columns.numbers_.data();
+    for (std::size_t v = 0; v < kVariableCount; ++v) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!variables.has(static_cast<V>(v), k)) continue;
+            columns.columns_.of(static_cast<V>(v), k) = next;
+            next += n;
+        }
+    }
+    Columns out{columns.columns_, n};
+    const Projection& projection = around_.surfaces->projection;
+    const auto piece = [&](std::size_t i) -> const LinePiece& { return runs_.pieces[samples[i].piece].piece; };
+    const auto run = [&](std::size_t i) -> const LineRun& { return runs_.runs[samples[i].run]; };
+
+    out.each(V::x, [&](std::size_t i) { return place_of(samples[i]).x; });
+    out.each(V::y, [&](std::size_t i) { return place_of(samples[i]).y; });
+    out.each(V::depth, [&](std::size_t i) { return depth_at(samples[i]); });
+    out.each(V::distance, [&](std::size_t i) {
+        const double depth = depth_at(samples[i]);
+        if (projection.orthographic) return depth;
+        const glm::dvec2 at = (place_of(samples[i]) - projection.center_px) / projection.focal_px;
+        return depth * std::sqrt(1 + glm::dot(at, at));
+    });
+    out.each(V::px_size, [&](std::size_t i) { return projection.pixel_size(depth_at(samples[i])); });
+    out.each_triple(V::P, [&](std::size_t i) {
+        glm::dvec3 origin, direction;
+        projection.view_ray(place_of(samples[i]), origin, direction);
+        return glm::dvec3(around_.camera_to_world * glm::dvec4(origin + direction * depth_at(samples[i]), 1.0));
+    });
+    out.each_triple(V::PO, [&](std::size_t i) { return in_object(samples[i]).position; });
+
+    // Classes are numbered as LineClass counts, from 0.
+    const auto drawn_as = [&](std::size_t i) {
+        return (piece(i).classes & around_.classes).first().value_or(piece(i).drawn_as);
+    };
+    out.each(V::drawn_class, [&](std::size_t i) { return static_cast<int>(drawn_as(i)); });
+    for (int c = 0; c < kLineClassCount; ++c) {
+        const auto line_class = static_cast<LineClass>(c);
+        out.each(is_class(line_class), [&](std::size_t i) { return piece(i).classes.has(line_class) ? 1 : 0; });
+    }
+    out.each(V::qi, [&](std::size_t i) { return piece(i).invisibility; });
+    out.each(V::transmission, [&](std::size_t i) { return static_cast<double>(piece(i).transmission) / 255; });
+    out.each(V::direction, [&](std::size_t i) { return direction_deg(piece(i)); });
+    out.each(V::rand_object, [&](std::size_t i) { return object_hash(samples[i].piece, variant).unit(); });
+    out.each(V::rand_chain, [&](std::size_t i) { return chain_hash(run(i), variant).unit(); });
+    out.each(V::rand_set,
+             [&](std::size_t) { return LineHash(variant.seed).add(variant.set).add(std::uint64_t{variant.copy}).unit(); });
+    out.each(V::copy, [&](std::size_t) { return variant.copy; });
+    out.each(V::frame, [&](std::size_t) { return around_.frame; });
+    out.each(V::time, [&](std::size_t) { return around_.time_s; });
+    out.each(V::width_px, [&](std::size_t) { return around_.width_px; });
+    out.each(V::height_px, [&](std::size_t) { return around_.height_px; });
+    fill_sides(samples, out);
+    fill_chains(samples, variables, out);
+}
+
+void LineColumns::fill_sides(std::span<const LineSample> samples, Columns& out) const {
+    const SurfaceSet& surfaces = *around_.surfaces;
+    const Projection& projection = surfaces.projection;
+    const auto sides = [&](std::size_t i) -> const LineSides& { return sides_of(samples[i].piece); };
+    out.each(V::object, [&](std::size_t i) { return sides(i).front_object; });
+    out.each(V::material, [&](std::size_t i) { return surfaces.material_id(sides(i).front); });
+    out.each(V::object2, [&](std::size_t i) { return surfaces.object_id(sides(i).other); });
+    out.each(V::material2, [&](std::size_t i) { return surfaces.material_id(sides(i).other); });
+    out.each(V::dihedral, [&](std::size_t i) { return sides(i).dihedral_deg; });
+    out.each(V::convex, [&](std::size_t i) { return sides(i).convex; });
+    const auto color = [&](SurfaceId s) {
+        const std::uint32_t material = surfaces.material_id(s);
+        return material == 0 || material > around_.materials.size() ? glm::vec3(0.0f)
+                                                                    : around_.materials[material - 1].color;
+    };
+    out.each_triple(V::C, [&](std::size_t i) { return color(sides(i).front); });
+    out.each_triple(V::C2, [&](std::size_t i) { return color(sides(i).other); });
+    out.each(V::gap, [&](std::size_t i) { return gap_at(samples[i]); });
+    out.each(V::gap_px, [&](std::size_t i) { 
+        return static_cast<double>(gap_at(samples[i])) / projection.pixel_size(depth_at(samples[i]));
+    });
+    const auto slope = [&](std::size_t i, bool down) {
+        if (sides(i).front.is_background()) return 0.0;
+        const DepthPlane plane = surfaces.plane(sides(i).front);
+        const double depth = depth_at(samples[i]), change = down ? plane.per_y : plane.per_x;
+        return projection.orthographic ? -change : -change * depth * depth;
+    };
+    out.each(V::depth_x, [&](std::size_t i) { return slope(i, false); });
+    out.each(V::depth_y, [&](std::size_t i) { return slope(i, true); });
+
+    const auto normal = [&](std::size_t i, bool is_front) {
+        const auto& ends = is_front ? sides(i).front_normals : sides(i).other_normals;
+        const glm::dvec3 mean = glm::mix(ends[0], ends[1], samples[i].share);
+        return glm::dot(mean, mean) > 0 ? unit(mean) : glm::dvec3(0.0);
+    };
+    const auto to_eye = [&](std::size_t i) {
+        glm::dvec3 origin, direction;
+        projection.view_ray(place_of(samples[i]), origin, direction);
+        return -unit(direction);
+    };
+    const auto facing = [&](bool is_front) {
+        return [&, is_front](std::size_t i) { return std::clamp(glm::dot(normal(i, is_front), to_eye(i)), 0.0, 1.0); };
+    };
+    const auto light = [&](bool is_front) {
+        return [&, is_front](std::size_t i) {
+            return std::clamp(glm::dot(normal(i, is_front), around_.light ? unit(*around_.light) : to_eye(i)), 0.0, 1.0);
+        };
+    };
+    out.each(V::facing, facing(true));
+    out.each(V::facing2, facing(false));
+    out.each(V::light, light(true));
+    out.each(V::light2, light(false));
+    out.each_triple(V::N, [&](std::size_t i) { return surfaces.view_to_world * normal(i, true); });
+    out.each_triple(V::N2, [&](std::size_t i) { return surfaces.view_to_world * normal(i, false); });
+}
+
+void LineColumns::fill_chains(std::span<const LineSample> samples, const VariableSet& variables, Columns& out) const {
+    const auto run = [&](std::size_t i) -> const LineRun& { return runs_.runs[samples[i].run]; };
+    // Beyond the beginning of a loop, places count from there again.
+    const auto s = [&](std::size_t i) {
+        const double at = at_of(samples[i]), length = run(i).chain_length_px;
+        return run(i).chain_is_closed && at > length ? at - length : at;
+    };
+    out.each(V::s, s);
+    out.each(V::length, [&](std::size_t i) { return run(i).chain_length_px; });
+    out.each(V::t, [&](std::size_t i) {
+        return run(i).chain_length_px > 0 ? std::clamp(s(i) / run(i).chain_length_px, 0.0, 1.0) : 0.0;
+    });
+    out.each(V::run_s, [&](std::size_t i) { return at_of(samples[i]) - runs_.pieces[run(i).first].at_from_px; });
+    out.each(V::run_length, [&](std::size_t i) { return runs_.length_px(run(i)); });
+    out.each(V::end_distance, [&](std::size_t i) { return end_distance_px(runs_, run(i), at_of(samples[i])); });
+    out.each(V::closed, [&](std::size_t i) { return run(i).chain_is_closed ? 1 : 0; });
+    if (!variables.has(V::s_world)) return;
+    out.each(V::s_world, [&](std::size_t i) {
+        const LineSample& sample = samples[i];
+        const LineSample start{sample.run, static_cast<std::uint32_t>(run(i).first), 0};
+        const double before = at_of(start) * around_.surfaces->projection.pixel_size(depth_at(start));
+        const LinePiece& piece = runs_.pieces[sample.piece].piece;
+        glm::dvec3 origins[2], directions[2];
+        around_.surfaces->projection.view_ray(piece.from, origins[0], directions[0]);
+        around_.surfaces->projection.view_ray(place_of(sample), origins[1], directions[1]);
+        const double depths[2] = {depth_at({sample.run, sample.piece, 0}), depth_at(sample)};
+        return before + world_length_[sample.piece] +
+               glm::distance(origins[0] + directions[0] * depths[0], origins[1] + directions[1] * depths[1]);
+    });
+}
+
+}  // namespace burin

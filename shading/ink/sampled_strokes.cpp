@@ -1,0 +1,190 @@
+#include "shading/ink/sampled_strokes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace burin {
+namespace {
+
+constexpr double kFarthestApartPx = 8, kClosestPx = 0.25;
+/// At quarters, periods that fit an interval would not be seen.
+constexpr std::array<double, 3> kShares = {0.23, 0.5, 0.81};
+
+/// A sample of a stretch with its ink.
+struct Node {
+    LineSample sample;
+    std::uint32_t stretch = 0;
+    InkValues values;
+    bool is_open = false;  ///< the interval to the next node, on the same piece, may need more samples
+};
+
+/// How large a linear value looks, about as sRGB encodes it.
+float encoded(float linear) { return std::sqrt(std::max(linear, 0.0f)); }
+
+bool is_straight(const InkValues& a, const InkValues& b, double share, const InkValues& value) {
+    const auto s = static_cast<float>(share);
+    const auto mixed = [s](float x, float y) { return x + (y - x) * s; };
+    const float width = mixed(a.width_px, b.width_px);
+    if (std::abs(value.width_px - width) > std::clamp(0.01f * width, 1.0f / 64, 1.0f / 8)) return false;
+    if (std::abs(value.offset_px - mixed(a.offset_px, b.offset_px)) > 1.0f / 16) return false;
+    if (std::abs(value.opacity - mixed(a.opacity, b.opacity)) > 1.0f / 128) return false;
+    for (int k = 0; k < 3; ++k) {
+        if (std::abs(encoded(value.color[k]) - encoded(mixed(a.color[k], b.color[k]))) > 1.0f / 128) return false;
+    }
+    return true;
+}
+
+bool are_equal(const InkValues& a, const InkValues& b) {
+    return a.width_px == b.width_px && a.opacity == b.opacity && a.color == b.color && a.offset_px == b.offset_px;
+}
+
+/// Nodes at the ends of pieces and at most 8 pixels apart.
+std::vector<Node> first_nodes(const LineColumns& lines, std::span<const LineStretch> stretches, bool varies) {
+    std::vector<Node> nodes;
+    for (std::uint32_t i = 0; i < stretches.size(); ++i) {
+        const LineStretch& stretch = stretches[i];
+        for (std::size_t p = stretch.first; p < stretch.first + stretch.count; ++p) {
+            const LinePiece& piece = lines.runs().pieces[p].piece;
+            const double length = glm::distance(piece.from, piece.to);
+            const int parts = varies ? std::clamp(static_cast<int>(std::ceil(length / kFarthestApartPx)), 1, 1 << 16) : 1;
+            for (int k = 0; k <= parts; ++k) {
+                const double share = static_cast<double>(k) / parts;
+                nodes.push_back({{stretch.run, static_cast<std::uint32_t>(p), share}, i, {}, varies && k < parts});
+            }
+        }
+    }
+    return nodes;
+}
+
+/// One more round: nodes in the middle of the intervals that need them. Returns whether any interval is still open.
+bool halve(const LineColumns& lines, std::span<const ChainValues> chains, StrokeValues& values,
+           std::vector<Node>& nodes) {
+    std::vector<LineSample> samples;
+    std::vector<const ChainValues*> of_chains;
+    std::vector<std::size_t> intervals;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        if (!nodes[i].is_open) continue;
+        const LineSample &a = nodes[i].sample, &b = nodes[i + 1].sample;
+        const LinePiece& piece = lines.runs().pieces[a.piece].piece;
+        if ((b.share - a.share) * glm::distance(piece.from, piece.to) <= kClosestPx) {
+            nodes[i].is_open = false;
+            continue;
+        }
+        intervals.push_back(i);
+        for (const double share : kShares) {
+            samples.push_back({a.run, a.piece, a.share + (b.share - a.share) * share});
+            of_chains.push_back(&chains[nodes[i].stretch]);
+        }
+    }
+    if (intervals.empty()) return false;
+    std::vector<InkValues> found;
+    values.evaluate(samples, of_chains, found);
+    std::vector<Node> next;
+    next.reserve(nodes.size() + intervals.size());
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        next.push_back(nodes[i]);
+        if (k == intervals.size() || intervals[k] != i) continue;
+        bool is_done = true;
+        for (std::size_t j = 0; j < kShares.size(); ++j) {
+            is_done = is_done && is_straight(nodes[i].values, nodes[i + 1].values, kShares[j],
+                                             found[kShares.size() * k + j]);
+        }
+        next.back().is_open = !is_done;
+        if (!is_done) {
+            const std::size_t middle = kShares.size() * k + 1;
+            next.push_back({samples[middle], nodes[i].stretch, found[middle], true});
+        }
+        ++k;
+    }
+    nodes.swap(next);
+    return true;
+}
+
+/// Directions to the right of a run's way, at both ends of one of its pieces: in the middle between those of pieces that
+/// meet, and longer where these turn, so that a moved line keeps its distance.
+class Across {
+  public:
+    explicit Across(const LineRuns& runs) : runs_(runs) {}
+
+    glm::dvec2 at(const LineSample& sample) const {
+        return glm::mix(joint(sample.run, sample.piece, false), joint(sample.run, sample.piece, true), sample.share);
+    }
+
+  private:
+    glm::dvec2 right_of(std::size_t piece) const {
+        const LinePiece& p = runs_.pieces[piece].piece;
+        const glm::dvec2 way = p.to - p.from;
+        const double length = std::max(glm::length(way), 1e-300);
+        return {-way.y / length, way.x / length};
+    }
+    glm::dvec2 joint(std::uint32_t run_number, std::size_t piece, bool is_end) const {
+        const LineRun& run = runs_.runs[run_number];
+        const std::size_t last = run.first + run.count - 1;
+        std::size_t other = piece;
+        if (is_end) {
+            other = piece < last ? piece + 1 : run.is_closed ? run.first : piece;
+        } else {
+            other = piece > run.first ? piece - 1 : run.is_closed ? last : piece;
+        }
+        const glm::dvec2 own = right_of(piece);
+        if (other == piece) return own;
+        const glm::dvec2 sum = own + right_of(other);
+        const double square = glm::dot(sum, sum);
+        constexpr double kMostLonger = 2;
+        if (square < 4 / (kMostLonger * kMostLonger)) return square > 0 ? sum * (kMostLonger / std::sqrt(square)) : own;
+        return sum * (2 / square);
+    }
+
+    const LineRuns& runs_;
+};
+
+}  // namespace
+
+std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<const LineStretch> stretches,
+                                          StrokeValues& values) {
+    const std::vector<ChainValues> chains = values.chain_values(stretches);
+    std::vector<Node> nodes = first_nodes(lines, stretches, values.varies());
+    std::vector<LineSample> samples;
+    std::vector<const ChainValues*> of_chains;
+    for (const Node& node : nodes) {
+        samples.push_back(node.sample);
+        of_chains.push_back(&chains[node.stretch]);
+    }
+    std::vector<InkValues> found;
+    values.evaluate(samples, of_chains, found);
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].values = found[i];
+    while (halve(lines, chains, values, nodes)) {}
+
+    const bool is_moved = values.style().has_offset || values.style().has_wobble;
+    const Across across(lines.runs());
+    std::vector<SampledStroke> strokes;
+    for (std::size_t i = 0; i < stretches.size(); ++i) strokes.push_back({stretches[i], chains[i], {}});
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Node& node = nodes[i];
+        const LinePiece& piece = lines.runs().pieces[node.sample.piece].piece;
+        PathPoint point;
+        point.at_px = lines.at_of(node.sample);
+        point.ink.place = lines.place_of(node.sample);
+        point.ink.nearness = static_cast<float>(glm::mix(static_cast<double>(piece.nearness_from),
+                                                         static_cast<double>(piece.nearness_to), node.sample.share));
+        point.ink.width_px = node.values.width_px;
+        point.ink.opacity = node.values.opacity;
+        point.ink.color = node.values.color;
+        point.ink.occludes = piece.occludes;
+        point.ink.front_on_left = piece.front_on_left;
+        if (is_moved) point.ink.place += across.at(node.sample) * static_cast<double>(node.values.offset_px);
+        StrokePath& path = strokes[node.stretch].path;
+        // Where two pieces meet and nothing jumps, one point is enough.
+        if (!path.empty() && node.sample.share == 0 && path.back().ink.place == point.ink.place &&
+            are_equal(nodes[i - 1].values, node.values)) {
+            path.back() = point;
+        } else {
+            path.push_back(point);
+        }
+    }
+    return strokes;
+}
+
+}  // namespace burin

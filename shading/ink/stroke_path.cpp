@@ -1,0 +1,167 @@
+#include "shading/ink/stroke_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace burin {
+namespace {
+
+PathPoint between(const PathPoint& a, const PathPoint& b, double share) {
+    PathPoint p = a;
+    const auto mixed = [share](float from, float to) {
+        return static_cast<float>(glm::mix(static_cast<double>(from), static_cast<double>(to), share));
+    };
+    p.ink.place = glm::mix(a.ink.place, b.ink.place, share);
+    p.ink.nearness = mixed(a.ink.nearness, b.ink.nearness);
+    p.ink.width_px = mixed(a.ink.width_px, b.ink.width_px);
+    p.ink.opacity = mixed(a.ink.opacity, b.ink.opacity);
+    for (int k = 0; k < 3; ++k) p.ink.color[k] = mixed(a.ink.color[k], b.ink.color[k]);
+    p.at_px = glm::mix(a.at_px, b.at_px, share);
+    return p;
+}
+
+/// The part of a path between two places along its chain.
+StrokePath cut(const StrokePath& path, double begin, double end) {
+    StrokePath part;
+    const auto add = [&](const PathPoint& p) { part.push_back(p); };
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+        const PathPoint &a = path[i], &b = path[i + 1];
+        if (b.at_px < begin || a.at_px > end) continue;
+        const double length = b.at_px - a.at_px;
+        const double from = length > 0 ? std::clamp((begin - a.at_px) / length, 0.0, 1.0) : 0.0;
+        const double to = length > 0 ? std::clamp((end - a.at_px) / length, 0.0, 1.0) : 1.0;
+        if (part.empty()) add(from > 0 ? between(a, b, from) : a);
+        add(to < 1 ? between(a, b, to) : b);
+        if (to < 1) break;
+    }
+    return part;
+}
+
+}  // namespace
+
+void lengthen_end(StrokePath& path, bool is_first, double px) {
+    if (path.size() < 2 || px == 0) return;
+    if (px < 0) {
+        const double begin = path.front().at_px - (is_first ? px : 0), end = path.back().at_px + (is_first ? 0 : px);
+        path = end > begin ? cut(path, begin, end) : StrokePath();
+        return;
+    }
+    // The direction is that of the last part that has one.
+    const std::size_t n = path.size();
+    const auto point = [&](std::size_t i) -> const PathPoint& { return path[is_first ? i : n - 1 - i]; };
+    for (std::size_t i = 1; i < n; ++i) {
+        const glm::dvec2 way = point(0).ink.place - point(i).ink.place;
+        const double length = glm::length(way);
+        if (length < 1.0 / 64 && i + 1 < n) continue;
+        if (length == 0) return;
+        PathPoint beyond = point(0);
+        beyond.ink.place += way * (px / length);
+        beyond.at_px += is_first ? -px : px;
+        if (is_first) {
+            path.insert(path.begin(), beyond);
+        } else {
+            path.push_back(beyond);
+        }
+        return;
+    }
+}
+
+void smooth_ink(StrokePath& path, double px, bool is_closed) {
+    if (path.size() < 2 || !(px > 0)) return;
+    StrokePath fine;
+    const double step = std::max(px / 4, 0.5);
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+        const double length = path[i + 1].at_px - path[i].at_px;
+        const int parts = std::clamp(static_cast<int>(std::ceil(length / step)), 1, 1 << 16);
+        for (int k = 0; k < parts; ++k) fine.push_back(between(path[i], path[i + 1], static_cast<double>(k) / parts));
+    }
+    fine.push_back(path.back());
+    // Integrals from the beginning.
+    const std::size_t n = fine.size();
+    std::vector<double> width(n, 0), opacity(n, 0);
+    for (std::size_t i = 1; i < n; ++i) {
+        const double half = 0.5 * (fine[i].at_px - fine[i - 1].at_px);
+        width[i] = width[i - 1] + half * (static_cast<double>(fine[i].ink.width_px) +
+                                          static_cast<double>(fine[i - 1].ink.width_px));
+        opacity[i] = opacity[i - 1] + half * (static_cast<double>(fine[i].ink.opacity) +
+                                              static_cast<double>(fine[i - 1].ink.opacity));
+    }
+    const double begin = fine.front().at_px, end = fine.back().at_px, total = end - begin;
+    const auto integral = [&](const std::vector<double>& of, double at) {
+        double turns = 0;
+        if (is_closed && total > 0) {
+            turns = std::floor((at - begin) / total);
+            at -= turns * total;
+        }
+        at = std::clamp(at, begin, end);
+        const auto next = std::upper_bound(fine.begin(), fine.end(), at,
+                                           [](double v, const PathPoint& p) { return v < p.at_px; });
+        const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(next - fine.begin(), 1,
+                                                                           static_cast<std::ptrdiff_t>(n) - 1));
+        const double length = fine[i].at_px - fine[i - 1].at_px;
+        const double share = length > 0 ? (at - fine[i - 1].at_px) / length : 0;
+        return turns * of.back() + glm::mix(of[i - 1], of[i], share);
+    };
+    StrokePath smoothed = fine;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double at = fine[i].at_px;
+        const double from = is_closed ? at - px : std::max(at - px, begin);
+        const double to = is_closed ? at + px : std::min(at + px, end);
+        if (!(to > from)) continue;
+        smoothed[i].ink.width_px = static_cast<float>((integral(width, to) - integral(width, from)) / (to - from));
+        smoothed[i].ink.opacity = static_cast<float>((integral(opacity, to) - integral(opacity, from)) / (to - from));
+    }
+    path = std::move(smoothed);
+}
+
+double DashPattern::period_px() const {
+    const double sum = std::accumulate(lengths_px.begin(), lengths_px.end(), 0.0);
+    return lengths_px.size() % 2 == 1 ? 2 * sum : sum;
+}
+
+double DashPattern::share() const {
+    const double period = period_px();
+    if (lengths_px.size() % 2 == 1) return 0.5;
+    double on = 0;
+    for (std::size_t i = 0; i < lengths_px.size(); i += 2) on += lengths_px[i];
+    return period > 0 ? on / period : 1;
+}
+
+void for_dashes(const StrokePath& path, const DashPattern& pattern, double loop_px,
+                const std::function<void(const StrokePath&)>& visit) {
+    if (path.size() < 2) return;
+    const double period = pattern.period_px();
+    const double scale = loop_px > 0 ? loop_px / (period * std::max(1.0, std::round(loop_px / period))) : 1;
+    const std::size_t lengths = pattern.lengths_px.size(), marks = lengths % 2 == 1 ? 2 * lengths : lengths;
+    const double begin = path.front().at_px, end = path.back().at_px;
+    const double first = std::floor((begin / scale + pattern.phase_px) / period) - 1;
+    for (double turn = first;; ++turn) {
+        double at = (turn * period - pattern.phase_px) * scale;
+        if (at > end) break;
+        for (std::size_t mark = 0; mark < marks; ++mark) {
+            const double from = at, to = at + pattern.lengths_px[mark % lengths] * scale;
+            at = to;
+            if (mark % 2 == 1 || to < begin || from > end) continue;
+            StrokePath dash = cut(path, std::max(from, begin), std::min(to, end));
+            if (dash.size() < 2) continue;
+            if (pattern.has_round_caps) {
+                // Ends of the line itself are no ends of a dash.
+                const double at_from = from < begin ? 0 : 0.5 * static_cast<double>(dash.front().ink.width_px);
+                const double at_to = to > end ? 0 : 0.5 * static_cast<double>(dash.back().ink.width_px);
+                const double low = dash.front().at_px + at_from, high = dash.back().at_px - at_to;
+                if (low < high) {
+                    dash = cut(dash, low, high);
+                } else {
+                    const double middle = std::clamp(0.5 * (low + high), dash.front().at_px, dash.back().at_px);
+                    dash = cut(dash, middle, middle);
+                    if (dash.empty()) continue;
+                    dash = {dash.front(), dash.front()};
+                }
+            }
+            if (dash.size() >= 2) visit(dash);
+        }
+    }
+}
+
+}  // namespace burin

@@ -1,0 +1,196 @@
+#include "shading/ink/stroke_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/expression_kernels.h"
+
+namespace burin {
+namespace {
+
+VariableSet inputs_of(const ExpressionProgram& program) {
+    VariableSet set;
+    for (const ExpressionInput& input : program.inputs()) set.add(*variable_named(input.name), input.component);
+    return set;
+}
+
+/// Shortens both lengths in proportion where a run has not room for them.
+void fit(double& a, double& b, double room) {
+    if (a + b <= room) return;
+    const double scale = a + b > 0 ? std::max(room, 0.0) / (a + b) : 0;
+    a *= scale;
+    b *= scale;
+}
+
+float tapered(double distance_px, double length_px, TaperShape shape) {
+    if (!(length_px > 0)) return 1;
+    const double q = std::clamp(distance_px / length_px, 0.0, 1.0);
+    switch (shape) {
+        case TaperShape::linear: return static_cast<float>(q);
+        case TaperShape::round: return static_cast<float>(std::sqrt(q * (2 - q)));
+        default: return static_cast<float>(q * q);
+    }
+}
+
+/// 0 up to the first edge, 1 from the second on; equal edges are a threshold, which passes.
+float faded_in(double length_px, double low_px, double high_px) {
+    if (length_px >= high_px) return 1;
+    return length_px <= low_px || high_px <= low_px ? 0 : static_cast<float>((length_px - low_px) / (high_px - low_px));
+}
+
+void compute(ExpressionOperation operation, std::size_t count, float* to, const float* a, const float* b = nullptr,
+             const float* c = nullptr) {
+    const auto operand = [](const float* v) { return ExpressionOperand{v, v == nullptr ? 0 : ~std::size_t{0}}; };
+    for (std::size_t first = 0; first < count; first += kExpressionBlock) {
+        const auto at = [first](const float* v) { return v == nullptr ? nullptr : v + first; };
+        const ExpressionBlock block{to + first,
+                                    {operand(at(a)), operand(at(b)), operand(at(c))},
+                                    std::min(kExpressionBlock, count - first),
+                                    nullptr,
+                                    0};
+        best_expression_kernels().loops[static_cast<std::size_t>(operation)](block);
+    }
+}
+
+}  // namespace
+
+StrokeValues::StrokeValues(const LineColumns& lines, const CompiledStyle& style, const SampleVariant& variant)
+    : lines_(lines), style_(style), variant_(variant), ink_inputs_(inputs_of(style.ink)),
+      chain_inputs_(inputs_of(style.chain)) {
+    varies_ = style.has_taper || style.has_wobble;
+    for (const InkValue value : {InkValue::width, InkValue::opacity, InkValue::offset, InkValue::color})
+        varies_ = varies_ || style.rate_of(value) == ValueRate::sample;
+}
+
+void StrokeValues::run(const ExpressionProgram& program, std::span<const LineSample> samples,
+                       std::size_t column_count) {
+    const bool is_ink = &program == &style_.ink;
+    lines_.fill(samples, is_ink ? ink_inputs_ : chain_inputs_, variant_, columns_);
+    inputs_.clear();
+    for (const ExpressionInput& input : program.inputs())
+        inputs_.push_back(columns_.of(*variable_named(input.name), input.component));
+    results_.resize(std::max(results_.size(), column_count));
+    result_places_.clear();
+    for (std::size_t k = 0; k < column_count; ++k) {
+        results_[k].resize(std::max(results_[k].size(), samples.size()));
+        result_places_.push_back(results_[k].data());
+    }
+    counts_.assign(program.outputs().size(), {});
+    program.evaluate(inputs_, samples.size(), result_places_, counts_);
+}
+
+std::vector<ChainValues> StrokeValues::chain_values(std::span<const LineStretch> stretches) {
+    std::vector<LineSample> samples;
+    for (const LineStretch& s : stretches) samples.push_back({s.run, static_cast<std::uint32_t>(s.first), 0});
+    run(style_.chain, samples, kChainValueCount);
+    std::vector<ChainValues> values(stretches.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        for (std::size_t k = 0; k < kChainValueCount; ++k) values[i][k] = results_[k][i];
+    }
+    return values;
+}
+
+float StrokeValues::taper(const LineRun& run, const ChainValues& chain, double from_begin_px,
+                          double from_end_px) const {
+    if (!style_.has_taper || run.is_closed) return 1;
+    const auto length = [&](ChainValue v, RunEnd end) {
+        const bool is_tapered = style_.taper_at == TaperAt::all || end == RunEnd::free;
+        return is_tapered ? std::max(0.0, static_cast<double>(value_of(chain, v))) : 0.0;
+    };
+    double start = length(ChainValue::taper_start, run.ends[0]), end = length(ChainValue::taper_end, run.ends[1]);
+    fit(start, end, from_begin_px + from_end_px);
+    return tapered(from_begin_px, start, style_.taper_shape) * tapered(from_end_px, end, style_.taper_shape);
+}
+
+void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
+                            std::vector<InkValues>& values) {
+    run(style_.ink, samples, kInkColumnCount);
+    for (std::size_t k = 0; k < kInkValueCount; ++k) {
+        if (counts_[k].count == 0) continue;
+        if (not_numbers_.counts[k] == 0) not_numbers_.places[k] = lines_.place_of(samples[counts_[k].first]);
+        not_numbers_.counts[k] += counts_[k].count;
+    }
+    const LineRuns& runs = lines_.runs();
+    values.resize(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const LineRun& run = runs.runs[samples[i].run];
+        const LinePiece& piece = runs.pieces[samples[i].piece].piece;
+        const double at = lines_.at_of(samples[i]), begin = runs.pieces[run.first].at_from_px,
+                     end = runs.pieces[run.first + run.count - 1].at_to_px;
+        InkValues& value = values[i];
+        value.width_px = results_[0][i] * taper(run, *chains[i], at - begin, end - at);
+        value.opacity = results_[1][i] * (static_cast<float>(piece.seen_opacity()) / 255.0f);
+        if (style_.has_min_length) {
+            value.opacity *= faded_in(end - begin, static_cast<double>(value_of(*chains[i], ChainValue::min_length_low)),
+                                      static_cast<double>(value_of(*chains[i], ChainValue::min_length_high)));
+        }
+        // Away from the surface that ends there, else to the right.
+        value.offset_px = piece.occludes && !piece.front_on_left ? -results_[2][i] : results_[2][i];
+        value.color = {results_[3][i], results_[4][i], results_[5][i]};
+    }
+    if (style_.has_wobble) add_wobble(samples, chains, values);
+}
+
+/// Noise that lines are moved across by. On the object, its waves keep their place and, within a factor of two, their
+/// length on the screen: of two noises with wavelengths that are powers of two in the object's units, the one fades into
+/// the other while the camera comes nearer.
+void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
+                              std::vector<InkValues>& values) {
+    const LineRuns& runs = lines_.runs();
+    const std::size_t n = samples.size();
+    std::vector<float> octave(n), log_octave(n), x(n), y(n), z(n), noise(n), sum(n, 0.0f);
+    std::vector<LineColumns::InObject> places(n);
+    const bool is_on_object = style_.wobble_anchor == WobbleAnchor::object;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double wavelength = std::max(static_cast<double>(value_of(*chains[i], ChainValue::wobble_wavelength)), 0.25);
+        if (is_on_object) places[i] = lines_.in_object(samples[i]);
+        octave[i] = static_cast<float>(wavelength * places[i].px_size);
+    }
+    compute(ExpressionOperation::logarithm2, n, log_octave.data(), octave.data());
+    for (int o = 0; o < style_.wobble_octaves; ++o) {
+        const float strength = std::ldexp(1.0f, -o);
+        for (const int step : {0, 1}) {
+            for (std::size_t i = 0; i < n; ++i) {
+                const LineRun& run = runs.runs[samples[i].run];
+                const LineHash hash = is_on_object ? lines_.object_hash(samples[i].piece, variant_)
+                                                   : lines_.chain_hash(run, variant_);
+                if (!is_on_object) {
+                    x[i] = static_cast<float>(lines_.at_of(samples[i])) / std::ldexp(octave[i], -o);
+                    y[i] = LineHash(hash).add(std::uint64_t(1)).unit() * 64;
+                    z[i] = LineHash(hash).add(std::uint64_t(2)).unit() * 64;
+                    continue;
+                }
+                const int k = static_cast<int>(std::floor(log_octave[i])) + step - o;
+                const double size = std::ldexp(1.0, -k);
+                const double shift = 31.7 * (k & 63);
+                const auto coordinate = [&](double p, std::uint64_t axis) {
+                    return static_cast<float>(p * size + shift +
+                                              static_cast<double>(LineHash(hash).add(axis).unit()) * 64);
+                };
+                x[i] = coordinate(places[i].position.x, 1);
+                y[i] = coordinate(places[i].position.y, 2);
+                z[i] = coordinate(places[i].position.z, 3);
+            }
+            compute(ExpressionOperation::noise3, n, noise.data(), x.data(), y.data(), z.data());
+            for (std::size_t i = 0; i < n; ++i) {
+                const float b = is_on_object ? log_octave[i] - std::floor(log_octave[i]) : 0;
+                const float share = (step == 0 ? 1 - b : b) / std::sqrt((1 - b) * (1 - b) + b * b);
+                sum[i] += strength * share * noise[i];
+            }
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        const LineRun& run = runs.runs[samples[i].run];
+        float strength = value_of(*chains[i], ChainValue::wobble_amplitude);
+        if (style_.wobble_pin && !run.is_closed) {
+            const double at = lines_.at_of(samples[i]);
+            const double to_end = std::min(at - runs.pieces[run.first].at_from_px,
+                                           runs.pieces[run.first + run.count - 1].at_to_px - at);
+            const double half = 0.5 * std::max(static_cast<double>(value_of(*chains[i], ChainValue::wobble_wavelength)), 0.25);
+            strength *= static_cast<float>(std::clamp(to_end / half, 0.0, 1.0));
+        }
+        values[i].offset_px += strength * sum[i];
+    }
+}
+
+}  // namespace burin

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shading/ink/line_columns.h"
+#include "shading/sheet/compiled_sheet.h"
+
+// A style's values at places on lines: expressions, then all that tapers, fades and moves them.
+
+namespace burin {
+
+/// Pieces of a run, one after the other, that one line set draws.
+struct LineStretch {
+    std::uint32_t run = 0;
+    std::size_t first = 0, count = 0;  ///< in LineRuns::pieces
+};
+
+/// The ink at a place, and how far the line is moved there.
+struct InkValues {
+    float width_px = 0, opacity = 0;
+    glm::vec3 color{0.0f};
+    float offset_px = 0;  ///< across the line, to the right of its way
+};
+
+/// What of a style is the same along a chain, in the order of ChainValue.
+using ChainValues = std::array<float, kChainValueCount>;
+inline float value_of(const ChainValues& values, ChainValue v) { return values[static_cast<std::size_t>(v)]; }
+
+/// How often a value was not a number, and where first.
+struct NotNumbersOfStyle {
+    std::array<std::size_t, kInkValueCount> counts{};  ///< by InkValue
+    std::array<glm::dvec2, kInkValueCount> places{};   ///< in pixels
+};
+
+/// StrokeValues evaluates one style for stretches of lines. One thread uses it; buffers are used again.
+class StrokeValues {
+  public:
+    StrokeValues(const LineColumns& lines, const CompiledStyle& style, const SampleVariant& variant);
+
+    /// For each stretch, what is the same along its chain.
+    std::vector<ChainValues> chain_values(std::span<const LineStretch> stretches);
+    /// For each sample the ink; `chains[i]`: the chain values of sample i's stretch.
+    void evaluate(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
+                  std::vector<InkValues>& values);
+    /// Whether anything changes along a piece, so that there must be samples between its ends.
+    bool varies() const { return varies_; }
+    const CompiledStyle& style() const { return style_; }
+    const NotNumbersOfStyle& not_numbers() const { return not_numbers_; }
+
+  private:
+    using Columns = std::vector<std::vector<float>>;
+    void run(const ExpressionProgram& program, std::span<const LineSample> samples, std::size_t column_count);
+    void add_wobble(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
+                    std::vector<InkValues>& values);
+    float taper(const LineRun& run, const ChainValues& chain, double from_begin_px, double from_end_px) const;
+
+    const LineColumns& lines_;
+    const CompiledStyle& style_;
+    SampleVariant variant_;
+    bool varies_;
+    VariableSet ink_inputs_, chain_inputs_;
+    SampleColumns columns_;
+    std::vector<const float*> inputs_;
+    Columns results_;
+    std::vector<float*> result_places_;
+    std::vector<NotNumbers> counts_;
+    NotNumbersOfStyle not_numbers_;
+};
+
+}  // namespace burin
