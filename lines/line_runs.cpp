@@ -1,6 +1,8 @@
 #include "lines/line_runs.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <tuple>
 #include <utility>
 
@@ -26,7 +28,11 @@ void turn(LinePiece& piece) {
 class FeatureRuns {
   public:
     FeatureRuns(std::span<const WholeLine> features, const SurfaceSet& surfaces)
-        : features_(features), index_(features), chains_(chains_of(features, surfaces)), chain_of_(features.size()) {
+        : features_(features),
+          surfaces_(surfaces),
+          index_(features),
+          chains_(chains_of(features, surfaces)),
+          chain_of_(features.size()) {
         std::size_t begin = 0;
         for (std::uint32_t chain = 0; chain < chains_.chain_ends.size(); ++chain) {
             for (std::size_t i = begin; i < chains_.chain_ends[chain]; ++i) chain_of_[chains_.lines[i]] = chain;
@@ -82,7 +88,7 @@ class FeatureRuns {
         run.is_hidden = placed.front().is_hidden;
         run.chain_length_px = length;
         run.chain_is_closed = chains_.is_loop[chain];
-        run.chain_start = features_[chains_.lines[chain == 0 ? 0 : chains_.chain_ends[chain - 1]]].id;
+        run.chain_place = place_of(features_[chains_.lines[chain == 0 ? 0 : chains_.chain_ends[chain - 1]]].id);
         // What is beyond the beginning of a loop goes on from its end.
         std::size_t first = 0;
         if (run.chain_is_closed && placed.front().piece.at_from_px < kTogetherPx &&
@@ -108,6 +114,26 @@ class FeatureRuns {
             ++runs.runs.back().count;
         }
     }
+    /// A hash of the coordinates of both ends of an edge in its mesh, never 0.
+    std::uint64_t place_of(LineId edge) const {
+        const Mesh& mesh = *surfaces_.instances[edge.instance()].mesh;
+        const HalfEdge h = edge.half_edge();
+        std::array<std::uint32_t, 2> ends;
+        if (mesh.is_loose(h)) {
+            ends = mesh.loose_edge(h);
+        } else {
+            const auto& t = mesh.triangles[h / 3];
+            ends = {t[h % 3], t[(h % 3 + 1) % 3]};
+        }
+        std::uint64_t sum = 0;  // does not depend on which way round the edge runs
+        for (const std::uint32_t end : ends) {
+            const glm::vec3 p = mesh.positions[end] + 0.0f;
+            std::uint64_t hash = 0xCBF29CE484222325;  // FNV-1a
+            for (int k = 0; k < 3; ++k) hash = (hash ^ std::bit_cast<std::uint32_t>(p[k])) * 0x100000001B3;
+            sum += hash ^ hash >> 31;
+        }
+        return sum | 1;
+    }
     static bool goes_on(const Placed& a, const Placed& b) {
         return b.piece.at_from_px <= a.piece.at_to_px + kTogetherPx;
     }
@@ -119,6 +145,7 @@ class FeatureRuns {
     }
 
     std::span<const WholeLine> features_;
+    const SurfaceSet& surfaces_;
     WholeLineIndex index_;
     LineChains chains_;
     std::vector<std::uint32_t> chain_of_;  // of each feature

@@ -37,9 +37,9 @@ struct LineRun {
     std::array<RunEnd, 2> ends{RunEnd::free, RunEnd::free};
     double chain_length_px = 0;
     bool chain_is_closed = false;
-    /// The edge of the mesh that its chain begins with, which does not depend on the view; none for contours and
+    /// A hash of the place in the mesh where its chain begins, which does not depend on the view; 0 for contours and
     /// intersections.
-    LineId chain_start;
+    std::uint64_t chain_place = 0;
 };
 
 /// The lines of a picture as runs. Their order depends on nothing but the lines.

@@ -112,17 +112,13 @@ class RunEnds {
 
 }  // namespace
 
-void find_run_ends(LineRuns& runs, const LineDrawing::Lists& boundaries, const Projection& projection,
+void find_run_ends(LineRuns& runs, std::span<const LinePiece> boundaries, const Projection& projection,
                    PixelRect picture) {
     RunEnds ends(runs, projection, picture);
     for (std::size_t i = 0; i < runs.runs.size(); ++i) {
         for (const RunPiece& p : runs.pieces_of(runs.runs[i])) ends.look_at(p.piece, i, p.at_from_px, p.at_to_px);
     }
-    for (const std::span<const LinePiece> list : boundaries) {
-        for (const LinePiece& piece : list) {
-            if (!piece.is_drawn) ends.look_at(piece, RunEnds::kNoRun, 0, 0);
-        }
-    }
+    for (const LinePiece& piece : boundaries) ends.look_at(piece, RunEnds::kNoRun, 0, 0);
 }
 
 }  // namespace burin

@@ -11,6 +11,8 @@
 #include "lines/sharp_edges.h"
 #include "render/drawing_needs.h"
 #include "render/line_layout.h"
+#include "render/line_shading.h"
+#include "strokes/ink_printer.h"
 #include "strokes/row_printer.h"
 
 namespace burin {
@@ -55,7 +57,12 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     RenderStats stats;
     LineDrawing drawing;
     Stopwatch watch;
-    if (frame.needs.rows_stand_alone()) {
+    if (frame.sheet) {
+        find_lines(frame, options, film, drawing, nullptr, stats);
+        watch.lap();
+        draw_ink(frame, shaded_lines(std::move(drawing), frame, stats.threads, stats.notes), stats.threads, film);
+        stats.lines_s += watch.lap();
+    } else if (frame.needs.rows_stand_alone()) {
         RowPrinter printer(frame, options, drawing, film);
         find_lines(frame, options, film, drawing, &printer, stats);
         watch.lap();

@@ -1,9 +1,11 @@
 #include "render/line_shading.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
 #include <utility>
 
-#include "lines/line_dashes.h"
-#include "lines/run_ends.h"
 #include "lines/smooth_contours.h"
 #include "shading/ink/ink_lines.h"
 
@@ -25,31 +27,57 @@ LineDrawing with_smooth_contours(LineDrawing found, const Frame& frame, int thre
     return moved;
 }
 
-LineSurroundings surroundings_of(const Frame& frame) {
-    const Scene& scene = *frame.scene;
-    LineSurroundings around;
-    around.surfaces = &frame.surfaces;
-    around.camera_to_world = frame.camera.to_world;
-    around.materials = scene.materials;
-    for (const SceneObject& object : scene.objects) around.objects.push_back(object.name);
-    around.light = scene.sheet->light;
-    around.cos_crease_angle = frame.criteria.cos_crease_angle;
-    around.width_px = frame.width;
-    around.height_px = frame.height;
-    around.classes = frame.needs.classes;
-    return around;
+std::vector<ObjectOfLines> objects_of(const Frame& frame) {
+    std::vector<ObjectOfLines> objects;
+    std::map<std::string_view, std::uint32_t> seen;
+    const std::vector<SceneObject>& of_scene = frame.scene->objects;
+    for (std::size_t i = 0; i < of_scene.size(); ++i) {
+        const SurfaceInstance& instance = frame.surfaces.instances[i];
+        ObjectOfLines object;
+        object.name = of_scene[i].name;
+        object.same_name_before = seen[of_scene[i].name]++;
+        const glm::dmat3 linear(instance.to_view), back = glm::inverse(linear);
+        object.from_view = glm::dmat4(back);
+        object.from_view[3] = glm::dvec4(instance.mesh->origin - back * glm::dvec3(instance.to_view[3]), 1.0);
+        object.units_per_view = 1 / std::max(std::cbrt(std::abs(glm::determinant(linear))), 1e-300);
+        objects.push_back(std::move(object));
+    }
+    return objects;
 }
 
 }  // namespace
 
-InkedLines shaded_lines(LineDrawing found, const Frame& frame, int threads, std::vector<std::string>& warnings) {
-    if (frame.scene->lines.contours == Contours::smooth) found = with_smooth_contours(std::move(found), frame, threads);
-    const std::vector<WholeLine> features = features_of(found.whole_lines());
-    const LineDrawing::Lists visible = found.visible();
-    LineRuns runs = runs_of(visible, found.behind(), features, frame.surfaces);
-    if (frame.sheet->needs().chains)
-        find_run_ends(runs, visible, frame.surfaces.projection, {0, 0, frame.width, frame.height});
-    InkedLines inked = ink_lines(runs, visible, *frame.sheet, surroundings_of(frame), threads, warnings);
+FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
+    if (frame.scene->lines.contours == Contours::smooth)
+        drawing = with_smooth_contours(std::move(drawing), frame, threads);
+    FoundLines lines;
+    lines.classes = frame.needs.classes;
+    lines.most_invisibility = frame.needs.most_invisibility;
+    lines.tells_invisibility = frame.needs.tells_invisibility;
+    lines.has_beyond = frame.needs.surfaces_beyond;
+    lines.projection = frame.surfaces.projection;
+    lines.camera_to_world = frame.camera.to_world;
+    lines.width_px = frame.width;
+    lines.height_px = frame.height;
+    lines.objects = objects_of(frame);
+    for (const Material& material : frame.scene->materials) {
+        lines.materials.push_back(material.name);
+        lines.material_colors.push_back(material.color);
+    }
+    lines.light = frame.scene->sheet->light;
+    const VariableSet& variables = frame.sheet->needs().variables;
+    FoundLinesNeeds needs;
+    needs.chains = frame.sheet->needs().chains;
+    for (const Variable v :
+         {Variable::N, Variable::N2, Variable::facing, Variable::facing2, Variable::light, Variable::light2}) {
+        needs.normals = needs.normals || variables.has(v);
+    }
+    find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, needs, threads, lines);
+    return lines;
+}
+
+InkedLines shaded_lines(LineDrawing drawing, const Frame& frame, int threads, std::vector<std::string>& notes) {
+    InkedLines inked = ink_lines(found_lines(std::move(drawing), frame, threads), *frame.sheet, threads, notes);
     inked.filter = frame.scene->lines.style.filter;
     return inked;
 }

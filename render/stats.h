@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace burin {
 
-/// Wall seconds per stage, and counts, of one render.
+/// Wall seconds per stage, counts and notes of one render.
 struct RenderStats {
     double prepare_s = 0;  ///< transforming, clipping, sorting surfaces to tiles
     double raster_s = 0;   ///< coverage masks
@@ -15,6 +17,7 @@ struct RenderStats {
     std::uint64_t triangles = 0;
     std::uint64_t fragments = 0;
     int threads = 1;
+    std::vector<std::string> notes;  ///< what the user should know of the picture
 };
 
 }  // namespace burin

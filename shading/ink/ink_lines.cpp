@@ -84,7 +84,8 @@ class StrokeMaker {
 
     void make() {
         const StyleSettings& settings = style_.settings;
-        const auto turn = settings.boil ? static_cast<std::uint32_t>(lines_.around().frame / std::max(settings.hold, 1)) : 0u;
+        const auto turn =
+            settings.boil ? static_cast<std::uint32_t>(lines_.lines().frame / std::max(settings.hold, 1)) : 0u;
         for (int copy = 0; copy < settings.copies; ++copy) {
             const SampleVariant variant{settings.seed + turn * 0x9E3779B9u, static_cast<std::uint32_t>(copy),
                                         sheet_.sets()[chunk_.set].name};
@@ -109,7 +110,8 @@ class StrokeMaker {
             if (has_begin && !run.is_closed && goes_on(run.ends[0])) lengthen_end(stroke.path, true, px);
             if (has_end && !run.is_closed && goes_on(run.ends[1])) lengthen_end(stroke.path, false, px);
         }
-        order_ = {-style_.settings.priority, run.is_hidden, chunk_.set, class_of(lines_.runs().pieces[run.first].piece)};
+        order_ = {-style_.settings.priority, run.is_hidden, chunk_.set,
+                  class_of(lines_.runs().pieces[run.first].piece)};
         chain_ = std::uint64_t{stroke.stretch.run} << 3 | copy;
         halo_px_ = style_.has_halo ? value_of(stroke.chain, ChainValue::halo) : 0;
         halo_depth_px_ = {value_of(stroke.chain, ChainValue::halo_depth_near),
@@ -134,15 +136,12 @@ class StrokeMaker {
         for_dashes(stroke.path, pattern, loop_px, [this](const StrokePath& dash) { add(dash, false); });
     }
 
-    LineClass class_of(const LinePiece& piece) const {
-        return sheet_.class_of(piece.classes).value_or(piece.drawn_as);
-    }
+    LineClass class_of(const LinePiece& piece) const { return sheet_.class_of(piece.classes).value_or(piece.drawn_as); }
 
     void add(const StrokePath& path, bool is_loop) {
         if (path.size() < 2) return;
-        const bool is_seen = std::any_of(path.begin(), path.end(), [](const PathPoint& p) {
-            return p.ink.width_px > 0 && p.ink.opacity > 0;
-        });
+        const bool is_seen = std::any_of(path.begin(), path.end(),
+                                         [](const PathPoint& p) { return p.ink.width_px > 0 && p.ink.opacity > 0; });
         if (!is_seen) return;
         InkStroke stroke;
         stroke.first_point = out_.points.size();
@@ -174,11 +173,12 @@ class StrokeMaker {
     glm::vec2 halo_depth_px_{0.0f};
 };
 
-void add_boundaries(const LineColumns& lines, const SetMatches& matches, const LineDrawing::Lists& undrawn,
-                    const CompiledSheet& sheet, InkedLines& inked) {
+void add_boundaries(const LineColumns& lines, const SetMatches& matches, const CompiledSheet& sheet,
+                    InkedLines& inked) {
     const auto add = [&](const LinePiece& piece, const InkOrder* order) {
         if (!piece.occludes) return;
-        InkBoundary boundary{piece.from, piece.to, piece.nearness_from, piece.nearness_to, piece.front_on_left, {}, false};
+        InkBoundary boundary{piece.from, piece.to, piece.nearness_from, piece.nearness_to, piece.front_on_left,
+                             {},         false};
         if (order != nullptr) boundary.order = *order;
         boundary.is_drawn = order != nullptr;
         inked.boundaries.push_back(boundary);
@@ -197,15 +197,11 @@ void add_boundaries(const LineColumns& lines, const SetMatches& matches, const L
             add(piece, order ? &*order : nullptr);
         }
     }
-    for (const std::span<const LinePiece> list : undrawn) {
-        for (const LinePiece& piece : list) {
-            if (!piece.is_drawn) add(piece, nullptr);
-        }
-    }
+    for (const LinePiece& piece : lines.lines().boundaries) add(piece, nullptr);
 }
 
-void add_warnings(const CompiledSheet& sheet, std::span<const Chunk> chunks, std::span<const Inked> parts,
-                  std::vector<std::string>& warnings) {
+void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const Chunk> chunks, std::span<const Inked> parts,
+                          std::vector<std::string>& notes) {
     constexpr std::array<const char*, kInkValueCount> kNames = {"width", "opacity", "offset", "color"};
     for (std::size_t style = 0; style < sheet.styles().size(); ++style) {
         NotNumbersOfStyle sum;
@@ -220,21 +216,21 @@ void add_warnings(const CompiledSheet& sheet, std::span<const Chunk> chunks, std
         }
         for (std::size_t k = 0; k < kInkValueCount; ++k) {
             if (sum.counts[k] == 0) continue;
-            warnings.push_back("style " + sheet.styles()[style].name + ": " + kNames[k] + " is not a number at " +
-                               std::to_string(sum.counts[k]) + " samples, first at pixel " +
-                               std::to_string(static_cast<int>(std::floor(sum.places[k].x))) + "," +
-                               std::to_string(static_cast<int>(std::floor(sum.places[k].y))));
+            notes.push_back("style " + sheet.styles()[style].name + ": " + kNames[k] + " is not a number at " +
+                            std::to_string(sum.counts[k]) + " samples, first at pixel " +
+                            std::to_string(static_cast<int>(std::floor(sum.places[k].x))) + "," +
+                            std::to_string(static_cast<int>(std::floor(sum.places[k].y))));
         }
     }
 }
 
 }  // namespace
 
-InkedLines ink_lines(const LineRuns& runs, const LineDrawing::Lists& boundaries, const CompiledSheet& sheet,
-                     const LineSurroundings& around, int threads, std::vector<std::string>& warnings) {
-    const LineColumns lines(around, runs, sheet.needs().variables, threads);
+InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int threads,
+                     std::vector<std::string>& notes) {
+    const LineColumns lines(found, sheet.needs().classes, sheet.needs().variables);
     const SetMatches matches = match_pieces(lines, sheet);
-    const std::vector<Chunk> chunks = chunks_of(runs, matches, sheet.sets().size());
+    const std::vector<Chunk> chunks = chunks_of(found.runs, matches, sheet.sets().size());
     std::vector<Inked> parts(chunks.size());
     parallel_for(chunks.size(), threads,
                  [&](std::size_t i, int) { StrokeMaker(lines, sheet, chunks[i], parts[i]).make(); });
@@ -256,8 +252,8 @@ InkedLines ink_lines(const LineRuns& runs, const LineDrawing::Lists& boundaries,
         }
     }
     for (const CompiledSet& set : sheet.sets()) inked.layers.push_back(set.layer);
-    add_boundaries(lines, matches, boundaries, sheet, inked);
-    add_warnings(sheet, chunks, parts, warnings);
+    add_boundaries(lines, matches, sheet, inked);
+    add_notes_on_numbers(sheet, chunks, parts, notes);
     return inked;
 }
 

@@ -9,14 +9,13 @@
 
 namespace burin {
 
-/// Draws lines as a style sheet says: finds the line sets that take each piece, evaluates their styles at as many stroke
-/// samples as the bound on errors needs, and makes strokes of them. This is the same for all outputs.
+/// Draws lines as a style sheet says: finds the line sets that take each piece, evaluates their styles at as many
+/// stroke samples as the bound on errors needs, and makes strokes of them. This is the same for all outputs.
 ///
 /// The bounds, beside what a straight change between two samples gives: of width 1 % of it, at least 1/64 and at most
 /// 1/8 pixel; of places 1/16 pixel; of opacity and of each colour channel 1/128.
 ///
-/// `boundaries`: pieces that are not drawn and only hide. `warnings`: gets a message for each value that was no number.
-InkedLines ink_lines(const LineRuns& runs, const LineDrawing::Lists& boundaries, const CompiledSheet& sheet,
-                     const LineSurroundings& around, int threads, std::vector<std::string>& warnings);
+/// `lines`: with what the sheet needs. `notes`: gets a message for each value that was no number.
+InkedLines ink_lines(const FoundLines& lines, const CompiledSheet& sheet, int threads, std::vector<std::string>& notes);
 
 }  // namespace burin

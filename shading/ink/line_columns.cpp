@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
-#include "base/parallel.h"
 #include "kernels/expression_kernels.h"
 
 namespace burin {
 namespace {
 
 using V = Variable;
-constexpr std::size_t kChunk = 256;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 
@@ -69,103 +66,67 @@ struct LineColumns::Columns {
     }
 };
 
-LineColumns::LineColumns(const LineSurroundings& around, const LineRuns& runs, const VariableSet& variables,
-                         int threads)
-    : around_(around), runs_(runs), sides_(runs.pieces.size()) {
-    const bool has_normals = variables.has(V::N) || variables.has(V::N2) || variables.has(V::facing) ||
-                             variables.has(V::facing2) || variables.has(V::light) || variables.has(V::light2);
-    const LineSidesFinder finder(*around.surfaces, around.cos_crease_angle);
-    parallel_for((runs.pieces.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        for (std::size_t i = chunk * kChunk; i < std::min(runs.pieces.size(), (chunk + 1) * kChunk); ++i)
-            sides_[i] = finder.sides_of(runs.pieces[i].piece, has_normals);
-    });
-    std::map<std::string_view, std::uint32_t> seen;
-    for (const std::string& name : around.objects) same_name_.push_back(seen[name]++);
+LineColumns::LineColumns(const FoundLines& lines, LineClassSet asked, const VariableSet& variables)
+    : lines_(lines), runs_(lines.runs), asked_(asked) {
     if (!variables.has(V::s_world)) return;
-    world_length_.resize(runs.pieces.size());
-    for (std::uint32_t r = 0; r < runs.runs.size(); ++r) {
-        const LineRun& run = runs.runs[r];
+    world_length_.resize(runs_.pieces.size());
+    for (std::uint32_t r = 0; r < runs_.runs.size(); ++r) {
+        const LineRun& run = runs_.runs[r];
         double length = 0;
-        const auto position = [&](std::size_t piece, double share) {
-            const LineSample sample{r, static_cast<std::uint32_t>(piece), share};
-            glm::dvec3 origin, direction;
-            around_.surfaces->projection.view_ray(place_of(sample), origin, direction);
-            return origin + direction * depth_at(sample);
-        };
         for (std::size_t i = run.first; i < run.first + run.count; ++i) {
             world_length_[i] = length;
-            length += glm::distance(position(i, 0), position(i, 1));
+            const auto piece = static_cast<std::uint32_t>(i);
+            length += glm::distance(position_of({r, piece, 0}), position_of({r, piece, 1}));
         }
     }
 }
 
+glm::dvec3 LineColumns::position_of(const LineSample& sample) const {
+    glm::dvec3 origin, direction;
+    lines_.projection.view_ray(place_of(sample), origin, direction);
+    return origin + direction * depth_at(sample);
+}
+
 double LineColumns::depth_at(const LineSample& sample) const {
     const LinePiece& p = runs_.pieces[sample.piece].piece;
-    return around_.surfaces->projection.distance(
+    return lines_.projection.distance(
         glm::mix(static_cast<double>(p.nearness_from), static_cast<double>(p.nearness_to), sample.share));
 }
 
 LineHash LineColumns::object_hash(std::size_t piece, const SampleVariant& variant) const {
     LineHash hash(variant.seed);
-    const std::uint32_t object = object_of(piece);
-    if (object > 0 && object <= around_.objects.size()) {
-        hash.add(std::string_view(around_.objects[object - 1])).add(std::uint64_t{same_name_[object - 1]});
+    if (const std::uint32_t object = object_of(piece); object > 0) {
+        const ObjectOfLines& o = lines_.objects[object - 1];
+        hash.add(std::string_view(o.name)).add(std::uint64_t{o.same_name_before});
     }
     return hash.add(std::uint64_t{variant.copy});
 }
 
 LineHash LineColumns::chain_hash(const LineRun& run, const SampleVariant& variant) const {
     LineHash hash = object_hash(run.first, variant);
-    const LineId start = run.chain_start;
-    if (start.is_none() || !start.is_edge()) {
-        return hash.add(name_of(runs_.pieces[run.first].piece.drawn_as));
-    }
-    const Mesh& mesh = *around_.surfaces->instances[start.instance()].mesh;
-    const HalfEdge h = start.half_edge();
-    std::array<std::uint32_t, 2> ends;
-    if (mesh.is_loose(h)) {
-        ends = mesh.loose_edge(h);
-    } else {
-        const auto& t = mesh.triangles[h / 3];
-        ends = {t[h % 3], t[(h % 3 + 1) % 3]};
-    }
-    // The sum does not depend on which way round the edge runs.
-    std::uint64_t sum = 0;
-    for (const std::uint32_t end : ends) {
-        const glm::vec3 p = mesh.positions[end];
-        sum += LineHash().add(p.x).add(p.y).add(p.z).bits();
-    }
-    return hash.add(sum);
+    return run.chain_place == 0 ? hash.add(name_of(runs_.pieces[run.first].piece.drawn_as)) : hash.add(run.chain_place);
 }
 
 LineColumns::InObject LineColumns::in_object(const LineSample& sample) const {
-    const Projection& projection = around_.surfaces->projection;
-    const double depth = depth_at(sample);
-    glm::dvec3 origin, direction;
-    projection.view_ray(place_of(sample), origin, direction);
-    const glm::dvec3 view = origin + direction * depth;
+    const glm::dvec3 view = position_of(sample);
+    const double px_size = lines_.projection.pixel_size(depth_at(sample));
     const std::uint32_t object = object_of(sample.piece);
-    if (object == 0) return {view, projection.pixel_size(depth)};
-    const SurfaceInstance& instance = around_.surfaces->instances[object - 1];
-    const glm::dmat3 linear(instance.to_view);
-    const double scale = std::cbrt(std::abs(glm::determinant(linear)));
-    return {glm::inverse(linear) * (view - glm::dvec3(instance.to_view[3])) + instance.mesh->origin,
-            projection.pixel_size(depth) / std::max(scale, 1e-300)};
+    if (object == 0) return {view, px_size};
+    const ObjectOfLines& o = lines_.objects[object - 1];
+    return {glm::dvec3(o.from_view * glm::dvec4(view, 1.0)), px_size * o.units_per_view};
 }
 
 /// The depth of what is seen behind a line, beside it, less that of the line.
 float LineColumns::gap_at(const LineSample& sample) const {
     const LineSides& sides = sides_of(sample.piece);
     if (!sides.is_beyond) return 0;
-    if (sides.other.is_background()) return std::numeric_limits<float>::infinity();
-    const Projection& projection = around_.surfaces->projection;
-    const double behind =
-        projection.distance(around_.surfaces->plane(sides.other).nearness(place_of(sample)));
+    if (sides.other_object == 0) return std::numeric_limits<float>::infinity();
+    const double behind = lines_.projection.distance(sides.beyond_plane.nearness(place_of(sample)));
     return static_cast<float>(std::max(behind - depth_at(sample), 0.0));
 }
 
-void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& variables,
-                       const SampleVariant& variant, SampleColumns& columns) const {
+void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& variables, const SampleVariant& variant,
+                       SampleColumns& columns) const {
     const std::size_t n = samples.size();
     columns.columns_ = {};
     std::size_t count = 0;
@@ -182,7 +143,7 @@ void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& v
         }
     }
     Columns out{columns.columns_, n};
-    const Projection& projection = around_.surfaces->projection;
+    const Projection& projection = lines_.projection;
     const auto piece = [&](std::size_t i) -> const LinePiece& { return runs_.pieces[samples[i].piece].piece; };
     const auto run = [&](std::size_t i) -> const LineRun& { return runs_.runs[samples[i].run]; };
 
@@ -197,15 +158,13 @@ void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& v
     });
     out.each(V::px_size, [&](std::size_t i) { return projection.pixel_size(depth_at(samples[i])); });
     out.each_triple(V::P, [&](std::size_t i) {
-        glm::dvec3 origin, direction;
-        projection.view_ray(place_of(samples[i]), origin, direction);
-        return glm::dvec3(around_.camera_to_world * glm::dvec4(origin + direction * depth_at(samples[i]), 1.0));
+        return glm::dvec3(lines_.camera_to_world * glm::dvec4(position_of(samples[i]), 1.0));
     });
     out.each_triple(V::PO, [&](std::size_t i) { return in_object(samples[i]).position; });
 
     // Classes are numbered as LineClass counts, from 0.
     const auto drawn_as = [&](std::size_t i) {
-        return (piece(i).classes & around_.classes).first().value_or(piece(i).drawn_as);
+        return (piece(i).classes & asked_).first().value_or(piece(i).drawn_as);
     };
     out.each(V::drawn_class, [&](std::size_t i) { return static_cast<int>(drawn_as(i)); });
     for (int c = 0; c < kLineClassCount; ++c) {
@@ -217,41 +176,38 @@ void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& v
     out.each(V::direction, [&](std::size_t i) { return direction_deg(piece(i)); });
     out.each(V::rand_object, [&](std::size_t i) { return object_hash(samples[i].piece, variant).unit(); });
     out.each(V::rand_chain, [&](std::size_t i) { return chain_hash(run(i), variant).unit(); });
-    out.each(V::rand_set,
-             [&](std::size_t) { return LineHash(variant.seed).add(variant.set).add(std::uint64_t{variant.copy}).unit(); });
+    out.each(V::rand_set, [&](std::size_t) {
+        return LineHash(variant.seed).add(variant.set).add(std::uint64_t{variant.copy}).unit();
+    });
     out.each(V::copy, [&](std::size_t) { return variant.copy; });
-    out.each(V::frame, [&](std::size_t) { return around_.frame; });
-    out.each(V::time, [&](std::size_t) { return around_.time_s; });
-    out.each(V::width_px, [&](std::size_t) { return around_.width_px; });
-    out.each(V::height_px, [&](std::size_t) { return around_.height_px; });
+    out.each(V::frame, [&](std::size_t) { return lines_.frame; });
+    out.each(V::time, [&](std::size_t) { return lines_.time_s; });
+    out.each(V::width_px, [&](std::size_t) { return lines_.width_px; });
+    out.each(V::height_px, [&](std::size_t) { return lines_.height_px; });
     fill_sides(samples, out);
     fill_chains(samples, variables, out);
 }
 
 void LineColumns::fill_sides(std::span<const LineSample> samples, Columns& out) const {
-    const SurfaceSet& surfaces = *around_.surfaces;
-    const Projection& projection = surfaces.projection;
+    const Projection& projection = lines_.projection;
     const auto sides = [&](std::size_t i) -> const LineSides& { return sides_of(samples[i].piece); };
     out.each(V::object, [&](std::size_t i) { return sides(i).front_object; });
-    out.each(V::material, [&](std::size_t i) { return surfaces.material_id(sides(i).front); });
-    out.each(V::object2, [&](std::size_t i) { return surfaces.object_id(sides(i).other); });
-    out.each(V::material2, [&](std::size_t i) { return surfaces.material_id(sides(i).other); });
+    out.each(V::material, [&](std::size_t i) { return sides(i).front_material; });
+    out.each(V::object2, [&](std::size_t i) { return sides(i).other_object; });
+    out.each(V::material2, [&](std::size_t i) { return sides(i).other_material; });
     out.each(V::dihedral, [&](std::size_t i) { return sides(i).dihedral_deg; });
     out.each(V::convex, [&](std::size_t i) { return sides(i).convex; });
-    const auto color = [&](SurfaceId s) {
-        const std::uint32_t material = surfaces.material_id(s);
-        return material == 0 || material > around_.materials.size() ? glm::vec3(0.0f)
-                                                                    : around_.materials[material - 1].color;
+    const auto color = [&](std::uint32_t material) {
+        return material == 0 ? glm::vec3(0.0f) : lines_.material_colors[material - 1];
     };
-    out.each_triple(V::C, [&](std::size_t i) { return color(sides(i).front); });
-    out.each_triple(V::C2, [&](std::size_t i) { return color(sides(i).other); });
+    out.each_triple(V::C, [&](std::size_t i) { return color(sides(i).front_material); });
+    out.each_triple(V::C2, [&](std::size_t i) { return color(sides(i).other_material); });
     out.each(V::gap, [&](std::size_t i) { return gap_at(samples[i]); });
-    out.each(V::gap_px, [&](std::size_t i) { 
+    out.each(V::gap_px, [&](std::size_t i) {
         return static_cast<double>(gap_at(samples[i])) / projection.pixel_size(depth_at(samples[i]));
     });
     const auto slope = [&](std::size_t i, bool down) {
-        if (sides(i).front.is_background()) return 0.0;
-        const DepthPlane plane = surfaces.plane(sides(i).front);
+        const DepthPlane& plane = sides(i).front_plane;
         const double depth = depth_at(samples[i]), change = down ? plane.per_y : plane.per_x;
         return projection.orthographic ? -change : -change * depth * depth;
     };
@@ -260,7 +216,7 @@ void LineColumns::fill_sides(std::span<const LineSample> samples, Columns& out) 
 
     const auto normal = [&](std::size_t i, bool is_front) {
         const auto& ends = is_front ? sides(i).front_normals : sides(i).other_normals;
-        const glm::dvec3 mean = glm::mix(ends[0], ends[1], samples[i].share);
+        const glm::dvec3 mean = glm::mix(glm::dvec3(ends[0]), glm::dvec3(ends[1]), samples[i].share);
         return glm::dot(mean, mean) > 0 ? unit(mean) : glm::dvec3(0.0);
     };
     const auto to_eye = [&](std::size_t i) {
@@ -273,15 +229,15 @@ void LineColumns::fill_sides(std::span<const LineSample> samples, Columns& out) 
     };
     const auto light = [&](bool is_front) {
         return [&, is_front](std::size_t i) {
-            return std::clamp(glm::dot(normal(i, is_front), around_.light ? unit(*around_.light) : to_eye(i)), 0.0, 1.0);
+            return std::clamp(glm::dot(normal(i, is_front), lines_.light ? unit(*lines_.light) : to_eye(i)), 0.0, 1.0);
         };
     };
     out.each(V::facing, facing(true));
     out.each(V::facing2, facing(false));
     out.each(V::light, light(true));
     out.each(V::light2, light(false));
-    out.each_triple(V::N, [&](std::size_t i) { return surfaces.view_to_world * normal(i, true); });
-    out.each_triple(V::N2, [&](std::size_t i) { return surfaces.view_to_world * normal(i, false); });
+    out.each_triple(V::N, [&](std::size_t i) { return glm::dmat3(lines_.camera_to_world) * normal(i, true); });
+    out.each_triple(V::N2, [&](std::size_t i) { return glm::dmat3(lines_.camera_to_world) * normal(i, false); });
 }
 
 void LineColumns::fill_chains(std::span<const LineSample> samples, const VariableSet& variables, Columns& out) const {
@@ -304,14 +260,9 @@ void LineColumns::fill_chains(std::span<const LineSample> samples, const Variabl
     out.each(V::s_world, [&](std::size_t i) {
         const LineSample& sample = samples[i];
         const LineSample start{sample.run, static_cast<std::uint32_t>(run(i).first), 0};
-        const double before = at_of(start) * around_.surfaces->projection.pixel_size(depth_at(start));
-        const LinePiece& piece = runs_.pieces[sample.piece].piece;
-        glm::dvec3 origins[2], directions[2];
-        around_.surfaces->projection.view_ray(piece.from, origins[0], directions[0]);
-        around_.surfaces->projection.view_ray(place_of(sample), origins[1], directions[1]);
-        const double depths[2] = {depth_at({sample.run, sample.piece, 0}), depth_at(sample)};
+        const double before = at_of(start) * lines_.projection.pixel_size(depth_at(start));
         return before + world_length_[sample.piece] +
-               glm::distance(origins[0] + directions[0] * depths[0], origins[1] + directions[1] * depths[1]);
+               glm::distance(position_of({sample.run, sample.piece, 0}), position_of(sample));
     });
 }
 

@@ -31,18 +31,25 @@ double LineSidesFinder::facing(SurfaceId s, glm::dvec2 place) const {
 LineSides LineSidesFinder::sides_of(const LinePiece& piece, bool has_normals) const {
     LineSides sides;
     if (piece.line.is_none()) return sides;
+    sides.is_beyond = piece.occludes;
+    Surfaces at;
     if (piece.line.is_edge()) {
-        add_edge(piece, sides, has_normals);
+        at = at_edge(piece, sides, has_normals);
     } else {
-        add_meeting(piece, sides);
-        if (has_normals) set_flat_normals(piece, sides);
+        at = at_meeting(piece);
+        if (has_normals) set_flat_normals(piece, at, sides);
     }
-    if (sides.front_object == 0) sides.front_object = surfaces_.object_id(sides.front);
+    if (sides.front_object == 0) sides.front_object = surfaces_.object_id(at.front);
+    sides.other_object = surfaces_.object_id(at.other);
+    sides.front_material = surfaces_.material_id(at.front);
+    sides.other_material = surfaces_.material_id(at.other);
+    if (!at.front.is_background()) sides.front_plane = surfaces_.plane(at.front);
+    if (sides.is_beyond && !at.other.is_background()) sides.beyond_plane = surfaces_.plane(at.other);
     return sides;
 }
 
 /// A line where two surfaces meet, or of which the mesh does not say why it is there.
-void LineSidesFinder::add_meeting(const LinePiece& piece, LineSides& sides) const {
+LineSidesFinder::Surfaces LineSidesFinder::at_meeting(const LinePiece& piece) const {
     SurfaceId a = numbers_.of(piece.line.lower_surface()), b = numbers_.of(piece.line.member());
     const glm::dvec2 place = middle_of(piece);
     if (a.is_background()) std::swap(a, b);
@@ -51,18 +58,16 @@ void LineSidesFinder::add_meeting(const LinePiece& piece, LineSides& sides) cons
                                                : facing(b, place) > facing(a, place);
         if (is_b_first) std::swap(a, b);
     }
-    sides.front = a;
-    sides.other = b;
-    sides.is_beyond = piece.occludes;
+    return {a, b};
 }
 
-void LineSidesFinder::add_edge(const LinePiece& piece, LineSides& sides, bool has_normals) const {
+LineSidesFinder::Surfaces LineSidesFinder::at_edge(const LinePiece& piece, LineSides& sides, bool has_normals) const {
     const std::uint32_t instance = piece.line.instance();
     const Mesh& mesh = *surfaces_.instances[instance].mesh;
     const HalfEdge h = piece.line.half_edge();
     if (mesh.is_loose(h)) {
         sides.front_object = surfaces_.instances[instance].object_id;
-        return;
+        return {};
     }
     const glm::dvec2 place = middle_of(piece);
     Face best, second;
@@ -83,21 +88,14 @@ void LineSidesFinder::add_edge(const LinePiece& piece, LineSides& sides, bool ha
         }
         ++count;
     }
-    sides.front = best.surface;
-    sides.is_beyond = piece.occludes;
     if (count == 2) add_fold(piece, best, second, sides);
-    if (piece.occludes) {
-        // Of a fold, the face that is seen is the one that turns to the eye, which is the nearer one beside the edge.
-        sides.other = numbers_.of(piece.beyond);
-        if (piece.beyond == LinePiece::kNoSurface) sides.other = kBackground;
-    } else {
-        sides.other = second.surface;
-    }
-    if (!has_normals) return;
-    set_flat_normals(piece, sides);
+    const Surfaces at{best.surface, piece.occludes ? numbers_.of(piece.beyond) : second.surface};
+    if (!has_normals) return at;
+    set_flat_normals(piece, at, sides);
     const bool is_contour = piece.occludes && count == 2;
     const bool may_be_smooth = is_contour || piece.drawn_as == LineClass::polygon || piece.drawn_as == LineClass::mark;
     if (may_be_smooth && is_smooth_edge(mesh, h, cos_crease_angle_)) add_smooth_normals(piece, h, is_contour, sides);
+    return at;
 }
 
 /// The angle at an edge of two polygons, and whether it sticks out as seen from the side of the first one that the eye
@@ -118,17 +116,17 @@ void LineSidesFinder::add_fold(const LinePiece& piece, const Face& a, const Face
     const glm::dvec3 towards = surfaces_.normal_towards_eye(a.surface, middle_of(piece));
     const glm::dvec3 way = corner(b.half_edge, 2) - corner(b.half_edge, 0);
     const double above = glm::dot(unit(way), towards);
-    sides.convex = above < -kFlatSine ? 1 : above > kFlatSine ? -1 : 0;
+    sides.convex = static_cast<std::int8_t>(above < -kFlatSine ? 1 : above > kFlatSine ? -1 : 0);
 }
 
-void LineSidesFinder::set_flat_normals(const LinePiece& piece, LineSides& sides) const {
-    const auto set = [&](SurfaceId s, glm::dvec3(&normals)[2]) {
+void LineSidesFinder::set_flat_normals(const LinePiece& piece, const Surfaces& at, LineSides& sides) const {
+    const auto set = [&](SurfaceId s, glm::vec3(&normals)[2]) {
         if (s.is_background()) return;
         normals[0] = surfaces_.normal_towards_eye(s, piece.from);
         normals[1] = surfaces_.normal_towards_eye(s, piece.to);
     };
-    set(sides.front, sides.front_normals);
-    set(sides.other, sides.other_normals);
+    set(at.front, sides.front_normals);
+    set(at.other, sides.other_normals);
 }
 
 /// Normals of the smooth surface that the mesh stands for; a contour's are at right angles to the line of sight.

@@ -10,17 +10,18 @@
 namespace burin {
 
 /// What is on the two sides of a piece of a line. The front side is the surface that ends there or, where the line lies
-/// on surfaces, the face that turns to the eye more (of equal ones, the first by object, then polygon). docs/shading/
-/// variables.md says for each class what the sides are.
+/// on surfaces, the face that turns to the eye more (of equal ones, the first by object, then polygon).
+/// docs/shading/variables.md says for each class what the sides are. No mesh is needed to read it.
 struct LineSides {
-    SurfaceId front, other;          ///< kBackground: nothing
-    bool is_beyond = false;          ///< `other` is seen behind the line; else it touches the line
-    std::uint32_t front_object = 0;  ///< from 1; a loose edge has one although it has no surface
-    float dihedral_deg = 0;          ///< between the normals of the two polygons of an edge, 0 = flat
-    int convex = 0;                  ///< 1: the edge sticks out, -1: it goes inwards, 0: neither, or no edge of two
-    /// Unit normals of both sides at the ends of the piece, in view space, towards the eye; 0: none.
-    glm::dvec3 front_normals[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};
-    glm::dvec3 other_normals[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};
+    std::uint32_t front_object = 0, other_object = 0;      ///< from 1; 0: background. A loose edge has one, too.
+    std::uint32_t front_material = 0, other_material = 0;  ///< from 1; 0: none
+    bool is_beyond = false;  ///< the other side is seen behind the line; else it touches the line
+    std::int8_t convex = 0;  ///< 1: the edge sticks out, -1: it goes inwards, 0: neither, or no edge of two polygons
+    float dihedral_deg = 0;  ///< between the normals of the two polygons of an edge, 0 = flat
+    /// Unit normals of both sides at the ends of the piece, in view space, towards the eye; 0: none, or not asked for.
+    glm::vec3 front_normals[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
+    glm::vec3 other_normals[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
+    DepthPlane front_plane, beyond_plane;  ///< of the surfaces; of what is not there, all is 0
 };
 
 /// LineSidesFinder says what is on the two sides of pieces, from the meshes. It may be used by several threads.
@@ -40,11 +41,15 @@ class LineSidesFinder {
         SurfaceId surface;
         double facing = -1;
     };
-    void add_edge(const LinePiece& piece, LineSides& sides, bool has_normals) const;
-    void add_meeting(const LinePiece& piece, LineSides& sides) const;
+    /// The surfaces at both sides; kBackground: nothing.
+    struct Surfaces {
+        SurfaceId front, other;
+    };
+    Surfaces at_edge(const LinePiece& piece, LineSides& sides, bool has_normals) const;
+    Surfaces at_meeting(const LinePiece& piece) const;
     void add_fold(const LinePiece& piece, const Face& a, const Face& b, LineSides& sides) const;
     void add_smooth_normals(const LinePiece& piece, HalfEdge h, bool is_contour, LineSides& sides) const;
-    void set_flat_normals(const LinePiece& piece, LineSides& sides) const;
+    void set_flat_normals(const LinePiece& piece, const Surfaces& surfaces, LineSides& sides) const;
     double facing(SurfaceId s, glm::dvec2 place) const;
     glm::dvec3 to_eye(const LinePiece& piece, int end) const;
 

@@ -47,7 +47,8 @@ std::vector<Node> first_nodes(const LineColumns& lines, std::span<const LineStre
         for (std::size_t p = stretch.first; p < stretch.first + stretch.count; ++p) {
             const LinePiece& piece = lines.runs().pieces[p].piece;
             const double length = glm::distance(piece.from, piece.to);
-            const int parts = varies ? std::clamp(static_cast<int>(std::ceil(length / kFarthestApartPx)), 1, 1 << 16) : 1;
+            const int parts =
+                varies ? std::clamp(static_cast<int>(std::ceil(length / kFarthestApartPx)), 1, 1 << 16) : 1;
             for (int k = 0; k <= parts; ++k) {
                 const double share = static_cast<double>(k) / parts;
                 nodes.push_back({{stretch.run, static_cast<std::uint32_t>(p), share}, i, {}, varies && k < parts});
@@ -88,8 +89,8 @@ bool halve(const LineColumns& lines, std::span<const ChainValues> chains, Stroke
         if (k == intervals.size() || intervals[k] != i) continue;
         bool is_done = true;
         for (std::size_t j = 0; j < kShares.size(); ++j) {
-            is_done = is_done && is_straight(nodes[i].values, nodes[i + 1].values, kShares[j],
-                                             found[kShares.size() * k + j]);
+            is_done =
+                is_done && is_straight(nodes[i].values, nodes[i + 1].values, kShares[j], found[kShares.size() * k + j]);
         }
         next.back().is_open = !is_done;
         if (!is_done) {
@@ -102,8 +103,8 @@ bool halve(const LineColumns& lines, std::span<const ChainValues> chains, Stroke
     return true;
 }
 
-/// Directions to the right of a run's way, at both ends of one of its pieces: in the middle between those of pieces that
-/// meet, and longer where these turn, so that a moved line keeps its distance.
+/// Directions to the right of a run's way, at both ends of one of its pieces: in the middle between those of pieces
+/// that meet, and longer where these turn, so that a moved line keeps its distance.
 class Across {
   public:
     explicit Across(const LineRuns& runs) : runs_(runs) {}
@@ -155,7 +156,8 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
     std::vector<InkValues> found;
     values.evaluate(samples, of_chains, found);
     for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].values = found[i];
-    while (halve(lines, chains, values, nodes)) {}
+    while (halve(lines, chains, values, nodes)) {
+    }
 
     const bool is_moved = values.style().has_offset || values.style().has_wobble;
     const Across across(lines.runs());

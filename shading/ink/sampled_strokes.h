@@ -15,9 +15,9 @@ struct SampledStroke {
     StrokePath path;
 };
 
-/// Evaluates a style for stretches of lines: at the ends of pieces, at most 8 pixels apart, then in halves wherever what
-/// is evaluated at shares 0.23, 0.5 and 0.81 of an interval leaves the straight line between its ends, down to 1/4 pixel.
-/// All that is evaluated at a time is one batch.
+/// Evaluates a style for stretches of lines: at the ends of pieces, at most 8 pixels apart, then in halves wherever
+/// what is evaluated at shares 0.23, 0.5 and 0.81 of an interval leaves the straight line between its ends, down to 1/4
+/// pixel. All that is evaluated at a time is one batch.
 std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<const LineStretch> stretches,
                                           StrokeValues& values);
 

@@ -82,10 +82,10 @@ void smooth_ink(StrokePath& path, double px, bool is_closed) {
     std::vector<double> width(n, 0), opacity(n, 0);
     for (std::size_t i = 1; i < n; ++i) {
         const double half = 0.5 * (fine[i].at_px - fine[i - 1].at_px);
-        width[i] = width[i - 1] + half * (static_cast<double>(fine[i].ink.width_px) +
-                                          static_cast<double>(fine[i - 1].ink.width_px));
-        opacity[i] = opacity[i - 1] + half * (static_cast<double>(fine[i].ink.opacity) +
-                                              static_cast<double>(fine[i - 1].ink.opacity));
+        width[i] = width[i - 1] +
+                   half * (static_cast<double>(fine[i].ink.width_px) + static_cast<double>(fine[i - 1].ink.width_px));
+        opacity[i] = opacity[i - 1] +
+                     half * (static_cast<double>(fine[i].ink.opacity) + static_cast<double>(fine[i - 1].ink.opacity));
     }
     const double begin = fine.front().at_px, end = fine.back().at_px, total = end - begin;
     const auto integral = [&](const std::vector<double>& of, double at) {
@@ -95,10 +95,10 @@ void smooth_ink(StrokePath& path, double px, bool is_closed) {
             at -= turns * total;
         }
         at = std::clamp(at, begin, end);
-        const auto next = std::upper_bound(fine.begin(), fine.end(), at,
-                                           [](double v, const PathPoint& p) { return v < p.at_px; });
-        const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(next - fine.begin(), 1,
-                                                                           static_cast<std::ptrdiff_t>(n) - 1));
+        const auto next =
+            std::upper_bound(fine.begin(), fine.end(), at, [](double v, const PathPoint& p) { return v < p.at_px; });
+        const auto i = static_cast<std::size_t>(
+            std::clamp<std::ptrdiff_t>(next - fine.begin(), 1, static_cast<std::ptrdiff_t>(n) - 1));
         const double length = fine[i].at_px - fine[i - 1].at_px;
         const double share = length > 0 ? (at - fine[i - 1].at_px) / length : 0;
         return turns * of.back() + glm::mix(of[i - 1], of[i], share);

@@ -26,9 +26,12 @@ float tapered(double distance_px, double length_px, TaperShape shape) {
     if (!(length_px > 0)) return 1;
     const double q = std::clamp(distance_px / length_px, 0.0, 1.0);
     switch (shape) {
-        case TaperShape::linear: return static_cast<float>(q);
-        case TaperShape::round: return static_cast<float>(std::sqrt(q * (2 - q)));
-        default: return static_cast<float>(q * q);
+        case TaperShape::linear:
+            return static_cast<float>(q);
+        case TaperShape::round:
+            return static_cast<float>(std::sqrt(q * (2 - q)));
+        default:
+            return static_cast<float>(q * q);
     }
 }
 
@@ -55,7 +58,10 @@ void compute(ExpressionOperation operation, std::size_t count, float* to, const 
 }  // namespace
 
 StrokeValues::StrokeValues(const LineColumns& lines, const CompiledStyle& style, const SampleVariant& variant)
-    : lines_(lines), style_(style), variant_(variant), ink_inputs_(inputs_of(style.ink)),
+    : lines_(lines),
+      style_(style),
+      variant_(variant),
+      ink_inputs_(inputs_of(style.ink)),
       chain_inputs_(inputs_of(style.chain)) {
     varies_ = style.has_taper || style.has_wobble;
     for (const InkValue value : {InkValue::width, InkValue::opacity, InkValue::offset, InkValue::color})
@@ -121,8 +127,9 @@ void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const
         value.width_px = results_[0][i] * taper(run, *chains[i], at - begin, end - at);
         value.opacity = results_[1][i] * (static_cast<float>(piece.seen_opacity()) / 255.0f);
         if (style_.has_min_length) {
-            value.opacity *= faded_in(end - begin, static_cast<double>(value_of(*chains[i], ChainValue::min_length_low)),
-                                      static_cast<double>(value_of(*chains[i], ChainValue::min_length_high)));
+            value.opacity *=
+                faded_in(end - begin, static_cast<double>(value_of(*chains[i], ChainValue::min_length_low)),
+                         static_cast<double>(value_of(*chains[i], ChainValue::min_length_high)));
         }
         // Away from the surface that ends there, else to the right.
         value.offset_px = piece.occludes && !piece.front_on_left ? -results_[2][i] : results_[2][i];
@@ -132,8 +139,8 @@ void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const
 }
 
 /// Noise that lines are moved across by. On the object, its waves keep their place and, within a factor of two, their
-/// length on the screen: of two noises with wavelengths that are powers of two in the object's units, the one fades into
-/// the other while the camera comes nearer.
+/// length on the screen: of two noises with wavelengths that are powers of two in the object's units, the one fades
+/// into the other while the camera comes nearer.
 void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
                               std::vector<InkValues>& values) {
     const LineRuns& runs = lines_.runs();
@@ -142,7 +149,8 @@ void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<con
     std::vector<LineColumns::InObject> places(n);
     const bool is_on_object = style_.wobble_anchor == WobbleAnchor::object;
     for (std::size_t i = 0; i < n; ++i) {
-        const double wavelength = std::max(static_cast<double>(value_of(*chains[i], ChainValue::wobble_wavelength)), 0.25);
+        const double wavelength =
+            std::max(static_cast<double>(value_of(*chains[i], ChainValue::wobble_wavelength)), 0.25);
         if (is_on_object) places[i] = lines_.in_object(samples[i]);
         octave[i] = static_cast<float>(wavelength * places[i].px_size);
     }
@@ -152,8 +160,8 @@ void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<con
         for (const int step : {0, 1}) {
             for (std::size_t i = 0; i < n; ++i) {
                 const LineRun& run = runs.runs[samples[i].run];
-                const LineHash hash = is_on_object ? lines_.object_hash(samples[i].piece, variant_)
-                                                   : lines_.chain_hash(run, variant_);
+                const LineHash hash =
+                    is_on_object ? lines_.object_hash(samples[i].piece, variant_) : lines_.chain_hash(run, variant_);
                 if (!is_on_object) {
                     x[i] = static_cast<float>(lines_.at_of(samples[i])) / std::ldexp(octave[i], -o);
                     y[i] = LineHash(hash).add(std::uint64_t(1)).unit() * 64;
@@ -184,9 +192,10 @@ void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<con
         float strength = value_of(*chains[i], ChainValue::wobble_amplitude);
         if (style_.wobble_pin && !run.is_closed) {
             const double at = lines_.at_of(samples[i]);
-            const double to_end = std::min(at - runs.pieces[run.first].at_from_px,
-                                           runs.pieces[run.first + run.count - 1].at_to_px - at);
-            const double half = 0.5 * std::max(static_cast<double>(value_of(*chains[i], ChainValue::wobble_wavelength)), 0.25);
+            const double to_end =
+                std::min(at - runs.pieces[run.first].at_from_px, runs.pieces[run.first + run.count - 1].at_to_px - at);
+            const double half =
+                0.5 * std::max(static_cast<double>(value_of(*chains[i], ChainValue::wobble_wavelength)), 0.25);
             strength *= static_cast<float>(std::clamp(to_end / half, 0.0, 1.0));
         }
         values[i].offset_px += strength * sum[i];

@@ -1,0 +1,33 @@
+#include "shading/ink/found_lines.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "lines/line_dashes.h"
+#include "lines/run_ends.h"
+
+namespace burin {
+
+void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces, double cos_crease_angle,
+                         const FoundLinesNeeds& needs, int threads, FoundLines& lines) {
+    const LineDrawing::Lists visible = drawing.visible();
+    lines.runs = runs_of(visible, drawing.behind(), features_of(drawing.whole_lines()), surfaces);
+    for (const std::span<const LinePiece> list : visible) {
+        for (const LinePiece& piece : list) {
+            if (!piece.is_drawn && piece.occludes) lines.boundaries.push_back(piece);
+        }
+    }
+    if (needs.chains)
+        find_run_ends(lines.runs, lines.boundaries, surfaces.projection, {0, 0, lines.width_px, lines.height_px});
+    lines.has_chains = needs.chains;
+    lines.has_normals = needs.normals;
+    lines.sides.resize(lines.runs.pieces.size());
+    const LineSidesFinder finder(surfaces, cos_crease_angle);
+    constexpr std::size_t kChunk = 256;
+    parallel_for((lines.sides.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
+        for (std::size_t i = chunk * kChunk; i < std::min(lines.sides.size(), (chunk + 1) * kChunk); ++i)
+            lines.sides[i] = finder.sides_of(lines.runs.pieces[i].piece, needs.normals);
+    });
+}
+
+}  // namespace burin

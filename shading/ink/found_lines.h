@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lines/line_runs.h"
+#include "mesh/polygon_soup.h"
+#include "shading/ink/line_sides.h"
+
+namespace burin {
+
+/// An object as its lines know it.
+struct ObjectOfLines {
+    std::string name;
+    std::uint32_t same_name_before = 0;  ///< how many objects before it have its name
+    glm::dmat4 from_view{1.0};           ///< view space to the object, before its transform
+    double units_per_view = 1;           ///< the object's units in one unit of view space, as a mean of the axes
+};
+
+/// FoundLines is all that line shading reads: the lines of one picture as runs, and what is known beside them. It needs
+/// no mesh, so it can be kept in a file and shaded again.
+struct FoundLines {
+    LineRuns runs;
+    std::vector<LineSides> sides;        ///< of each piece
+    std::vector<LinePiece> boundaries;   ///< where surfaces end and nothing is drawn
+    LineClassSet classes;                ///< that were looked for
+    int most_invisibility = 0;           ///< that was looked for
+    bool tells_invisibility = false;     ///< else a hidden piece has only some surface in front of it
+    bool has_normals = false, has_beyond = false, has_chains = false;
+
+    Projection projection;
+    glm::dmat4 camera_to_world{1.0};
+    int width_px = 0, height_px = 0;        ///< of the whole picture
+    std::vector<ObjectOfLines> objects;     ///< by number, from 1
+    std::vector<std::string> materials;     ///< names by number, from 1
+    std::vector<glm::vec3> material_colors; ///< linear RGB
+    std::optional<glm::dvec3> light;        ///< direction to the key light in view space; none: it is at the eye
+    int frame = 0;
+    double time_s = 0;
+};
+
+/// What is to be known of lines.
+struct FoundLinesNeeds {
+    bool normals = false, chains = false;
+};
+
+/// Makes runs of the lines of a picture, and finds what is beside them. `objects` and what describes the picture are
+/// filled in by the caller. `drawing` has what was asked for.
+void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces, double cos_crease_angle,
+                         const FoundLinesNeeds& needs, int threads, FoundLines& lines);
+
+}  // namespace burin
