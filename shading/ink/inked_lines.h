@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,9 +30,9 @@ struct InkPoint {
 
 /// Where a stroke lies among the others of a pixel. What is less lies above what is greater.
 struct InkOrder {
-    std::int32_t below = 0;   ///< minus the style's priority
-    bool is_hidden = false;   ///< some opaque surface is in front of the line: it lies below all visible ones
-    std::uint32_t set = 0;    ///< number of the line set
+    std::int32_t below = 0;  ///< minus the style's priority
+    bool is_hidden = false;  ///< some opaque surface is in front of the line: it lies below all visible ones
+    std::uint32_t set = 0;   ///< number of the line set
     LineClass drawn_as = LineClass::silhouette;
     auto operator<=>(const InkOrder&) const = default;
 };
@@ -52,8 +53,10 @@ struct InkStroke {
     StrokeCaps caps = StrokeCaps::round;  ///< of its two ends; joins are always round
     InkBlend blend = InkBlend::over;
     StrokeSide side = StrokeSide::both;
-    bool is_closed = false;  ///< its last point is its first one
+    bool is_closed = false;   ///< its last point is its first one
     bool is_constant = true;  ///< all its points have one width, opacity and colour
+    /// A surface is in front of it, opaque or transparent: nearer surfaces do not cut it off, and it has no sides.
+    bool is_behind = false;
     /// How far around it strokes behind are erased, in pixels, where they are at least halo_depth_px[1] pixels' widths
     /// farther; from halo_depth_px[0] on this grows linearly.
     float halo_px = 0;
@@ -69,6 +72,8 @@ struct InkBoundary {
     /// hidden by the boundary; nothing is drawn along it: is_drawn is false.
     InkOrder order;
     bool is_drawn = false;
+    /// The full width of the opaque ink that is drawn along it. Wider strokes are not covered by that: it hides them.
+    float drawn_width_px = std::numeric_limits<float>::infinity();
 };
 
 /// The lines of a picture with their looks.
