@@ -22,6 +22,23 @@ struct PenStroke {
     double radius;
 };
 
+/// The places p with dot(normal, p) <= most.
+struct PenCut {
+    double normal[2];
+    double most;
+};
+
+/// A round pen's stroke along a straight piece on which the pen's radius changes linearly: the convex hull of the discs
+/// at its ends. Where one of them lies in the other, that is the larger disc.
+struct PenCone {
+    double from[2], to[2];
+    double radius_from, radius_to;
+    /// What lies between the common tangents of both discs, without the rest of these.
+    bool body_only = false;
+    int cut_count = 0;
+    PenCut cuts[2] = {};  ///< nothing lies beyond these; what lies on the first one, if it is level, is left out, too
+};
+
 /// Coverage masks of a rectangle of pixels, as StrokeMask has them, row by row.
 struct StrokeView {
     std::uint32_t* masks;   ///< kStrokeRows for each pixel, and room for kRoomBehindMasks more
@@ -171,6 +188,8 @@ struct TileKernels {
     struct Stroke {
         /// Adds to masks what a stroke covers. In single precision; equal in any canvas.
         void (&draw)(const PenStroke& stroke, const StrokeView& canvas);
+        /// The same for a pen whose radius changes. With equal radii and nothing left out the masks are equal, too.
+        void (&draw_cone)(const PenCone& cone, const StrokeView& canvas);
         /// How many bits are set in 16 numbers, without those of `hidden`.
         int (&count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
     };

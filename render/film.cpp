@@ -39,6 +39,9 @@ void for_channels(const LayerSet& layers, LineClassSet classes, Planes& planes, 
     if (layers.lines) add_rgba("lines.", planes.lines);
     if (layers.surface) add_rgba("surface.", planes.surface);
     if (layers.lines_hidden) add_rgba("lines_hidden.", planes.lines_hidden);
+    planes.line_sets.resize(layers.line_sets.size());
+    for (std::size_t i = 0; i < layers.line_sets.size(); ++i)
+        add_rgba("lines_" + layers.line_sets[i] + ".", planes.line_sets[i].of);
     for (std::size_t i = 0; i < kLineClassCount && layers.coverage; ++i) {
         if (!classes.has(static_cast<LineClass>(i))) continue;
         add_half("coverage." + std::string(kLineClassNames[i]), planes.coverage[i]);
@@ -215,6 +218,9 @@ Film::Block& Film::add_block(std::size_t number, bool all_is_put) {
     for (std::uint16_t* const plane : block->planes.lines_hidden) {  // not put for each pixel
         if (plane != nullptr) std::fill_n(plane, block->image.pixel_count(), std::uint16_t{0});
     }
+    for (const HalfPlanes& set : block->planes.line_sets) {
+        for (std::uint16_t* const plane : set.of) std::fill_n(plane, block->image.pixel_count(), std::uint16_t{0});
+    }
     pool_->used += pixels;
     blocks_[number].store(block, std::memory_order_release);
     return *block;
@@ -285,6 +291,9 @@ void Film::put_background(int x0, int x1, int y) {
             }
         }
         for (std::uint16_t* plane : planes.coverage) clear(plane, std::uint16_t{0});
+        for (const HalfPlanes& set : planes.line_sets) {
+            for (std::uint16_t* plane : set.of) clear(plane, std::uint16_t{0});
+        }
         clear(planes.depth, std::numeric_limits<float>::infinity());
         for (std::size_t c = 0; c < 3; ++c) {
             clear(planes.normal[c], 0.0f);
@@ -305,6 +314,9 @@ void Film::put_color(int x0, int x1, int y, const HalfColor& color) {
             fill(planes.lines_hidden[c], 0);
         }
         for (std::uint16_t* plane : planes.coverage) fill(plane, 0);
+        for (const HalfPlanes& set : planes.line_sets) {
+            for (std::uint16_t* plane : set.of) fill(plane, 0);
+        }
     });
 }
 
@@ -336,6 +348,9 @@ void Film::put_colors(int x0, int x1, int y, const std::array<const std::uint16_
             clear(planes.lines_hidden[c]);
         }
         for (std::uint16_t* plane : planes.coverage) clear(plane);
+        for (const HalfPlanes& set : planes.line_sets) {
+            for (std::uint16_t* plane : set.of) clear(plane);
+        }
     });
 }
 
@@ -415,6 +430,43 @@ void Film::draw_hidden(int x, int y, const HiddenInk& lines) {
         if (planes.lines_hidden[c] != nullptr) planes.lines_hidden[c][i] = lines.half_color[c];
     }
     if (planes.beauty[0] != nullptr) blend(planes.beauty, i, lines.seen);
+}
+
+void Film::draw_over_beauty(int x, int y, const InkOver& ink) {
+    note_drawn(x, y);
+    const auto [planes, i] = place_of(x, y);
+    if (planes.beauty[0] == nullptr) return;
+    const float bare = 1.0f - float_from_half(planes.beauty[3][i]);
+    for (int c = 0; c < 3; ++c) {
+        const float before = float_from_half(planes.beauty[c][i]);
+        planes.beauty[c][i] = to_half(before * ink.through[c] + ink.color[c] + bare * ink.tint[c]);
+    }
+    planes.beauty[3][i] = to_half(1.0f - bare * ink.left);
+}
+
+void Film::put_lines(int x, int y, const LineInk& lines) {
+    note_drawn(x, y);
+    const auto [planes, i] = place_of(x, y);
+    for (std::size_t c = 0; c < 4; ++c) {
+        if (planes.lines[c] != nullptr) planes.lines[c][i] = lines.half_color[c];
+    }
+    for (std::size_t c = 0; c < kLineClassCount; ++c) {
+        if (planes.coverage[c] != nullptr) planes.coverage[c][i] = lines.coverage[c];
+    }
+}
+
+void Film::put_hidden(int x, int y, const glm::vec4& color) {
+    note_drawn(x, y);
+    const auto [planes, i] = place_of(x, y);
+    for (std::size_t c = 0; c < 4; ++c) {
+        if (planes.lines_hidden[c] != nullptr) planes.lines_hidden[c][i] = to_half(color[static_cast<int>(c)]);
+    }
+}
+
+void Film::put_line_set(int x, int y, std::size_t set, const glm::vec4& color) {
+    note_drawn(x, y);
+    const auto [planes, i] = place_of(x, y);
+    for (std::size_t c = 0; c < 4; ++c) planes.line_sets[set].of[c][i] = to_half(color[static_cast<int>(c)]);
 }
 
 void Film::add_lines(int x, int y, const LinePixel& lines) {

@@ -28,6 +28,8 @@ struct LayerSet {
     bool coverage = false;      ///< coverage.silhouette, ... one per class drawn
     bool surface = false;       ///< surface.R G B A
     bool lines_hidden = false;  ///< lines_hidden.R G B A
+    /// NAME of each lines_NAME.R G B A: the strokes of one line set alone.
+    std::vector<std::string> line_sets = {};
 };
 
 /// What a method finds out about one pixel. Colours are linear and premultiplied.
@@ -70,6 +72,15 @@ struct HiddenInk {
 
     HalfColor half_color;
     glm::vec4 seen;
+};
+
+/// Lines of one pixel that do not simply cover what is there. What is there, a colour c with alpha a, becomes `color +
+/// through * c + (1 - a) * tint`, and as little of 1 - a is left as `left` says.
+struct InkOver {
+    glm::vec3 color{0.0f};
+    glm::vec3 through{1.0f};
+    glm::vec3 tint{0.0f};
+    float left = 1;
 };
 
 /// Film collects pixels into the channels of the chosen layers. Different threads may put different pixels at the same
@@ -152,6 +163,13 @@ class Film {
     void replace_surface(int x, int y, const glm::vec4& color);
     /// Puts the hidden lines' own channels, and draws what is seen of them over the pixel. Due before draw_over().
     void draw_hidden(int x, int y, const HiddenInk& lines);
+    /// Draws lines over the beauty of a pixel alone.
+    void draw_over_beauty(int x, int y, const InkOver& ink);
+    /// Puts the channels of visible lines, of hidden ones, and of one of the sets with a layer, and nothing else.
+    void put_lines(int x, int y, const LineInk& lines);
+    void put_hidden(int x, int y, const glm::vec4& color);
+    void put_line_set(int x, int y, std::size_t set, const glm::vec4& color);
+    const LayerSet& layers() const { return layers_; }
     /// Adds to the line channels, but not to the beauty. Due after draw_over().
     void add_lines(int x, int y, const LinePixel& lines);
     /// Says that every pixel was put and all was drawn. Another picture may be put then, for which background is not
@@ -161,12 +179,16 @@ class Film {
     const Image& image() const { return block_of(0)->image; }
 
   private:
+    struct HalfPlanes {
+        std::uint16_t* of[4] = {};
+    };
     struct Planes {  // channel data, nullptr where a layer is not wanted
         std::uint16_t* beauty[4] = {};
         std::uint16_t* lines[4] = {};
         std::uint16_t* surface[4] = {};
         std::uint16_t* lines_hidden[4] = {};
         std::array<std::uint16_t*, kLineClassCount> coverage{};
+        std::vector<HalfPlanes> line_sets;
         float* depth = nullptr;
         float* normal[3] = {};
         std::uint32_t* ids[3] = {};

@@ -336,6 +336,18 @@ bool StrokeClipper::pass_boundaries(const ClipPiece& piece, const Frame& frame, 
 }
 
 void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto) {
+    draw_with(piece, radius_px, side, onto,
+              [&](StrokeCanvas& canvas) { canvas.draw(piece.from, piece.to, radius_px); });
+}
+
+void StrokeClipper::draw(const ClipPiece& piece, const PenCone& cone, StrokeSide side, StrokeCanvas& onto) {
+    draw_with(piece, std::max(cone.radius_from, cone.radius_to), side, onto,
+              [&](StrokeCanvas& canvas) { canvas.draw(cone); });
+}
+
+template <typename DrawPen>
+void StrokeClipper::draw_with(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto,
+                              const DrawPen& draw_pen) {
     if (!piece.occludes) side = StrokeSide::both;  // it has no front
     const auto to_samples = [](double px, int per_px, int size_px) {
         return std::clamp(px * per_px, 0.0, static_cast<double>(size_px) * per_px);
@@ -356,12 +368,12 @@ void StrokeClipper::draw(const ClipPiece& piece, double radius_px, StrokeSide si
     if (cells_.is_one()) {
         find_shadows(0, piece, frame, radius_px, side);
         if (shadows_.empty() && side == StrokeSide::both) {
-            onto.draw(piece.from, piece.to, radius_px);
+            draw_pen(onto);
             return;
         }
     }
     canvas_.reset(x0_, y0_, width_, height_);
-    canvas_.draw(piece.from, piece.to, radius_px);
+    draw_pen(canvas_);
     if (!cut_to(pixels_to_add(onto, false))) return;
     // All that cuts a stroke is sampled as it is itself: what else lies around it depends on the crop.
     in_sets_ = is_level(piece.to.x - piece.from.x, piece.to.y - piece.from.y);

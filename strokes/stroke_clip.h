@@ -38,6 +38,9 @@ class StrokeClipper {
     /// the radius, or `piece` itself, change nothing.
     void draw(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto);
 
+    /// The same for a pen whose radius changes along `piece`, or along a part of it.
+    void draw(const ClipPiece& piece, const PenCone& cone, StrokeSide side, StrokeCanvas& onto);
+
     /// How many times a boundary was compared with a stroke.
     std::uint64_t comparison_count() const { return comparison_count_; }
 
@@ -62,6 +65,9 @@ class StrokeClipper {
     };
     class Frame;
 
+    template <typename DrawPen>
+    void draw_with(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto,
+                   const DrawPen& draw_pen);
     void add_shadows(const ClipPiece& boundary, const ClipPiece& piece, const Frame& frame, double radius_px,
                      StrokeSide side);
     template <typename Visit>

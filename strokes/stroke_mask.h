@@ -43,6 +43,16 @@ class StrokeCanvas {
                               {masks_.data()->rows.data(), touched_.data(), x0_, y0_, width_, height_, stride_});
     }
 
+    /// Adds the stroke of a pen whose radius changes.
+    void draw(const PenCone& cone) {
+        const double radius_px = std::max(cone.radius_from, cone.radius_to);
+        if (radius_px > kWideRadiusPx &&
+            open_part(box_around({cone.from[0], cone.from[1]}, {cone.to[0], cone.to[1]}, radius_px + 1)).is_empty())
+            return;
+        kernels_->stroke.draw_cone(cone,
+                                   {masks_.data()->rows.data(), touched_.data(), x0_, y0_, width_, height_, stride_});
+    }
+
     /// Adds samples of one pixel.
     void add(int column, int row, const StrokeMask& mask) {
         const std::size_t i = index(column, row);

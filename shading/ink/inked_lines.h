@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ struct InkStroke {
     StrokeSide side = StrokeSide::both;
     bool is_closed = false;   ///< its last point is its first one
     bool is_constant = true;  ///< all its points have one width, opacity and colour
+    /// A surface is in front of it, opaque or transparent: nearer surfaces do not cut it off, and it has no sides.
+    bool is_behind = false;
     /// How far around it strokes behind are erased, in pixels, where they are at least halo_depth_px[1] pixels' widths
     /// farther; from halo_depth_px[0] on this grows linearly.
     float halo_px = 0;
@@ -69,6 +72,8 @@ struct InkBoundary {
     /// hidden by the boundary; nothing is drawn along it: is_drawn is false.
     InkOrder order;
     bool is_drawn = false;
+    /// The full width of the opaque ink that is drawn along it. Wider strokes are not covered by that: it hides them.
+    float drawn_width_px = std::numeric_limits<float>::infinity();
 };
 
 /// The lines of a picture with their looks.

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "kernels/tile_kernels.h"
+#include "shading/ink/inked_lines.h"
+
+namespace burin {
+
+/// The way of a stroke from one of its points to the next: the cones that draw it, and the ink along it.
+class InkSegment {
+  public:
+    /// Strokes narrower than the masks can show are drawn wider and as much lighter.
+    struct Part {
+        PenCone cone;
+        bool is_thin = false;  ///< drawn wider than it is
+    };
+
+    InkSegment(const InkPoint& from, const InkPoint& to, StrokeSide side);
+
+    /// One cone, or two where the stroke becomes thin on the way. None where there is no ink.
+    std::span<const Part> parts() const { return {parts_.data(), part_count_}; }
+    /// Cuts off what lies beyond the end of the stroke at `place`, along its direction there.
+    void cut(glm::dvec2 place, glm::dvec2 outward);
+    double radius_px() const { return radius_px_; }
+    /// Whether width, opacity and colour do not change.
+    bool is_constant() const;
+
+    /// The share of the way at which it is nearest to a place.
+    float share_nearest(glm::dvec2 place) const;
+    float nearness_at(float share) const { return glm::mix(from_->nearness, to_->nearness, share); }
+    glm::vec3 color_at(float share) const { return glm::mix(from_->color, to_->color, share); }
+    /// The opacity of the ink with which the cones are drawn.
+    float alpha_at(float share) const;
+
+    const InkPoint& from() const { return *from_; }
+    const InkPoint& to() const { return *to_; }
+
+  private:
+    const InkPoint *from_, *to_;
+    glm::dvec2 along_;
+    double per_square_;   // 1 / length squared, 0 for a dot
+    float finest_px_;     // full widths from here on are drawn as they are
+    float strength_ = 1;  // where the width does not change
+    double radius_px_ = 0;
+    std::array<Part, 2> parts_;
+    std::size_t part_count_ = 0;
+};
+
+}  // namespace burin

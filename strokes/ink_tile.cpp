@@ -1,0 +1,272 @@
+#include "strokes/ink_tile.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+namespace burin {
+namespace {
+
+/// Strokes of one chain in an order that depends on nothing but themselves.
+bool is_before(const InkedLines& lines, const InkStroke& a, const InkStroke& b) {
+    const auto key = [](const InkPoint& p) {
+        return std::tuple(p.place.x, p.place.y, p.width_px, p.opacity, p.nearness, p.color.r, p.color.g, p.color.b);
+    };
+    const auto of_a = lines.points_of(a), of_b = lines.points_of(b);
+    return std::lexicographical_compare(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                                        [&](const InkPoint& p, const InkPoint& q) { return key(p) < key(q); });
+}
+
+}  // namespace
+
+StrokeSide drawn_side(const InkStroke& stroke) {
+    return stroke.is_behind || stroke.order.is_hidden ? StrokeSide::both : stroke.side;
+}
+
+InkTile::InkTile(const Frame& frame, const InkedLines& lines, const InkPlan& plan, const TileKernels& kernels)
+    : lines_(lines),
+      plan_(plan),
+      projection_(frame.surfaces.projection),
+      kernels_(kernels),
+      piece_(kernels),
+      clipper_(kernels) {}
+
+InkSegment InkTile::segment_of(const InkSegmentRef& ref) const {
+    InkSegment segment(lines_.points[ref.point], lines_.points[ref.point + 1], drawn_side(lines_.strokes[ref.stroke]));
+    if (lines_.strokes[ref.stroke].caps == StrokeCaps::butt) cut_at_ends(ref, segment);
+    return segment;
+}
+
+/// Cuts off a stroke's round ends: also what discs of segments near an end have beyond it.
+void InkTile::cut_at_ends(const InkSegmentRef& ref, InkSegment& segment) const {
+    const InkStroke& stroke = lines_.strokes[ref.stroke];
+    if (stroke.is_closed) return;
+    const auto points = lines_.points_of(stroke);
+    const std::size_t own = ref.point - stroke.first_point, last = points.size() - 1;
+    const auto direction = [](glm::dvec2 from, glm::dvec2 to) {
+        const double length = glm::distance(from, to);
+        return length > 0 ? (to - from) / length : glm::dvec2(1, 0);
+    };
+    double way = 0;
+    std::size_t i = own;
+    for (; i > 0 && way <= segment.radius_px(); --i) way += glm::distance(points[i].place, points[i - 1].place);
+    if (i == 0 && way <= segment.radius_px())
+        segment.cut(points[0].place, -direction(points[0].place, points[1].place));
+    way = 0;
+    for (i = own + 1; i < last && way <= segment.radius_px(); ++i)
+        way += glm::distance(points[i].place, points[i + 1].place);
+    if (i == last && way <= segment.radius_px())
+        segment.cut(points[last].place, direction(points[last - 1].place, points[last].place));
+}
+
+void InkTile::draw(std::span<const InkSegmentRef> segments, std::span<const std::uint32_t> boundaries, PixelRect rect) {
+    rect_ = rect;
+    stride_ = (rect.width() + 7) / 8 * 8;
+    const auto pixels = static_cast<std::size_t>(stride_ * rect.height());
+    touched_.assign(pixels, 0);
+    record_at_.assign(pixels, 0);
+    records_.clear();
+    layers_.clear();
+    used_canvases_ = 0;
+    boundaries_.clear();
+    boundary_numbers_.assign(boundaries.begin(), boundaries.end());
+    hiding_for_.reset();
+    hiding_.clear();
+    bool has_sides = false;
+    for (const InkSegmentRef& ref : segments)
+        has_sides = has_sides || drawn_side(lines_.strokes[ref.stroke]) != StrokeSide::both;
+    if (plan_.may_hide || has_sides) {
+        clipper_.reset(rect.x0, rect.y0, rect.width(), rect.height());
+        clipper_.set_boundaries(hiding_);
+        for (const std::uint32_t i : boundaries) {
+            const InkBoundary& b = lines_.boundaries[i];
+            boundaries_.push_back({b.from, b.to, depth_px(projection_, b.nearness_from),
+                                   depth_px(projection_, b.nearness_to), true, b.front_on_left});
+        }
+    }
+    segments_.assign(segments.begin(), segments.end());
+    const auto rank_of = [&](const InkSegmentRef& ref) { return plan_.looks[ref.stroke].rank; };
+    std::sort(segments_.begin(), segments_.end(), [&](const InkSegmentRef& a, const InkSegmentRef& b) {
+        return std::tuple(rank_of(a), a.stroke, a.point) < std::tuple(rank_of(b), b.stroke, b.point);
+    });
+    const auto chain_of = [&](const InkSegmentRef& ref) {
+        const InkStroke& stroke = lines_.strokes[ref.stroke];
+        return std::pair(stroke.chain, stroke.blend);
+    };
+    for (std::size_t begin = 0, end; begin < segments_.size(); begin = end) {
+        const InkPlan::Look& look = plan_.looks[segments_[begin].stroke];
+        bool is_layer = look.is_plain && plan_.most_halo_px <= 0;
+        for (end = begin; end < segments_.size() && rank_of(segments_[end]) == look.rank; ++end)
+            is_layer = is_layer && plan_.looks[segments_[end].stroke] == look;
+        const std::span<InkSegmentRef> own(segments_.data() + begin, end - begin);
+        if (is_layer) {
+            draw_layer(own);
+            continue;
+        }
+        std::sort(own.begin(), own.end(), [&](const InkSegmentRef& a, const InkSegmentRef& b) {
+            if (chain_of(a) != chain_of(b)) return chain_of(a) < chain_of(b);
+            if (a.stroke == b.stroke) return a.point < b.point;
+            const InkStroke &of_a = lines_.strokes[a.stroke], &of_b = lines_.strokes[b.stroke];
+            if (is_before(lines_, of_a, of_b)) return true;
+            return !is_before(lines_, of_b, of_a) && a.stroke < b.stroke;
+        });
+        for (std::size_t first = 0, last; first < own.size(); first = last) {
+            for (last = first; last < own.size() && chain_of(own[last]) == chain_of(own[first]);) ++last;
+            draw_chain(own.subspan(first, last - first));
+        }
+    }
+    sort_records();
+}
+
+void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
+    if (used_canvases_ == canvases_.size()) canvases_.emplace_back(kernels_);
+    StrokeCanvas& canvas = canvases_[used_canvases_++];
+    canvas.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
+    const std::uint32_t stroke = segments.front().stroke;
+    layers_.push_back({&plan_.looks[stroke], stroke, &canvas});
+    for (const InkSegmentRef& ref : segments) {
+        const InkSegment segment = segment_of(ref);
+        const bool is_cut = is_clipped(ref, segment);
+        for (const InkSegment::Part& part : segment.parts()) {
+            if (is_cut) {
+                draw_clipped(ref, segment, part.cone, canvas);
+            } else {
+                canvas.draw(part.cone);
+            }
+        }
+    }
+}
+
+void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
+    placed_.clear();
+    bool is_constant = true, has_thin = false, has_others = false;
+    for (const InkSegmentRef& ref : segments) {
+        const Placed& placed = placed_.emplace_back(Placed{ref, segment_of(ref)});
+        const InkPoint &first = placed_.front().segment.from(), &own = placed.segment.from();
+        is_constant = is_constant && placed.segment.is_constant() && own.width_px == first.width_px &&
+                      own.opacity == first.opacity && own.color == first.color;
+        for (const InkSegment::Part& part : placed.segment.parts()) (part.is_thin ? has_thin : has_others) = true;
+    }
+    chain_begin_ = records_.size();
+    // Bodies come before discs, so that ink changes evenly along the stroke and not in steps as wide as the pen; what
+    // is thin comes last: its ink is light, and would keep darker ink of the same chain away.
+    for (const bool is_thin : {false, true}) {
+        if (!(is_thin ? has_thin : has_others)) continue;
+        if (!is_constant) draw_parts(is_thin, true);
+        draw_parts(is_thin, false);
+    }
+    for (std::size_t i = chain_begin_; i < records_.size(); ++i) record_at_[records_[i].pixel] = 0;
+    const auto own = records_.begin() + static_cast<std::ptrdiff_t>(chain_begin_);
+    records_.erase(std::remove_if(own, records_.end(), [](const InkRecord& r) { return !(r.alpha > 0); }),
+                   records_.end());
+}
+
+void InkTile::draw_parts(bool is_thin, bool body_only) {
+    for (const Placed& placed : placed_) {
+        const bool is_cut = is_clipped(placed.ref, placed.segment);
+        for (const InkSegment::Part& part : placed.segment.parts()) {
+            if (part.is_thin != is_thin) continue;
+            PenCone cone = part.cone;
+            cone.body_only = body_only;
+            if (!is_cut) {
+                one_.draw(kernels_, cone, rect_,
+                          [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); });
+                continue;
+            }
+            piece_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
+            draw_clipped(placed.ref, placed.segment, part.cone, piece_);
+            if (!body_only) {
+                piece_.for_touched([&](int column, int row) { take(placed, column, row, piece_.at(column, row)); });
+                continue;
+            }
+            one_.draw(kernels_, cone, rect_, [&](int column, int row, StrokeMask mask) {
+                const StrokeMask& left = piece_.at(column, row);
+                for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= left.rows[r];
+                take(placed, column, row, mask);
+            });
+        }
+    }
+}
+
+void InkTile::take(const Placed& placed, int column, int row, const StrokeMask& mask) {
+    const std::size_t pixel = index(column, row);
+    if (record_at_[pixel] == 0) {
+        records_.emplace_back();
+        records_.back().pixel = static_cast<std::uint32_t>(pixel);
+        records_.back().stroke = placed.ref.stroke;
+        record_at_[pixel] = static_cast<std::uint32_t>(records_.size());
+        touched_[pixel] = 1;
+    }
+    InkRecord& record = records_[record_at_[pixel] - 1];
+    const int samples = kernels_.stroke.count_bits(mask.rows.data(), record.mask.rows.data());
+    if (samples == 0) return;
+    for (std::size_t r = 0; r < mask.rows.size(); ++r) record.mask.rows[r] |= mask.rows[r];
+    const float share = placed.segment.share_nearest({rect_.x0 + column + 0.5, rect_.y0 + row + 0.5});
+    const auto count = static_cast<float>(samples);
+    const float ink = count * placed.segment.alpha_at(share);
+    record.samples += samples;
+    record.alpha += ink;
+    record.nearness += count * placed.segment.nearness_at(share);
+    record.color += ink * placed.segment.color_at(share);
+}
+
+void InkTile::sort_records() {
+    first_sorted_.assign(touched_.size() + 1, 0);
+    for (const InkRecord& r : records_) ++first_sorted_[r.pixel + 1];
+    for (std::size_t i = 1; i < first_sorted_.size(); ++i) first_sorted_[i] += first_sorted_[i - 1];
+    sorted_.resize(records_.size());
+    next_.assign(first_sorted_.begin(), first_sorted_.end() - 1);
+    for (const InkRecord& r : records_) sorted_[next_[r.pixel]++] = &r;
+}
+
+std::span<const InkRecord* const> InkTile::records_of(int column, int row) const {
+    const std::size_t i = index(column, row);
+    return {sorted_.data() + first_sorted_[i], first_sorted_[i + 1] - first_sorted_[i]};
+}
+
+/// Whether boundaries may cut a segment. Those that may are chosen then.
+bool InkTile::is_clipped(const InkSegmentRef& ref, const InkSegment& segment) {
+    const InkStroke& stroke = lines_.strokes[ref.stroke];
+    if (stroke.is_behind || stroke.order.is_hidden || boundaries_.empty())
+        return drawn_side(stroke) != StrokeSide::both;
+    const bool has_side = stroke.side != StrokeSide::both;
+    const Hiding wanted{plan_.looks[ref.stroke].rank, has_side,
+                        std::max(segment.from().width_px, segment.to().width_px)};
+    if (hiding_for_ == wanted) return has_side || !hiding_.empty();
+    hiding_for_ = wanted;
+    hiding_.clear();
+    for (std::size_t i = 0; i < boundaries_.size(); ++i) {
+        const InkBoundary& b = lines_.boundaries[boundary_numbers_[i]];
+        if (has_side || !b.is_drawn || b.order > stroke.order || b.drawn_width_px < wanted.width_px)
+            hiding_.push_back(&boundaries_[i]);
+    }
+    clipper_.set_boundaries(hiding_);
+    return has_side || !hiding_.empty();
+}
+
+void InkTile::draw_clipped(const InkSegmentRef& ref, const InkSegment& segment, const PenCone& cone,
+                           StrokeCanvas& onto) {
+    const InkPoint &from = segment.from(), &to = segment.to();
+    const ClipPiece piece{
+        from.place,    to.place,          depth_px(projection_, from.nearness), depth_px(projection_, to.nearness),
+        from.occludes, from.front_on_left};
+    const StrokeSide side = drawn_side(lines_.strokes[ref.stroke]);
+    const ClipPiece* own = &piece;
+    if (side != StrokeSide::both) {  // the boundary that is drawn does not cut itself
+        for (const ClipPiece* b : hiding_) {
+            if (b->from == piece.from && b->to == piece.to && b->front_on_left == piece.front_on_left &&
+                b->depth_from_px == piece.depth_from_px && b->depth_to_px == piece.depth_to_px && piece.occludes)
+                own = b;
+        }
+    }
+    clipper_.draw(*own, cone, side, onto);
+}
+
+/// In pixels' widths: a difference of 1 is a pixel's width at that distance.
+double depth_px(const Projection& projection, float nearness) {
+    return projection.focal_px *
+           (projection.orthographic ? -static_cast<double>(nearness) : -std::log(static_cast<double>(nearness)));
+}
+
+}  // namespace burin

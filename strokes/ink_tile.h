@@ -1,0 +1,186 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/frame.h"
+#include "shading/ink/inked_lines.h"
+#include "strokes/ink_regions.h"
+#include "strokes/ink_segment.h"
+#include "strokes/stroke_clip.h"
+#include "strokes/stroke_mask.h"
+
+namespace burin {
+
+/// What drawing must know of all strokes before it cuts the picture into tiles.
+struct InkPlan {
+    /// Opaque strokes of one ink, one look for all of them.
+    struct Look {
+        std::uint32_t rank = 0;  ///< of the order, 0 lies on top
+        bool is_plain = false;   ///< constant, opaque, and covers
+        glm::vec3 color{0.0f};
+        float strength = 1;  ///< of a plain one: the share of each sample
+        bool operator==(const Look&) const = default;
+    };
+    std::vector<InkOrder> orders;  ///< by rank
+    std::vector<Look> looks;       ///< of each stroke
+    double most_radius_px = 0;     ///< of all strokes
+    float most_halo_px = 0;
+    bool may_hide = false;  ///< boundaries may hide a part of some stroke
+};
+
+/// The side of a line on which its stroke is drawn: what is behind surfaces has none.
+StrokeSide drawn_side(const InkStroke& stroke);
+/// The depth of a place in pixels' widths: a difference of 1 is a pixel's width at that distance.
+double depth_px(const Projection& projection, float nearness);
+
+InkPlan plan_of(const InkedLines& lines);
+
+/// A segment of a stroke: points[point] to points[point + 1].
+struct InkSegmentRef {
+    std::uint32_t stroke;
+    std::uint32_t point;
+};
+
+/// The samples of one pixel that a chain has, and the sum of their ink.
+struct InkRecord {
+    std::uint32_t pixel = 0;
+    std::uint32_t stroke = 0;  ///< the first one of its chain here
+    StrokeMask mask;
+    int samples = 0;
+    float alpha = 0, nearness = 0;  ///< sums over the samples
+    glm::vec3 color{0.0f};          ///< times alpha
+};
+
+/// PieceMasks draws one cone into masks of the pixels around it. Buffers are used again.
+class PieceMasks {
+  public:
+    /// Calls use(column, row, mask) for the pixels of a rectangle that it touches, counted from the rectangle's first.
+    template <typename Use>
+    void draw(const TileKernels& kernels, const PenCone& cone, PixelRect rect, const Use& use) {
+        const double reach = std::max(cone.radius_from, cone.radius_to) + 1;
+        const auto within = [](double v, int low, int high) {
+            return static_cast<int>(std::clamp(v, static_cast<double>(low), static_cast<double>(high)));
+        };
+        const int x0 = within(std::floor(std::min(cone.from[0], cone.to[0]) - reach), rect.x0, rect.x1),
+                  x1 = within(std::ceil(std::max(cone.from[0], cone.to[0]) + reach), rect.x0, rect.x1),
+                  y0 = within(std::floor(std::min(cone.from[1], cone.to[1]) - reach), rect.y0, rect.y1),
+                  y1 = within(std::ceil(std::max(cone.from[1], cone.to[1]) + reach), rect.y0, rect.y1);
+        if (x0 >= x1 || y0 >= y1) return;
+        const std::size_t room = static_cast<std::size_t>((x1 - x0) * (y1 - y0)) + kRoomBehindMasks;
+        if (masks_.size() < room) {
+            masks_.resize(room);
+            touched_.resize(room);
+        }
+        kernels.stroke.draw_cone(cone,
+                                 {masks_.data()->rows.data(), touched_.data(), x0, y0, x1 - x0, y1 - y0, x1 - x0});
+        std::size_t i = 0;
+        for (int y = y0; y < y1; ++y) {
+            for (int x = x0; x < x1; ++x, ++i) {
+                if (touched_[i] == 0) continue;
+                use(x - rect.x0, y - rect.y0, masks_[i]);
+                masks_[i] = StrokeMask{};
+                touched_[i] = 0;
+            }
+        }
+    }
+
+  private:
+    std::vector<StrokeMask, CacheLineAllocator<StrokeMask>> masks_;
+    std::vector<std::uint8_t> touched_;
+};
+
+/// InkTile draws the strokes that reach one tile into masks. Plain strokes of one order and ink share a canvas; all
+/// others are drawn chain by chain into a record per pixel. Buffers are used again.
+class InkTile {
+  public:
+    InkTile(const Frame& frame, const InkedLines& lines, const InkPlan& plan, const TileKernels& kernels);
+
+    /// `segments`: all that reach the rectangle; `boundaries`: numbers of those within the largest radius of it.
+    void draw(std::span<const InkSegmentRef> segments, std::span<const std::uint32_t> boundaries, PixelRect rect);
+
+    /// Plain strokes of one order that all have one ink.
+    struct Layer {
+        const InkPlan::Look* look;
+        std::uint32_t stroke;  ///< one of them
+        StrokeCanvas* canvas;
+    };
+    /// In their order.
+    std::span<const Layer> layers() const { return layers_; }
+    /// Those of a pixel, in the order of their ranks.
+    std::span<const InkRecord* const> records_of(int column, int row) const;
+
+    PixelRect rect() const { return rect_; }
+    /// Calls visit(column, row) for the pixels that have any strokes, row by row.
+    template <typename Visit>
+    void for_touched(const Visit& visit) const {
+        for (int row = 0; row < rect_.height(); ++row) {
+            for (int column = 0; column < rect_.width(); column += 8) {
+                std::uint64_t eight = StrokeCanvas::eight_bytes(&touched_[index(column, row)]);
+                for (const Layer& layer : layers_) eight |= layer.canvas->eight_touched(column, row);
+                StrokeCanvas::visit_touched(eight, column, row, visit);
+            }
+        }
+    }
+    bool has_records(int column, int row) const { return touched_[index(column, row)] != 0; }
+
+  private:
+    /// A segment of this tile, made ready.
+    struct Placed {
+        InkSegmentRef ref;
+        InkSegment segment;
+    };
+    /// What decides which boundaries hide a stroke.
+    struct Hiding {
+        std::uint32_t rank;
+        bool has_side;
+        float width_px;
+        bool operator==(const Hiding&) const = default;
+    };
+    std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
+    InkSegment segment_of(const InkSegmentRef& ref) const;
+    void cut_at_ends(const InkSegmentRef& ref, InkSegment& segment) const;
+    void draw_layer(std::span<const InkSegmentRef> segments);
+    void draw_chain(std::span<const InkSegmentRef> segments);
+    void draw_parts(bool is_thin, bool body_only);
+    bool is_clipped(const InkSegmentRef& ref, const InkSegment& segment);
+    void draw_clipped(const InkSegmentRef& ref, const InkSegment& segment, const PenCone& cone, StrokeCanvas& onto);
+    void take(const Placed& placed, int column, int row, const StrokeMask& mask);
+    void sort_records();
+
+    const InkedLines& lines_;
+    const InkPlan& plan_;
+    const Projection& projection_;
+    const TileKernels& kernels_;
+    PixelRect rect_;
+    int stride_ = 0;
+    std::deque<StrokeCanvas> canvases_;
+    std::size_t used_canvases_ = 0;
+    std::vector<Layer> layers_;
+    std::vector<InkSegmentRef> segments_;
+    std::vector<Placed> placed_;
+
+    std::vector<InkRecord> records_;
+    std::vector<std::uint32_t> record_at_;  // of the chain that is drawn, by pixel: number + 1
+    std::size_t chain_begin_ = 0;           // its first record
+    std::vector<std::uint8_t> touched_;
+    std::vector<const InkRecord*> sorted_;
+    std::vector<std::uint32_t> first_sorted_;  // of each pixel, and behind them the end
+    std::vector<std::uint32_t> next_;
+
+    PieceMasks one_;
+    StrokeCanvas piece_;  // of one piece that is cut
+    StrokeClipper clipper_;
+    std::vector<ClipPiece> boundaries_;
+    std::vector<std::uint32_t> boundary_numbers_;
+    std::vector<const ClipPiece*> hiding_;
+    std::optional<Hiding> hiding_for_;
+};
+
+}  // namespace burin
