@@ -24,6 +24,10 @@ LineCriteria criteria_of(const LineSettings& lines) {
     return criteria;
 }
 
+void refuse_sheet(const Frame& frame) {
+    if (frame.scene->sheet) throw InputError("style sheets cannot be drawn yet");
+}
+
 Frame with_fading_creases(Frame frame) {
     frame.criteria.cos_crease_angle = criteria_of(frame.scene->lines).cos_crease_angle;
     return frame;
@@ -51,6 +55,7 @@ PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_me
 bool abuffer_finishes_in_bands(const Frame& frame) { return !frame.needs.behind() && frame.needs.rows_stand_alone(); }
 
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
+    refuse_sheet(given);
     const Frame frame = with_fading_creases(given);
     RenderStats stats;
     LineDrawing drawing;
@@ -74,6 +79,7 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
 }
 
 LineDrawing find_drawing(const Frame& frame, const RunOptions& options, Film& film) {
+    refuse_sheet(frame);
     RenderStats stats;
     LineDrawing drawing;
     find_lines(with_fading_creases(frame), options, film, drawing, nullptr, stats);
