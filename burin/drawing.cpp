@@ -46,7 +46,9 @@ void find_owners(const SurfaceSet& surfaces, burin_drawing& drawing) {
 void keep_frame(const SceneForFrame& from, burin_drawing& drawing) {
     drawing.scene.materials = from.scene().materials;
     drawing.scene.picture = from.scene().picture;
+    drawing.scene.frame = from.scene().frame;
     drawing.scene.lines = from.scene().lines;
+    drawing.scene.sheet = from.scene().sheet;
     drawing.scene.surfaces = from.scene().surfaces;
     drawing.scene.abuffer = from.scene().abuffer;
     drawing.frame = from.frame();

@@ -12,7 +12,7 @@
 namespace burin {
 Film film_of(const Frame& frame, const OptionsInput& options) {
     LayerSet layers = options.layers.value_or(LayerSet{});
-    if (!options.layers) layers.lines_hidden = frame.scene->lines.style.hidden.style != HiddenStyle::none;
+    if (!options.layers) layers.lines_hidden = draws_hidden_lines(*frame.scene);
     Film film(PixelRect{0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
     if (film.channels().empty()) {
         throw UsageError("options.layers: coverage has a channel per line class, and no class is drawn");

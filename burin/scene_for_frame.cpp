@@ -16,7 +16,9 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
     const SceneDescription& settings = state.settings.description();
     scene_.materials = state.materials;
     scene_.picture = settings.picture;
+    scene_.frame = settings.frame;
     scene_.lines = settings.lines;
+    scene_.sheet = settings.sheet;
     scene_.surfaces = settings.surfaces;
     scene_.abuffer = settings.abuffer;
     scene_.cameras = !settings.cameras.empty() ? settings.cameras : state.file_cameras;

@@ -24,7 +24,8 @@ using namespace option_values;
 struct Texts {
     std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators,
         supersample;
-    std::string width, crease, hidden, style, layers, frames, crop, threads, memory, model_memory, stats, bits;
+    std::string width, color, dpi, frame, crease, hidden, style, layers, frames, crop, threads, memory, model_memory,
+        stats, bits;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -63,14 +64,21 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--lines", t.lines,
                    "line classes, comma separated: " + to_string(LineClassSet::all()) + ", or all, none (default " +
                        to_string(kDefaultLineClasses) + ")");
-    app.add_option("-w,--line-width", t.width, "full width of strokes in pixels (default 1)");
+    app.add_option("-w,--line-width", t.width,
+                   "full width of strokes in pixels (default 1); with a style sheet: its parameter `width`");
+    app.add_option("--color", t.color, "colour of lines, #rrggbb; with a style sheet: its parameter `color`");
     app.add_option(
         "--crease-angle", t.crease,
         "angle between polygons from which on they meet in a crease, degrees (default 40); LOW,HIGH: creases fade in "
         "between the two");
     app.add_option("--hidden", t.hidden, "how occluded lines are drawn: none (default), solid, dashed");
-    app.add_option("--style", t.style, "line style sheet (not in this version)");
-    app.add_option("--set", t.sets, "override a value of the scene, KEY=VALUE; may be repeated")
+    app.add_option("--style", t.style,
+                   "style sheet that says which lines are drawn and how: a name (see burin styles), or a file .toml");
+    app.add_option("--frame", t.frame, "number of the frame, for `frame` and `time` in style sheets (default 0)");
+    app.add_option("--dpi", t.dpi, "pixels per inch, for lengths in mm and pt in style sheets (default 96)");
+    app.add_option("--set", t.sets,
+                   "override a value of the scene, KEY=VALUE, or of the style sheet, style.PARAMETER=VALUE or "
+                   "style.STYLE.KEY=VALUE; may be repeated")
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
@@ -163,7 +171,7 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
         std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) { return is_command(app, a); });
     if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
         throw UsageError("'" + printable(first) +
-                         "' is no command; commands are render, compare, info, explain and methods");
+                         "' is no command; commands are render, compare, info, explain, methods and styles");
     }
     std::rotate(arguments.begin(), command, command + 1);
 }
@@ -261,7 +269,14 @@ void fill_scene_options(const Texts& t, Arguments& a) {
         }
         if (!a.hidden) fail("--hidden", "must be none, solid or dashed");
     }
-    if (!t.style.empty()) fail_version("--style");
+    if (!t.color.empty() && !color_from_hex(t.color)) fail("--color", "must be a colour like #c0d0ff");
+    a.line_color = t.color;
+    a.style = t.style;
+    if (!t.frame.empty()) a.frame = integer("--frame", t.frame, -1000000000, 1000000000);
+    if (!t.dpi.empty()) {
+        a.dpi = number("--dpi", t.dpi);
+        if (!(*a.dpi >= 1 && *a.dpi <= 100000)) fail("--dpi", "must be from 1 to 100000 pixels per inch");
+    }
     for (const std::string& set : t.sets) {
         const std::size_t equals = set.find('=');
         if (equals == std::string::npos || equals == 0) {
@@ -334,6 +349,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     explain->add_option("--pixel", t.pixel, "the pixel, X,Y from the upper left corner")->required();
     CLI::App* const list = app.add_subcommand("methods", "list the methods");
     list->add_flag("--json", t.json, "as JSON");
+    CLI::App* const styles = app.add_subcommand("styles", "list the style sheets, or print one of them");
+    styles->add_option("NAME", t.style, "a sheet whose text is printed");
+    styles->add_flag("--json", t.json, "as JSON, with their parameters");
+    styles->add_flag("-q", t.quiet, "say nothing but errors");
     CLI::App* const compare =
         app.add_subcommand("compare", "draw a scene with several methods and measure them against the ground truth");
     add_scene_options(*compare, t);
@@ -379,6 +398,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     a.strict = t.strict;
     if (*list) {
         a.command = Command::methods;
+    } else if (*styles) {
+        a.command = Command::styles;
+        a.style = t.style;
+        a.quiet = t.quiet;
     } else if (*info) {
         a.command = Command::info;
         fill_input_options(t, a);

@@ -128,13 +128,23 @@ bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene)
     return has_hidden_lines;
 }
 
+/// Only the A-buffer draws by style sheets.
+void refuse_sheet(const Scene& scene, const std::string& what) {
+    if (scene.sheet) throw UsageError("--style: " + what + "; draw with method abuffer, or remove the style sheet");
+}
+
 /// Notes lines of the input that are not drawn.
 void note_loose_edges(const Frame& frame, const Method& method) {
     std::uint64_t count = 0;
     for (const SurfaceInstance& instance : frame.surfaces.instances) count += instance.mesh->loose_edges.size();
     if (count == 0) return;
     const std::string lines = count == 1 ? "1 line" : std::to_string(count) + " lines";
-    if (!frame.scene->lines.classes.has(LineClass::mark)) {
+    const bool draws_marks = frame.scene->lines.classes.has(LineClass::mark);
+    if (!draws_marks && frame.scene->sheet) {
+        std::fprintf(stderr,
+                     "burin: note: no set of the style sheet draws the class mark, and so %s of the input %s missing\n",
+                     lines.c_str(), count == 1 ? "is" : "are");
+    } else if (!draws_marks) {
         std::fprintf(
             stderr,
             "burin: note: the class mark is not drawn, and so %s of the input %s missing; --lines %s has it, too\n",
@@ -239,6 +249,7 @@ void run_render(const Arguments& a) {
     Stopwatch total, watch;
     StageTimes times;
     Scene scene = load_input(a, outputs);
+    if (method.name != "abuffer") refuse_sheet(scene, "method " + std::string(method.name) + " draws no style sheets");
     const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
     const Camera camera = camera_of(scene, a);
     empty_copied_objects(scene);
@@ -250,7 +261,7 @@ void run_render(const Arguments& a) {
     note_limits(a, frame, method, has_hidden_lines, output);
 
     LayerSet layers = a.layers;
-    if (!a.names_layers) layers.lines_hidden = scene.lines.style.hidden.style != HiddenStyle::none;
+    if (!a.names_layers) layers.lines_hidden = draws_hidden_lines(scene);
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     // An EXR is compressed while it is drawn; but not when times are taken.
     const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && method.finishes_in_bands != nullptr &&
@@ -283,6 +294,10 @@ void run_render(const Arguments& a) {
             "burin: note: no sample of the picture sees a surface; does the camera look at the "
             "scene?\n",
             stderr);
+    if (!a.quiet) {
+        for (const std::string& note : times.render.notes)
+            std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
+    }
     if (writer) {
         writer->finish();
     } else {
@@ -305,6 +320,7 @@ void run_explain(const Arguments& a) {
         throw UsageError("--method: only the masks of abuffer and patel can be explained, not those of " + a.method);
     }
     Scene scene = load_input(a);
+    refuse_sheet(scene, "burin explain knows no style sheets in this version");
     const Camera camera = camera_of(scene, a);
     empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);

@@ -5,9 +5,11 @@
 
 #include "base/error.h"
 #include "base/lower_extension.h"
+#include "cli/sheet_wishes.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
+#include "shading/sheet/style_sheet.h"
 
 namespace burin {
 namespace {
@@ -15,8 +17,8 @@ namespace {
 bool is_scene_file(const std::string& path) { return lower_extension(path) == ".toml"; }
 
 SceneDescription describe_input(const Arguments& a) {
-    if (is_scene_file(a.input)) return read_scene_file(a.input, a.overrides);
-    if (is_model_file(a.input)) return bare_model_scene(a.input, a.overrides);
+    if (is_scene_file(a.input)) return read_scene_file(a.input, a.overrides, a.style);
+    if (is_model_file(a.input)) return bare_model_scene(a.input, a.overrides, a.style);
     const bool is_stdin = a.input == "-" || a.input == "/dev/stdin";
     throw InputError(a.input +
                      (is_stdin ? ": standard input is not read, and the kind of an input is told by its suffix; burin "
@@ -78,6 +80,11 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
     refuse_to_overwrite(outputs, {a.input});
     SceneDescription description = describe_input(a);
     std::vector<std::string> files;
+    if (description.sheet) {
+        if (!description.sheet->file.empty()) files.push_back(description.sheet->file);
+        use_sheet(description, sheet_as_wished(*description.sheet, a));
+    }
+    const bool names_classes = description.names_classes;
     for (const ObjectDescription& object : description.objects) {
         if (!object.file.empty()) files.push_back(object.file);
     }
@@ -105,13 +112,16 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
     if (a.gbuffer_operators) scene.gbuffer.operators = *a.gbuffer_operators;
     if (a.supersample) scene.gbuffer.supersample = *a.supersample;
     if (a.lines) scene.lines.classes = *a.lines;
-    if (a.hidden) scene.lines.style.hidden.style = *a.hidden;
-    if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
-    if (a.crease_angle_deg) {
-        const auto [from, to] = *a.crease_angle_deg;
-        scene.lines.crease_angle_deg = 0.5 * (from + to);
-        scene.lines.crease_fade_deg = to - from;
+    if (!scene.sheet) {
+        if (a.hidden) scene.lines.style.hidden.style = *a.hidden;
+        if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
+        if (!a.line_color.empty()) scene.lines.style.colors.fill(*color_from_hex(a.line_color));
+    } else if (names_classes && !a.quiet) {
+        std::fputs("burin: note: the style sheet says which lines are drawn, and lines.draw changes nothing\n", stderr);
     }
+    if (a.crease_angle_deg) scene.lines.set_crease_angle((*a.crease_angle_deg)[0], (*a.crease_angle_deg)[1]);
+    if (a.frame) scene.frame.number = *a.frame;
+    if (a.dpi) scene.picture.dpi = *a.dpi;
     return scene;
 }
 

@@ -62,6 +62,8 @@ void run(const burin::Arguments& arguments) {
             return run_explain(arguments);
         case burin::Command::methods:
             return run_methods(arguments);
+        case burin::Command::styles:
+            return run_styles(arguments);
         case burin::Command::compare:
             return run_compare(arguments);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shading/dash_style.h"
+#include "shading/sheet/compiled_sheet.h"
 
 namespace burin {
 

@@ -2,9 +2,10 @@
 
 #include "lines/drawing_needs.h"
 #include "scene/scene.h"
-#include "shading/sheet/compiled_sheet.h"
 
 namespace burin {
+
+struct SheetNeeds;
 
 /// Says what must be found so that the lines of a scene can be drawn as it wants them: all that finding is told of
 /// their looks.

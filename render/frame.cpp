@@ -10,6 +10,7 @@
 #include "mesh/text_scan.h"
 #include "render/drawing_needs.h"
 #include "render/frame_reach.h"
+#include "shading/sheet/compiled_sheet.h"
 
 namespace burin {
 namespace {
@@ -26,6 +27,9 @@ SheetContext sheet_context_of(const Scene& scene, int width, int height) {
     for (const Material& material : scene.materials) context.materials.push_back(material.name);
     context.width_px = width;
     context.height_px = height;
+    context.px_per_mm = scene.picture.dpi / 25.4;
+    context.frame = scene.frame.number;
+    context.fps = scene.frame.fps;
     return context;
 }
 

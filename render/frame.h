@@ -8,10 +8,11 @@
 #include "lines/surface_walk.h"
 #include "render/prepared.h"
 #include "scene/scene.h"
-#include "shading/sheet/compiled_sheet.h"
 #include "view/surface_set.h"
 
 namespace burin {
+
+class CompiledSheet;
 
 /// A Frame is a scene seen through one camera: the one input of every method. It borrows the scene and what is prepared
 /// for it, and does not change once it is made.

@@ -8,6 +8,8 @@
 
 #include "lines/smooth_contours.h"
 #include "shading/ink/ink_lines.h"
+#include "shading/sheet/compiled_sheet.h"
+#include "shading/sheet/style_sheet.h"
 
 namespace burin {
 namespace {
@@ -65,6 +67,8 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
         lines.material_colors.push_back(material.color);
     }
     lines.light = frame.scene->sheet->light;
+    lines.frame = frame.scene->frame.number;
+    lines.time_s = frame.scene->frame.number / frame.scene->frame.fps;
     const VariableSet& variables = frame.sheet->needs().variables;
     FoundLinesNeeds needs;
     needs.chains = frame.sheet->needs().chains;

@@ -14,6 +14,7 @@
 #include "mesh/text_scan.h"
 #include "scene/object_names.h"
 #include "scene/scene_description.h"
+#include "shading/sheet/style_sheet.h"
 
 namespace burin {
 namespace {
@@ -48,7 +49,9 @@ class SceneLoader {
         scene_.materials = from_.materials;
         scene_.cameras = from_.cameras;
         scene_.picture = from_.picture;
+        scene_.frame = from_.frame;
         scene_.lines = from_.lines;
+        scene_.sheet = from_.sheet;
         scene_.surfaces = from_.surfaces;
         scene_.abuffer = from_.abuffer;
         scene_.patel = from_.patel;
@@ -266,7 +269,14 @@ Scene load_scene(SceneDescription description, const LoadOptions& options, std::
 void draw_lines_without_polygons(Scene& scene) {
     const bool has_polygons =
         std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) { return !mesh.triangles.empty(); });
-    if (!has_polygons && scene.lines.classes == kDefaultLineClasses) scene.lines.classes |= LineClass::mark;
+    if (!has_polygons && !scene.sheet && scene.lines.classes == kDefaultLineClasses)
+        scene.lines.classes |= LineClass::mark;
+}
+
+bool draws_hidden_lines(const Scene& scene) {
+    if (!scene.sheet) return scene.lines.style.hidden.style != HiddenStyle::none;
+    const std::vector<LineSet>& sets = scene.sheet->sets;
+    return std::any_of(sets.begin(), sets.end(), [](const LineSet& set) { return set.is_enabled && set.qi[1] > 0; });
 }
 
 bool has_transparent_surfaces(const Scene& scene) {

@@ -6,6 +6,7 @@
 #include <streambuf>
 
 #include "base/interrupt.h"
+#include "scene/toml_depth.h"
 
 namespace burin {
 namespace {
@@ -57,6 +58,22 @@ toml::table parse_toml(std::string_view text, const std::string& path) {
     } catch (const toml::parse_error&) {
         throw_if_interrupted();  // it ended too early
         throw;
+    }
+}
+
+toml::table parse_checked_toml(std::string_view text, const std::string& path, const std::string& what,
+                               std::size_t most_bytes) {
+    if (text.size() > most_bytes)
+        throw InputError(path + ": " + what + " of more than " + std::to_string(most_bytes >> 20) +
+                         " MB; is it a model?");
+    if (const auto line = line_nested_too_deep(text)) throw InputError({path, *line}, kTomlTooDeep);
+    try {
+        return parse_toml(text, path);
+    } catch (const toml::parse_error& error) {
+        const toml::source_position at = error.source().begin;
+        std::string message(error.description());
+        std::replace(message.begin(), message.end(), '\n', ' ');
+        throw InputError({path, at.line, at.column}, message);
     }
 }
 

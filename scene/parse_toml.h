@@ -14,4 +14,9 @@ namespace burin {
 /// everything in it.
 toml::table parse_toml(std::string_view text, const std::string& path);
 
+/// The same with all that is wrong thrown as InputError: a text that is longer than `most_bytes`, nested too deeply, or
+/// no TOML. `what`: "a scene file".
+toml::table parse_checked_toml(std::string_view text, const std::string& path, const std::string& what,
+                               std::size_t most_bytes);
+
 }  // namespace burin

@@ -14,19 +14,27 @@
 #include "scene/camera.h"
 #include "scene/method_settings.h"
 #include "shading/line_style.h"
-#include "shading/sheet/style_sheet.h"
 #include "shading/surface_shader.h"
 
 // A scene is what a picture is made of: meshes, objects, materials, cameras and settings; it computes nothing.
 
 namespace burin {
 
+struct StyleSheet;
+
 /// The picture as a whole.
 struct PictureSettings {
     int width = 1920;
     int height = 1080;
     std::optional<glm::vec3> background;  ///< linear RGB
+    double dpi = 96;                      ///< pixels per inch, for lengths in mm and pt
     bool transparent = false;             ///< PNG and TIFF get an alpha channel instead of white paper
+};
+
+/// Which frame of an animation the picture is: what `frame` and `time` are in a style sheet.
+struct FrameSettings {
+    int number = 0;
+    double fps = 24;  ///< frames per second
 };
 
 /// Where a smooth surface turns away from the eye.
@@ -45,6 +53,11 @@ struct LineSettings {
     Contours contours = Contours::mesh;  ///< only method `abuffer`
     LineStyle style;
 
+    /// Creases fade in from the first angle to the second; equal angles: they do not fade.
+    void set_crease_angle(double from_deg, double to_deg) {
+        crease_angle_deg = 0.5 * (from_deg + to_deg);
+        crease_fade_deg = to_deg - from_deg;
+    }
     CreaseFade crease_fade() const {
         return {crease_angle_deg - 0.5 * crease_fade_deg, crease_angle_deg + 0.5 * crease_fade_deg};
     }
@@ -66,8 +79,10 @@ struct Scene {
     std::vector<CameraSettings> cameras;  ///< at least one; the first is the default
     bool camera_is_default = false;       ///< the input has no camera
     PictureSettings picture;
+    FrameSettings frame;
     LineSettings lines;
-    std::shared_ptr<const StyleSheet> sheet;  ///< says how lines look instead of `lines`; nullptr: none
+    /// How lines look; none: as `lines.style` says. What it says of finding lines stands in `lines`, too (use_sheet()).
+    std::shared_ptr<const StyleSheet> sheet;
     SurfaceStyle surfaces;
     AbufferSettings abuffer;
     PatelSettings patel;
@@ -83,6 +98,9 @@ struct Scene {
 /// What has no polygon has marks only: they are drawn unless the scene wants other classes than those by default.
 /// load_scene() has done it.
 void draw_lines_without_polygons(Scene& scene);
+
+/// Whether lines are drawn that opaque surfaces hide.
+bool draws_hidden_lines(const Scene& scene);
 
 /// Whether some surface of the scene lets light through.
 bool has_transparent_surfaces(const Scene& scene);

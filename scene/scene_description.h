@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -35,7 +36,10 @@ struct SceneDescription {
     std::vector<Material> materials;
     std::vector<CameraSettings> cameras;
     PictureSettings picture;
+    FrameSettings frame;
     LineSettings lines;
+    std::shared_ptr<const StyleSheet> sheet;
+    bool names_classes = false;  ///< [lines] has `draw`, which nothing reads beside a sheet
     SurfaceStyle surfaces;
     AbufferSettings abuffer;
     PatelSettings patel;
@@ -52,11 +56,17 @@ struct Override {
 };
 
 /// Reads a scene file. Throws InputError with line and column for anything unknown or out of range,
-/// UsageError for an override that does not fit.
-SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides);
+/// UsageError for an override that does not fit. `style`: the name or the file of a style sheet that takes the place of
+/// the scene's own, as --style has it; empty: none. Overrides whose keys begin with "style." are values of the sheet.
+SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides,
+                                 const std::string& style = {});
 
 /// The scene of a bare model: that one object, everything else at its default.
-SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides);
+SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides,
+                                  const std::string& style = {});
+
+/// Has lines look as a sheet says, and be found as it says.
+void use_sheet(SceneDescription& scene, std::shared_ptr<const StyleSheet> sheet);
 
 /// How to load a scene.
 struct LoadOptions {

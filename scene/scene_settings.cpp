@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "scene/scene_tables.h"
+#include "scene/sheet_library.h"
+#include "scene/sheet_toml.h"
 
 namespace burin {
 namespace {
@@ -26,6 +28,7 @@ void merge(toml::table& into, toml::table&& from) {
 
 struct SceneSettings::Tables {
     toml::table root;
+    SheetWishes sheet{};
 };
 
 SceneSettings::SceneSettings() : tables_(std::make_unique<Tables>()) { change_to(std::make_unique<Tables>()); }
@@ -36,7 +39,7 @@ SceneSettings::SceneSettings(SceneSettings&&) noexcept = default;
 SceneSettings& SceneSettings::operator=(SceneSettings&&) noexcept = default;
 
 void SceneSettings::change_to(std::unique_ptr<Tables> tables) {
-    description_ = read_scene_tables(tables->root, {"settings", {}}, SceneParts::settings);
+    description_ = read_scene_tables(tables->root, {"settings", {}}, SceneParts::settings, tables->sheet);
     tables_ = std::move(tables);
 }
 
@@ -49,7 +52,11 @@ void SceneSettings::set(const Override& override) {
         }
     }
     auto changed = std::make_unique<Tables>(*tables_);
-    apply_override(changed->root, override);
+    if (is_of_sheet(override)) {
+        changed->sheet.overrides.push_back(override);
+    } else {
+        apply_override(changed->root, override);
+    }
     change_to(std::move(changed));
 }
 
@@ -66,6 +73,11 @@ void SceneSettings::set_tables(std::string_view text, const std::string& name) {
 
 SceneDescription SceneSettings::take(Tables scene, const std::string& name, const std::string& folder) {
     SceneDescription description = read_scene_tables(scene.root, {name, folder});
+    // The settings stand in no folder.
+    if (const auto style = scene.root["style"].value<std::string>()) {
+        const auto source = find_sheet(*style, folder);
+        if (source && !source->file.empty()) scene.root.insert_or_assign("style", source->file);
+    }
     for (const char* const table : kNoSettings) scene.root.erase(table);
     auto changed = std::make_unique<Tables>(*tables_);
     merge(changed->root, std::move(scene.root));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/scene_description.h"
 #include "scene/toml_depth.h"
@@ -27,9 +28,6 @@ enum class SceneParts : std::uint8_t {
     settings,  ///< any
 };
 
-constexpr const char* kTooDeepToml = "tables and lists are nested more than 64 deep; scenes need six levels";
-static_assert(kMaxTomlDepth == 64);
-
 /// The tables of a scene's text. Throws InputError with line and column.
 toml::table parse_scene_text(std::string_view text, const std::string& name);
 /// The same of a scene file.
@@ -40,9 +38,17 @@ toml::table bare_model_tables(const std::string& path);
 /// Puts an override's value in its place, making tables on the way as needed. A number in the key
 /// counts into an array: object.0.subdivide. Throws UsageError.
 void apply_override(toml::table& root, const Override& o);
+/// The same with another place than the key says.
+void apply_override(toml::table& root, const Override& o, std::string_view place);
+
+/// What the command line says about the style sheet.
+struct SheetWishes {
+    std::string style;                ///< its name or file, instead of the scene's; empty: nothing
+    std::vector<Override> overrides;  ///< of its values: their keys begin with "style."
+};
 
 /// The description that the tables give. Throws InputError and UsageError.
 SceneDescription read_scene_tables(const toml::table& tables, const ScenePlace& place,
-                                   SceneParts parts = SceneParts::all);
+                                   SceneParts parts = SceneParts::all, const SheetWishes& wishes = {});
 
 }  // namespace burin

@@ -10,13 +10,17 @@
 #include "mesh/text_scan.h"
 #include "scene/color.h"
 #include "scene/gbuffer_toml.h"
+#include "scene/lines_toml.h"
 #include "scene/parse_toml.h"
 #include "scene/scene_description.h"
 #include "scene/scene_tables.h"
 #include "scene/shape_toml.h"
+#include "scene/sheet_library.h"
+#include "scene/sheet_toml.h"
 #include "scene/toml_depth.h"
 #include "scene/toml_reader.h"
 #include "scene/wire_settings_toml.h"
+#include "shading/sheet/style_sheet.h"
 
 namespace burin {
 namespace {
@@ -66,14 +70,20 @@ glm::dmat4 read_transform(TomlReader& t) {
 
 class SceneReader {
   public:
-    SceneReader(const ScenePlace& place, TomlReader root) : folder_(place.folder), root_(std::move(root)) {}
+    SceneReader(const ScenePlace& place, TomlReader root, const SheetWishes& wishes)
+        : folder_(place.folder), root_(std::move(root)), wishes_(wishes) {}
 
     SceneDescription read(SceneParts parts) {
         read_cameras();
         for (TomlReader& t : root_.tables("material")) read_material(t);
         for (TomlReader& t : root_.tables("object")) read_object(t);
         if (auto t = root_.table("picture")) read_picture(*t);
-        if (auto t = root_.table("lines")) read_lines(*t);
+        if (auto t = root_.table("frames")) read_frames(*t);
+        if (auto t = root_.table("lines")) {
+            scene_.names_classes = t->has("draw");
+            scene_.lines = read_line_settings(*t);
+        }
+        read_style();
         if (auto t = root_.table("surfaces")) read_surfaces(*t);
         if (auto t = root_.table("abuffer")) read_abuffer(*t);
         if (auto t = root_.table("patel")) read_patel(*t);
@@ -180,6 +190,7 @@ class SceneReader {
             picture.width = static_cast<int>((*size)[0]);
             picture.height = static_cast<int>((*size)[1]);
         }
+        picture.dpi = t.number("dpi", {1, 100000}).value_or(picture.dpi);
         if (t.has("background")) {
             // A colour, or the word that asks for none.
             if (t.is_text("background") && t.text("background") == "transparent") {
@@ -191,90 +202,29 @@ class SceneReader {
         t.finish();
     }
 
-    void read_lines(TomlReader& t) {
-        LineSettings& lines = scene_.lines;
-        if (const auto names = t.texts("draw")) {
-            lines.classes = LineClassSet();
-            for (const std::string& name : separated(*names)) {
-                const auto line_class = line_class_named(name);
-                if (name == "all") {
-                    lines.classes = LineClassSet::all();
-                } else if (line_class) {
-                    lines.classes |= *line_class;
-                } else if (name != "none") {
-                    t.fail("draw", "unknown line class '" + printable(name) + "'; known are " +
-                                       to_string(LineClassSet::all()) + ",all,none");
-                }
-            }
-        }
-        lines.style.width_px = t.number("width", {0, 1024, true, false}).value_or(1);
-        read_crease_angle(t, lines);
-        static constexpr Contours kContours[] = {Contours::mesh, Contours::smooth};
-        lines.contours = kContours[t.choice("contours", {"mesh", "smooth"}).value_or(0)];
-        lines.style.dash_px = read_dash(t);
-        static constexpr StrokeSide kSides[] = {StrokeSide::both, StrokeSide::inside, StrokeSide::outside};
-        lines.style.side = kSides[t.choice("side", {"both", "inside", "outside"}).value_or(0)];
-        static constexpr PixelFilter kFilters[] = {PixelFilter::box, PixelFilter::gaussian, PixelFilter::mitchell};
-        lines.style.filter = kFilters[t.choice("filter", {"box", "gaussian", "mitchell"}).value_or(0)];
-        if (const auto color = t.color("color")) lines.style.colors.fill(*color);
-        if (auto colors = t.table("colors")) {
-            for (int i = 0; i < kLineClassCount; ++i) {
-                const auto index = static_cast<std::size_t>(i);
-                if (const auto color = colors->color(kLineClassNames[index])) {
-                    lines.style.colors[index] = *color;
-                }
-            }
-            colors->finish();
-        }
-        if (auto hidden = t.table("hidden")) read_hidden(*hidden, lines.style.hidden);
+    void read_frames(TomlReader& t) {
+        scene_.frame.fps = t.number("fps", {0, 1000000, true, false}).value_or(scene_.frame.fps);
         t.finish();
     }
 
-    /// "a,b" is a list, too, as on the command line.
-    static std::vector<std::string> separated(const std::vector<std::string>& texts) {
-        std::vector<std::string> result;
-        for (const std::string& text : texts) {
-            for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-                end = text.find(',', begin);
-                const std::string part = text.substr(begin, end - begin);
-                const std::size_t first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
-                result.push_back(first == std::string::npos ? part : part.substr(first, last + 1 - first));
-            }
+    /// The sheet that the command line names, or else the scene.
+    void read_style() {
+        const auto named = root_.text("style");
+        std::optional<SheetSource> source;
+        if (!wishes_.style.empty()) {
+            source = find_sheet(wishes_.style, {});
+            if (!source) throw UsageError("--style: " + no_such_sheet(wishes_.style));
+        } else if (named) {
+            source = find_sheet(*named, folder_);
+            if (!source) root_.fail("style", no_such_sheet(*named));
         }
-        return result;
-    }
-
-    static std::optional<std::array<double, 2>> read_dash(TomlReader& t) {
-        const auto dash = t.numbers("dash", 2);
-        if (!dash) return std::nullopt;
-        for (const double length : *dash) {
-            if (!(length > 0 && length <= 65535))
-                t.fail("dash", "must be two lengths in pixels, greater than 0 and at most 65535");
+        if (!source) {
+            if (wishes_.overrides.empty()) return;
+            throw UsageError("--set " + printable(wishes_.overrides.front().key) +
+                             ": there is no style sheet; give one with --style");
         }
-        return std::array{(*dash)[0], (*dash)[1]};
-    }
-
-    /// An angle, or two between which creases fade in.
-    static void read_crease_angle(TomlReader& t, LineSettings& lines) {
-        if (!t.has("crease_angle") || t.is_number("crease_angle")) {
-            lines.crease_angle_deg = t.number("crease_angle", {0, 180}).value_or(40);
-            return;
-        }
-        const std::vector<double> angles = *t.numbers("crease_angle", 2);
-        if (!(angles[0] >= 0 && angles[0] <= angles[1] && angles[1] <= 180)) {
-            t.fail("crease_angle", "must be an angle, or two from 0 to 180 degrees, the smaller one first");
-        }
-        lines.crease_angle_deg = 0.5 * (angles[0] + angles[1]);
-        lines.crease_fade_deg = angles[1] - angles[0];
-    }
-
-    static void read_hidden(TomlReader& t, HiddenLineStyle& hidden) {
-        static constexpr HiddenStyle kStyles[] = {HiddenStyle::none, HiddenStyle::solid, HiddenStyle::dashed};
-        hidden.style = kStyles[t.choice("style", {"none", "solid", "dashed"}).value_or(0)];
-        hidden.width_px = t.number("width", {0, 1024, true, false});
-        hidden.color = t.color("color").value_or(hidden.color);
-        hidden.dash_px = read_dash(t);
-        t.finish();
+        if (const auto lines = root_.table("lines")) refuse_looks_of_lines(*lines);
+        use_sheet(scene_, std::make_shared<StyleSheet>(read_sheet(*source, wishes_.overrides)));
     }
 
     void read_surfaces(TomlReader& t) {
@@ -347,27 +297,29 @@ class SceneReader {
 
     std::filesystem::path folder_;
     TomlReader root_;
+    const SheetWishes& wishes_;
     SceneDescription scene_;
     std::unordered_set<std::string> camera_names_, material_names_;
 };
 
 }  // namespace
 
-SceneDescription read_scene_tables(const toml::table& tables, const ScenePlace& place, SceneParts parts) {
-    return SceneReader(place, TomlReader(tables, "", place.name)).read(parts);
+void use_sheet(SceneDescription& scene, std::shared_ptr<const StyleSheet> sheet) {
+    LineSettings& lines = scene.lines;
+    if (sheet->crease_angle_deg) lines.set_crease_angle((*sheet->crease_angle_deg)[0], (*sheet->crease_angle_deg)[1]);
+    if (sheet->smooth_contours) lines.contours = *sheet->smooth_contours ? Contours::smooth : Contours::mesh;
+    if (sheet->filter) lines.style.filter = *sheet->filter;
+    lines.classes = classes_of(*sheet);
+    scene.sheet = std::move(sheet);
+}
+
+SceneDescription read_scene_tables(const toml::table& tables, const ScenePlace& place, SceneParts parts,
+                                   const SheetWishes& wishes) {
+    return SceneReader(place, TomlReader(tables, "", place.name), wishes).read(parts);
 }
 
 toml::table parse_scene_text(std::string_view text, const std::string& name) {
-    if (text.size() > kMaxSceneBytes) throw InputError(name + ": a scene file of more than 64 MB; is it a model?");
-    if (const auto line = line_nested_too_deep(text)) throw InputError({name, *line}, kTooDeepToml);
-    try {
-        return parse_toml(text, name);
-    } catch (const toml::parse_error& error) {
-        const toml::source_position at = error.source().begin;
-        std::string message(error.description());
-        std::replace(message.begin(), message.end(), '\n', ' ');
-        throw InputError({name, at.line, at.column}, message);
-    }
+    return parse_checked_toml(text, name, "a scene file", kMaxSceneBytes);
 }
 
 toml::table read_scene_toml(const std::string& path) {
@@ -388,16 +340,31 @@ toml::table bare_model_tables(const std::string& path) {
     return root;
 }
 
-SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
-    toml::table tables = read_scene_toml(path);
-    for (const Override& o : overrides) apply_override(tables, o);
-    return read_scene_tables(tables, place_of_scene(path));
+namespace {
+
+SceneDescription read_with_overrides(toml::table tables, const std::string& path,
+                                     const std::vector<Override>& overrides, const std::string& style) {
+    SheetWishes wishes{style, {}};
+    for (const Override& o : overrides) {
+        if (is_of_sheet(o)) {
+            wishes.overrides.push_back(o);
+        } else {
+            apply_override(tables, o);
+        }
+    }
+    return read_scene_tables(tables, place_of_scene(path), SceneParts::all, wishes);
 }
 
-SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides) {
-    toml::table tables = bare_model_tables(path);
-    for (const Override& o : overrides) apply_override(tables, o);
-    return read_scene_tables(tables, place_of_scene(path));
+}  // namespace
+
+SceneDescription read_scene_file(const std::string& path, const std::vector<Override>& overrides,
+                                 const std::string& style) {
+    return read_with_overrides(read_scene_toml(path), path, overrides, style);
+}
+
+SceneDescription bare_model_scene(const std::string& path, const std::vector<Override>& overrides,
+                                  const std::string& style) {
+    return read_with_overrides(bare_model_tables(path), path, overrides, style);
 }
 
 }  // namespace burin

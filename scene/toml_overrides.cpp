@@ -41,7 +41,7 @@ std::string quoted(const std::string& text) {
 /// A table whose only member is the value; nothing if the text is no single TOML value.
 std::optional<toml::table> parse_value(const Override& o, const std::string& text) {
     const std::string line = "value = " + text;
-    if (line_nested_too_deep(line)) fail_override(o, kTooDeepToml);
+    if (line_nested_too_deep(line)) fail_override(o, kTomlTooDeep);
     try {
         toml::table table = toml::parse(line, override_place(o));
         if (table.size() == 1) return table;
@@ -91,12 +91,14 @@ toml::table override_value(const Override& o) {
 
 }  // namespace
 
-void apply_override(toml::table& root, const Override& o) {
+void apply_override(toml::table& root, const Override& o) { apply_override(root, o, o.key); }
+
+void apply_override(toml::table& root, const Override& o, std::string_view place) {
     constexpr int kMaxParts = 16;
     toml::table holder = override_value(o);
     toml::node&& value = std::move(*holder.get("value"));  // a copied node forgets its source
     toml::node* at = &root;
-    std::string_view rest = o.key;
+    std::string_view rest = place;
     for (int parts = 1; parts <= kMaxParts; ++parts) {
         const std::size_t dot = rest.find('.');
         const std::string_view part = rest.substr(0, dot);

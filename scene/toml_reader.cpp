@@ -43,7 +43,7 @@ SourcePosition TomlReader::position(std::string_view key) const {
 }
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
-    fail_at(position(key), context_ + (context_.empty() ? "" : " ") + std::string(key) + ": " + message);
+    fail_at(position(key), context_of(key) + ": " + message);
 }
 
 void TomlReader::fail(const std::string& message) const {
@@ -166,7 +166,8 @@ std::optional<TomlReader> TomlReader::table(std::string_view key) {
     if (table == nullptr) fail(key, "must be a table");
     const std::string_view within =
         context_.empty() ? std::string_view() : std::string_view(context_).substr(1, context_.size() - 2);
-    return TomlReader(*table, "[" + std::string(within) + (within.empty() ? "" : ".") + std::string(key) + "]", file_);
+    return TomlReader(*table, "[" + std::string(within) + (within.empty() ? "" : ".") + std::string(key) + "]", file_,
+                      page_);
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key) {
@@ -175,7 +176,7 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     if (node == nullptr) return result;
     const std::string name = "[[" + std::string(key) + "]]";
     if (const toml::table* const single = node->as_table()) {
-        result.emplace_back(*single, name, file_);
+        result.emplace_back(*single, name, file_, page_);
         return result;
     }
     const toml::array* const array = node->as_array();
@@ -183,8 +184,17 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     for (const toml::node& element : *array) {
         throw_if_interrupted();
         if (!element.is_table()) fail(key, "must be a list of tables, " + name);
-        result.emplace_back(*element.as_table(), name, file_);
+        result.emplace_back(*element.as_table(), name, file_, page_);
     }
+    return result;
+}
+
+std::vector<std::string> TomlReader::keys() const {
+    std::vector<std::pair<toml::source_position, std::string>> places;
+    for (const auto& [key, node] : *table_) places.emplace_back(key.source().begin, std::string(key.str()));
+    std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<std::string> result;
+    for (auto& [place, name] : places) result.push_back(std::move(name));
     return result;
 }
 
@@ -203,7 +213,7 @@ void TomlReader::finish() const {
         if (const auto closest = closest_word(key.str(), {known_.begin(), known_.end()})) {
             message += "; did you mean '" + *closest + "'?";
         } else {
-            message += "; docs/scene-format.md lists the known ones";
+            message += "; " + std::string(page_) + " lists the known ones";
         }
         SourcePosition where = position_of(node);
         const toml::source_region& source = key.source();

@@ -20,8 +20,10 @@ class TomlReader {
   public:
     /// `context` names the table in messages ("[camera]"); empty for the whole file. `file` is
     /// named for values that stand in no file.
-    TomlReader(const toml::table& table, std::string context, std::string file)
-        : table_(&table), context_(std::move(context)), file_(std::move(file)) {}
+    /// `page`: of the docs, lists the known keys.
+    TomlReader(const toml::table& table, std::string context, std::string file,
+               std::string_view page = "docs/scene-format.md")
+        : table_(&table), context_(std::move(context)), file_(std::move(file)), page_(page) {}
 
     struct Range {
         double low, high;
@@ -31,6 +33,7 @@ class TomlReader {
     bool has(std::string_view key) const { return table_->contains(key); }
     bool is_number(std::string_view key) const { return has(key) && table_->get(key)->is_number(); }
     bool is_text(std::string_view key) const { return has(key) && table_->get(key)->is_string(); }
+    bool is_table(std::string_view key) const { return has(key) && table_->get(key)->is_table(); }
     std::optional<double> number(std::string_view key, Range range);
     std::optional<int> integer(std::string_view key, int low, int high);
     std::optional<bool> boolean(std::string_view key);
@@ -48,6 +51,11 @@ class TomlReader {
     /// An array of tables; a single table counts as an array of one.
     std::vector<TomlReader> tables(std::string_view key);
 
+    /// The value of a key as it stands; nullptr if there is none.
+    const toml::node* node(std::string_view key) { return find(key); }
+    /// All keys, in the order of the file.
+    std::vector<std::string> keys() const;
+
     /// A key of the table that is nearly `key`.
     std::optional<std::string> misspelled(std::string_view key) const;
 
@@ -60,19 +68,27 @@ class TomlReader {
     [[noreturn]] void fail(const std::string& message) const;
     SourcePosition position(std::string_view key) const;
     SourcePosition position() const;
+    SourcePosition position_of(const toml::node& node) const;
+    /// What messages about a key begin with.
+    std::string context_of(std::string_view key) const {
+        return context_ + (context_.empty() ? "" : " ") + std::string(key);
+    }
+    const std::string& context() const { return context_; }
+    const std::string& file() const { return file_; }
+    /// Throws InputError, or UsageError for a place on the command line.
+    [[noreturn]] static void fail_at(const SourcePosition& position, const std::string& message);
 
     /// Values from the command line have this in front of their source path.
     static constexpr std::string_view kCommandLine = "--set ";
 
   private:
     const toml::node* find(std::string_view key);
-    SourcePosition position_of(const toml::node& node) const;
-    [[noreturn]] static void fail_at(const SourcePosition& position, const std::string& message);
     double checked_number(const toml::node& node, std::string_view key) const;
 
     const toml::table* table_;
     std::string context_;
     std::string file_;
+    std::string_view page_;
     std::set<std::string, std::less<>> known_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "shading/expression/error.h"
 #include "shading/expression/function_table.h"
+#include "shading/expression/unknown_word.h"
 
 namespace burin {
 namespace {
@@ -198,7 +199,7 @@ TypedValue ExpressionBuilder::comparison(const Token& sign, const TypedValue& a,
 TypedValue ExpressionBuilder::call(const SyntaxNode& node, std::span<const TypedValue> arguments) {
     const Token& token = node.token;
     const ExpressionFunction* const function = find_function(token.words);
-    if (function == nullptr) fail_unknown_function(token);
+    if (function == nullptr || is_word_of(symbols_.later, token.words)) fail_unknown_function(token);
     if (arguments.size() < function->least || arguments.size() > function->most) {
         const std::string most = function->most > 16 ? "or more" : "to " + std::to_string(function->most);
         const std::string count =

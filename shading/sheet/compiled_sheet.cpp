@@ -1,11 +1,102 @@
 #include "shading/sheet/compiled_sheet.h"
 
-namespace burin {
+#include <algorithm>
+#include <optional>
+#include <utility>
 
-CompiledSheet::CompiledSheet(const StyleSheet&, const SheetContext&) {
-    throw InputError("style sheets cannot be compiled yet");
+#include "shading/expression.h"
+#include "shading/expression/glob.h"
+#include "shading/sheet/compile_style.h"
+#include "shading/sheet/sheet_symbols.h"
+
+namespace burin {
+namespace {
+
+/// Compiles the lets by themselves, so that what is wrong with one is told with its own place.
+void check_lets(const StyleSheet& sheet, const ExpressionSymbols& symbols) {
+    ExpressionCompiler compiler(symbols);
+    std::optional<std::pair<const SheetLet*, ExpressionError>> fault;
+    for (const SheetLet& let : sheet.lets) {
+        try {
+            compiler.add(let.text.text, {.is_color = true});
+        } catch (const ExpressionError& error) {
+            // A let that uses a wrong one is not what is wrong.
+            const auto is_of_another = [](const ExpressionError& e) {
+                return std::string_view(e.what()).starts_with("in '");
+            };
+            if (!fault || (is_of_another(fault->second) && !is_of_another(error))) fault.emplace(&let, error);
+        }
+    }
+    if (fault) fault->first->text.fail(fault->second.column(), fault->second.what());
 }
 
-SetMatches CompiledSheet::match(const MatchInput&) const { return {}; }
+/// For each number, 0 = background: whether globs take its name. The background has none, and is never taken.
+std::vector<bool> taken_by(const std::vector<std::string>& globs, const std::vector<std::string>& names) {
+    std::vector<bool> taken(names.size() + 1);
+    for (std::size_t i = 0; i < names.size(); ++i) taken[i + 1] = matches_globs(globs, names[i]);
+    return taken;
+}
+
+CompiledSet compile_set(const LineSet& set, const ExpressionSymbols& symbols, const SheetContext& context) {
+    CompiledSet result;
+    result.name = set.name;
+    result.layer = set.layer;
+    result.style = set.style;
+    result.classes = set.classes;
+    result.qi = set.qi;
+    result.also = set.also;
+    result.is_enabled = set.is_enabled;
+    result.has_object_globs = !set.objects.empty();
+    result.has_material_globs = !set.materials.empty();
+    if (result.has_object_globs) result.objects = taken_by(set.objects, context.objects);
+    if (result.has_material_globs) result.materials = taken_by(set.materials, context.materials);
+    if (set.select) {
+        try {
+            result.select = compile_expression(set.select->text, symbols, {.highest_rate = ValueRate::piece});
+        } catch (const ExpressionError& error) {
+            set.select->fail(error.column(), error.what());
+        }
+        result.has_select = true;
+    }
+    return result;
+}
+
+bool is_told_anyway(const std::array<int, 2>& qi) { return qi[0] <= 1 && (qi[1] == 0 || qi[1] == 255); }
+
+}  // namespace
+
+CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& context) {
+    const ExpressionSymbols symbols = symbols_of(sheet, context);
+    check_lets(sheet, symbols);
+    for (const LineSet& set : sheet.sets) sets_.push_back(compile_set(set, symbols, context));
+    for (const SheetStyle& style : sheet.styles) styles_.push_back(compile_style(style, symbols, context));
+
+    for (const CompiledSet& set : sets_) {
+        if (!set.is_enabled) continue;
+        const CompiledStyle& style = styles_[set.style];
+        needs_.classes |= set.classes;
+        needs_.most_invisibility = std::max(needs_.most_invisibility, set.qi[1]);
+        if (!is_told_anyway(set.qi)) needs_.tells_invisibility = true;
+        VariableSet matched = variables_of(set.select);
+        if (set.has_object_globs) {
+            matched.add(Variable::object);
+            matched.add(Variable::object2);
+        }
+        if (set.has_material_globs) {
+            matched.add(Variable::material);
+            matched.add(Variable::material2);
+        }
+        select_variables_ |= matched;
+        needs_.variables |= matched;
+        needs_.variables |= style.variables;
+        if (style.needs_chains) needs_.chains = true;
+        if (style.settings.side != StrokeSide::both) needs_.one_sided = true;
+        needs_.most_reach_px = std::max(needs_.most_reach_px, style.most_reach_px);
+    }
+    if (needs_.variables.has(Variable::qi)) needs_.tells_invisibility = true;
+    needs_.tells_transmission = needs_.variables.has(Variable::transmission);
+    needs_.sides = needs_.variables.has_tier(VariableTier::sides);
+    if (needs_.variables.has_tier(VariableTier::chains)) needs_.chains = true;
+}
 
 }  // namespace burin

@@ -140,7 +140,8 @@ struct SheetLet {
 };
 
 struct StyleSheet {
-    std::string name;                                       ///< of the sheet: "technical", or the path of its file
+    std::string name;                                       ///< "technical"
+    std::string file;                                       ///< its path; empty: it has none
     std::string summary;                                    ///< one line
     std::optional<std::array<double, 2>> crease_angle_deg;  ///< from where to where creases fade in; or twice the same
     std::optional<bool> smooth_contours;
@@ -153,5 +154,8 @@ struct StyleSheet {
     std::vector<LineSet> sets;  ///< in the order in which they are asked
     std::vector<SheetStyle> styles;
 };
+
+/// The classes that enabled sets ask for.
+LineClassSet classes_of(const StyleSheet& sheet);
 
 }  // namespace burin

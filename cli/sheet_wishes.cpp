@@ -1,0 +1,84 @@
+#include "cli/sheet_wishes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "image/image_io.h"
+#include "scene/color.h"
+#include "shading/sheet/sheet_symbols.h"
+
+namespace burin {
+namespace {
+
+SheetParameter& parameter_for(StyleSheet& sheet, const std::string& name, const std::string& option) {
+    const auto found = std::find_if(sheet.parameters.begin(), sheet.parameters.end(),
+                                    [&](const SheetParameter& p) { return p.name == name; });
+    if (found != sheet.parameters.end()) return *found;
+    std::string known;
+    for (const SheetParameter& p : sheet.parameters) known += (known.empty() ? "" : ", ") + p.name;
+    throw UsageError(option + ": the style sheet " + sheet.name + " has no parameter '" + name + "'; it has " +
+                     (known.empty() ? "none" : known));
+}
+
+void set_parameter(StyleSheet& sheet, const std::string& name, const std::string& option, const StyleValue& value) {
+    SheetParameter& parameter = parameter_for(sheet, name, option);
+    if (parameter.value.kind != value.kind) {
+        throw UsageError(option + ": the parameter '" + name + "' of the style sheet " + sheet.name + " is " +
+                         (value.kind == StyleValue::Kind::color ? "no colour" : "a colour, not a number"));
+    }
+    // A range is in the unit of the parameter, not in pixels.
+    const bool has_range_in_px = parameter.value.unit == SheetUnit::px;
+    parameter.value = value;
+    if (!has_range_in_px) return;
+    if (const auto fault = fault_of_parameter(parameter)) throw UsageError(option + ": " + *fault);
+}
+
+/// Leaves visible lines only.
+void take_hidden_lines_away(StyleSheet& sheet) {
+    for (LineSet& set : sheet.sets) {
+        if (set.qi[0] > 0) {
+            set.is_enabled = false;
+        } else {
+            set.qi[1] = 0;
+        }
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Arguments& a) {
+    if (a.lines) throw UsageError("--lines: the style sheet says which lines are drawn; remove one of the two");
+    if (a.hidden && *a.hidden != HiddenStyle::none) {
+        throw UsageError("--hidden: the style sheet says how hidden lines are drawn; only none can stand beside it");
+    }
+    if (a.line_width_px) set_parameter(sheet, "width", "--line-width", StyleValue::of(*a.line_width_px));
+    if (!a.line_color.empty()) {
+        const glm::vec3 color = *color_from_hex(a.line_color);
+        set_parameter(sheet, "color", "--color", StyleValue::of_color({color.r, color.g, color.b}));
+    }
+    if (a.hidden) take_hidden_lines_away(sheet);
+    return std::make_shared<StyleSheet>(std::move(sheet));
+}
+
+std::string text_of_parameter(const SheetParameter& parameter) {
+    const StyleValue& value = parameter.value;
+    if (value.kind == StyleValue::Kind::color) {
+        char text[16];
+        int parts[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float encoded = srgb_from_linear(std::clamp(value.color[k], 0.0f, 1.0f));
+            parts[k] = static_cast<int>(std::lround(encoded * 255.0f));
+        }
+        std::snprintf(text, sizeof text, "#%02x%02x%02x", static_cast<unsigned>(parts[0]),
+                      static_cast<unsigned>(parts[1]), static_cast<unsigned>(parts[2]));
+        return text;
+    }
+    static constexpr const char* kUnits[] = {"", "mm", "pt", "%", "world"};
+    return text_of(value.number) + kUnits[static_cast<std::size_t>(value.unit)];
+}
+
+}  // namespace burin

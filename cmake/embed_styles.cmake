@@ -1,0 +1,13 @@
+# Makes a source of the style sheets in styles/, which the program brings along (scene/sheet_library.h).
+function(embed_styles output)
+    set(rows "")
+    foreach(name ${ARGN})
+        set(file ${PROJECT_SOURCE_DIR}/styles/${name}.toml)
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+        file(READ ${file} text)
+        string(APPEND rows "    {\"${name}\", R\"toml(${text})toml\"},\n")
+    endforeach()
+    set(source "// Made of styles/*.toml by cmake/embed_styles.cmake.\n#include <array>\n\n#include \"scene/sheet_library.h\"\n\nnamespace burin {\n\n")
+    string(APPEND source "std::span<const BuiltInSheet> built_in_sheets() {\n    static constexpr auto kSheets = std::to_array<BuiltInSheet>({\n${rows}    });\n    return kSheets;\n}\n\n}  // namespace burin\n")
+    file(CONFIGURE OUTPUT ${output} CONTENT "${source}" @ONLY)
+endfunction()

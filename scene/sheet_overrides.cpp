@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/text_scan.h"
+#include "scene/scene_tables.h"
+#include "scene/sheet_tables.h"
+#include "shading/expression/unknown_word.h"
+
+namespace burin {
+namespace {
+
+constexpr std::string_view kTopKeys[] = {"summary",    "crease_angle", "contours", "filter", "light",
+                                         "parameters", "groups",       "let",      "ramp"};
+
+[[noreturn]] void fail(const Override& o, const std::string& message) {
+    throw UsageError("--set " + printable(o.key) + "=" + printable(o.value) + ": " + message);
+}
+
+std::vector<std::string> names_in(const toml::table& root, std::string_view table) {
+    std::vector<std::string> names;
+    if (const toml::table* const found = root[table].as_table()) {
+        for (const auto& [key, node] : *found) names.emplace_back(key.str());
+    }
+    return names;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + printable(name);
+    return list.empty() ? "none" : list;
+}
+
+/// "set.NAME.KEY" with the set's number in place of its name; nothing where no set has the name.
+std::string path_in_sets(const toml::table& root, std::string_view rest) {
+    const std::size_t dot = rest.find('.');
+    const std::string_view name = rest.substr(0, dot);
+    const toml::array* const sets = root["set"].as_array();
+    for (std::size_t i = 0; sets != nullptr && i < sets->size(); ++i) {
+        const toml::table* const set = sets->get(i)->as_table();
+        if (set != nullptr && (*set)["name"].value<std::string_view>() == name)
+            return "set." + std::to_string(i) + (dot == std::string_view::npos ? "" : std::string(rest.substr(dot)));
+    }
+    return {};
+}
+
+/// Where in the tables a key of --set leads; `key`: behind "style.".
+std::string path_of(const toml::table& root, const Override& o, std::string_view key) {
+    const std::size_t dot = key.find('.');
+    const std::string_view first = key.substr(0, dot);
+    if (dot == std::string_view::npos) {
+        if (const toml::node* const parameter =
+                root["parameters"].as_table() != nullptr ? root["parameters"].as_table()->get(first) : nullptr) {
+            return "parameters." + std::string(first) + (parameter->is_table() ? ".value" : "");
+        }
+        if (std::find(std::begin(kTopKeys), std::end(kTopKeys), first) != std::end(kTopKeys)) return std::string(first);
+        const std::vector<std::string> parameters = names_in(root, "parameters");
+        fail(o, "the sheet has no parameter '" + printable(first) + "'" + suggestion_of(first, parameters) +
+                    "; it has " + listed(parameters));
+    }
+    const toml::table* const styles = root["style"].as_table();
+    if (styles != nullptr && styles->contains(first)) return "style." + std::string(key);
+    if (first == "set") {
+        const std::string path = path_in_sets(root, key.substr(dot + 1));
+        if (path.empty()) fail(o, "the sheet has no such set");
+        return path;
+    }
+    if (std::find(std::begin(kTopKeys), std::end(kTopKeys), first) != std::end(kTopKeys)) return std::string(key);
+    const std::vector<std::string> names = names_in(root, "style");
+    fail(o, "the sheet has no style '" + printable(first) + "'" + suggestion_of(first, names) + "; it has " +
+                listed(names));
+}
+
+}  // namespace
+
+void apply_sheet_override(toml::table& root, const Override& o) {
+    apply_override(root, o, path_of(root, o, std::string_view(o.key).substr(std::string_view("style.").size())));
+}
+
+}  // namespace burin
