@@ -157,6 +157,7 @@ void InkPixels::find_spots(const InkTile& tile, int column, int row) {
             const auto samples = static_cast<float>(record->samples);
             add(lines_.strokes[record->stroke], plan_.looks[record->stroke], record->nearness / samples, record->mask);
             InkSpot& spot = spots_.back().spot;
+            spot.is_share = record->is_plain;
             if (spot.is_share) continue;
             spot.alpha = std::min(record->alpha / samples, 1.0f);
             spot.color = record->color / record->alpha;

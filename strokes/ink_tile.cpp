@@ -140,12 +140,10 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
 
 void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
     placed_.clear();
-    bool is_constant = true, has_thin = false, has_others = false;
+    bool has_changes = false, has_thin = false, has_others = false;
     for (const InkSegmentRef& ref : segments) {
         const Placed& placed = placed_.emplace_back(Placed{ref, segment_of(ref)});
-        const InkPoint &first = placed_.front().segment.from(), &own = placed.segment.from();
-        is_constant = is_constant && placed.segment.is_constant() && own.width_px == first.width_px &&
-                      own.opacity == first.opacity && own.color == first.color;
+        has_changes = has_changes || !placed.segment.is_constant();
         for (const InkSegment::Part& part : placed.segment.parts()) (part.is_thin ? has_thin : has_others) = true;
     }
     chain_begin_ = records_.size();
@@ -153,7 +151,7 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
     // is thin comes last: its ink is light, and would keep darker ink of the same chain away.
     for (const bool is_thin : {false, true}) {
         if (!(is_thin ? has_thin : has_others)) continue;
-        if (!is_constant) draw_parts(is_thin, true);
+        if (has_changes) draw_parts(is_thin, true);
         draw_parts(is_thin, false);
     }
     for (std::size_t i = chain_begin_; i < records_.size(); ++i) record_at_[records_[i].pixel] = 0;
@@ -164,6 +162,7 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
 
 void InkTile::draw_parts(bool is_thin, bool body_only) {
     for (const Placed& placed : placed_) {
+        if (body_only && placed.segment.is_constant()) continue;
         const bool is_cut = is_clipped(placed.ref, placed.segment);
         for (const InkSegment::Part& part : placed.segment.parts()) {
             if (part.is_thin != is_thin) continue;
@@ -205,6 +204,8 @@ void InkTile::take(const Placed& placed, int column, int row, const StrokeMask& 
     const float share = placed.segment.share_nearest({rect_.x0 + column + 0.5, rect_.y0 + row + 0.5});
     const auto count = static_cast<float>(samples);
     const float ink = count * placed.segment.alpha_at(share);
+    const InkPlan::Look& look = plan_.looks[placed.ref.stroke];
+    record.is_plain = record.is_plain && look.is_plain && look == plan_.looks[record.stroke];
     record.samples += samples;
     record.alpha += ink;
     record.nearness += count * placed.segment.nearness_at(share);

@@ -23,7 +23,8 @@ constexpr double kHalf = 1.0 / 2048;
 TEST(InkPrinter, TapersKeepTheirMassAtEveryDegree) {
     for (const float width : {0.5f, 1.0f, 2.0f, 3.5f, 8.0f}) {
         for (int degree = 0; degree < 360; degree += 1) {
-            const double angle = glm::radians(static_cast<double>(degree)), length = 60, r = 0.5 * static_cast<double>(width);
+            const double angle = glm::radians(static_cast<double>(degree)), length = 60,
+                         r = 0.5 * static_cast<double>(width);
             const glm::dvec2 u(std::cos(angle), std::sin(angle)), from = glm::dvec2(72.37, 72.81) - 0.5 * length * u;
             InkPicture picture(144, 144);
             picture.only_lines = true;
@@ -43,7 +44,8 @@ TEST(InkPrinter, TapersOfManyPiecesKeepTheirMass) {
         InkPicture picture(144, 144);
         std::vector<InkPoint> points;
         for (int i = 0; i <= 40; ++i)
-            points.push_back(InkPicture::point(from + u * (length * i / 40), static_cast<float>(2 * r * (40 - i) / 40)));
+            points.push_back(
+                InkPicture::point(from + u * (length * i / 40), static_cast<float>(2 * r * (40 - i) / 40)));
         picture.add(points);
         const double theta = std::asin(r / length);
         const double mass = r * length * std::cos(theta) + r * r * (kPi / 2 + theta);
@@ -68,7 +70,8 @@ TEST(InkPrinter, GradientsRunEvenlyAlongTheStroke) {
             int count = 0;
             for (int y = 0; y < 260; ++y) {
                 for (int x = 0; x < 260; ++x) {
-                    const double alpha = at(image, "lines.A", x, y), s = glm::dot(glm::dvec2(x + 0.5, y + 0.5) - from, u);
+                    const double alpha = at(image, "lines.A", x, y),
+                                 s = glm::dot(glm::dvec2(x + 0.5, y + 0.5) - from, u);
                     if (alpha < 0.05 || s < 1 || s > length - 1) continue;
                     ++count;
                     ASSERT_NEAR(at(image, "lines.R", x, y) / alpha, s / length, 1.0 / 512 + kHalf / 2)
@@ -130,8 +133,7 @@ TEST(InkPrinter, OrderIsPriorityThenSeenThenSetThenClassThenNearnessThenChain) {
     EXPECT_TRUE(top_is_red(
         [&](InkedLines& l) { l.strokes[1].order.drawn_as = LineClass::crease, l.strokes[0].order.set = 1; }));
     EXPECT_TRUE(top_is_red([&](InkedLines& l) { l.strokes[1].order.set = 1, l.strokes[0].order.is_hidden = true; }));
-    EXPECT_TRUE(top_is_red(
-        [&](InkedLines& l) { l.strokes[1].order.is_hidden = true, l.strokes[1].order.below = -1; }));
+    EXPECT_TRUE(top_is_red([&](InkedLines& l) { l.strokes[1].order.is_hidden = true, l.strokes[1].order.below = -1; }));
 }
 
 TEST(InkPrinter, MultipliedInkAddsNothing) {
