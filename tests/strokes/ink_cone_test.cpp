@@ -87,6 +87,11 @@ TEST(InkCones, WithEqualRadiiAreTheStrokesOfADisc) {
             disc.draw({drawn.from[0], drawn.from[1]}, {drawn.to[0], drawn.to[1]}, drawn.radius_from);
             cone.draw(drawn);
             ASSERT_TRUE(are_equal(disc, cone)) << seed;
+            // The body adds nothing to it.
+            PenCone body = drawn;
+            body.body_only = true;
+            cone.draw(body);
+            ASSERT_TRUE(are_equal(disc, cone)) << seed;
             // Through the loops for cones: samples within rounding of the boundary aside.
             drawn.radius_to *= 1 + 1e-9;
             nearly.draw(drawn);
