@@ -117,6 +117,7 @@ void InkTile::draw(std::span<const InkSegmentRef> segments, std::span<const std:
         }
     }
     sort_records();
+    if (plan_.most_halo_px > 0) erase_behind_halos();
 }
 
 void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
@@ -218,12 +219,7 @@ void InkTile::sort_records() {
     for (std::size_t i = 1; i < first_sorted_.size(); ++i) first_sorted_[i] += first_sorted_[i - 1];
     sorted_.resize(records_.size());
     next_.assign(first_sorted_.begin(), first_sorted_.end() - 1);
-    for (const InkRecord& r : records_) sorted_[next_[r.pixel]++] = &r;
-}
-
-std::span<const InkRecord* const> InkTile::records_of(int column, int row) const {
-    const std::size_t i = index(column, row);
-    return {sorted_.data() + first_sorted_[i], first_sorted_[i + 1] - first_sorted_[i]};
+    for (std::uint32_t i = 0; i < records_.size(); ++i) sorted_[next_[records_[i].pixel]++] = i;
 }
 
 /// Whether boundaries may cut a segment. Those that may are chosen then.

@@ -114,8 +114,12 @@ class InkTile {
     };
     /// In their order.
     std::span<const Layer> layers() const { return layers_; }
-    /// Those of a pixel, in the order of their ranks.
-    std::span<const InkRecord* const> records_of(int column, int row) const;
+    /// Calls use(record) for those of a pixel, in the order of their ranks.
+    template <typename Use>
+    void for_records(int column, int row, const Use& use) const {
+        const std::size_t i = index(column, row);
+        for (std::uint32_t k = first_sorted_[i]; k < first_sorted_[i + 1]; ++k) use(records_[sorted_[k]]);
+    }
 
     PixelRect rect() const { return rect_; }
     /// Calls visit(column, row) for the pixels that have any strokes, row by row.
@@ -154,6 +158,8 @@ class InkTile {
     void draw_clipped(const InkSegmentRef& ref, const InkSegment& segment, const PenCone& cone, StrokeCanvas& onto);
     void take(const Placed& placed, int column, int row, const StrokeMask& mask);
     void sort_records();
+    void erase_behind_halos();
+    void erase_behind(const InkSegmentRef& ref, const InkSegment& segment);
 
     const InkedLines& lines_;
     const InkPlan& plan_;
@@ -171,7 +177,7 @@ class InkTile {
     std::vector<std::uint32_t> record_at_;  // of the chain that is drawn, by pixel: number + 1
     std::size_t chain_begin_ = 0;           // its first record
     std::vector<std::uint8_t> touched_;
-    std::vector<const InkRecord*> sorted_;
+    std::vector<std::uint32_t> sorted_;        // their numbers, by pixel
     std::vector<std::uint32_t> first_sorted_;  // of each pixel, and behind them the end
     std::vector<std::uint32_t> next_;
 

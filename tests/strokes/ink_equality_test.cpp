@@ -230,7 +230,9 @@ TEST(InkEquality, AStylesChangeStaysWhereItsStrokesAre) {
         std::vector<InkPoint> points;
         for (const InkPoint& p : picture.lines.points_of(stroke))
             points.push_back(InkPicture::point(p.place, p.width_px));
-        alone.add(points).caps = stroke.caps;
+        InkStroke& reaching = alone.add(points);
+        reaching.caps = stroke.caps;
+        reaching.side = stroke.side;  // else its finest pen is finer
         const Image reached = alone.draw(), after = changed.draw();
         for (const Channel& channel : before.channels()) {
             for (int y = 0; y < 80; ++y) {

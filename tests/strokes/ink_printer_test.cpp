@@ -206,5 +206,39 @@ TEST(InkPrinter, ButtCapsEndAtThePoint) {
     }
 }
 
+/// How wide the gap is in a bar behind another one, which is farther by some pixels' widths.
+double gap_px(double farther_px, double degree, bool perspective) {
+    InkPicture picture(96, 96);
+    picture.perspective = perspective;
+    const double angle = glm::radians(degree), focal_px = picture.projection_focal_px(), depth = 100;
+    const double farther = depth + farther_px * (perspective ? depth : 1) / focal_px;
+    const auto add_bar = [&](glm::dvec2 along, float width_px, double at) -> InkStroke& {
+        const glm::dvec2 middle(48.3, 47.9);
+        InkPoint a = InkPicture::point(middle - 30.0 * along, width_px), b = a;
+        b.place = middle + 30.0 * along;
+        a.nearness = b.nearness = static_cast<float>(perspective ? 1 / at : -at);
+        return picture.add({a, b});
+    };
+    const glm::dvec2 u(std::cos(angle), std::sin(angle));
+    InkStroke& front = add_bar(u, 4, depth);
+    front.halo_px = 3;
+    front.halo_depth_px = {2, 50};
+    front.order.drawn_as = LineClass::border;  // so that what is seen of the other one is known
+    add_bar({-u.y, u.x}, 6, farther);
+    return (60 * 6 + kPi * 9 - sum(picture.draw(), "coverage.silhouette")) / 6;
+}
+
+TEST(InkPrinter, HalosEraseWhatIsFartherAsWideAsTheyAre) {
+    for (const bool perspective : {false, true}) {
+        for (const double degree : {0.0, 30.0, 45.0, 77.0, 90.0}) {
+            for (const double farther : {0.0, 1.0, 10.0, 26.0, 40.0, 60.0, 500.0}) {
+                const double share = std::clamp((farther - 2) / 48, 0.0, 1.0);
+                EXPECT_NEAR(gap_px(farther, degree, perspective), 4 + 2 * 3 * share, 1.0 / 16)
+                    << farther << " px farther, " << degree << " deg" << (perspective ? ", perspective" : "");
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace burin
