@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,22 @@ namespace {
 
 enum class Look { constant, translucent, varying };
 
-/// The visible lines as strokes; pieces of one line that follow each other are one chain.
+/// Numbers for pieces, equal for those that hang together.
+class Chains {
+  public:
+    std::uint64_t chain_of(const LinePiece& piece) {
+        std::uint64_t& from = ends_.try_emplace({piece.from.x, piece.from.y}, ends_.size()).first->second;
+        return ends_.try_emplace({piece.to.x, piece.to.y}, from).first->second = from;
+    }
+
+  private:
+    std::map<std::pair<double, double>, std::uint64_t> ends_;
+};
+
+/// The visible lines as strokes.
 InkedLines inked(const LineDrawing& drawing, const LineStyle& style, Look look) {
     InkedLines lines;
-    const LinePiece* before = nullptr;
-    std::uint64_t chain = 0;
+    Chains chains;
     for (const auto& list : drawing.visible()) {
         for (const LinePiece& piece : list) {
             InkOrder order;
@@ -33,13 +45,11 @@ InkedLines inked(const LineDrawing& drawing, const LineStyle& style, Look look) 
                 lines.boundaries.push_back({piece.from, piece.to, piece.nearness_from, piece.nearness_to,
                                             piece.front_on_left, order, piece.is_drawn});
             if (!piece.is_drawn) continue;
-            if (before == nullptr || !(before->line == piece.line)) ++chain;
-            before = &piece;
             InkStroke stroke;
             stroke.first_point = lines.points.size();
             stroke.point_count = 2;
             stroke.order = order;
-            stroke.chain = chain;
+            stroke.chain = chains.chain_of(piece);
             stroke.is_constant = look != Look::varying;
             InkPoint point;
             point.occludes = piece.occludes;

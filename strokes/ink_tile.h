@@ -28,11 +28,15 @@ struct InkPlan {
         float strength = 1;  ///< of a plain one: the share of each sample
         bool operator==(const Look&) const = default;
     };
-    std::vector<InkOrder> orders;  ///< by rank
-    std::vector<Look> looks;       ///< of each stroke
-    double most_radius_px = 0;     ///< of all strokes
+    std::vector<InkOrder> orders;      ///< by rank
+    std::vector<Look> looks;           ///< of each stroke
+    std::vector<float> pen_radius_px;  ///< of each stroke, of plain ones
+    /// Of each boundary: strokes of lower ranks are hidden by it.
+    std::vector<std::uint32_t> hides_below;
+    double most_radius_px = 0;  ///< of all strokes
     float most_halo_px = 0;
-    bool may_hide = false;  ///< boundaries may hide a part of some stroke
+    bool may_hide = false;          ///< boundaries may hide a part of some stroke
+    bool has_drawn_widths = false;  ///< some boundaries hide strokes that are wider than what is drawn along them
 };
 
 /// The side of a line on which its stroke is drawn: what is behind surfaces has none.
@@ -46,6 +50,7 @@ InkPlan plan_of(const InkedLines& lines);
 struct InkSegmentRef {
     std::uint32_t stroke;
     std::uint32_t point;
+    std::uint32_t rank;
 };
 
 /// The samples of one pixel that a chain has, and the sum of their ink.
@@ -65,7 +70,7 @@ class PieceMasks {
     /// Calls use(column, row, mask) for the pixels of a rectangle that it touches, counted from the rectangle's first.
     template <typename Use>
     void draw(const TileKernels& kernels, const PenCone& cone, PixelRect rect, const Use& use) {
-        const double reach = std::max(cone.radius_from, cone.radius_to) + 1;
+        const double reach = std::max(cone.radius_from, cone.radius_to) + kMarginPx;
         const auto within = [](double v, int low, int high) {
             return static_cast<int>(std::clamp(v, static_cast<double>(low), static_cast<double>(high)));
         };
@@ -93,6 +98,8 @@ class PieceMasks {
     }
 
   private:
+    static constexpr double kMarginPx = 1.0 / 8;  // for shifted samples, and rounding
+
     std::vector<StrokeMask, CacheLineAllocator<StrokeMask>> masks_;
     std::vector<std::uint8_t> touched_;
 };
@@ -151,10 +158,11 @@ class InkTile {
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
     InkSegment segment_of(const InkSegmentRef& ref) const;
     void cut_at_ends(const InkSegmentRef& ref, InkSegment& segment) const;
+    void find_boundaries(std::span<const std::uint32_t> boundaries);
     void draw_layer(std::span<const InkSegmentRef> segments);
     void draw_chain(std::span<const InkSegmentRef> segments);
     void draw_parts(bool is_thin, bool body_only);
-    bool is_clipped(const InkSegmentRef& ref, const InkSegment& segment);
+    bool is_clipped(const InkSegmentRef& ref);
     void draw_clipped(const InkSegmentRef& ref, const InkSegment& segment, const PenCone& cone, StrokeCanvas& onto);
     void take(const Placed& placed, int column, int row, const StrokeMask& mask);
     void sort_records();
@@ -170,7 +178,8 @@ class InkTile {
     std::deque<StrokeCanvas> canvases_;
     std::size_t used_canvases_ = 0;
     std::vector<Layer> layers_;
-    std::vector<InkSegmentRef> segments_;
+    std::vector<InkSegmentRef> segments_;  // by rank
+    std::vector<std::uint64_t> keys_;
     std::vector<Placed> placed_;
 
     std::vector<InkRecord> records_;

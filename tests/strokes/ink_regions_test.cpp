@@ -127,7 +127,8 @@ TEST(InkRegions, AreExactWhereTheyAreFew) {
         std::array<InkSpot, 3> spots;
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::uint32_t& row : masks[i].rows) row = random.bits();
-            spots[i] = {&masks[i], {static_cast<float>(random.real(0, 1)), 0, 0}, static_cast<float>(random.real(0, 1))};
+            spots[i] = {
+                &masks[i], {static_cast<float>(random.real(0, 1)), 0, 0}, static_cast<float>(random.real(0, 1))};
         }
         regions.reset();
         for (const InkSpot& spot : spots) regions.lay_below(spot);
