@@ -41,8 +41,8 @@ namespace burin::bench {
 namespace {
 
 // What a PNG needs, and what an EXR gets unless asked otherwise.
-constexpr LayerSet kLinesAndFill{.depth = false, .normal = false, .ids = false};
-constexpr LayerSet kAllLayers{};
+const LayerSet kLinesAndFill{.depth = false, .normal = false, .ids = false};
+const LayerSet kAllLayers{};
 
 /// Cuts each triangle into four, at the middles of its sides.
 void quarter(Mesh& mesh) {

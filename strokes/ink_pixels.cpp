@@ -153,14 +153,15 @@ void InkPixels::find_spots(const InkTile& tile, int column, int row) {
             add(lines_.strokes[layer.stroke], *layer.look, 0, layer.canvas->at(column, row));
     }
     if (tile.has_records(column, row)) {
-        for (const InkRecord* record : tile.records_of(column, row)) {
-            const auto samples = static_cast<float>(record->samples);
-            add(lines_.strokes[record->stroke], plan_.looks[record->stroke], record->nearness / samples, record->mask);
+        tile.for_records(column, row, [&](const InkRecord& record) {
+            const auto samples = static_cast<float>(record.samples);
+            add(lines_.strokes[record.stroke], plan_.looks[record.stroke], record.nearness / samples, record.mask);
             InkSpot& spot = spots_.back().spot;
-            if (spot.is_share) continue;
-            spot.alpha = std::min(record->alpha / samples, 1.0f);
-            spot.color = record->color / record->alpha;
-        }
+            spot.is_share = record.is_plain;
+            if (spot.is_share) return;
+            spot.alpha = std::min(record.alpha / samples, 1.0f);
+            spot.color = record.color / record.alpha;
+        });
     }
     if (spots_.size() < 2) return;
     std::sort(spots_.begin(), spots_.end(), [](const Placed& a, const Placed& b) {

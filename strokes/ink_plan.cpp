@@ -9,24 +9,32 @@ namespace burin {
 InkPlan plan_of(const InkedLines& lines) {
     InkPlan plan;
     std::map<InkOrder, std::uint32_t> ranks;
-    for (const InkStroke& stroke : lines.strokes) ranks.emplace(stroke.order, 0);
+    const InkOrder* last = nullptr;  // strokes that follow each other mostly have one order
+    for (const InkStroke& stroke : lines.strokes) {
+        if (last == nullptr || stroke.order != *last) ranks.emplace(stroke.order, 0);
+        last = &stroke.order;
+    }
     for (auto& [order, rank] : ranks) {
         rank = static_cast<std::uint32_t>(plan.orders.size());
         plan.orders.push_back(order);
     }
     plan.looks.reserve(lines.strokes.size());
+    plan.pen_radius_px.reserve(lines.strokes.size());
     float most_width_px = 0;
-    const InkOrder* least_order = nullptr;  // of the strokes that boundaries may cut
+    std::uint32_t least_rank = ~0u;  // of the strokes that boundaries may cut
     for (const InkStroke& stroke : lines.strokes) {
         InkPlan::Look& look = plan.looks.emplace_back();
-        look.rank = ranks.find(stroke.order)->second;
+        const bool is_as_before = plan.looks.size() > 1 && stroke.order == (&stroke - 1)->order;
+        look.rank = is_as_before ? plan.looks[plan.looks.size() - 2].rank : ranks.find(stroke.order)->second;
         const auto points = lines.points_of(stroke);
         const InkPoint& first = points.front();
         look.is_plain = stroke.is_constant && stroke.blend == InkBlend::over && first.opacity == 1;
         if (look.is_plain) {
             look.color = first.color;
-            look.strength = Pen(first.width_px, drawn_side(stroke)).strength;
         }
+        const Pen pen(first.width_px, drawn_side(stroke));
+        if (look.is_plain) look.strength = pen.strength;
+        plan.pen_radius_px.push_back(static_cast<float>(pen.radius_px));
         float width_px = first.width_px;
         if (!stroke.is_constant) {
             for (const InkPoint& p : points) width_px = std::max(width_px, p.width_px);
@@ -35,12 +43,16 @@ InkPlan plan_of(const InkedLines& lines) {
         plan.most_halo_px = std::max(plan.most_halo_px, stroke.halo_px);
         if (stroke.is_behind || stroke.order.is_hidden) continue;
         most_width_px = std::max(most_width_px, width_px);
-        if (least_order == nullptr || stroke.order < *least_order) least_order = &stroke.order;
+        least_rank = std::min(least_rank, look.rank);
     }
-    plan.may_hide = least_order != nullptr &&
-                    std::any_of(lines.boundaries.begin(), lines.boundaries.end(), [&](const InkBoundary& b) {
-                        return !b.is_drawn || b.order > *least_order || b.drawn_width_px < most_width_px;
-                    });
+    plan.hides_below.reserve(lines.boundaries.size());
+    for (const InkBoundary& b : lines.boundaries) {
+        const auto above = std::lower_bound(plan.orders.begin(), plan.orders.end(), b.order) - plan.orders.begin();
+        plan.hides_below.push_back(b.is_drawn ? static_cast<std::uint32_t>(above) : ~0u);
+        plan.has_drawn_widths = plan.has_drawn_widths || b.drawn_width_px < most_width_px;
+        plan.may_hide = plan.may_hide || least_rank < plan.hides_below.back();
+    }
+    plan.may_hide = plan.may_hide || plan.has_drawn_widths;
     return plan;
 }
 

@@ -32,11 +32,12 @@ struct Bins {
                 // At least the finest pen, and a pixel for what samples are shifted.
                 const double reach =
                     0.5 * static_cast<double>(std::max({from.width_px, to.width_px, 1.0f})) + halo_px + filter_px + 1;
-                tiles.visit(glm::min(from.place, to.place) - reach, glm::max(from.place, to.place) + reach,
-                            [&](std::uint32_t tile) {
-                                segment_records[0].push_back(
-                                    {tile, {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(p)}});
-                            });
+                tiles.visit(
+                    glm::min(from.place, to.place) - reach, glm::max(from.place, to.place) + reach,
+                    [&](std::uint32_t tile) {
+                        segment_records[0].push_back(
+                            {tile, {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(p), plan.looks[i].rank}});
+                    });
             }
         }
         segments = TileLists<InkSegmentRef>(segment_records, tiles.count());

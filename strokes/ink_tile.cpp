@@ -69,27 +69,12 @@ void InkTile::draw(std::span<const InkSegmentRef> segments, std::span<const std:
     records_.clear();
     layers_.clear();
     used_canvases_ = 0;
-    boundaries_.clear();
-    boundary_numbers_.assign(boundaries.begin(), boundaries.end());
-    hiding_for_.reset();
-    hiding_.clear();
-    bool has_sides = false;
-    for (const InkSegmentRef& ref : segments)
-        has_sides = has_sides || drawn_side(lines_.strokes[ref.stroke]) != StrokeSide::both;
-    if (plan_.may_hide || has_sides) {
-        clipper_.reset(rect.x0, rect.y0, rect.width(), rect.height());
-        clipper_.set_boundaries(hiding_);
-        for (const std::uint32_t i : boundaries) {
-            const InkBoundary& b = lines_.boundaries[i];
-            boundaries_.push_back({b.from, b.to, depth_px(projection_, b.nearness_from),
-                                   depth_px(projection_, b.nearness_to), true, b.front_on_left});
-        }
-    }
-    segments_.assign(segments.begin(), segments.end());
-    const auto rank_of = [&](const InkSegmentRef& ref) { return plan_.looks[ref.stroke].rank; };
-    std::sort(segments_.begin(), segments_.end(), [&](const InkSegmentRef& a, const InkSegmentRef& b) {
-        return std::tuple(rank_of(a), a.stroke, a.point) < std::tuple(rank_of(b), b.stroke, b.point);
-    });
+    keys_.clear();
+    for (std::size_t i = 0; i < segments.size(); ++i) keys_.push_back(std::uint64_t{segments[i].rank} << 32 | i);
+    std::sort(keys_.begin(), keys_.end());
+    segments_.clear();
+    for (const std::uint64_t key : keys_) segments_.push_back(segments[static_cast<std::uint32_t>(key)]);
+    find_boundaries(boundaries);
     const auto chain_of = [&](const InkSegmentRef& ref) {
         const InkStroke& stroke = lines_.strokes[ref.stroke];
         return std::pair(stroke.chain, stroke.blend);
@@ -97,7 +82,7 @@ void InkTile::draw(std::span<const InkSegmentRef> segments, std::span<const std:
     for (std::size_t begin = 0, end; begin < segments_.size(); begin = end) {
         const InkPlan::Look& look = plan_.looks[segments_[begin].stroke];
         bool is_layer = look.is_plain && plan_.most_halo_px <= 0;
-        for (end = begin; end < segments_.size() && rank_of(segments_[end]) == look.rank; ++end)
+        for (end = begin; end < segments_.size() && segments_[end].rank == look.rank; ++end)
             is_layer = is_layer && plan_.looks[segments_[end].stroke] == look;
         const std::span<InkSegmentRef> own(segments_.data() + begin, end - begin);
         if (is_layer) {
@@ -117,6 +102,35 @@ void InkTile::draw(std::span<const InkSegmentRef> segments, std::span<const std:
         }
     }
     sort_records();
+    if (plan_.most_halo_px > 0) erase_behind_halos();
+}
+
+/// Finds the boundaries that may hide a part of any segment, if there are any.
+void InkTile::find_boundaries(std::span<const std::uint32_t> boundaries) {
+    boundaries_.clear();
+    boundary_numbers_.clear();
+    hiding_for_.reset();
+    hiding_.clear();
+    bool has_sides = false;
+    std::uint32_t least_rank = ~0u;
+    for (const InkSegmentRef& ref : segments_) {
+        const InkStroke& stroke = lines_.strokes[ref.stroke];
+        if (stroke.is_behind || stroke.order.is_hidden) continue;
+        has_sides = has_sides || stroke.side != StrokeSide::both;
+        least_rank = std::min(least_rank, ref.rank);
+    }
+    const bool may_hide =
+        plan_.has_drawn_widths || std::any_of(boundaries.begin(), boundaries.end(),
+                                              [&](std::uint32_t i) { return least_rank < plan_.hides_below[i]; });
+    if (!may_hide && !has_sides) return;
+    clipper_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
+    clipper_.set_boundaries(hiding_);
+    for (const std::uint32_t i : boundaries) {
+        const InkBoundary& b = lines_.boundaries[i];
+        boundaries_.push_back({b.from, b.to, depth_px(projection_, b.nearness_from),
+                               depth_px(projection_, b.nearness_to), true, b.front_on_left});
+        boundary_numbers_.push_back(i);
+    }
 }
 
 void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
@@ -126,8 +140,13 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
     const std::uint32_t stroke = segments.front().stroke;
     layers_.push_back({&plan_.looks[stroke], stroke, &canvas});
     for (const InkSegmentRef& ref : segments) {
+        const bool is_cut = is_clipped(ref);
+        if (!is_cut && lines_.strokes[ref.stroke].caps == StrokeCaps::round) {  // mostly
+            canvas.draw(lines_.points[ref.point].place, lines_.points[ref.point + 1].place,
+                        static_cast<double>(plan_.pen_radius_px[ref.stroke]));
+            continue;
+        }
         const InkSegment segment = segment_of(ref);
-        const bool is_cut = is_clipped(ref, segment);
         for (const InkSegment::Part& part : segment.parts()) {
             if (is_cut) {
                 draw_clipped(ref, segment, part.cone, canvas);
@@ -140,12 +159,10 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
 
 void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
     placed_.clear();
-    bool is_constant = true, has_thin = false, has_others = false;
+    bool has_changes = false, has_thin = false, has_others = false;
     for (const InkSegmentRef& ref : segments) {
         const Placed& placed = placed_.emplace_back(Placed{ref, segment_of(ref)});
-        const InkPoint &first = placed_.front().segment.from(), &own = placed.segment.from();
-        is_constant = is_constant && placed.segment.is_constant() && own.width_px == first.width_px &&
-                      own.opacity == first.opacity && own.color == first.color;
+        has_changes = has_changes || !placed.segment.is_constant();
         for (const InkSegment::Part& part : placed.segment.parts()) (part.is_thin ? has_thin : has_others) = true;
     }
     chain_begin_ = records_.size();
@@ -153,7 +170,7 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
     // is thin comes last: its ink is light, and would keep darker ink of the same chain away.
     for (const bool is_thin : {false, true}) {
         if (!(is_thin ? has_thin : has_others)) continue;
-        if (!is_constant) draw_parts(is_thin, true);
+        if (has_changes) draw_parts(is_thin, true);
         draw_parts(is_thin, false);
     }
     for (std::size_t i = chain_begin_; i < records_.size(); ++i) record_at_[records_[i].pixel] = 0;
@@ -164,7 +181,8 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
 
 void InkTile::draw_parts(bool is_thin, bool body_only) {
     for (const Placed& placed : placed_) {
-        const bool is_cut = is_clipped(placed.ref, placed.segment);
+        if (body_only && placed.segment.is_constant()) continue;
+        const bool is_cut = is_clipped(placed.ref);
         for (const InkSegment::Part& part : placed.segment.parts()) {
             if (part.is_thin != is_thin) continue;
             PenCone cone = part.cone;
@@ -205,6 +223,8 @@ void InkTile::take(const Placed& placed, int column, int row, const StrokeMask& 
     const float share = placed.segment.share_nearest({rect_.x0 + column + 0.5, rect_.y0 + row + 0.5});
     const auto count = static_cast<float>(samples);
     const float ink = count * placed.segment.alpha_at(share);
+    const InkPlan::Look& look = plan_.looks[placed.ref.stroke];
+    record.is_plain = record.is_plain && look.is_plain && look == plan_.looks[record.stroke];
     record.samples += samples;
     record.alpha += ink;
     record.nearness += count * placed.segment.nearness_at(share);
@@ -217,28 +237,25 @@ void InkTile::sort_records() {
     for (std::size_t i = 1; i < first_sorted_.size(); ++i) first_sorted_[i] += first_sorted_[i - 1];
     sorted_.resize(records_.size());
     next_.assign(first_sorted_.begin(), first_sorted_.end() - 1);
-    for (const InkRecord& r : records_) sorted_[next_[r.pixel]++] = &r;
-}
-
-std::span<const InkRecord* const> InkTile::records_of(int column, int row) const {
-    const std::size_t i = index(column, row);
-    return {sorted_.data() + first_sorted_[i], first_sorted_[i + 1] - first_sorted_[i]};
+    for (std::uint32_t i = 0; i < records_.size(); ++i) sorted_[next_[records_[i].pixel]++] = i;
 }
 
 /// Whether boundaries may cut a segment. Those that may are chosen then.
-bool InkTile::is_clipped(const InkSegmentRef& ref, const InkSegment& segment) {
+bool InkTile::is_clipped(const InkSegmentRef& ref) {
     const InkStroke& stroke = lines_.strokes[ref.stroke];
     if (stroke.is_behind || stroke.order.is_hidden || boundaries_.empty())
         return drawn_side(stroke) != StrokeSide::both;
     const bool has_side = stroke.side != StrokeSide::both;
-    const Hiding wanted{plan_.looks[ref.stroke].rank, has_side,
-                        std::max(segment.from().width_px, segment.to().width_px)};
+    Hiding wanted{ref.rank, has_side, 0};
+    if (plan_.has_drawn_widths)
+        wanted.width_px = std::max(lines_.points[ref.point].width_px, lines_.points[ref.point + 1].width_px);
     if (hiding_for_ == wanted) return has_side || !hiding_.empty();
     hiding_for_ = wanted;
     hiding_.clear();
     for (std::size_t i = 0; i < boundaries_.size(); ++i) {
-        const InkBoundary& b = lines_.boundaries[boundary_numbers_[i]];
-        if (has_side || !b.is_drawn || b.order > stroke.order || b.drawn_width_px < wanted.width_px)
+        const std::uint32_t number = boundary_numbers_[i];
+        if (has_side || ref.rank < plan_.hides_below[number] ||
+            lines_.boundaries[number].drawn_width_px < wanted.width_px)
             hiding_.push_back(&boundaries_[i]);
     }
     clipper_.set_boundaries(hiding_);

@@ -28,11 +28,15 @@ struct InkPlan {
         float strength = 1;  ///< of a plain one: the share of each sample
         bool operator==(const Look&) const = default;
     };
-    std::vector<InkOrder> orders;  ///< by rank
-    std::vector<Look> looks;       ///< of each stroke
-    double most_radius_px = 0;     ///< of all strokes
+    std::vector<InkOrder> orders;      ///< by rank
+    std::vector<Look> looks;           ///< of each stroke
+    std::vector<float> pen_radius_px;  ///< of each stroke, of plain ones
+    /// Of each boundary: strokes of lower ranks are hidden by it.
+    std::vector<std::uint32_t> hides_below;
+    double most_radius_px = 0;  ///< of all strokes
     float most_halo_px = 0;
-    bool may_hide = false;  ///< boundaries may hide a part of some stroke
+    bool may_hide = false;          ///< boundaries may hide a part of some stroke
+    bool has_drawn_widths = false;  ///< some boundaries hide strokes that are wider than what is drawn along them
 };
 
 /// The side of a line on which its stroke is drawn: what is behind surfaces has none.
@@ -46,12 +50,14 @@ InkPlan plan_of(const InkedLines& lines);
 struct InkSegmentRef {
     std::uint32_t stroke;
     std::uint32_t point;
+    std::uint32_t rank;
 };
 
 /// The samples of one pixel that a chain has, and the sum of their ink.
 struct InkRecord {
     std::uint32_t pixel = 0;
     std::uint32_t stroke = 0;  ///< the first one of its chain here
+    bool is_plain = true;      ///< all of it is opaque ink of the first one's look
     StrokeMask mask;
     int samples = 0;
     float alpha = 0, nearness = 0;  ///< sums over the samples
@@ -64,7 +70,7 @@ class PieceMasks {
     /// Calls use(column, row, mask) for the pixels of a rectangle that it touches, counted from the rectangle's first.
     template <typename Use>
     void draw(const TileKernels& kernels, const PenCone& cone, PixelRect rect, const Use& use) {
-        const double reach = std::max(cone.radius_from, cone.radius_to) + 1;
+        const double reach = std::max(cone.radius_from, cone.radius_to) + kMarginPx;
         const auto within = [](double v, int low, int high) {
             return static_cast<int>(std::clamp(v, static_cast<double>(low), static_cast<double>(high)));
         };
@@ -92,6 +98,8 @@ class PieceMasks {
     }
 
   private:
+    static constexpr double kMarginPx = 1.0 / 8;  // for shifted samples, and rounding
+
     std::vector<StrokeMask, CacheLineAllocator<StrokeMask>> masks_;
     std::vector<std::uint8_t> touched_;
 };
@@ -113,8 +121,12 @@ class InkTile {
     };
     /// In their order.
     std::span<const Layer> layers() const { return layers_; }
-    /// Those of a pixel, in the order of their ranks.
-    std::span<const InkRecord* const> records_of(int column, int row) const;
+    /// Calls use(record) for those of a pixel, in the order of their ranks.
+    template <typename Use>
+    void for_records(int column, int row, const Use& use) const {
+        const std::size_t i = index(column, row);
+        for (std::uint32_t k = first_sorted_[i]; k < first_sorted_[i + 1]; ++k) use(records_[sorted_[k]]);
+    }
 
     PixelRect rect() const { return rect_; }
     /// Calls visit(column, row) for the pixels that have any strokes, row by row.
@@ -146,13 +158,16 @@ class InkTile {
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
     InkSegment segment_of(const InkSegmentRef& ref) const;
     void cut_at_ends(const InkSegmentRef& ref, InkSegment& segment) const;
+    void find_boundaries(std::span<const std::uint32_t> boundaries);
     void draw_layer(std::span<const InkSegmentRef> segments);
     void draw_chain(std::span<const InkSegmentRef> segments);
     void draw_parts(bool is_thin, bool body_only);
-    bool is_clipped(const InkSegmentRef& ref, const InkSegment& segment);
+    bool is_clipped(const InkSegmentRef& ref);
     void draw_clipped(const InkSegmentRef& ref, const InkSegment& segment, const PenCone& cone, StrokeCanvas& onto);
     void take(const Placed& placed, int column, int row, const StrokeMask& mask);
     void sort_records();
+    void erase_behind_halos();
+    void erase_behind(const InkSegmentRef& ref, const InkSegment& segment);
 
     const InkedLines& lines_;
     const InkPlan& plan_;
@@ -163,14 +178,15 @@ class InkTile {
     std::deque<StrokeCanvas> canvases_;
     std::size_t used_canvases_ = 0;
     std::vector<Layer> layers_;
-    std::vector<InkSegmentRef> segments_;
+    std::vector<InkSegmentRef> segments_;  // by rank
+    std::vector<std::uint64_t> keys_;
     std::vector<Placed> placed_;
 
     std::vector<InkRecord> records_;
     std::vector<std::uint32_t> record_at_;  // of the chain that is drawn, by pixel: number + 1
     std::size_t chain_begin_ = 0;           // its first record
     std::vector<std::uint8_t> touched_;
-    std::vector<const InkRecord*> sorted_;
+    std::vector<std::uint32_t> sorted_;        // their numbers, by pixel
     std::vector<std::uint32_t> first_sorted_;  // of each pixel, and behind them the end
     std::vector<std::uint32_t> next_;
 

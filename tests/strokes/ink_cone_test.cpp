@@ -29,12 +29,23 @@ PenCone some_cone(Random& random, glm::dvec2 low, glm::dvec2 size) {
     const auto place = [&] { return low + size * glm::dvec2(random.real(-0.2, 1.2), random.real(-0.2, 1.2)); };
     glm::dvec2 from = place(), to = place();
     switch (random.integer(0, 7)) {
-        case 0: to = from; break;
-        case 1: to.y = from.y; break;
-        case 2: to.x = from.x; break;
-        case 3: to = from + glm::dvec2(random.real(-2, 2), random.real(-2, 2)); break;
-        case 4: to.y = from.y + random.real(-0.1, 0.1) * (to.x - from.x); break;
-        default: break;
+        case 0:
+            to = from;
+            break;
+        case 1:
+            to.y = from.y;
+            break;
+        case 2:
+            to.x = from.x;
+            break;
+        case 3:
+            to = from + glm::dvec2(random.real(-2, 2), random.real(-2, 2));
+            break;
+        case 4:
+            to.y = from.y + random.real(-0.1, 0.1) * (to.x - from.x);
+            break;
+        default:
+            break;
     }
     return {{from.x, from.y}, {to.x, to.y}, std::pow(10.0, random.real(-1, 1)), std::pow(10.0, random.real(-1, 1))};
 }
@@ -76,6 +87,11 @@ TEST(InkCones, WithEqualRadiiAreTheStrokesOfADisc) {
             disc.draw({drawn.from[0], drawn.from[1]}, {drawn.to[0], drawn.to[1]}, drawn.radius_from);
             cone.draw(drawn);
             ASSERT_TRUE(are_equal(disc, cone)) << seed;
+            // The body adds nothing to it.
+            PenCone body = drawn;
+            body.body_only = true;
+            cone.draw(body);
+            ASSERT_TRUE(are_equal(disc, cone)) << seed;
             // Through the loops for cones: samples within rounding of the boundary aside.
             drawn.radius_to *= 1 + 1e-9;
             nearly.draw(drawn);
@@ -98,8 +114,8 @@ TEST(InkCones, HaveTheSamplesOfTheConvexHull) {
                 const double shift = stroke_row_shift(corner.y * 16 + row);
                 for (int column = 0; column < 20 * 32; ++column) {
                     const double down = is_level ? kStrokeColumnShifts[static_cast<std::size_t>(column % 8)] / 16 : 0;
-                    const glm::dvec2 sample = glm::dvec2(corner) + glm::dvec2((column + 0.5 + shift) / 32,
-                                                                              (row + 0.5) / 16 + down);
+                    const glm::dvec2 sample =
+                        glm::dvec2(corner) + glm::dvec2((column + 0.5 + shift) / 32, (row + 0.5) / 16 + down);
                     const double outside = distance_to(cone, sample);
                     if (std::abs(outside) < 2e-5) continue;
                     const std::uint32_t bits =
@@ -156,12 +172,13 @@ TEST(InkCones, AreAsLargeAsTheFormulaSays) {
             const double angle = glm::radians(static_cast<double>(degree)), length = 30, r0 = width / 2,
                          r1 = random.real(0.1, 1.0) * r0;
             const glm::dvec2 u(std::cos(angle), std::sin(angle)),
-                from = glm::dvec2(40.3, 40.1) + glm::dvec2(random.real(0, 1), random.real(0, 1)), to = from + length * u;
+                from = glm::dvec2(40.3, 40.1) + glm::dvec2(random.real(0, 1), random.real(0, 1)),
+                to = from + length * u;
             canvas.reset(0, 0, 80, 80);
             canvas.draw(PenCone{{from.x, from.y}, {to.x, to.y}, r0, r1});
             const double theta = std::asin((r0 - r1) / length), pi = 3.14159265358979;
-            const double area = (r0 + r1) * length * std::cos(theta) + r0 * r0 * (pi / 2 + theta) +
-                                r1 * r1 * (pi / 2 - theta);
+            const double area =
+                (r0 + r1) * length * std::cos(theta) + r0 * r0 * (pi / 2 + theta) + r1 * r1 * (pi / 2 - theta);
             const double off = samples_of(canvas) / kSamples / area - 1;
             EXPECT_LT(std::abs(off), 0.01) << degree << " deg, " << width << " px";
             sum += off;

@@ -76,23 +76,27 @@ Scene some_scene(int kind) {
         return glm::dvec3(64 + p.x, 64 + 0.8 * p.y - 0.6 * p.z, 0.6 * p.y + 0.8 * p.z);
     };
     std::vector<PolygonSoup> objects;
-    if (kind == 0) objects = {transformed(make_box({50, 40, 30}), turned), transformed(make_torus(40, 9, 48, 24), turned)};
-    if (kind == 1) objects = {transformed(make_sphere(40, 24, 12), turned), transformed(make_cylinder(20, 30, 90, 16), turned)};
+    if (kind == 0)
+        objects = {transformed(make_box({50, 40, 30}), turned), transformed(make_torus(40, 9, 48, 24), turned)};
+    if (kind == 1)
+        objects = {transformed(make_sphere(40, 24, 12), turned), transformed(make_cylinder(20, 30, 90, 16), turned)};
     if (kind == 2)
-        objects = {transformed(make_box({46, 46, 46}), turned),
-                   soup_of({{34.2, 38.1, 100}, {60.7, 33.6, 100}, {65.4, 58.8, 100}, {38.3, 63.3, 100}}, {{0, 1, 2, 3}})};
+        objects = {
+            transformed(make_box({46, 46, 46}), turned),
+            soup_of({{34.2, 38.1, 100}, {60.7, 33.6, 100}, {65.4, 58.8, 100}, {38.3, 63.3, 100}}, {{0, 1, 2, 3}})};
     return scene_of(std::move(objects));
 }
 
 TEST(InkEquality, OpaqueStrokesOfOneWidthAreDrawnAsLinesAre) {
     for (int kind = 0; kind < 3; ++kind) {
-        for (const double width : {0.3, 1.0, 3.0, 12.0}) {
+        for (const double width : {315.0 / 1024, 1.0, 3.0, 12.0}) {
             for (const bool has_hidden : {false, true}) {
                 Scene scene = some_scene(kind);
                 scene.lines.style.width_px = width;
                 scene.lines.classes = LineClassSet::all();
                 for (int c = 0; c < kLineClassCount; ++c)
-                    scene.lines.style.colors[static_cast<std::size_t>(c)] = glm::vec3(0.1f * static_cast<float>(c), 0.3f, 0);
+                    scene.lines.style.colors[static_cast<std::size_t>(c)] =
+                        glm::vec3(0.1f * static_cast<float>(c), 0.3f, 0);
                 if (has_hidden) scene.lines.style.hidden.style = HiddenStyle::dashed;
                 const Pair pair = draw_twice(scene, pixel_camera(128, 128), 128);
                 EXPECT_TRUE(same_bits(pair.drawn, pair.inked)) << kind << " " << width << " " << has_hidden;
@@ -217,14 +221,18 @@ TEST(InkEquality, AStylesChangeStaysWhereItsStrokesAre) {
         const Image before = picture.draw();
         InkPicture alone(100, 80), changed = picture;
         const InkStroke& stroke = picture.lines.strokes[7];
+        changed.lines.strokes[7].is_constant = false;
         for (std::size_t i = 0; i < stroke.point_count; ++i) {
             InkPoint& p = changed.lines.points[stroke.first_point + i];
             p.color = {0.9f, 0.8f, 0.1f * static_cast<float>(i)};
             p.opacity *= 0.5f;
         }
         std::vector<InkPoint> points;
-        for (const InkPoint& p : picture.lines.points_of(stroke)) points.push_back(InkPicture::point(p.place, p.width_px));
-        alone.add(points);
+        for (const InkPoint& p : picture.lines.points_of(stroke))
+            points.push_back(InkPicture::point(p.place, p.width_px));
+        InkStroke& reaching = alone.add(points);
+        reaching.caps = stroke.caps;
+        reaching.side = stroke.side;  // else its finest pen is finer
         const Image reached = alone.draw(), after = changed.draw();
         for (const Channel& channel : before.channels()) {
             for (int y = 0; y < 80; ++y) {

@@ -17,7 +17,7 @@ class InkPicture {
         : scene_(scene_of({soup_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})})), width_(width), height_(height) {}
 
     InkedLines lines;
-    glm::vec4 paper{1.0f};        ///< what lies below the strokes
+    glm::vec4 paper{1.0f};  ///< what lies below the strokes
     bool perspective = false;
     bool only_lines = false;  ///< of the layers
 

@@ -23,7 +23,8 @@ constexpr double kHalf = 1.0 / 2048;
 TEST(InkPrinter, TapersKeepTheirMassAtEveryDegree) {
     for (const float width : {0.5f, 1.0f, 2.0f, 3.5f, 8.0f}) {
         for (int degree = 0; degree < 360; degree += 1) {
-            const double angle = glm::radians(static_cast<double>(degree)), length = 60, r = 0.5 * static_cast<double>(width);
+            const double angle = glm::radians(static_cast<double>(degree)), length = 60,
+                         r = 0.5 * static_cast<double>(width);
             const glm::dvec2 u(std::cos(angle), std::sin(angle)), from = glm::dvec2(72.37, 72.81) - 0.5 * length * u;
             InkPicture picture(144, 144);
             picture.only_lines = true;
@@ -43,7 +44,8 @@ TEST(InkPrinter, TapersOfManyPiecesKeepTheirMass) {
         InkPicture picture(144, 144);
         std::vector<InkPoint> points;
         for (int i = 0; i <= 40; ++i)
-            points.push_back(InkPicture::point(from + u * (length * i / 40), static_cast<float>(2 * r * (40 - i) / 40)));
+            points.push_back(
+                InkPicture::point(from + u * (length * i / 40), static_cast<float>(2 * r * (40 - i) / 40)));
         picture.add(points);
         const double theta = std::asin(r / length);
         const double mass = r * length * std::cos(theta) + r * r * (kPi / 2 + theta);
@@ -68,7 +70,8 @@ TEST(InkPrinter, GradientsRunEvenlyAlongTheStroke) {
             int count = 0;
             for (int y = 0; y < 260; ++y) {
                 for (int x = 0; x < 260; ++x) {
-                    const double alpha = at(image, "lines.A", x, y), s = glm::dot(glm::dvec2(x + 0.5, y + 0.5) - from, u);
+                    const double alpha = at(image, "lines.A", x, y),
+                                 s = glm::dot(glm::dvec2(x + 0.5, y + 0.5) - from, u);
                     if (alpha < 0.05 || s < 1 || s > length - 1) continue;
                     ++count;
                     ASSERT_NEAR(at(image, "lines.R", x, y) / alpha, s / length, 1.0 / 512 + kHalf / 2)
@@ -130,8 +133,7 @@ TEST(InkPrinter, OrderIsPriorityThenSeenThenSetThenClassThenNearnessThenChain) {
     EXPECT_TRUE(top_is_red(
         [&](InkedLines& l) { l.strokes[1].order.drawn_as = LineClass::crease, l.strokes[0].order.set = 1; }));
     EXPECT_TRUE(top_is_red([&](InkedLines& l) { l.strokes[1].order.set = 1, l.strokes[0].order.is_hidden = true; }));
-    EXPECT_TRUE(top_is_red(
-        [&](InkedLines& l) { l.strokes[1].order.is_hidden = true, l.strokes[1].order.below = -1; }));
+    EXPECT_TRUE(top_is_red([&](InkedLines& l) { l.strokes[1].order.is_hidden = true, l.strokes[1].order.below = -1; }));
 }
 
 TEST(InkPrinter, MultipliedInkAddsNothing) {
@@ -200,6 +202,40 @@ TEST(InkPrinter, ButtCapsEndAtThePoint) {
             for (int i = 0; i <= pieces; ++i) points.push_back(InkPicture::point(from + u * (length * i / pieces), 6));
             picture.add(points).caps = StrokeCaps::butt;
             EXPECT_NEAR(sum(picture.draw(), "lines.A"), 6 * length, 0.3) << pieces << " pieces, " << degree << " deg";
+        }
+    }
+}
+
+/// How wide the gap is in a bar behind another one, which is farther by some pixels' widths.
+double gap_px(double farther_px, double degree, bool perspective) {
+    InkPicture picture(96, 96);
+    picture.perspective = perspective;
+    const double angle = glm::radians(degree), focal_px = picture.projection_focal_px(), depth = 100;
+    const double farther = depth + farther_px * (perspective ? depth : 1) / focal_px;
+    const auto add_bar = [&](glm::dvec2 along, float width_px, double at) -> InkStroke& {
+        const glm::dvec2 middle(48.3, 47.9);
+        InkPoint a = InkPicture::point(middle - 30.0 * along, width_px), b = a;
+        b.place = middle + 30.0 * along;
+        a.nearness = b.nearness = static_cast<float>(perspective ? 1 / at : -at);
+        return picture.add({a, b});
+    };
+    const glm::dvec2 u(std::cos(angle), std::sin(angle));
+    InkStroke& front = add_bar(u, 4, depth);
+    front.halo_px = 3;
+    front.halo_depth_px = {2, 50};
+    front.order.drawn_as = LineClass::border;  // so that what is seen of the other one is known
+    add_bar({-u.y, u.x}, 6, farther);
+    return (60 * 6 + kPi * 9 - sum(picture.draw(), "coverage.silhouette")) / 6;
+}
+
+TEST(InkPrinter, HalosEraseWhatIsFartherAsWideAsTheyAre) {
+    for (const bool perspective : {false, true}) {
+        for (const double degree : {0.0, 30.0, 45.0, 77.0, 90.0}) {
+            for (const double farther : {0.0, 1.0, 10.0, 26.0, 40.0, 60.0, 500.0}) {
+                const double share = std::clamp((farther - 2) / 48, 0.0, 1.0);
+                EXPECT_NEAR(gap_px(farther, degree, perspective), 4 + 2 * 3 * share, 1.0 / 16)
+                    << farther << " px farther, " << degree << " deg" << (perspective ? ", perspective" : "");
+            }
         }
     }
 }

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "strokes/ink_tile.h"
+
+// Strokes with a halo erase what lies behind them, a little beyond their own width.
+
+namespace burin {
+namespace {
+
+/// How much farther than a place another one is, in pixels' widths at the first one.
+float farther_px(const Projection& projection, float nearness, float of_other) {
+    const auto focal_px = static_cast<float>(projection.focal_px);
+    if (projection.orthographic) return focal_px * (nearness - of_other);
+    return of_other > 0 ? focal_px * (nearness / of_other - 1) : std::numeric_limits<float>::infinity();
+}
+
+/// The share of a stroke's halo by which it erases what is that much farther.
+float halo_share(const InkStroke& stroke, float farther_px) {
+    const float from = stroke.halo_depth_px[0], to = stroke.halo_depth_px[1];
+    if (!(to > from)) return farther_px >= from ? 1.0f : 0.0f;
+    return std::clamp((farther_px - from) / (to - from), 0.0f, 1.0f);
+}
+
+}  // namespace
+
+void InkTile::erase_behind_halos() {
+    for (const InkSegmentRef& ref : segments_) {
+        if (lines_.strokes[ref.stroke].halo_px > 0) erase_behind(ref, segment_of(ref));
+    }
+}
+
+/// Erases samples of records that are near a segment and far enough behind it. How far its halo reaches depends on how
+/// much farther a record is, as seen from the nearest place of the segment, so it is drawn for each of them.
+void InkTile::erase_behind(const InkSegmentRef& ref, const InkSegment& segment) {
+    const InkStroke& stroke = lines_.strokes[ref.stroke];
+    const auto halo_px = static_cast<double>(stroke.halo_px);
+    const double reach = segment.radius_px() + halo_px + 1;
+    const glm::dvec2 low = glm::min(segment.from().place, segment.to().place) - reach,
+                     high = glm::max(segment.from().place, segment.to().place) + reach;
+    const auto column_of = [&](double x) {
+        return static_cast<int>(std::clamp(std::floor(x) - rect_.x0, 0.0, static_cast<double>(rect_.width())));
+    };
+    const auto row_of = [&](double y) {
+        return static_cast<int>(std::clamp(std::floor(y) - rect_.y0, 0.0, static_cast<double>(rect_.height())));
+    };
+    const int x1 = column_of(high.x + 1), y1 = row_of(high.y + 1);
+    for (int row = row_of(low.y); row < y1; ++row) {
+        for (int column = column_of(low.x); column < x1; ++column) {
+            if (!has_records(column, row)) continue;
+            const int x = rect_.x0 + column, y = rect_.y0 + row;
+            const float nearness = segment.nearness_at(segment.share_nearest({x + 0.5, y + 0.5}));
+            const std::size_t i = index(column, row);
+            for (std::uint32_t k = first_sorted_[i]; k < first_sorted_[i + 1]; ++k) {
+                InkRecord& record = records_[sorted_[k]];
+                const InkStroke& behind = lines_.strokes[record.stroke];
+                if (behind.chain == stroke.chain && behind.order == stroke.order) continue;
+                const float own = record.nearness / static_cast<float>(record.samples);
+                const float share = halo_share(stroke, farther_px(projection_, nearness, own));
+                if (share <= 0) continue;
+                for (InkSegment::Part part : segment.parts()) {
+                    part.cone.radius_from += halo_px * static_cast<double>(share);
+                    part.cone.radius_to += halo_px * static_cast<double>(share);
+                    one_.draw(kernels_, part.cone, {x, y, x + 1, y + 1}, [&](int, int, const StrokeMask& mask) {
+                        for (std::size_t r = 0; r < mask.rows.size(); ++r) record.mask.rows[r] &= ~mask.rows[r];
+                    });
+                }
+            }
+        }
+    }
+}
+
+}  // namespace burin
