@@ -22,6 +22,13 @@ glm::dmat3 cofactors(const glm::dmat4& m) {
 
 }  // namespace
 
+LineCriteria criteria_of(const LineSettings& lines) {
+    LineCriteria criteria;
+    criteria.classes = lines.classes;
+    criteria.cos_crease_angle = std::cos(glm::radians(lines.crease_angle_deg));
+    return criteria;
+}
+
 Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop,
                  const PreparedScene* prepared) {
     Frame frame;
@@ -32,8 +39,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     frame.height = height;
     frame.crop = crop;
     frame.needs = needs_of(scene);
-    frame.criteria.classes = frame.needs.classes;
-    frame.criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
+    frame.criteria = criteria_of(scene.lines);
 
     std::vector<Box> mesh_boxes;
     std::vector<std::shared_ptr<const BodySides>> body_sides;
