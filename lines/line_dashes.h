@@ -12,7 +12,7 @@
 
 namespace burin {
 
-/// Whether an edge of the mesh is a line from anywhere, and no mere contour.
+/// Whether an edge of the mesh is a line in every view, and no mere contour.
 bool is_feature(const WholeLine& line);
 
 /// LineDashes lays out the dashes of lines of the mesh along their chains, and says which parts of a line are drawn.

@@ -14,7 +14,7 @@
 namespace burin {
 namespace {
 
-/// Edges that are lines from anywhere. Intersections are found only where a picture has lines behind surfaces, and
+/// Edges that are lines in every view. Intersections are found only where a picture has lines behind surfaces, and
 /// visible dashes must not depend on that.
 std::vector<WholeLine> features_of(std::span<const WholeLine> lines) {
     std::vector<WholeLine> features;
