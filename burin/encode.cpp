@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <string>
@@ -18,36 +17,15 @@
 namespace burin {
 namespace {
 
-struct Format {
-    std::string_view name;
-    OutputFormat format;
-    int bits;
-    std::string_view extension;
-};
-constexpr Format kFormats[] = {{"exr", OutputFormat::exr, 8, ".exr"},
-                               {"png", OutputFormat::png, 8, ".png"},
-                               {"png16", OutputFormat::png, 16, ".png"},
-                               {"tif", OutputFormat::tiff, 8, ".tif"},
-                               {"tif16", OutputFormat::tiff, 16, ".tif"}};
-
-const Format& format_named(std::string_view name) {
-    const auto found =
-        std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.name == name; });
-    if (found == std::end(kFormats)) {
-        throw UsageError("unknown format '" + printable(name) + "'; known are exr png png16 tif tif16");
-    }
-    return *found;
+const NamedFormat& format_named(std::string_view name) {
+    if (const NamedFormat* const found = find_format(name)) return *found;
+    throw UsageError("unknown format '" + printable(name) + "'; known are " + names_of_formats());
 }
 
-const Format& format_of_path(const std::string& path) {
-    std::string extension = lower_extension(path);
-    if (extension == ".tiff") extension = ".tif";
-    const auto found = std::find_if(std::begin(kFormats), std::end(kFormats),
-                                    [&](const Format& f) { return f.extension == extension; });
-    if (found == std::end(kFormats)) {
-        throw UsageError(path + ": unknown kind of image '" + extension + "'; burin writes .exr .png .tif");
-    }
-    return *found;
+const NamedFormat& format_of_path(const std::string& path) {
+    const std::string suffix = lower_extension(path);
+    if (const NamedFormat* const found = find_format_of_suffix(suffix)) return *found;
+    throw UsageError(path + ": unknown kind of image '" + suffix + "'; burin writes " + suffixes_of_formats());
 }
 
 /// A picture, or that of a drawing.
@@ -78,13 +56,13 @@ class GivenPicture {
 };
 
 /// What can be written of a picture in this format.
-void check_layers(const burin_picture& picture, const Format& format) {
+void check_layers(const burin_picture& picture, const NamedFormat& format) {
     if (format.format != OutputFormat::exr && picture.film.image().find("R") == nullptr) {
         throw UsageError("the picture has no layer beauty, which this format shows; ask for it by options.layers");
     }
 }
 
-OutputOptions options_of(const burin_picture& picture, const Format& format, const std::string& name) {
+OutputOptions options_of(const burin_picture& picture, const NamedFormat& format, const std::string& name) {
     return {name, format.format, format.bits, resolve_thread_count(picture.threads)};
 }
 
@@ -98,12 +76,12 @@ int burin_encode(const void* picture_or_drawing, const char* format, const char*
     return guarded([&] {
         const GivenPicture given(picture_or_drawing, style);
         const burin_picture& from = *given;
-        const Format& as = format_named(&required(format, "format"));
+        const NamedFormat& as = format_named(&required(format, "format"));
         required(bytes, "bytes");
         required(count, "count");
         check_layers(from, as);
         MemorySink file;
-        const std::string name = "picture" + std::string(as.extension);
+        const std::string name = "picture" + std::string(as.suffix);
         write_output(file, from.settings, from.film.image(), options_of(from, as, name));
         auto* const copy = static_cast<uint8_t*>(std::malloc(std::max<std::size_t>(file.bytes().size(), 1)));
         if (copy == nullptr) throw std::bad_alloc();
@@ -119,10 +97,11 @@ int burin_write(const void* picture_or_drawing, const char* format, const char* 
         const GivenPicture given(picture_or_drawing, style);
         const burin_picture& from = *given;
         const std::string file_path = &required(path, "path");
-        const Format& as = format == nullptr ? format_of_path(file_path) : format_named(format);
+        const NamedFormat& as = format == nullptr ? format_of_path(file_path) : format_named(format);
         check_layers(from, as);
         const OutputOptions options = options_of(from, as, file_path);
-        if (as.format == OutputFormat::tiff) check_display_writer("picture.tif");  // before there is a file
+        if (as.format != OutputFormat::exr)
+            check_display_writer("picture" + std::string(as.suffix));  // before there is a file
         AtomicFile file(file_path);
         write_output(file, from.settings, from.film.image(), options);
         file.commit();

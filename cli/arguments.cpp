@@ -11,6 +11,7 @@
 #include "cli/option_values.h"
 #include "mesh/text_scan.h"
 #include "methods/method_table.h"
+#include "output/output_format.h"
 #include "scene/color.h"
 
 namespace burin {
@@ -93,7 +94,8 @@ void add_method_option(CLI::App& app, Texts& t) {
 }
 
 void add_render_options(CLI::App& app, Texts& t) {
-    app.add_option("-o,--output", t.output, "file to write, .exr .png or .tif (default: INPUT's name with .png)");
+    app.add_option("-o,--output", t.output,
+                   "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
     app.add_option("--layers", t.layers,
                    "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden (default: the first five; the "
                    "last with --hidden)");

@@ -37,19 +37,15 @@ OutputOptions output_options(const Arguments& a) {
     if (options.path.empty()) {
         options.path = std::filesystem::path(a.input).stem().string() + ".png";
     }
-    const std::string extension = lower_extension(options.path);
-    if (extension == ".exr") {
-        options.format = OutputFormat::exr;
-    } else if (extension == ".png") {
-        options.format = OutputFormat::png;
-    } else if (extension == ".tif" || extension == ".tiff") {
-        options.format = OutputFormat::tiff;
-    } else if (extension == ".svg" || extension == ".pdf") {
-        throw UsageError("--output: " + extension + " is not in this version; write .exr, .png or .tif");
+    const std::string suffix = lower_extension(options.path);
+    if (const NamedFormat* const found = find_format_of_suffix(suffix)) {
+        options.format = found->format;
+    } else if (suffix == ".svg" || suffix == ".pdf") {
+        throw UsageError("--output: " + suffix + " is not in this version; burin writes " + suffixes_of_formats());
     } else {
-        throw UsageError("--output: " +
-                         (extension.empty() ? "the name has no suffix" : "unknown kind of image '" + extension + "'") +
-                         "; burin writes .exr .png .tif");
+        throw UsageError(
+            "--output: " + (suffix.empty() ? "the name has no suffix" : "unknown kind of image '" + suffix + "'") +
+            "; burin writes " + suffixes_of_formats());
     }
     if (has_frame_pattern(std::filesystem::path(a.output).filename().string())) {
         throw UsageError("--output: a pattern for frames needs --frames, which is not in this version");

@@ -41,6 +41,7 @@ class Choices {
     std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
+/// A new choice is the last of all, behind those of the camera and the method: else all others of the seeds change.
 void choose_look(Choices& choices, Scene& scene) {
     LineSettings& lines = scene.lines;
     if (choices.one_in(3)) lines.classes = LineClassSet::all();

@@ -83,6 +83,40 @@ void read_row(const Image& image, const Channel& channel, int dx, int y, int c, 
     }
 }
 
+/// The pictures for the screen that can be written.
+enum class DisplayFormat { png, tiff };
+
+DisplayFormat format_of(const std::string& name, const std::string& extension) {
+    if (extension == ".png") return DisplayFormat::png;
+    if (extension == ".tif" || extension == ".tiff") return DisplayFormat::tiff;
+    throw InputError(name + ": unknown kind of picture '" + extension + "'; write .png or .tif");
+}
+
+void write_by_libpng(ByteSink& file, const std::string& name, const DisplayImage& image, int bits) {
+    try {
+        write_png(file, image, bits);
+    } catch (const InputError&) {
+        throw;
+    } catch (const Interrupted&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw InputError(name + ": cannot write: " + one_line(error.what()));
+    }
+}
+
+void write_by_module(ByteSink& file, const std::string& name, const std::string& extension, const DisplayImage& image,
+                     int bits) {
+    auto* const write = module_function<decltype(burin_oiio_write)>("burin_oiio_write");
+    DisplaySink target{file, nullptr};
+    const BurinOiioSink sink{&target, DisplaySink::write, DisplaySink::go_on};
+    const char* const failure = write(("picture" + extension).c_str(), image.width, image.height, image.channels, bits,
+                                      image.pixels.data(), &sink);
+    if (target.stopped) std::rethrow_exception(target.stopped);
+    if (failure != nullptr) throw InputError(name + ": cannot write: " + one_line(failure));
+}
+
 }  // namespace
 
 float srgb_from_linear(float linear) {
@@ -134,7 +168,7 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
 }
 
 void check_display_writer(const std::string& path) {
-    if (lower_extension(path) == ".png") return;
+    if (format_of(path, lower_extension(path)) != DisplayFormat::tiff) return;
     try {
         module_function<decltype(burin_oiio_write)>("burin_oiio_write");
     } catch (const InputError& error) {
@@ -144,26 +178,12 @@ void check_display_writer(const std::string& path) {
 
 void write_display_image(ByteSink& file, const std::string& name, const std::string& extension,
                          const DisplayImage& image, int bits) {
-    if (extension == ".png") {
-        try {
-            return write_png(file, image, bits);
-        } catch (const InputError&) {
-            throw;
-        } catch (const Interrupted&) {
-            throw;
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (const std::exception& error) {
-            throw InputError(name + ": cannot write: " + one_line(error.what()));
-        }
+    switch (format_of(name, extension)) {
+        case DisplayFormat::png:
+            return write_by_libpng(file, name, image, bits);
+        case DisplayFormat::tiff:
+            return write_by_module(file, name, extension, image, bits);
     }
-    auto* const write = module_function<decltype(burin_oiio_write)>("burin_oiio_write");
-    DisplaySink target{file, nullptr};
-    const BurinOiioSink sink{&target, DisplaySink::write, DisplaySink::go_on};
-    const char* const failure = write(("picture" + extension).c_str(), image.width, image.height, image.channels, bits,
-                                      image.pixels.data(), &sink);
-    if (target.stopped) std::rethrow_exception(target.stopped);
-    if (failure != nullptr) throw InputError(name + ": cannot write: " + one_line(failure));
 }
 
 void write_display_image(const std::string& path, const DisplayImage& image, int bits) {

@@ -26,12 +26,12 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
 /// only when it is complete. Throws InputError.
 void write_display_image(const std::string& path, const DisplayImage& image, int bits);
 
-/// The same into a file that is open. `extension`: ".png" or ".tif"; `name`: for messages.
+/// The same into a file that is open. `extension`: ".png", ".tif" or ".tiff"; `name`: for messages.
 void write_display_image(ByteSink& file, const std::string& name, const std::string& extension,
                          const DisplayImage& image, int bits);
 
-/// Fails before the work, not after it: throws InputError if what write_display_image() needs for this path cannot be
-/// loaded.
+/// Fails before the work, not after it: throws InputError if write_display_image() does not know the suffix of this
+/// path or what it needs for it cannot be loaded.
 void check_display_writer(const std::string& path);
 
 /// Reads a PNG or TIFF. Throws InputError. For tests and tools.

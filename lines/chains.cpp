@@ -86,7 +86,7 @@ class ChainsOfLines {
                 is_forwards ? line.nearness_to : line.nearness_from};
     }
     std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }
-    /// The class that the line has from anywhere, if it has one.
+    /// The class that the line has in every view, if it has one.
     LineClassSet lasting_class(std::uint32_t end) const {
         constexpr unsigned kSilhouette = LineClassSet(LineClass::silhouette).bits;
         const auto first = LineClassSet::from_bits(lines_[end / 2].classes.bits & ~kSilhouette).first();

@@ -15,7 +15,7 @@ namespace burin {
 /// Cuts visible lines into dashes of [on, off] pixels, in a picture of this size. `on` includes the round ends of a pen
 /// of this width.
 ///
-/// `features` are edges of the mesh that are lines from anywhere, such as creases, whole, be they seen or not: dashes
+/// `features` are edges of the mesh that are lines in every view, such as creases, whole, be they seen or not: dashes
 /// along them depend on them alone (chains_of()), so they stay where they are when a camera moves or something passes
 /// in front.
 ///

@@ -20,7 +20,8 @@ struct DrawingNeeds {
     /// Some surfaces let light through: what is behind them is seen, lines as well.
     bool is_transparent = false;
     /// Visible lines are needed in the whole picture, whatever its crop, and each edge although another one covers it:
-    /// the look moves or cuts lines by what they are elsewhere (smooth contours, dashes).
+    /// the look moves or cuts lines by what they are elsewhere (smooth contours, dashes). An EXR cannot be written
+    /// while it is drawn then.
     bool whole_picture = false;
     /// Lines behind surfaces are needed in the whole picture, too.
     bool whole_picture_behind = false;

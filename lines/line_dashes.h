@@ -12,7 +12,7 @@
 
 namespace burin {
 
-/// Whether an edge of the mesh is a line from anywhere, and no mere contour.
+/// Whether an edge of the mesh is a line in every view, and no mere contour.
 bool is_feature(const WholeLine& line);
 /// The edges among whole lines that are features. Intersections are found only where a picture has lines behind
 /// surfaces, and what stands along visible lines must not depend on that.

@@ -13,7 +13,8 @@ namespace burin {
 constexpr int kMergeBlockPx = 8;
 
 /// A LinePiece is a straight piece of one line on the screen, seen or hidden: all that drawing gets. It says which line
-/// it is and what is in front of it; all else that can be known of a line follows from these and the surfaces.
+/// it is and what is in front of it; all else that can be known of a line follows from these and the surfaces. A piece
+/// is a fragment: its ends are no ends of the line.
 struct LinePiece {
     glm::dvec2 from{0.0}, to{0.0};  ///< in pixels
     LineId line;

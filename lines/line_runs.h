@@ -55,7 +55,7 @@ struct LineRuns {
     }
 };
 
-/// Makes runs of the pieces of a picture that are drawn. `features`: edges that are lines from anywhere, as wholes;
+/// Makes runs of the pieces of a picture that are drawn. `features`: edges that are lines in every view, as wholes;
 /// runs of those stand along the chains of these (chains_of()), seen or not. All other lines are chained piece by piece
 /// (PieceChains), and stand along what is seen of them. Where a chain is a loop that is seen in part, what is beyond
 /// its beginning stands beyond its length.

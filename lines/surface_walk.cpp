@@ -346,13 +346,6 @@ class Walker {
     double length_;
 };
 
-/// Adds the class crease where the normals are far enough apart.
-void add_crease(double cosine, const LineCriteria& criteria, LineClassSet& classes, double* crease_cosine) {
-    if (!(cosine < criteria.cos_crease_angle)) return;
-    classes |= LineClass::crease;
-    if (crease_cosine != nullptr) *crease_cosine = std::min(*crease_cosine, cosine);
-}
-
 LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b, double* crease_cosine) const {
     const Mesh& mesh = surfaces_.mesh_of(a.surface);
     LineClassSet classes;
@@ -365,7 +358,7 @@ LineClassSet Walker::edge_classes_between(SurfaceEdge a, SurfaceEdge b, double* 
     const auto start_of = [&mesh](HalfEdge h) { return mesh.triangles[h / 3][h % 3]; };
     const double winding = start_of(a.half_edge) == start_of(b.half_edge) ? -1.0 : 1.0;
     const double cosine = winding * glm::dot(surfaces_.view_normal(a.surface), surfaces_.view_normal(b.surface));
-    add_crease(cosine, criteria_, classes, crease_cosine);
+    add_angle_classes(cosine, criteria_, classes, crease_cosine);
     return classes;
 }
 
@@ -401,8 +394,14 @@ LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId 
     if (surfaces.object_id(a) != surfaces.object_id(b)) return classes | LineClass::object;
     classes |= LineClass::polygon;
     const double cosine = glm::dot(surfaces.normal_towards_eye(a, at), surfaces.normal_towards_eye(b, at));
-    add_crease(cosine, criteria, classes, crease_cosine);
+    add_angle_classes(cosine, criteria, classes, crease_cosine);
     return classes;
+}
+
+void add_angle_classes(double cosine, const LineCriteria& criteria, LineClassSet& classes, double* crease_cosine) {
+    if (!(cosine < criteria.cos_crease_angle)) return;
+    classes |= LineClass::crease;
+    if (crease_cosine != nullptr) *crease_cosine = std::min(*crease_cosine, cosine);
 }
 
 bool are_flush(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at, const LineCriteria& criteria) {

@@ -84,6 +84,10 @@ LineClassSet edge_classes(const SurfaceSet& surfaces, SurfaceEdge edge, const Li
 LineClassSet contact_classes(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at,
                              const LineCriteria& criteria, double* crease_cosine = nullptr);
 
+/// Adds the classes that follow from the angle between two polygons of one object, crease; `cosine` is between their
+/// normals. Where it is a crease, `crease_cosine` is lowered to it.
+void add_angle_classes(double cosine, const LineCriteria& criteria, LineClassSet& classes, double* crease_cosine);
+
 /// Whether two triangles lie in one plane without a line between them at a place on the screen
 /// (docs/decisions/0013-flush-faces.md).
 bool are_flush(const SurfaceSet& surfaces, SurfaceId a, SurfaceId b, glm::dvec2 at, const LineCriteria& criteria);

@@ -18,23 +18,22 @@
 namespace burin {
 namespace {
 
-/// The criteria of the scene's lines, by which a crease begins where it begins to fade in.
-LineCriteria criteria_of(const LineSettings& lines) {
-    LineCriteria criteria;
-    criteria.classes = lines.classes;
+/// The criteria of the scene's lines, but that a crease begins where it begins to fade in.
+LineCriteria fading_criteria_of(const LineSettings& lines) {
+    LineCriteria criteria = criteria_of(lines);
     criteria.cos_crease_angle = std::cos(glm::radians(lines.crease_fade().from_deg));
     return criteria;
 }
 
 Frame with_fading_creases(Frame frame) {
-    frame.criteria.cos_crease_angle = criteria_of(frame.scene->lines).cos_crease_angle;
+    frame.criteria = fading_criteria_of(frame.scene->lines);
     return frame;
 }
 
 }  // namespace
 
 PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_memory) {
-    const LineCriteria criteria = criteria_of(scene.lines);
+    const LineCriteria criteria = fading_criteria_of(scene.lines);
     PreparedScene prepared;
     prepared.sharp_edges.resize(scene.meshes.size());
     // Threads share a few large meshes, or take one each of many.

@@ -25,8 +25,8 @@ void write_output(const Frame& frame, const Film& film, const OutputOptions& opt
 
 void write_output(ByteSink& file, const PictureSettings& picture, const Image& image, const OutputOptions& options) {
     if (options.format == OutputFormat::exr) return write_exr(file, options.path, image, exr_options(options));
-    const char* const extension = options.format == OutputFormat::png ? ".png" : ".tif";
-    write_display_image(file, options.path, extension, displayed(picture, image), options.bits);
+    const std::string suffix(suffix_of(options.format));
+    write_display_image(file, options.path, suffix, displayed(picture, image), options.bits);
 }
 
 BandWriter::BandWriter(Film& film, const OutputOptions& options)

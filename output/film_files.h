@@ -6,12 +6,11 @@
 
 #include "image/exr_io.h"
 #include "image/image_io.h"
+#include "output/output_format.h"
 #include "render/film.h"
 #include "render/frame.h"
 
 namespace burin {
-
-enum class OutputFormat : std::uint8_t { exr, png, tiff };
 
 struct OutputOptions {
     std::string path;

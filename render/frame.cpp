@@ -35,6 +35,13 @@ SheetContext sheet_context_of(const Scene& scene, int width, int height) {
 
 }  // namespace
 
+LineCriteria criteria_of(const LineSettings& lines) {
+    LineCriteria criteria;
+    criteria.classes = lines.classes;
+    criteria.cos_crease_angle = std::cos(glm::radians(lines.crease_angle_deg));
+    return criteria;
+}
+
 Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop,
                  const PreparedScene* prepared) {
     Frame frame;
@@ -47,8 +54,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     if (scene.sheet)
         frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(scene, width, height));
     frame.needs = frame.sheet ? needs_of(scene, frame.sheet->needs()) : needs_of(scene);
-    frame.criteria.classes = frame.needs.classes;
-    frame.criteria.cos_crease_angle = std::cos(glm::radians(scene.lines.crease_angle_deg));
+    frame.criteria = criteria_of(scene.lines);
 
     std::vector<Box> mesh_boxes;
     std::vector<std::shared_ptr<const BodySides>> body_sides;

@@ -32,6 +32,9 @@ struct Frame {
     const Material& material_of(SurfaceId s) const { return scene->materials[surfaces.material_id(s) - 1]; }
 };
 
+/// What the settings of a scene make a line, in all methods.
+LineCriteria criteria_of(const LineSettings& lines);
+
 /// Throws InputError when the scene has more than 4 billion polygons or coordinates out of range.
 Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop,
                  const PreparedScene* prepared = nullptr);

@@ -53,7 +53,8 @@ void VisibleStrokes::draw(std::span<const LinePiece* const> pieces, PixelRect re
 }
 
 /// Whether strokes would lie over surfaces in front. They do not where the boundary of such a surface is drawn, too:
-/// its stroke covers what others cover of the surface, unless their class comes first.
+/// its stroke covers what others cover of the surface, unless their class comes first. That is so because strokes have
+/// one width and round ends: where others reach beyond the boundary's end, its own disc lies there, too.
 bool VisibleStrokes::needs_clipping(std::span<const LinePiece* const> pieces) const {
     if (side_ != StrokeSide::both) return true;
     bool has_faded = false, has_undrawn = false;

@@ -234,9 +234,7 @@ class EdgeLineFinder::Rules {
                 continue;
             const double cosine = -glm::dot(sides_.across_edge(s.instance, front.half_edge),
                                             sides_.across_edge(s.instance, edge_on.half_edge));
-            if (cosine >= criteria_.cos_crease_angle) continue;
-            classes |= LineClass::crease;
-            crease_cosine = std::min(crease_cosine, cosine);
+            add_angle_classes(cosine, criteria_, classes, &crease_cosine);
         }
         const std::uint32_t number = screen_.number_of(s);
         add(s, h, classes, crease_cosine, {number, number}, true, 0, lines);

@@ -52,6 +52,7 @@ void WireTriangle::add(const WireEdge& edge, int own_edge, bool is_dotted) {
 }
 
 LineClass WireTriangle::stray_class() const {
+    if (frame_.criteria.classes.has(LineClass::polygon)) return LineClass::polygon;
     int last = kLineClassCount - 1;
     while (last > 0 && !frame_.criteria.classes.has(static_cast<LineClass>(last))) --last;
     return static_cast<LineClass>(last);

@@ -48,7 +48,8 @@ class WireTriangle {
   private:
     bool is_whole() const { return !(behind_[0] || behind_[1] || behind_[2]); }
     void load_own_edges();
-    /// What a line is called that the edge does not deserve: the last class asked for.
+    /// What a line is called that its edge does not have a class for: polygon, if asked for, else the last class asked
+    /// for.
     LineClass stray_class() const;
     void load_polygon_edges(PixelRect rect, double reach_px);
     void add(const WireEdge& edge, int own_edge, bool is_dotted);

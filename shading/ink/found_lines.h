@@ -23,20 +23,20 @@ struct ObjectOfLines {
 /// no mesh, so it can be kept in a file and shaded again.
 struct FoundLines {
     LineRuns runs;
-    std::vector<LineSides> sides;        ///< of each piece
-    std::vector<LinePiece> boundaries;   ///< where surfaces end and nothing is drawn
-    LineClassSet classes;                ///< that were looked for
-    int most_invisibility = 0;           ///< that was looked for
-    bool tells_invisibility = false;     ///< else a hidden piece has only some surface in front of it
+    std::vector<LineSides> sides;       ///< of each piece
+    std::vector<LinePiece> boundaries;  ///< where surfaces end and nothing is drawn
+    LineClassSet classes;               ///< that were looked for
+    int most_invisibility = 0;          ///< that was looked for
+    bool tells_invisibility = false;    ///< else a hidden piece has only some surface in front of it
     bool has_normals = false, has_beyond = false, has_chains = false;
 
     Projection projection;
     glm::dmat4 camera_to_world{1.0};
-    int width_px = 0, height_px = 0;        ///< of the whole picture
-    std::vector<ObjectOfLines> objects;     ///< by number, from 1
-    std::vector<std::string> materials;     ///< names by number, from 1
-    std::vector<glm::vec3> material_colors; ///< linear RGB
-    std::optional<glm::dvec3> light;        ///< direction to the key light in view space; none: it is at the eye
+    int width_px = 0, height_px = 0;         ///< of the whole picture
+    std::vector<ObjectOfLines> objects;      ///< by number, from 1
+    std::vector<std::string> materials;      ///< names by number, from 1
+    std::vector<glm::vec3> material_colors;  ///< linear RGB
+    std::optional<glm::dvec3> light;         ///< direction to the key light in view space; none: it is at the eye
     int frame = 0;
     double time_s = 0;
 };

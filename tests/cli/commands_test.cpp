@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "lines/line_class.h"
 #include "tests/cli/models.h"
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
@@ -93,9 +93,7 @@ TEST(Commands, MethodsAsTextAndJson) {
         EXPECT_FALSE(method.at("source").get<std::string>().empty());
         EXPECT_TRUE(contains(text.out, method.at("name").get<std::string>()));
         for (const Json& line_class : method.at("draws")) {
-            EXPECT_TRUE(std::set<std::string>(
-                            {"silhouette", "border", "crease", "intersection", "object", "material", "polygon", "mark"})
-                            .contains(line_class.get<std::string>()));
+            EXPECT_TRUE(line_class_named(line_class.get<std::string>()).has_value());
         }
     }
 }

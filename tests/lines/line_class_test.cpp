@@ -22,7 +22,7 @@ TEST(LineClass, PriorityIsTheOrderOfTheConventions) {
 }
 
 TEST(LineClassSet, IsASet) {
-    for (unsigned a = 0; a < 256; ++a) {
+    for (unsigned a = 0; a < 1u << kLineClassCount; ++a) {
         const auto set = LineClassSet::from_bits(a);
         EXPECT_EQ(set | set, set);
         EXPECT_EQ(set & LineClassSet::all(), set);

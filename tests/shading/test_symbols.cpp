@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "lines/line_class.h"
 #include "tests/support/random.h"
 
 namespace burin::test {
@@ -13,8 +14,8 @@ namespace {
 ExpressionSymbols make_symbols() {
     using enum ValueType;
     using enum ValueRate;
-    const auto classes = std::make_shared<NameList>(NameList{
-        "class", {"mark", "border", "silhouette", "intersection", "object", "material", "crease", "polygon"}, 0, true});
+    const auto classes =
+        std::make_shared<NameList>(NameList{"class", {kLineClassNames.begin(), kLineClassNames.end()}, 0, true});
     const auto objects =
         std::make_shared<NameList>(NameList{"object", {"wheel_left", "wheel_right", "body"}, 1, false});
     const auto materials = std::make_shared<NameList>(NameList{"material", {"steel", "glass"}, 1, false});
