@@ -142,25 +142,28 @@ void InkPixels::put_own_squares(const InkTile& tile, PixelRect rect) {
 
 void InkPixels::find_spots(const InkTile& tile, int column, int row) {
     spots_.clear();
-    const auto add = [&](const InkStroke& stroke, const InkPlan::Look& look, float nearness, const StrokeMask& mask) {
-        const InkOrder& order = plan_.orders[look.rank];
-        spots_.push_back({look.rank, nearness, stroke.chain,
-                          InkSpot{&mask, look.color, look.strength, look.is_plain, stroke.blend == InkBlend::multiply,
-                                  order.is_hidden, order.drawn_as, order.set}});
+    const auto add = [&](std::uint32_t rank, float nearness, std::uint64_t chain, const InkSpot& spot) {
+        const InkOrder& order = plan_.orders[rank];
+        Placed& placed = spots_.emplace_back(Placed{rank, nearness, chain, spot});
+        placed.spot.is_hidden = order.is_hidden;
+        placed.spot.drawn_as = order.drawn_as;
+        placed.spot.set = order.set;
     };
     for (const InkTile::Layer& layer : tile.layers()) {
-        if (layer.canvas->is_touched(column, row))
-            add(lines_.strokes[layer.stroke], *layer.look, 0, layer.canvas->at(column, row));
+        if (!layer.canvas->is_touched(column, row)) continue;
+        add(layer.look->rank, 0, 0, {&layer.canvas->at(column, row), layer.look->color, layer.look->strength, true});
     }
     if (tile.has_records(column, row)) {
         tile.for_records(column, row, [&](const InkRecord& record) {
-            const auto samples = static_cast<float>(record.samples);
-            add(lines_.strokes[record.stroke], plan_.looks[record.stroke], record.nearness / samples, record.mask);
-            InkSpot& spot = spots_.back().spot;
-            spot.is_share = record.is_plain;
-            if (spot.is_share) return;
-            spot.alpha = std::min(record.alpha / samples, 1.0f);
-            spot.color = record.color / record.alpha;
+            const float nearness = record.nearness / static_cast<float>(record.samples);
+            if (record.is_plain) {
+                const InkPlan::Look& look = plan_.looks[record.stroke];
+                add(record.rank, nearness, record.chain, {&record.mask, look.color, look.strength, true});
+                return;
+            }
+            const float alpha = std::min(record.alpha / static_cast<float>(record.samples), 1.0f);
+            add(record.rank, nearness, record.chain,
+                {&record.mask, record.color / record.alpha, alpha, false, record.multiplies});
         });
     }
     if (spots_.size() < 2) return;

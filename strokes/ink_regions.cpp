@@ -74,7 +74,23 @@ void InkRegions::lay_below(const InkSpot& spot) {
         }
         region.stack.lay_below(spot);
     }
+    join_opaque();
     while (count_ > kMost) merge_most_alike();
+}
+
+/// Makes one of all regions that nothing is seen through: they will not differ any more.
+void InkRegions::join_opaque() {
+    std::size_t opaque = kMost * 2;
+    for (std::size_t i = 0; i < count_;) {
+        const InkStack& stack = regions_[i].stack;
+        if (stack.left > 0 || stack.through != glm::vec3(0.0f)) {
+            ++i;
+        } else if (opaque == kMost * 2) {
+            opaque = i++;
+        } else {
+            merge(opaque, i);
+        }
+    }
 }
 
 void InkRegions::merge_most_alike() {
@@ -91,6 +107,11 @@ void InkRegions::merge_most_alike() {
             if (loss < least) least = loss, first = i, second = k;
         }
     }
+    merge(first, second);
+}
+
+/// The last region takes the place of the second one.
+void InkRegions::merge(std::size_t first, std::size_t second) {
     Region &a = regions_[first], &b = regions_[second];
     const auto n = static_cast<float>(a.samples), m = static_cast<float>(b.samples);
     a.stack.scale(n / (n + m));

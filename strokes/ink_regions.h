@@ -69,7 +69,9 @@ class InkRegions {
         int samples = 0;
         InkStack stack;
     };
+    void join_opaque();
     void merge_most_alike();
+    void merge(std::size_t first, std::size_t second);
 
     const TileKernels* kernels_;
     std::array<Region, 2 * kMost> regions_;  // each may split before some become one

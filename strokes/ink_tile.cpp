@@ -210,13 +210,18 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
 void InkTile::take(const Placed& placed, int column, int row, const StrokeMask& mask) {
     const std::size_t pixel = index(column, row);
     if (record_at_[pixel] == 0) {
-        records_.emplace_back();
-        records_.back().pixel = static_cast<std::uint32_t>(pixel);
-        records_.back().stroke = placed.ref.stroke;
+        InkRecord& record = records_.emplace_back();
+        const InkStroke& stroke = lines_.strokes[placed.ref.stroke];
+        record.pixel = static_cast<std::uint32_t>(pixel);
+        record.stroke = placed.ref.stroke;
+        record.rank = placed.ref.rank;
+        record.chain = stroke.chain;
+        record.multiplies = stroke.blend == InkBlend::multiply;
         record_at_[pixel] = static_cast<std::uint32_t>(records_.size());
         touched_[pixel] = 1;
     }
     InkRecord& record = records_[record_at_[pixel] - 1];
+    if (record.samples == InkRegions::kSamples) return;
     const int samples = kernels_.stroke.count_bits(mask.rows.data(), record.mask.rows.data());
     if (samples == 0) return;
     for (std::size_t r = 0; r < mask.rows.size(); ++r) record.mask.rows[r] |= mask.rows[r];

@@ -57,7 +57,10 @@ struct InkSegmentRef {
 struct InkRecord {
     std::uint32_t pixel = 0;
     std::uint32_t stroke = 0;  ///< the first one of its chain here
-    bool is_plain = true;      ///< all of it is opaque ink of the first one's look
+    std::uint32_t rank = 0;
+    std::uint64_t chain = 0;
+    bool multiplies = false;
+    bool is_plain = true;  ///< all of it is opaque ink of the first one's look
     StrokeMask mask;
     int samples = 0;
     float alpha = 0, nearness = 0;  ///< sums over the samples
