@@ -84,7 +84,7 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
         if (!description.sheet->file.empty()) files.push_back(description.sheet->file);
         use_sheet(description, sheet_as_wished(*description.sheet, a));
     }
-    const bool names_classes = description.names_classes;
+    const std::vector<std::string> unread = description.unread_line_keys;
     for (const ObjectDescription& object : description.objects) {
         if (!object.file.empty()) files.push_back(object.file);
     }
@@ -116,8 +116,11 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
         if (a.hidden) scene.lines.style.hidden.style = *a.hidden;
         if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
         if (!a.line_color.empty()) scene.lines.style.colors.fill(*color_from_hex(a.line_color));
-    } else if (names_classes && !a.quiet) {
-        std::fputs("burin: note: the style sheet says which lines are drawn, and lines.draw changes nothing\n", stderr);
+    } else if (!unread.empty() && !a.quiet) {
+        std::string keys;
+        for (const std::string& key : unread) keys += (keys.empty() ? "lines." : ", lines.") + key;
+        std::fprintf(stderr, "burin: note: the style sheet says which lines are drawn and how; %s change%s nothing\n",
+                     keys.c_str(), unread.size() == 1 ? "s" : "");
     }
     if (a.crease_angle_deg) scene.lines.set_crease_angle((*a.crease_angle_deg)[0], (*a.crease_angle_deg)[1]);
     if (a.frame) scene.frame.number = *a.frame;

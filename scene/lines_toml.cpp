@@ -102,11 +102,16 @@ LineSettings read_line_settings(TomlReader& t) {
     return lines;
 }
 
-void refuse_looks_of_lines(const TomlReader& t) {
+std::vector<std::string> keys_beside_sheet(const TomlReader& t, bool may_have_looks) {
+    std::vector<std::string> unread;
+    if (t.has("draw")) unread.emplace_back("draw");
     for (const char* const key : {"width", "color", "colors", "dash", "side", "hidden"}) {
-        if (t.has(key))
+        if (!t.has(key)) continue;
+        if (!may_have_looks)
             t.fail(key, "cannot stand beside a style sheet, which says how lines look; remove one of the two");
+        unread.emplace_back(key);
     }
+    return unread;
 }
 
 }  // namespace burin

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "scene/scene.h"
 #include "scene/toml_reader.h"
@@ -12,8 +14,9 @@ namespace burin {
 
 LineSettings read_line_settings(TomlReader& lines);
 
-/// Throws for the first key of [lines] that says how lines look: beside a style sheet there must be none.
-void refuse_looks_of_lines(const TomlReader& lines);
+/// The keys of [lines] that nothing reads beside a style sheet. Those that say how lines look are errors unless
+/// `may_have_looks`.
+std::vector<std::string> keys_beside_sheet(const TomlReader& lines, bool may_have_looks);
 
 // Keys that [lines] and style sheets have in common.
 

@@ -39,7 +39,7 @@ struct SceneDescription {
     FrameSettings frame;
     LineSettings lines;
     std::shared_ptr<const StyleSheet> sheet;
-    bool names_classes = false;  ///< [lines] has `draw`, which nothing reads beside a sheet
+    std::vector<std::string> unread_line_keys;  ///< keys of [lines] that nothing reads beside the sheet
     SurfaceStyle surfaces;
     AbufferSettings abuffer;
     PatelSettings patel;

@@ -79,10 +79,7 @@ class SceneReader {
         for (TomlReader& t : root_.tables("object")) read_object(t);
         if (auto t = root_.table("picture")) read_picture(*t);
         if (auto t = root_.table("frames")) read_frames(*t);
-        if (auto t = root_.table("lines")) {
-            scene_.names_classes = t->has("draw");
-            scene_.lines = read_line_settings(*t);
-        }
+        if (auto t = root_.table("lines")) scene_.lines = read_line_settings(*t);
         read_style();
         if (auto t = root_.table("surfaces")) read_surfaces(*t);
         if (auto t = root_.table("abuffer")) read_abuffer(*t);
@@ -223,7 +220,9 @@ class SceneReader {
             throw UsageError("--set " + printable(wishes_.overrides.front().key) +
                              ": there is no style sheet; give one with --style");
         }
-        if (const auto lines = root_.table("lines")) refuse_looks_of_lines(*lines);
+        // A sheet of the command line takes the place of all looks of the scene.
+        if (const auto lines = root_.table("lines"))
+            scene_.unread_line_keys = keys_beside_sheet(*lines, !wishes_.style.empty());
         use_sheet(scene_, std::make_shared<StyleSheet>(read_sheet(*source, wishes_.overrides)));
     }
 
