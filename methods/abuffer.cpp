@@ -11,6 +11,8 @@
 #include "lines/sharp_edges.h"
 #include "render/drawing_needs.h"
 #include "render/line_layout.h"
+#include "render/sheet_context.h"
+#include "shading/sheet/compiled_sheet.h"
 #include "strokes/row_printer.h"
 
 namespace burin {
@@ -25,7 +27,9 @@ LineCriteria criteria_of(const LineSettings& lines) {
 }
 
 void refuse_sheet(const Frame& frame) {
-    if (frame.scene->sheet) throw InputError("style sheets cannot be drawn yet");
+    if (!frame.scene->sheet) return;
+    const CompiledSheet sheet(*frame.scene->sheet, sheet_context_of(frame));
+    throw InputError("style sheets cannot be drawn yet");
 }
 
 Frame with_fading_creases(Frame frame) {
