@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "lines/sharp_edges.h"
-#include "render/drawing_needs.h"
 #include "render/line_layout.h"
 #include "render/line_shading.h"
 #include "strokes/ink_printer.h"
@@ -42,7 +41,8 @@ PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_me
     parallel_for(count, has_many ? threads : 1, [&](std::size_t i, int) {
         prepared.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, has_many ? 1 : threads);
     });
-    if (!saves_memory && needs_of(scene).behind() && IntersectionLines::are_wanted(scene.lines.classes)) {
+    const bool behind = draws_hidden_lines(scene) || has_transparent_surfaces(scene);
+    if (!saves_memory && behind && IntersectionLines::are_wanted(scene.lines.classes)) {
         prepared.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), threads);
     }
     return prepared;

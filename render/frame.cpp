@@ -10,6 +10,7 @@
 #include "mesh/text_scan.h"
 #include "render/drawing_needs.h"
 #include "render/frame_reach.h"
+#include "render/sheet_context.h"
 #include "shading/sheet/compiled_sheet.h"
 
 namespace burin {
@@ -19,18 +20,6 @@ namespace {
 glm::dmat3 cofactors(const glm::dmat4& m) {
     const glm::dvec3 a(m[0]), b(m[1]), c(m[2]);
     return {glm::cross(b, c), glm::cross(c, a), glm::cross(a, b)};
-}
-
-SheetContext sheet_context_of(const Scene& scene, int width, int height) {
-    SheetContext context;
-    for (const SceneObject& object : scene.objects) context.objects.push_back(object.name);
-    for (const Material& material : scene.materials) context.materials.push_back(material.name);
-    context.width_px = width;
-    context.height_px = height;
-    context.px_per_mm = scene.picture.dpi / 25.4;
-    context.frame = scene.frame.number;
-    context.fps = scene.frame.fps;
-    return context;
 }
 
 }  // namespace
@@ -52,7 +41,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     frame.height = height;
     frame.crop = crop;
     if (scene.sheet)
-        frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(scene, width, height));
+        frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(frame));
     frame.needs = frame.sheet ? needs_of(scene, frame.sheet->needs()) : needs_of(scene);
     frame.criteria = criteria_of(scene.lines);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kLaterClasses[] = {"suggestive", "ridge", "valley", "light", "shadow"};
 
 LineClassSet read_classes(TomlReader& t) {
-    if (!t.has("classes")) t.fail("needs classes = [\"silhouette\", ...]: only these are looked for");
+    if (t.node("classes") == nullptr) t.fail("needs classes = [\"silhouette\", ...]: only these are looked for");
     const std::vector<std::string> names = *t.texts("classes");
     if (names.empty()) t.fail("classes", "must name at least one line class");
     std::vector<std::string> known(kLineClassNames.begin(), kLineClassNames.end());
@@ -34,7 +34,7 @@ LineClassSet read_classes(TomlReader& t) {
 }
 
 std::array<int, 2> read_qi(TomlReader& t) {
-    if (!t.has("qi")) return {0, 0};
+    if (t.node("qi") == nullptr) return {0, 0};
     if (!t.node("qi")->is_array()) {
         const int only = *t.integer("qi", 0, 255);
         return {only, only};
@@ -52,7 +52,7 @@ std::array<int, 2> read_qi(TomlReader& t) {
 
 /// The name of a layer of the set's own; empty: none.
 std::string read_layer(TomlReader& t, const std::string& set_name) {
-    if (!t.has("layer")) return {};
+    if (t.node("layer") == nullptr) return {};
     std::string name = set_name;
     if (t.is_text("layer")) {
         name = *t.text("layer");
@@ -82,7 +82,7 @@ class SetReader {
         set.name = *name;
         set.classes = read_classes(t);
         set.qi = read_qi(t);
-        if (t.has("select")) set.select = values_.expression(t, "select");
+        if (t.node("select") != nullptr) set.select = values_.expression(t, "select");
         set.objects = read_globs(t, "objects").value_or(std::vector<std::string>{});
         set.materials = read_globs(t, "materials").value_or(std::vector<std::string>{});
         set.style = read_style(t);

@@ -55,19 +55,19 @@ class StyleReader {
 
   private:
     void read_value(const char* key, const Rule& rule, StyleValue& value) {
-        if (t_.has(key)) value = values_.value(t_, key, rule);
+        if (t_.node(key) != nullptr) value = values_.value(t_, key, rule);
     }
 
     /// Whether a key has the word that stands for nothing.
     bool is_word(const char* key, const char* word) { return t_.is_text(key) && t_.text(key) == word; }
 
     void read_taper() {
-        if (!t_.has("taper")) return;
+        if (t_.node("taper") == nullptr) return;
         if (is_word("taper", "none")) return style_.taper.reset();
         TomlReader taper = *t_.table("taper");
         StyleTaper made;
-        if (taper.has("start")) made.start = values_.value(taper, "start", kLength);
-        if (taper.has("end")) made.end = values_.value(taper, "end", kLength);
+        if (taper.node("start") != nullptr) made.start = values_.value(taper, "start", kLength);
+        if (taper.node("end") != nullptr) made.end = values_.value(taper, "end", kLength);
         static constexpr TaperShape kShapes[] = {TaperShape::round, TaperShape::linear, TaperShape::sharp};
         made.shape = kShapes[taper.choice("shape", {"round", "linear", "sharp"}).value_or(0)];
         made.at = taper.choice("at", {"free", "all"}) == 1u ? TaperAt::all : TaperAt::free;
@@ -76,7 +76,7 @@ class StyleReader {
     }
 
     void read_dash() {
-        if (!t_.has("dash")) return;
+        if (t_.node("dash") == nullptr) return;
         if (is_word("dash", "solid")) return style_.dash.clear();
         const std::size_t count = SheetValueReader::list_size(t_, "dash");
         if (count < 2 || count > 8 || count % 2 != 0)
@@ -86,12 +86,13 @@ class StyleReader {
     }
 
     void read_wobble() {
-        if (!t_.has("wobble")) return;
+        if (t_.node("wobble") == nullptr) return;
         if (is_word("wobble", "none")) return style_.wobble.reset();
         TomlReader wobble = *t_.table("wobble");
         StyleWobble made;
-        if (wobble.has("amplitude")) made.amplitude = values_.value(wobble, "amplitude", kAmplitude);
-        if (wobble.has("wavelength")) made.wavelength = values_.value(wobble, "wavelength", kPositiveLength);
+        if (wobble.node("amplitude") != nullptr) made.amplitude = values_.value(wobble, "amplitude", kAmplitude);
+        if (wobble.node("wavelength") != nullptr)
+            made.wavelength = values_.value(wobble, "wavelength", kPositiveLength);
         made.octaves = wobble.integer("octaves", 1, 8).value_or(1);
         made.anchor = wobble.choice("anchor", {"object", "chain"}) == 1u ? WobbleAnchor::chain : WobbleAnchor::object;
         made.pin = wobble.boolean("pin").value_or(true);
@@ -101,7 +102,7 @@ class StyleReader {
 
     /// Two lengths, the smaller one first; or one that counts for both.
     void read_pair(const char* key, std::array<StyleValue, 2>& pair, bool may_be_one) {
-        if (!t_.has(key)) return;
+        if (t_.node(key) == nullptr) return;
         const bool is_list = t_.node(key)->is_array();
         if (!is_list && may_be_one) {
             pair.fill(values_.value(t_, key, kLength));
