@@ -222,8 +222,10 @@ void InkTile::take(const Placed& placed, int column, int row, const StrokeMask& 
     }
     InkRecord& record = records_[record_at_[pixel] - 1];
     if (record.samples == InkRegions::kSamples) return;
+    std::uint32_t any = 0;
+    for (std::size_t r = 0; r < mask.rows.size(); ++r) any |= mask.rows[r] & ~record.mask.rows[r];
+    if (any == 0) return;  // mostly, where bodies are drawn already
     const int samples = kernels_.stroke.count_bits(mask.rows.data(), record.mask.rows.data());
-    if (samples == 0) return;
     for (std::size_t r = 0; r < mask.rows.size(); ++r) record.mask.rows[r] |= mask.rows[r];
     const float share = placed.segment.share_nearest({rect_.x0 + column + 0.5, rect_.y0 + row + 0.5});
     const auto count = static_cast<float>(samples);
