@@ -56,7 +56,7 @@ struct ScreenTransform {
 };
 
 /// What all pixels of a triangle have in common.
-struct TriangleLook {
+struct TriangleGeometry {
     double normal[3];          ///< unit length, in view space, towards the eye
     double offset;             ///< of its plane: the product of its normal and a point of it
     double nearest, farthest;  ///< distances
@@ -176,11 +176,11 @@ struct TileKernels {
         void (&count_covered)(const std::uint32_t* ids, std::int32_t stride, std::int32_t samples_per_pixel,
                               std::int32_t pixels, std::uint8_t* counts);
         /// Fills in all but the ids of triangles that are polygons of their own; none may be off screen.
-        void (&looks)(const ScreenTransform& transform, const float* positions, const ScreenMesh& mesh,
-                      const std::uint32_t* triangles, std::size_t count, TriangleLook* looks);
-        /// Fills in depth, normals and ids of pixels in the planes of the looks with numbers `look_at`; where a plane
-        /// is not met, or beyond its triangle, it is the triangle's nearest or farthest distance.
-        void (&geometry)(const RowRays& rays, const TriangleLook* looks, const std::uint16_t* look_at,
+        void (&geometries)(const ScreenTransform& transform, const float* positions, const ScreenMesh& mesh,
+                           const std::uint32_t* triangles, std::size_t count, TriangleGeometry* geometries);
+        /// Fills in depth, normals and ids of pixels in the planes of the triangles with numbers `geometry_at`; where a
+        /// plane is not met, or beyond its triangle, it is the triangle's nearest or farthest distance.
+        void (&geometry)(const RowRays& rays, const TriangleGeometry* geometries, const std::uint16_t* geometry_at,
                          std::size_t count, const GeometryRow& row);
     };
 

@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little, "the file is little-en
 constexpr std::string_view kFormat = "burin-lines 1";
 constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kMostDirectoryBytes = 16u << 20;
-constexpr std::uint8_t kOccludes = 1, kFrontOnLeft = 2, kIsBeyond = 4;                      // of `flags`
+constexpr std::uint8_t kOccludes = 1, kFrontOnLeft = 2, kIsBeyond = 4;                            // of `flags`
 constexpr std::uint8_t kHidden = 1, kClosed = 2, kChainClosed = 4, kFirstEnd = 8, kLastEnd = 32;  // of `chain_flags`
 
 template <typename T>
@@ -66,14 +66,15 @@ class ArrayWriter {
         for (const auto& [name, array] : arrays_) {
             nlohmann::ordered_json& entry = directory[name];
             entry["dtype"] = array.type;
-            entry["shape"] = array.columns == 1 ? nlohmann::json{array.rows} : nlohmann::json{array.rows, array.columns};
+            entry["shape"] =
+                array.columns == 1 ? nlohmann::json{array.rows} : nlohmann::json{array.rows, array.columns};
             entry["data_offsets"] = {at, at + array.bytes.size()};
             at += array.bytes.size();
         }
         std::string text = directory.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-        text.resize((text.size() + sizeof(std::uint64_t) + kAlignment - 1) / kAlignment * kAlignment -
-                        sizeof(std::uint64_t),
-                    ' ');
+        text.resize(
+            (text.size() + sizeof(std::uint64_t) + kAlignment - 1) / kAlignment * kAlignment - sizeof(std::uint64_t),
+            ' ');
         const std::uint64_t size = text.size();
         file.write(&size, sizeof size);
         file.write(text.data(), text.size());
@@ -197,9 +198,8 @@ void add_pieces(const FoundLines& lines, ArrayWriter& out) {
         const glm::dvec2 p = i % 2 == 0 ? piece(i).piece.from : piece(i).piece.to;
         v[0] = p.x, v[1] = p.y;
     });
-    out.add<double>("s", 2 * n, 1, [&](std::size_t i, double* v) {
-        v[0] = i % 2 == 0 ? piece(i).at_from_px : piece(i).at_to_px;
-    });
+    out.add<double>("s", 2 * n, 1,
+                    [&](std::size_t i, double* v) { v[0] = i % 2 == 0 ? piece(i).at_from_px : piece(i).at_to_px; });
     out.add<float>("nearness", 2 * n, 1, [&](std::size_t i, float* v) {
         v[0] = i % 2 == 0 ? piece(i).piece.nearness_from : piece(i).piece.nearness_to;
     });
@@ -217,7 +217,8 @@ void add_pieces(const FoundLines& lines, ArrayWriter& out) {
         v[0] = s.front_object, v[1] = s.front_material, v[2] = s.other_object, v[3] = s.other_material;
     });
     out.add<float>("dihedral", n, 1, [&](std::size_t i, float* v) { v[0] = lines.sides[i].dihedral_deg; });
-    out.add<std::uint16_t>("classes", n, 1, [&](std::size_t i, std::uint16_t* v) { v[0] = pieces[i].piece.classes.bits; });
+    out.add<std::uint16_t>("classes", n, 1,
+                           [&](std::size_t i, std::uint16_t* v) { v[0] = pieces[i].piece.classes.bits; });
     const auto bytes = [&](const char* name, auto value) {
         out.add<std::uint8_t>(name, n, 1, [&pieces, &value](std::size_t i, std::uint8_t* v) {
             v[0] = static_cast<std::uint8_t>(value(pieces[i].piece));
@@ -245,17 +246,16 @@ void add_chains(const FoundLines& lines, ArrayWriter& out) {
     out.add<double>("chain_length", runs.size(), 1, [&](std::size_t i, double* v) { v[0] = runs[i].chain_length_px; });
     out.add<std::uint8_t>("chain_flags", runs.size(), 1, [&](std::size_t i, std::uint8_t* v) {
         const LineRun& r = runs[i];
-        v[0] = static_cast<std::uint8_t>((r.is_hidden ? kHidden : 0) | (r.is_closed ? kClosed : 0) |
-                                         (r.chain_is_closed ? kChainClosed : 0) |
-                                         kFirstEnd * static_cast<int>(r.ends[0]) | kLastEnd * static_cast<int>(r.ends[1]));
+        v[0] = static_cast<std::uint8_t>(
+            (r.is_hidden ? kHidden : 0) | (r.is_closed ? kClosed : 0) | (r.chain_is_closed ? kChainClosed : 0) |
+            kFirstEnd * static_cast<int>(r.ends[0]) | kLastEnd * static_cast<int>(r.ends[1]));
     });
     const auto& b = lines.boundaries;
     out.add<double>("boundary_xy", b.size(), 4, [&](std::size_t i, double* v) {
         v[0] = b[i].from.x, v[1] = b[i].from.y, v[2] = b[i].to.x, v[3] = b[i].to.y;
     });
-    out.add<float>("boundary_nearness", b.size(), 2, [&](std::size_t i, float* v) {
-        v[0] = b[i].nearness_from, v[1] = b[i].nearness_to;
-    });
+    out.add<float>("boundary_nearness", b.size(), 2,
+                   [&](std::size_t i, float* v) { v[0] = b[i].nearness_from, v[1] = b[i].nearness_to; });
     out.add<std::uint8_t>("boundary_flags", b.size(), 1,
                           [&](std::size_t i, std::uint8_t* v) { v[0] = b[i].front_on_left ? kFrontOnLeft : 0; });
 }
@@ -266,7 +266,8 @@ void add_picture(const FoundLines& lines, const KeptSurface& surface, ArrayWrite
     });
     out.add<double>("projection", 5, 1, [&](std::size_t i, double* v) {
         const Projection& p = lines.projection;
-        const double numbers[5] = {p.orthographic ? 1.0 : 0.0, p.focal_px, p.center_px.x, p.center_px.y, p.near_distance};
+        const double numbers[5] = {p.orthographic ? 1.0 : 0.0, p.focal_px, p.center_px.x, p.center_px.y,
+                                   p.near_distance};
         v[0] = numbers[i];
     });
     out.add<double>("object_from_view", lines.objects.size(), 17, [&](std::size_t i, double* v) {
@@ -359,13 +360,15 @@ void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines&
     if (data.text("format") != kFormat) in.fail("__metadata__.format: must be '" + std::string(kFormat) + "'");
     lines.width_px = static_cast<int>(data.integer("width", 1, 65535));
     lines.height_px = static_cast<int>(data.integer("height", 1, 65535));
-    lines.classes = LineClassSet::from_bits(static_cast<unsigned>(data.integer("class_bits", 0, LineClassSet::all().bits)));
+    lines.classes =
+        LineClassSet::from_bits(static_cast<unsigned>(data.integer("class_bits", 0, LineClassSet::all().bits)));
     lines.most_invisibility = static_cast<int>(data.integer("most_qi", 0, 255));
     lines.tells_invisibility = data.integer("tells_qi", 0, 1) == 1;
     lines.has_normals = data.integer("has_normals", 0, 1) == 1;
     lines.has_beyond = data.integer("has_beyond", 0, 1) == 1;
     lines.has_chains = data.integer("has_chains", 0, 1) == 1;
-    lines.frame = static_cast<int>(data.integer("frame", std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+    lines.frame =
+        static_cast<int>(data.integer("frame", std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
     lines.time_s = data.number("time");
     if (data.has("light")) lines.light = data.vector("light");
     in.take<double>("camera", 4, 4, [&](std::size_t i, const double* v) {
@@ -381,9 +384,8 @@ void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines&
         lines.objects[i].from_view = matrix_of(v);
         lines.objects[i].units_per_view = v[16];
     });
-    in.take<std::uint32_t>("object_number", lines.objects.size(), 1, [&](std::size_t i, const std::uint32_t* v) {
-        lines.objects[i].same_name_before = v[0];
-    });
+    in.take<std::uint32_t>("object_number", lines.objects.size(), 1,
+                           [&](std::size_t i, const std::uint32_t* v) { lines.objects[i].same_name_before = v[0]; });
     lines.material_colors.resize(lines.materials.size());
     in.take<float>("material_color", lines.materials.size(), 3, [&](std::size_t i, const float* v) {
         for (int k = 0; k < 3; ++k) lines.material_colors[i][k] = v[k];
@@ -395,7 +397,8 @@ void read_pieces(const ArrayReader& in, FoundLines& lines) {
     std::vector<glm::dvec2> places;
     in.take<double>("xy", ArrayReader::kAnyRows, 2, [&](std::size_t i, const double* v) {
         constexpr double kFarthestPx = 1 << 20;
-        if (std::abs(v[0]) > kFarthestPx || std::abs(v[1]) > kFarthestPx) in.fail_at("xy", i, "lies far beyond the picture");
+        if (std::abs(v[0]) > kFarthestPx || std::abs(v[1]) > kFarthestPx)
+            in.fail_at("xy", i, "lies far beyond the picture");
         places.emplace_back(v[0], v[1]);
     });
     if (places.size() % 2 != 0 || places.size() / 2 > std::numeric_limits<std::uint32_t>::max())
@@ -424,7 +427,8 @@ void read_pieces(const ArrayReader& in, FoundLines& lines) {
         lines.sides[i].beyond_plane = plane_of(v + 5);
         if (v[3] > v[4] || v[8] > v[9]) in.fail_at("planes", i, "has a lowest nearness above its highest");
     });
-    in.take<std::uint64_t>("line", n, 1, [&](std::size_t i, const std::uint64_t* v) { pieces[i].piece.line.bits = v[0]; });
+    in.take<std::uint64_t>("line", n, 1,
+                           [&](std::size_t i, const std::uint64_t* v) { pieces[i].piece.line.bits = v[0]; });
     in.take<std::uint32_t>("owners", n, 4, [&](std::size_t i, const std::uint32_t* v) {
         const std::uint64_t objects = lines.objects.size() + 1, materials = lines.materials.size() + 1;
         LineSides& s = lines.sides[i];
@@ -443,16 +447,20 @@ void read_pieces(const ArrayReader& in, FoundLines& lines) {
             use(i, checked<std::uint8_t>(in, name, i, v[0], end));
         });
     };
-    bytes("drawn_as", [&](std::size_t i, std::uint8_t v) { pieces[i].piece.drawn_as = static_cast<LineClass>(v); },
-          kLineClassCount);
+    bytes(
+        "drawn_as", [&](std::size_t i, std::uint8_t v) { pieces[i].piece.drawn_as = static_cast<LineClass>(v); },
+        kLineClassCount);
     bytes("qi", [&](std::size_t i, std::uint8_t v) { pieces[i].piece.invisibility = v; });
     bytes("transmission", [&](std::size_t i, std::uint8_t v) { pieces[i].piece.transmission = v; });
     bytes("opacity", [&](std::size_t i, std::uint8_t v) { pieces[i].piece.opacity = v; });
-    bytes("flags", [&](std::size_t i, std::uint8_t v) {
-        pieces[i].piece.occludes = (v & kOccludes) != 0;
-        pieces[i].piece.front_on_left = (v & kFrontOnLeft) != 0;
-        lines.sides[i].is_beyond = (v & kIsBeyond) != 0;
-    }, 8);
+    bytes(
+        "flags",
+        [&](std::size_t i, std::uint8_t v) {
+            pieces[i].piece.occludes = (v & kOccludes) != 0;
+            pieces[i].piece.front_on_left = (v & kFrontOnLeft) != 0;
+            lines.sides[i].is_beyond = (v & kIsBeyond) != 0;
+        },
+        8);
     in.take<std::int8_t>("convex", n, 1, [&](std::size_t i, const std::int8_t* v) {
         if (v[0] < -1 || v[0] > 1) in.fail_at("convex", i, "is out of range");
         lines.sides[i].convex = v[0];
@@ -498,14 +506,16 @@ void read_chains(const ArrayReader& in, FoundLines& lines) {
         b[i].nearness_from = v[0];
         b[i].nearness_to = v[1];
     });
-    in.take<std::uint8_t>("boundary_flags", b.size(), 1,
-                          [&](std::size_t i, const std::uint8_t* v) { b[i].front_on_left = (v[0] & kFrontOnLeft) != 0; });
+    in.take<std::uint8_t>("boundary_flags", b.size(), 1, [&](std::size_t i, const std::uint8_t* v) {
+        b[i].front_on_left = (v[0] & kFrontOnLeft) != 0;
+    });
     // Places ascend along a run, in which dashes are cut.
     for (std::size_t r = 0; r < runs.size(); ++r) {
         for (std::size_t i = runs[r].first; i < runs[r].first + runs[r].count; ++i) {
             const RunPiece& p = lines.runs.pieces[i];
             constexpr double kLongestPx = 1e9;
-            if (!(p.at_from_px <= p.at_to_px) || std::abs(p.at_from_px) > kLongestPx || std::abs(p.at_to_px) > kLongestPx)
+            if (!(p.at_from_px <= p.at_to_px) || std::abs(p.at_from_px) > kLongestPx ||
+                std::abs(p.at_to_px) > kLongestPx)
                 in.fail_at("s", 2 * i, "does not ascend along its chain");
             if (p.piece.is_hidden() != runs[r].is_hidden) in.fail_at("qi", i, "is not that of its chain");
         }
@@ -536,8 +546,8 @@ LinesFile read_lines_file(const std::string& path) {
         in.take<float>("surface", ArrayReader::kAnyRows, 4, [&](std::size_t, const float* v) {
             surface.pixels.push_back({v[0], v[1], v[2], v[3]});
         });
-        const std::size_t pixels = static_cast<std::size_t>(result.lines.width_px) *
-                                   static_cast<std::size_t>(result.lines.height_px);
+        const std::size_t pixels =
+            static_cast<std::size_t>(result.lines.width_px) * static_cast<std::size_t>(result.lines.height_px);
         if (surface.width != result.lines.width_px || surface.pixels.size() != pixels)
             in.fail("surface: must have as many rows as the picture has pixels");
         surface.height = result.lines.height_px;

@@ -40,8 +40,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     frame.width = width;
     frame.height = height;
     frame.crop = crop;
-    if (scene.sheet)
-        frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(frame));
+    if (scene.sheet) frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(frame));
     frame.needs = frame.sheet ? needs_of(scene, frame.sheet->needs()) : needs_of(scene);
     frame.criteria = criteria_of(scene.lines);
 

@@ -44,15 +44,15 @@ PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const
     }
 }
 
-void PixelFiller::find_looks(const SampleTile& samples, PixelRect rect) {
+void PixelFiller::find_geometries(const SampleTile& samples, PixelRect rect) {
     const int s = samples.samples_per_pixel;
     const auto width = static_cast<std::size_t>(rect.width());
-    look_at_.resize(width * static_cast<std::size_t>(rect.height()));
-    numbers_.resize(look_at_.size() + 1);
+    geometry_at_.resize(width * static_cast<std::size_t>(rect.height()));
+    numbers_.resize(geometry_at_.size() + 1);
     std::size_t count = 1;
     struct Pixel {
         std::uint32_t id;
-        std::uint16_t look;
+        std::uint16_t geometry;
     };
     Pixel above[kWidth];
     std::fill_n(above, width, Pixel{SampleTile::kBackground, 0});
@@ -68,10 +68,10 @@ void PixelFiller::find_looks(const SampleTile& samples, PixelRect rect) {
             const auto choose = [](std::uint32_t condition, std::uint32_t a, std::uint32_t b) {
                 return b ^ ((a ^ b) & (0u - condition));
             };
-            const std::uint32_t known = choose(is_left, left.look, above[x].look) & (0u - is_surface);
+            const std::uint32_t known = choose(is_left, left.geometry, above[x].geometry) & (0u - is_surface);
             left = {id, static_cast<std::uint16_t>(choose(is_new, static_cast<std::uint32_t>(count), known))};
             above[x] = left;
-            look_at_[at] = left.look;
+            geometry_at_[at] = left.geometry;
             numbers_[count] = id >> 1;
             count += is_new;
         }
@@ -79,10 +79,10 @@ void PixelFiller::find_looks(const SampleTile& samples, PixelRect rect) {
     numbers_.resize(count);
 }
 
-void PixelFiller::make_looks() {
-    looks_.resize(numbers_.size());
-    looks_[0] = TriangleLook{};
-    looks_[0].nearest = looks_[0].farthest = std::numeric_limits<double>::infinity();
+void PixelFiller::make_geometries() {
+    geometries_.resize(numbers_.size());
+    geometries_[0] = TriangleGeometry{};
+    geometries_[0].nearest = geometries_[0].farthest = std::numeric_limits<double>::infinity();
     std::uint32_t triangles[kWidth];
     for (std::size_t i = 1; i < numbers_.size();) {
         const SurfaceId first = screen_.surface_of(numbers_[i]);
@@ -95,27 +95,27 @@ void PixelFiller::make_looks() {
             triangles[count++] = number - offset;
         }
         if (count == 0) {
-            looks_[i] = look_of(numbers_[i]);
+            geometries_[i] = geometry_of(numbers_[i]);
             ++i;
             continue;
         }
-        kernels_.fill.looks(screen_.transform(first.instance), glm::value_ptr(mesh.positions.front()),
-                            screen_.mesh(first.instance), triangles, count, &looks_[i]);
-        for (; count > 0; --count, ++i) fill_ids(numbers_[i], looks_[i]);
+        kernels_.fill.geometries(screen_.transform(first.instance), glm::value_ptr(mesh.positions.front()),
+                                 screen_.mesh(first.instance), triangles, count, &geometries_[i]);
+        for (; count > 0; --count, ++i) fill_ids(numbers_[i], geometries_[i]);
     }
 }
 
-void PixelFiller::fill_ids(std::uint32_t number, TriangleLook& look) const {
+void PixelFiller::fill_ids(std::uint32_t number, TriangleGeometry& geometry) const {
     const SurfaceSet& surfaces = frame_.surfaces;
     const SurfaceId id = screen_.surface_of(number);
-    look.object_id = surfaces.object_id(id);
-    look.material_id = surfaces.material_id(id);
-    look.polygon_id = surfaces.polygon_id(id);
+    geometry.object_id = surfaces.object_id(id);
+    geometry.material_id = surfaces.material_id(id);
+    geometry.polygon_id = surfaces.polygon_id(id);
 }
 
-TriangleLook PixelFiller::look_of(std::uint32_t number) const {
-    TriangleLook look{};
-    fill_ids(number, look);
+TriangleGeometry PixelFiller::geometry_of(std::uint32_t number) const {
+    TriangleGeometry geometry{};
+    fill_ids(number, geometry);
     const SurfaceSet& surfaces = frame_.surfaces;
     const SurfaceId id = screen_.surface_of(number);
     glm::dvec3 corners[3];
@@ -134,13 +134,14 @@ TriangleLook PixelFiller::look_of(std::uint32_t number) const {
     normal *= away ? -1.0 : 1.0;
     const glm::vec3 world(surfaces.view_to_world * normal);
     for (int c = 0; c < 3; ++c) {
-        look.normal[c] = normal[c];
-        look.world_normal[c] = world[c];
+        geometry.normal[c] = normal[c];
+        geometry.world_normal[c] = world[c];
     }
-    look.offset = glm::dot(normal, corners[0]);
-    look.nearest = std::max(std::min({-corners[0].z, -corners[1].z, -corners[2].z}), surfaces.projection.near_distance);
-    look.farthest = std::max({-corners[0].z, -corners[1].z, -corners[2].z});
-    return look;
+    geometry.offset = glm::dot(normal, corners[0]);
+    geometry.nearest =
+        std::max(std::min({-corners[0].z, -corners[1].z, -corners[2].z}), surfaces.projection.near_distance);
+    geometry.farthest = std::max({-corners[0].z, -corners[1].z, -corners[2].z});
+    return geometry;
 }
 
 void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
@@ -150,8 +151,8 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
     const GeometryRow own{
         row_.distance, {row_.normal[0], row_.normal[1], row_.normal[2]}, {row_.ids[0], row_.ids[1], row_.ids[2]}};
     const bool is_made_in_place = !film.is_whole() && width % 4 == 0;  // see GeometryRow
-    kernels_.fill.geometry({p.orthographic, first.x, first.y, p.focal_px}, looks_.data(),
-                           &look_at_[static_cast<std::size_t>(y - rect.y0) * width], width,
+    kernels_.fill.geometry({p.orthographic, first.x, first.y, p.focal_px}, geometries_.data(),
+                           &geometry_at_[static_cast<std::size_t>(y - rect.y0) * width], width,
                            is_made_in_place ? film.geometry_place(rect.x0, y, own) : own);
     if (!is_made_in_place) film.put_geometry(rect.x0, rect.x1, y, own);
 }
@@ -187,13 +188,13 @@ void PixelFiller::put_paper(const SampleTile& samples, PixelRect rect, Film& fil
 glm::vec4 PixelFiller::color(std::uint32_t number, int x, int y) {
     if (number != shaded_number_) {
         shaded_number_ = number;
-        shaded_look_ = look_of(number);
+        shaded_geometry_ = geometry_of(number);
     }
     const Scene& scene = *frame_.scene;
     glm::dvec3 origin, ray;
     frame_.surfaces.projection.view_ray({x + 0.5, y + 0.5}, origin, ray);
-    return surface_color(scene.surfaces, scene.materials[shaded_look_.material_id - 1], vector_of(shaded_look_.normal),
-                         -glm::normalize(ray));
+    return surface_color(scene.surfaces, scene.materials[shaded_geometry_.material_id - 1],
+                         vector_of(shaded_geometry_.normal), -glm::normalize(ray));
 }
 
 void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y, Film& film) {
@@ -235,8 +236,8 @@ void PixelFiller::clear(PixelRect rect, Film& film) const {
 void PixelFiller::fill_part(const SampleTile& samples, PixelRect part, Film& film) {
     const bool has_geometry = film.has_geometry();
     if (has_geometry) {
-        find_looks(samples, part);
-        make_looks();
+        find_geometries(samples, part);
+        make_geometries();
     }
     const bool is_paper = frame_.scene->surfaces.shading == SurfaceShading::paper;
     if (is_paper) put_paper(samples, part, film);

@@ -24,11 +24,11 @@ class PixelFiller {
     static constexpr int kWidth = TileGrid::kTileSamples / 2;  // the widest tile, in pixels
 
     /// The sample next to a pixel's centre stands for the pixel in depth, normal and numbers: finds the
-    /// triangles there, and their looks.
-    void find_looks(const SampleTile& samples, PixelRect rect);
-    void make_looks();
-    TriangleLook look_of(std::uint32_t number) const;
-    void fill_ids(std::uint32_t number, TriangleLook& look) const;
+    /// triangles there, and their geometries.
+    void find_geometries(const SampleTile& samples, PixelRect rect);
+    void make_geometries();
+    TriangleGeometry geometry_of(std::uint32_t number) const;
+    void fill_ids(std::uint32_t number, TriangleGeometry& geometry) const;
 
     /// Puts the pixels of a part that has anything but background.
     void fill_part(const SampleTile& samples, PixelRect part, Film& film);
@@ -41,11 +41,11 @@ class PixelFiller {
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
     std::vector<std::uint32_t> numbers_;         // of triangles; the first one is none
-    std::vector<TriangleLook> looks_;            // of them
-    std::vector<std::uint16_t> look_at_;         // per pixel of the tile, which of them
+    std::vector<TriangleGeometry> geometries_;   // of them
+    std::vector<std::uint16_t> geometry_at_;     // per pixel of the tile, which of them
     std::vector<HalfColor> paper_;               // by the number of covered samples
-    std::uint32_t shaded_number_ = 0xFFFFFFFFu;  // whose look is:
-    TriangleLook shaded_look_{};
+    std::uint32_t shaded_number_ = 0xFFFFFFFFu;  // whose geometry is:
+    TriangleGeometry shaded_geometry_{};
     struct Row {
         std::uint16_t color[4][kWidth];
         static_assert(kWidth % 4 == 0);  // see GeometryRow

@@ -45,12 +45,12 @@ TEST(FillKernels, CoveredSamplesAreCounted) {
 }
 
 // The distance that a pixel shows, from its ray and the plane of the triangle alone.
-double distance_along_ray(const Projection& projection, const TriangleLook& look, glm::dvec2 pixel) {
+double distance_along_ray(const Projection& projection, const TriangleGeometry& geometry, glm::dvec2 pixel) {
     glm::dvec3 origin, ray;
     projection.view_ray(pixel, origin, ray);
-    const glm::dvec3 normal(look.normal[0], look.normal[1], look.normal[2]);
-    const double at = (look.offset - glm::dot(normal, origin)) / glm::dot(normal, ray);
-    return std::isfinite(at) ? std::clamp(at, look.nearest, look.farthest) : look.nearest;
+    const glm::dvec3 normal(geometry.normal[0], geometry.normal[1], geometry.normal[2]);
+    const double at = (geometry.offset - glm::dot(normal, origin)) / glm::dot(normal, ray);
+    return std::isfinite(at) ? std::clamp(at, geometry.nearest, geometry.farthest) : geometry.nearest;
 }
 
 TEST(FillKernels, PixelsLieInThePlanesOfTheirTriangles) {
@@ -61,46 +61,46 @@ TEST(FillKernels, PixelsLieInThePlanesOfTheirTriangles) {
         projection.orthographic = seed % 2 == 1;
         projection.focal_px = random.real(50, 900);
         projection.center_px = {random.real(0, 640), random.real(0, 480)};
-        std::vector<TriangleLook> looks(20);
-        looks[0].nearest = looks[0].farthest = std::numeric_limits<double>::infinity();  // the background
-        for (std::size_t i = 1; i < looks.size(); ++i) {
-            TriangleLook& look = looks[i];
-            for (double& n : look.normal) n = random.real(-1, 1);
-            if (i == 1) look.normal[0] = look.normal[1] = look.normal[2] = 0;  // never met
-            look.offset = random.real(-5, 0.5);
-            look.nearest = random.real(0.1, 2);
-            look.farthest = look.nearest + random.real(0, 5);
-            for (float& n : look.world_normal) n = static_cast<float>(random.real(-1, 1));
-            look.object_id = static_cast<std::uint32_t>(3 * i);
-            look.material_id = look.object_id + 1;
-            look.polygon_id = look.object_id + 2;
+        std::vector<TriangleGeometry> geometries(20);
+        geometries[0].nearest = geometries[0].farthest = std::numeric_limits<double>::infinity();  // the background
+        for (std::size_t i = 1; i < geometries.size(); ++i) {
+            TriangleGeometry& geometry = geometries[i];
+            for (double& n : geometry.normal) n = random.real(-1, 1);
+            if (i == 1) geometry.normal[0] = geometry.normal[1] = geometry.normal[2] = 0;  // never met
+            geometry.offset = random.real(-5, 0.5);
+            geometry.nearest = random.real(0.1, 2);
+            geometry.farthest = geometry.nearest + random.real(0, 5);
+            for (float& n : geometry.world_normal) n = static_cast<float>(random.real(-1, 1));
+            geometry.object_id = static_cast<std::uint32_t>(3 * i);
+            geometry.material_id = geometry.object_id + 1;
+            geometry.polygon_id = geometry.object_id + 2;
         }
-        std::array<std::uint16_t, kCount> look_at;
-        for (std::uint16_t& l : look_at) l = static_cast<std::uint16_t>(random.integer(0, 19));
+        std::array<std::uint16_t, kCount> geometry_at;
+        for (std::uint16_t& l : geometry_at) l = static_cast<std::uint16_t>(random.integer(0, 19));
         const int x0 = random.integer(0, 600), y = random.integer(0, 479);
         const glm::dvec2 first = glm::dvec2(x0 + 0.5, y + 0.5) - projection.center_px;
         for (const TileKernels* kernels : all_kernels()) {
             std::array<float, kCount + 3> distance, normal[3];
             std::array<std::uint32_t, kCount + 3> ids[3];
-            kernels->fill.geometry({projection.orthographic, first.x, first.y, projection.focal_px}, looks.data(),
-                                   look_at.data(), kCount,
+            kernels->fill.geometry({projection.orthographic, first.x, first.y, projection.focal_px}, geometries.data(),
+                                   geometry_at.data(), kCount,
                                    {distance.data(),
                                     {normal[0].data(), normal[1].data(), normal[2].data()},
                                     {ids[0].data(), ids[1].data(), ids[2].data()}});
             for (std::size_t i = 0; i < kCount; ++i) {
-                const TriangleLook& look = looks[look_at[i]];
+                const TriangleGeometry& geometry = geometries[geometry_at[i]];
                 const double expected =
-                    distance_along_ray(projection, look, glm::dvec2(x0 + 0.5 + static_cast<double>(i), y + 0.5));
-                if (look_at[i] == 0) {
+                    distance_along_ray(projection, geometry, glm::dvec2(x0 + 0.5 + static_cast<double>(i), y + 0.5));
+                if (geometry_at[i] == 0) {
                     ASSERT_EQ(distance[i], std::numeric_limits<float>::infinity());
                 } else {
                     ASSERT_NEAR(distance[i], expected, 1e-6 * expected)
                         << kernels->name << ", seed " << seed << ", pixel " << i;
                 }
-                for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(normal[c][i], look.world_normal[c]);
-                ASSERT_EQ(ids[0][i], look.object_id);
-                ASSERT_EQ(ids[1][i], look.material_id);
-                ASSERT_EQ(ids[2][i], look.polygon_id);
+                for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(normal[c][i], geometry.world_normal[c]);
+                ASSERT_EQ(ids[0][i], geometry.object_id);
+                ASSERT_EQ(ids[1][i], geometry.material_id);
+                ASSERT_EQ(ids[2][i], geometry.polygon_id);
             }
         }
     }

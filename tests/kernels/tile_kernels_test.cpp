@@ -380,7 +380,7 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
     for (const bool orthographic : {false, true}) {
         t.orthographic = orthographic;
         std::vector<std::vector<ScreenVertex>> vertices(kernels.size());
-        std::vector<std::vector<TriangleLook>> looks(kernels.size());
+        std::vector<std::vector<TriangleGeometry>> geometries(kernels.size());
         std::vector<std::uint32_t> corners(999), numbers(333);
         std::iota(corners.begin(), corners.end(), 0u);
         std::iota(numbers.begin(), numbers.end(), 0u);
@@ -390,9 +390,9 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
         mesh.facing = facing.data();
         for (std::size_t i = 0; i < kernels.size(); ++i) {
             vertices[i].resize(999);
-            looks[i].resize(333);
+            geometries[i].resize(333);
             kernels[i]->project.vertices(t, positions.data(), 999, vertices[i].data());
-            kernels[i]->fill.looks(t, positions.data(), mesh, numbers.data(), 333, looks[i].data());
+            kernels[i]->fill.geometries(t, positions.data(), mesh, numbers.data(), 333, geometries[i].data());
         }
         int seen = 0;
         for (const ScreenVertex& v : vertices[0]) seen += v.x != ScreenVertex::kOffScreen;
@@ -402,7 +402,8 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
                 ASSERT_EQ(vertices[0][i].y, vertices[k][i].y) << kernels[k]->name;
                 ASSERT_EQ(vertices[0][i].nearness, vertices[k][i].nearness) << kernels[k]->name;
             }
-            EXPECT_EQ(std::memcmp(looks[0].data(), looks[k].data(), 333 * sizeof(TriangleLook)), 0) << kernels[k]->name;
+            EXPECT_EQ(std::memcmp(geometries[0].data(), geometries[k].data(), 333 * sizeof(TriangleGeometry)), 0)
+                << kernels[k]->name;
         }
         EXPECT_GT(seen, 100);
     }
