@@ -25,12 +25,12 @@ using namespace option_values;
 struct Texts {
     std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators,
         supersample;
-    std::string width, color, dpi, frame, crease, hidden, style, layers, frames, crop, threads, memory, model_memory,
-        stats, bits;
+    std::string width, color, dpi, frame, save_lines, find, crease, hidden, style, layers, frames, crop, threads,
+        memory, model_memory, stats, bits;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
-    bool quiet = false, json = false, strict = false;
+    bool quiet = false, json = false, strict = false, save_surface = false;
 };
 
 void add_strict_option(CLI::App& app, Texts& t) {
@@ -99,6 +99,13 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--layers", t.layers,
                    "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden (default: the first five; the "
                    "last with --hidden)");
+    app.add_option("--save-lines", t.save_lines,
+                   "write the lines found to this file .lines, for burin restyle; needs a style sheet");
+    app.add_flag("--save-surface", t.save_surface, "keep the filled surfaces in it, too");
+    app.add_option(
+        "--find", t.find,
+        "lines that are looked for: sheet (default), those that the style sheet asks for, or all, so that any "
+        "sheet can restyle them");
     app.add_option("-f,--frames", t.frames, "frames to render (not in this version)");
     app.add_option("--crop", t.crop, "render only these pixels, X0,Y0,X1,Y1, half open");
     app.add_option("--memory", t.memory,
@@ -109,6 +116,29 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
     app.add_option("--repeat", t.repeat, "render this many times and report the median times in --stats");
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
+}
+
+void add_restyle_options(CLI::App& app, Texts& t) {
+    app.add_option("INPUT", t.input, "lines that burin render --save-lines has written")->required();
+    app.add_option("-o,--output", t.output,
+                   "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
+    app.add_option("--style", t.style, "style sheet: a name (see burin styles), or a file .toml")->required();
+    app.add_option("-w,--line-width", t.width, "the sheet's parameter `width`");
+    app.add_option("--color", t.color, "the sheet's parameter `color`");
+    app.add_option(
+           "--set", t.sets,
+           "override a value of the style sheet, style.PARAMETER=VALUE or style.STYLE.KEY=VALUE; may be repeated")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+    app.add_option("--layers", t.layers, "layers of an EXR: beauty lines coverage surface lines_hidden");
+    app.add_option("--crop", t.crop, "draw only these pixels, X0,Y0,X1,Y1, half open");
+    app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
+    app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
+    app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
+    app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
+    app.add_flag("-v", t.verbose, "say more");
+    app.add_flag("-q", t.quiet, "say nothing but errors");
 }
 
 void add_compare_options(CLI::App& app, Texts& t) {
@@ -173,7 +203,7 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
         std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) { return is_command(app, a); });
     if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
         throw UsageError("'" + printable(first) +
-                         "' is no command; commands are render, compare, info, explain, methods and styles");
+                         "' is no command; commands are render, restyle, compare, info, explain, methods and styles");
     }
     std::rotate(arguments.begin(), command, command + 1);
 }
@@ -310,6 +340,12 @@ void fill_render_options(const Texts& t, Arguments& a) {
     if (!t.repeat.empty()) a.repeat = integer("--repeat", t.repeat, 1, 1000000);
     if (!t.progress.empty() && t.progress != "alf") fail("--progress", "must be alf");
     a.alf_progress = t.progress == "alf";
+    a.save_lines = t.save_lines;
+    a.saves_surface = t.save_surface;
+    if (a.saves_surface && a.save_lines.empty()) fail("--save-surface", "needs --save-lines");
+    if (a.saves_surface && a.crop) fail("--save-surface", "cannot stand beside --crop; remove one");
+    if (!t.find.empty() && t.find != "sheet" && t.find != "all") fail("--find", "must be sheet or all");
+    a.finds_all = t.find == "all";
 }
 
 /// Known methods, each once, in the order given.
@@ -355,6 +391,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     styles->add_option("NAME", t.style, "a sheet whose text is printed");
     styles->add_flag("--json", t.json, "as JSON, with their parameters");
     styles->add_flag("-q", t.quiet, "say nothing but errors");
+    CLI::App* const restyle = app.add_subcommand("restyle", "draw saved lines in another style");
+    add_restyle_options(*restyle, t);
     CLI::App* const compare =
         app.add_subcommand("compare", "draw a scene with several methods and measure them against the ground truth");
     add_scene_options(*compare, t);
@@ -408,7 +446,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         a.command = Command::info;
         fill_input_options(t, a);
     } else {
-        a.command = *render ? Command::render : *compare ? Command::compare : Command::explain;
+        a.command = *render    ? Command::render
+                    : *restyle ? Command::restyle
+                    : *compare ? Command::compare
+                               : Command::explain;
         fill_scene_options(t, a);
         fill_render_options(t, a);
         if (*compare) fill_compare_options(t, a);

@@ -13,7 +13,7 @@
 
 namespace burin {
 
-enum class Command : std::uint8_t { render, info, explain, methods, compare, styles };
+enum class Command : std::uint8_t { render, info, explain, methods, compare, styles, restyle };
 
 /// Arguments is what stands on the command line, checked as far as that is possible without the scene.
 /// Everything optional overrides the scene when it is given.
@@ -34,6 +34,8 @@ struct Arguments {
     std::optional<double> line_width_px;
     std::string line_color;  ///< as typed, a colour
     std::string style;       ///< name or file of a style sheet; of `styles`: which one is shown
+    std::string save_lines;  ///< file for the lines of the picture
+    bool saves_surface = false, finds_all = false;
     std::optional<int> frame;
     std::optional<double> dpi;
     std::optional<std::array<double, 2>> crease_angle_deg;  ///< from where to where creases fade in; or twice the same

@@ -16,6 +16,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "cli/job.h"
+#include "cli/output_options.h"
 #include "image/image_io.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
@@ -23,40 +24,13 @@
 #include "methods/patel/explain.h"
 #include "methods/patel/patel.h"
 #include "output/film_files.h"
+#include "output/lines_file.h"
 #include "render/close_cracks.h"
 #include "render/copied_objects.h"
+#include "shading/sheet/compiled_sheet.h"
 
 namespace burin {
 namespace {
-
-bool writes_stats_file(const Arguments& a) { return !a.stats.empty() && a.stats != "-"; }
-
-OutputOptions output_options(const Arguments& a) {
-    OutputOptions options;
-    options.path = a.output;
-    if (options.path.empty()) {
-        options.path = std::filesystem::path(a.input).stem().string() + ".png";
-    }
-    const std::string suffix = lower_extension(options.path);
-    if (const NamedFormat* const found = find_format_of_suffix(suffix)) {
-        options.format = found->format;
-    } else if (suffix == ".svg" || suffix == ".pdf") {
-        throw UsageError("--output: " + suffix + " is not in this version; burin writes " + suffixes_of_formats());
-    } else {
-        throw UsageError(
-            "--output: " + (suffix.empty() ? "the name has no suffix" : "unknown kind of image '" + suffix + "'") +
-            "; burin writes " + suffixes_of_formats());
-    }
-    if (has_frame_pattern(std::filesystem::path(a.output).filename().string())) {
-        throw UsageError("--output: a pattern for frames needs --frames, which is not in this version");
-    }
-    if (writes_stats_file(a) && is_one_file(a.stats, options.path)) {
-        throw UsageError("--stats: would overwrite " + options.path + "; give another name");
-    }
-    options.bits = a.bits;
-    options.threads = resolve_thread_count(a.threads);
-    return options;
-}
 
 struct StageTimes {
     double load_s = 0, write_s = 0, total_s = 0;
@@ -100,16 +74,6 @@ std::string stats_json(const StageTimes& times, const Frame& frame, const Method
     json.key("total").value(times.total_s);
     json.end_object().end_object();
     return json.text();
-}
-
-void write_stats(const std::string& path, const std::string& text) {
-    if (path == "-") {
-        std::fputs(text.c_str(), stdout);
-        return;
-    }
-    AtomicFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
 }
 
 /// Refuses hidden lines that the command line asks for with a method that has none: only the A-buffer keeps the
@@ -231,6 +195,7 @@ void run_render(const Arguments& a) {
     const OutputOptions output = output_options(a);
     std::vector<OutputFile> outputs = {{"--output", output.path}};
     if (writes_stats_file(a)) outputs.push_back({"--stats", a.stats});
+    if (!a.save_lines.empty()) outputs.push_back({"--save-lines", a.save_lines});
     refuse_to_overwrite(outputs, {a.input});
     for (const OutputFile& file : outputs) check_output_file(file.path);
     if (output.format != OutputFormat::exr) check_display_writer(output.path);
@@ -246,6 +211,10 @@ void run_render(const Arguments& a) {
     StageTimes times;
     Scene scene = load_input(a, outputs);
     if (method.name != "abuffer") refuse_sheet(scene, "method " + std::string(method.name) + " draws no style sheets");
+    if (!scene.sheet && (!a.save_lines.empty() || a.finds_all)) {
+        throw UsageError((a.save_lines.empty() ? std::string("--find") : std::string("--save-lines")) +
+                         ": lines are found for a style sheet; give one with --style");
+    }
     const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
     const Camera camera = camera_of(scene, a);
     empty_copied_objects(scene);
@@ -258,6 +227,7 @@ void run_render(const Arguments& a) {
 
     LayerSet layers = a.layers;
     if (!a.names_layers) layers.lines_hidden = draws_hidden_lines(scene);
+    if (frame.sheet) layers.line_sets = layers_of_sets(*frame.sheet);
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     // An EXR is compressed while it is drawn; but not when times are taken.
     const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && method.finishes_in_bands != nullptr &&
@@ -269,12 +239,20 @@ void run_render(const Arguments& a) {
         writer.emplace(film, output);
         run.finished_band = [&writer](std::size_t band) { writer->write(band); };
     }
+    if (!a.save_lines.empty()) {
+        run.found_lines = [&a](const FoundLines& lines, const Film& surfaces) {
+            AtomicFile file(a.save_lines);
+            write_lines_file(file, lines, a.saves_surface ? kept_surface(surfaces) : KeptSurface{});
+            file.commit();
+        };
+    }
     try {
         times.render = method.render(frame, run, film);
     } catch (const InputError& error) {
         if (writer && writer->has_failed()) throw;
         throw InputError(a.input + ": " + error.what());
     }
+    run.found_lines = nullptr;
     if (a.repeat > 0) {
         run.progress = nullptr;
         std::vector<RenderStats> runs;

@@ -10,6 +10,7 @@ void run_info(const Arguments& arguments);
 void run_explain(const Arguments& arguments);
 void run_methods(const Arguments& arguments);
 void run_styles(const Arguments& arguments);
+void run_restyle(const Arguments& arguments);
 void run_compare(const Arguments& arguments);
 
 }  // namespace burin

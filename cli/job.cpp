@@ -123,6 +123,10 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
                      keys.c_str(), unread.size() == 1 ? "s" : "");
     }
     if (a.crease_angle_deg) scene.lines.set_crease_angle((*a.crease_angle_deg)[0], (*a.crease_angle_deg)[1]);
+    if (a.finds_all && scene.sheet) {
+        scene.finds_all = true;
+        scene.lines.classes = LineClassSet::all();
+    }
     if (a.frame) scene.frame.number = *a.frame;
     if (a.dpi) scene.picture.dpi = *a.dpi;
     return scene;

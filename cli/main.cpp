@@ -64,6 +64,8 @@ void run(const burin::Arguments& arguments) {
             return run_methods(arguments);
         case burin::Command::styles:
             return run_styles(arguments);
+        case burin::Command::restyle:
+            return run_restyle(arguments);
         case burin::Command::compare:
             return run_compare(arguments);
     }

@@ -11,6 +11,7 @@
 #include "lines/sharp_edges.h"
 #include "render/line_layout.h"
 #include "render/line_shading.h"
+#include "shading/ink/ink_lines.h"
 #include "strokes/ink_printer.h"
 #include "strokes/row_printer.h"
 
@@ -59,7 +60,9 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     if (frame.sheet) {
         find_lines(frame, options, film, drawing, nullptr, stats);
         watch.lap();
-        draw_ink(frame, shaded_lines(std::move(drawing), frame, stats.threads, stats.notes), stats.threads, film);
+        const FoundLines lines = found_lines(std::move(drawing), frame, stats.threads);
+        if (options.found_lines) options.found_lines(lines, film);
+        draw_found_lines(frame, lines, stats.threads, film, stats.notes);
         stats.lines_s += watch.lap();
     } else if (frame.needs.rows_stand_alone()) {
         RowPrinter printer(frame, options, drawing, film);
@@ -77,6 +80,13 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     }
     film.end_picture();
     return stats;
+}
+
+void draw_found_lines(const Frame& frame, const FoundLines& lines, int threads, Film& film,
+                      std::vector<std::string>& notes) {
+    InkedLines inked = ink_lines(lines, *frame.sheet, threads, notes);
+    inked.filter = frame.scene->lines.style.filter;
+    draw_ink(frame, inked, threads, film);
 }
 
 LineDrawing find_drawing(const Frame& frame, const RunOptions& options, Film& film) {

@@ -26,6 +26,11 @@ LineDrawing laid_out_if_needed(LineDrawing found, const Frame& frame, int thread
 /// Of the frame's surfaces it reads the projection alone.
 void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film);
 
+/// Draws lines as the frame's style sheet says, over its surfaces. Of the frame's surfaces it reads the projection
+/// alone. `notes`: gets what users should know.
+void draw_found_lines(const Frame& frame, const FoundLines& lines, int threads, Film& film,
+                      std::vector<std::string>& notes);
+
 /// Whether the bands of a frame are finished one after the other. They are not where lines depend on others anywhere in
 /// the picture.
 bool abuffer_finishes_in_bands(const Frame& frame);

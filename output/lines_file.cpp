@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/mapped_file.h"
+#include "image/half.h"
 #include "mesh/gltf_json.h"
 
 namespace burin {
@@ -301,9 +302,12 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
     data["has_beyond"] = lines.has_beyond ? "1" : "0";
     data["has_chains"] = lines.has_chains ? "1" : "0";
     data["frame"] = std::to_string(lines.frame);
-    nlohmann::json time = lines.time_s;
-    data["time"] = time.dump();
-    if (lines.light) data["light"] = nlohmann::json{lines.light->x, lines.light->y, lines.light->z}.dump();
+    const auto number = [](double value) { return nlohmann::json(value).dump(); };
+    data["fps"] = number(lines.fps);
+    data["dpi"] = number(lines.dpi);
+    data["crease_angle"] = nlohmann::json{lines.crease_angle_deg[0], lines.crease_angle_deg[1]}.dump();
+    data["smooth_contours"] = lines.has_smooth_contours ? "1" : "0";
+    data["filter"] = std::to_string(static_cast<int>(lines.filter));
     if (!surface.pixels.empty()) data["surface_width"] = std::to_string(surface.width);
     return data;
 }
@@ -329,11 +333,10 @@ class MetadataReader {
         for (std::size_t i = 0; i < list.size(); ++i) names.push_back(list.element(i).text());
         return names;
     }
-    bool has(const char* key) const { return data_.has(key); }
-    glm::dvec3 vector(const char* key) const {
+    std::array<double, 2> pair(const char* key) const {
         const JsonPlace list = parsed(key);
-        if (list.size() != 3) list.fail("must be three numbers");
-        return {list.element(0).number(), list.element(1).number(), list.element(2).number()};
+        if (list.size() != 2) list.fail("must be two numbers");
+        return {list.element(0).number(), list.element(1).number()};
     }
     std::string text(const char* key) const { return data_.at(key).text(); }
 
@@ -369,8 +372,12 @@ void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines&
     lines.has_chains = data.integer("has_chains", 0, 1) == 1;
     lines.frame =
         static_cast<int>(data.integer("frame", std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
-    lines.time_s = data.number("time");
-    if (data.has("light")) lines.light = data.vector("light");
+    lines.fps = data.number("fps");
+    lines.dpi = data.number("dpi");
+    if (!(lines.fps > 0) || !(lines.dpi > 0)) in.fail("__metadata__: fps and dpi must be greater than 0");
+    lines.crease_angle_deg = data.pair("crease_angle");
+    lines.has_smooth_contours = data.integer("smooth_contours", 0, 1) == 1;
+    lines.filter = static_cast<PixelFilter>(data.integer("filter", 0, static_cast<int>(PixelFilter::mitchell)));
     in.take<double>("camera", 4, 4, [&](std::size_t i, const double* v) {
         for (int r = 0; r < 4; ++r) lines.camera_to_world[static_cast<int>(i)][r] = v[r];
     });
@@ -523,6 +530,22 @@ void read_chains(const ArrayReader& in, FoundLines& lines) {
 }
 
 }  // namespace
+
+KeptSurface kept_surface(const Film& film) {
+    const Image& image = film.image();
+    std::array<const std::uint16_t*, 4> planes{};
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        constexpr std::array<std::string_view, 4> kNames = {"R", "G", "B", "A"};
+        if (const Channel* const channel = image.find(kNames[k])) planes[k] = channel->as<std::uint16_t>().data();
+        if (planes[k] == nullptr) throw UsageError("--save-surface: needs the layer beauty");
+    }
+    KeptSurface surface{film.display().width(), film.display().height(), {}};
+    surface.pixels.resize(static_cast<std::size_t>(surface.width) * static_cast<std::size_t>(surface.height));
+    for (std::size_t i = 0; i < surface.pixels.size(); ++i) {
+        for (std::size_t k = 0; k < planes.size(); ++k) surface.pixels[i][k] = float_from_half(planes[k][i]);
+    }
+    return surface;
+}
 
 void write_lines_file(ByteSink& file, const FoundLines& lines, const KeptSurface& surface) {
     ArrayWriter out;

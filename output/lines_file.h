@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/byte_sink.h"
+#include "render/film.h"
 #include "shading/ink/found_lines.h"
 
 // The lines of a picture in a file, so that they can be drawn in another style without a new render
@@ -18,6 +19,9 @@ struct KeptSurface {
     int width = 0, height = 0;
     std::vector<std::array<float, 4>> pixels;
 };
+
+/// The surfaces on a whole film, before anything is drawn over them.
+KeptSurface kept_surface(const Film& film);
 
 /// What stands in a .lines file.
 struct LinesFile {

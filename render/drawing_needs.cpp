@@ -28,14 +28,14 @@ DrawingNeeds needs_of(const Scene& scene, const SheetNeeds& sheet) {
     // Lines farther beside the picture than this leave no ink in it, however wide a sheet makes them.
     constexpr float kFarthestPx = 64;
     DrawingNeeds needs;
-    needs.classes = sheet.classes;
-    needs.most_invisibility = sheet.most_invisibility;
-    needs.tells_invisibility = sheet.tells_invisibility;
+    needs.classes = scene.finds_all ? LineClassSet::all() : sheet.classes;
+    needs.most_invisibility = scene.finds_all ? DrawingNeeds::kAnyInvisibility : sheet.most_invisibility;
+    needs.tells_invisibility = scene.finds_all || sheet.tells_invisibility;
     needs.is_transparent = has_transparent_surfaces(scene);
     needs.whole_picture = true;
     needs.whole_picture_behind = needs.behind();
-    needs.whole_lines = sheet.chains;
-    needs.surfaces_beyond = sheet.sides;
+    needs.whole_lines = scene.finds_all || sheet.chains;
+    needs.surfaces_beyond = scene.finds_all || sheet.sides;
     needs.one_sided = sheet.one_sided;
     needs.reach_px =
         static_cast<double>(std::min(sheet.most_reach_px, kFarthestPx)) + reach_px(scene.lines.style.filter);

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/error.h"
 #include "lines/smooth_contours.h"
-#include "shading/ink/ink_lines.h"
 #include "shading/sheet/compiled_sheet.h"
 #include "shading/sheet/style_sheet.h"
 
@@ -47,6 +47,12 @@ std::vector<ObjectOfLines> objects_of(const Frame& frame) {
     return objects;
 }
 
+bool reads_normals(const SheetNeeds& needs) {
+    using enum Variable;
+    const auto is_read = [&](Variable v) { return needs.variables.has(v); };
+    return is_read(N) || is_read(N2) || is_read(facing) || is_read(facing2) || is_read(light) || is_read(light2);
+}
+
 }  // namespace
 
 FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
@@ -68,22 +74,41 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     }
     lines.light = frame.scene->sheet->light;
     lines.frame = frame.scene->frame.number;
-    lines.time_s = frame.scene->frame.number / frame.scene->frame.fps;
-    const VariableSet& variables = frame.sheet->needs().variables;
+    lines.fps = frame.scene->frame.fps;
+    lines.dpi = frame.scene->picture.dpi;
+    const LineSettings& settings = frame.scene->lines;
+    lines.crease_angle_deg = {settings.crease_fade().from_deg, settings.crease_fade().to_deg};
+    lines.has_smooth_contours = settings.contours == Contours::smooth;
+    lines.filter = settings.style.filter;
     FoundLinesNeeds needs;
-    needs.chains = frame.sheet->needs().chains;
-    for (const Variable v :
-         {Variable::N, Variable::N2, Variable::facing, Variable::facing2, Variable::light, Variable::light2}) {
-        needs.normals = needs.normals || variables.has(v);
-    }
+    needs.chains = frame.needs.whole_lines;
+    needs.normals = frame.scene->finds_all || reads_normals(frame.sheet->needs());
     find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, needs, threads, lines);
     return lines;
 }
 
-InkedLines shaded_lines(LineDrawing drawing, const Frame& frame, int threads, std::vector<std::string>& notes) {
-    InkedLines inked = ink_lines(found_lines(std::move(drawing), frame, threads), *frame.sheet, threads, notes);
-    inked.filter = frame.scene->lines.style.filter;
-    return inked;
+void require_lines_for(const StyleSheet& sheet, const CompiledSheet& compiled, const FoundLines& lines) {
+    const SheetNeeds& needs = compiled.needs();
+    const auto fail = [](const std::string& what) {
+        throw InputError("the style sheet needs " + what +
+                         "; render again with this sheet, or with --find all, and --save-lines");
+    };
+    if ((needs.classes & lines.classes) != needs.classes) {
+        fail("lines of the classes " + to_string(needs.classes) + ", and only " + to_string(lines.classes) +
+             " were looked for");
+    }
+    if (needs.most_invisibility > lines.most_invisibility) {
+        fail("lines behind up to " + std::to_string(needs.most_invisibility) + " surfaces, and only those behind " +
+             std::to_string(lines.most_invisibility) + " were looked for");
+    }
+    if (needs.tells_invisibility && !lines.tells_invisibility)
+        fail("to know how many surfaces are in front of lines, which was not asked for");
+    if (needs.chains && !lines.has_chains) fail("lines as chains, which were not asked for");
+    if ((needs.sides && !lines.has_beyond) || (reads_normals(needs) && !lines.has_normals))
+        fail("the surfaces beside and behind lines, which were not asked for");
+    if (sheet.crease_angle_deg && *sheet.crease_angle_deg != lines.crease_angle_deg)
+        fail("creases by another crease_angle");
+    if (sheet.smooth_contours && *sheet.smooth_contours != lines.has_smooth_contours) fail("other contours");
 }
 
 }  // namespace burin

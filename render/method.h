@@ -12,6 +12,8 @@
 
 namespace burin {
 
+struct FoundLines;
+
 /// How to run a method, as far as it does not change the picture.
 struct RunOptions {
     int threads = 0;  ///< 0 = all cores
@@ -23,6 +25,9 @@ struct RunOptions {
     /// Method abuffer: called once for each band of a film in bands, when its pixels will not change any more, by any
     /// thread. It may close the band.
     std::function<void(std::size_t band)> finished_band = nullptr;
+    /// Method abuffer, pictures with a style sheet: gets all that is known of their lines, when the film has the
+    /// surfaces and no line is drawn.
+    std::function<void(const FoundLines& lines, const Film& film)> found_lines = nullptr;
 };
 
 /// A way to draw the lines of a frame.

@@ -83,6 +83,8 @@ struct Scene {
     LineSettings lines;
     /// How lines look; none: as `lines.style` says. What it says of finding lines stands in `lines`, too (use_sheet()).
     std::shared_ptr<const StyleSheet> sheet;
+    /// Beside a sheet: lines are found and known as if it asked for everything, so that any sheet can restyle them.
+    bool finds_all = false;
     SurfaceStyle surfaces;
     AbufferSettings abuffer;
     PatelSettings patel;

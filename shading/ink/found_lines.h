@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include "lines/line_runs.h"
 #include "mesh/polygon_soup.h"
 #include "shading/ink/line_sides.h"
+#include "shading/line_style.h"
 
 namespace burin {
 
@@ -29,6 +31,9 @@ struct FoundLines {
     int most_invisibility = 0;          ///< that was looked for
     bool tells_invisibility = false;    ///< else a hidden piece has only some surface in front of it
     bool has_normals = false, has_beyond = false, has_chains = false;
+    std::array<double, 2> crease_angle_deg{40, 40};  ///< from where to where creases faded in
+    bool has_smooth_contours = false;
+    PixelFilter filter = PixelFilter::box;
 
     Projection projection;
     glm::dmat4 camera_to_world{1.0};
@@ -38,7 +43,7 @@ struct FoundLines {
     std::vector<glm::vec3> material_colors;  ///< linear RGB
     std::optional<glm::dvec3> light;         ///< direction to the key light in view space; none: it is at the eye
     int frame = 0;
-    double time_s = 0;
+    double fps = 24, dpi = 96;
 };
 
 /// What is to be known of lines.

@@ -181,7 +181,7 @@ void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& v
     });
     out.each(V::copy, [&](std::size_t) { return variant.copy; });
     out.each(V::frame, [&](std::size_t) { return lines_.frame; });
-    out.each(V::time, [&](std::size_t) { return lines_.time_s; });
+    out.each(V::time, [&](std::size_t) { return lines_.frame / lines_.fps; });
     out.each(V::width_px, [&](std::size_t) { return lines_.width_px; });
     out.each(V::height_px, [&](std::size_t) { return lines_.height_px; });
     fill_sides(samples, out);

@@ -99,4 +99,12 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
     if (needs_.variables.has_tier(VariableTier::chains)) needs_.chains = true;
 }
 
+std::vector<std::string> layers_of_sets(const CompiledSheet& sheet) {
+    std::vector<std::string> layers;
+    for (const CompiledSet& set : sheet.sets()) {
+        if (set.is_enabled && !set.layer.empty()) layers.push_back(set.layer);
+    }
+    return layers;
+}
+
 }  // namespace burin

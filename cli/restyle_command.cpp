@@ -1,0 +1,145 @@
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/json_writer.h"
+#include "base/stopwatch.h"
+#include "cli/commands.h"
+#include "cli/output_files.h"
+#include "cli/output_options.h"
+#include "cli/sheet_wishes.h"
+#include "mesh/text_scan.h"
+#include "methods/abuffer.h"
+#include "output/film_files.h"
+#include "output/lines_file.h"
+#include "render/drawing_needs.h"
+#include "render/line_shading.h"
+#include "render/sheet_context.h"
+#include "scene/color.h"
+#include "scene/sheet_library.h"
+#include "shading/sheet/compiled_sheet.h"
+
+namespace burin {
+namespace {
+
+/// The scene that the lines were found in, as far as drawing them asks.
+Scene scene_of(const LinesFile& file, const Arguments& a) {
+    Scene scene;
+    scene.picture.width = file.lines.width_px;
+    scene.picture.height = file.lines.height_px;
+    scene.picture.dpi = file.lines.dpi;
+    scene.frame = {file.lines.frame, file.lines.fps};
+    scene.picture.transparent = a.background == "transparent";
+    if (!a.background.empty() && !scene.picture.transparent) scene.picture.background = color_from_hex(a.background);
+    for (const ObjectOfLines& object : file.lines.objects) {
+        SceneObject named;
+        named.name = object.name;
+        scene.objects.push_back(std::move(named));
+    }
+    for (std::size_t i = 0; i < file.lines.materials.size(); ++i)
+        scene.materials.push_back({file.lines.materials[i], file.lines.material_colors[i]});
+    return scene;
+}
+
+LayerSet layers_of(const Arguments& a, const Scene& scene, const CompiledSheet& sheet, const OutputOptions& output,
+                   const LinesFile& file) {
+    LayerSet layers = a.layers;
+    if (output.format != OutputFormat::exr) return {true, false, false, false, false, false, false, false, {}};
+    if (!a.names_layers) {
+        layers = {true, true, false, false, false, false, !file.surface.pixels.empty(), draws_hidden_lines(scene), {}};
+    } else if (layers.depth || layers.normal || layers.ids) {
+        throw UsageError("--layers: a file of lines has no Z, N and ids; render has them");
+    } else if (layers.surface && file.surface.pixels.empty()) {
+        throw UsageError("--layers: the lines were saved without surfaces; render again with --save-surface");
+    }
+    layers.line_sets = layers_of_sets(sheet);
+    return layers;
+}
+
+/// Puts the surfaces that were kept, or none.
+void put_surfaces(const KeptSurface& surface, const Frame& frame, Film& film) {
+    for (int y = frame.crop.y0; y < frame.crop.y1; ++y) {
+        for (int x = frame.crop.x0; x < frame.crop.x1; ++x) {
+            if (surface.pixels.empty()) continue;
+            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
+                                  static_cast<std::size_t>(x);
+            const auto& p = surface.pixels[i];
+            film.replace_surface(x, y, {p[0], p[1], p[2], p[3]});
+        }
+    }
+}
+
+}  // namespace
+
+void run_restyle(const Arguments& a) {
+    const OutputOptions output = output_options(a);
+    std::vector<OutputFile> outputs = {{"--output", output.path}};
+    if (writes_stats_file(a)) outputs.push_back({"--stats", a.stats});
+    const auto source = find_sheet(a.style, {});
+    if (!source) throw UsageError("--style: " + no_such_sheet(a.style));
+    std::vector<std::string> inputs = {a.input};
+    if (!source->file.empty()) inputs.push_back(source->file);
+    refuse_to_overwrite(outputs, inputs);
+    for (const OutputFile& file : outputs) check_output_file(file.path);
+    if (output.format != OutputFormat::exr) check_display_writer(output.path);
+    for (const Override& o : a.overrides) {
+        if (!o.key.starts_with("style.")) throw UsageError("--set " + printable(o.key) + ": only values of the style sheet can be set here");
+    }
+    Stopwatch watch, total;
+    LinesFile file = read_lines_file(a.input);
+    const double load_s = watch.lap();
+    Scene scene = scene_of(file, a);
+    scene.sheet = sheet_as_wished(read_sheet(*source, a.overrides), a);
+    scene.lines.style.filter = scene.sheet->filter.value_or(file.lines.filter);
+    file.lines.light = scene.sheet->light;
+
+    Frame frame;
+    frame.scene = &scene;
+    frame.width = file.lines.width_px;
+    frame.height = file.lines.height_px;
+    frame.crop = {0, 0, frame.width, frame.height};
+    if (a.crop) {
+        const auto [x0, y0, x1, y1] = *a.crop;
+        if (x0 < 0 || y0 < 0 || x1 > frame.width || y1 > frame.height || x0 >= x1 || y0 >= y1)
+            throw UsageError("--crop: must be a part of the picture of " + std::to_string(frame.width) + "x" +
+                             std::to_string(frame.height) + " pixels");
+        frame.crop = {x0, y0, x1, y1};
+    }
+    frame.surfaces.projection = file.lines.projection;
+    frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(frame));
+    frame.criteria.classes = file.lines.classes;
+    try {
+        require_lines_for(*scene.sheet, *frame.sheet, file.lines);
+    } catch (const InputError& error) {
+        throw InputError(a.input + ": " + error.what());
+    }
+    const PixelRect display{0, 0, frame.width, frame.height};
+    Film film(display, frame.crop, layers_of(a, scene, *frame.sheet, output, file), frame.criteria.classes);
+    if (film.channels().empty()) throw UsageError("--layers: coverage has a channel per line class, and no class is drawn");
+    put_surfaces(file.surface, frame, film);
+    std::vector<std::string> notes;
+    draw_found_lines(frame, file.lines, output.threads, film, notes);
+    const double draw_s = watch.lap();
+    if (!a.quiet) {
+        for (const std::string& note : notes)
+            std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
+    }
+    write_output(frame, film, output);
+    const double write_s = watch.lap();
+    if (!a.stats.empty()) {
+        JsonWriter json;
+        json.begin_object().key("width").value(frame.width).key("height").value(frame.height);
+        json.key("threads").value(output.threads);
+        json.key("stages").begin_object();
+        json.key("load").value(load_s).key("lines").value(draw_s).key("write").value(write_s);
+        json.key("total").value(total.seconds()).end_object().end_object();
+        write_stats(a.stats, json.text());
+    }
+    if (a.verbose)
+        std::fprintf(stderr, "%s: %dx%d, %.2f s\n", output.path.c_str(), frame.width, frame.height, total.seconds());
+}
+
+}  // namespace burin
