@@ -117,6 +117,21 @@ TEST_F(SafeFiles, LinksToNothingAreFollowed) {
     EXPECT_TRUE(fs::is_symlink(folder_.file("far.png")));
 }
 
+TEST_F(SafeFiles, ReadOnlyFilesStayAsTheyAre) {
+    folder_.write("locked", "mine");
+    fs::permissions(folder_.file("locked"), fs::perms::owner_read | fs::perms::group_read);
+    for (const char* extension : {".png", ".exr", ".tif"}) {
+        const std::string name = std::string("locked") + extension;
+        fs::create_symlink("locked", folder_.file(name));
+        const ProgramResult result = run({"render", "missing.obj", "-o", name});  // before the input is looked at
+        EXPECT_EQ(result.status, 1);
+        EXPECT_EQ(result.err,
+                  name + ": cannot write: the file is read-only; give another name or change its permissions\n");
+    }
+    EXPECT_EQ(run({"render", "cube.obj", "-r", "20x20", "-o", "a.png", "--stats", "locked"}).status, 1);
+    EXPECT_EQ(read_file(folder_.file("locked")), "mine");
+}
+
 /// Nothing is drawn for a name that cannot be used: the input is not even looked at.
 TEST_F(SafeFiles, NamesThatAreTooLongFailBeforeTheWork) {
     for (const Arguments& outputs :
