@@ -307,29 +307,6 @@ TEST_F(SafeFiles, DeepTreesEndNoProgram) {
     EXPECT_EQ(result.err.find("deep.toml:1: "), 0u) << result.err;
 }
 
-/// With whatever there is, it is enough, or memory is what the message is about.
-TEST_F(SafeFiles, TooLittleMemoryIsToldAsSuch) {
-    // They reserve terabytes of addresses, so that no limit fits, and their `new` ends the program where memory is
-    // short.
-    if (kSanitized) GTEST_SKIP() << "sanitizers never throw std::bad_alloc";
-    int refused = 0;
-    for (std::size_t megabytes = 80; megabytes <= 280; megabytes += 20) {
-        ProgramOptions options;
-        options.memory_limit = megabytes << 20;
-        for (const char* method : {"reference", "abuffer"}) {
-            const ProgramResult result =
-                run_burin(folder_.path(),
-                          {"render", "tetra.gltf", "-r", "16x12", "-m", method, "-j", "1", "-o", "out.exr"}, options);
-            if (result.status == 0) continue;
-            ++refused;
-            EXPECT_EQ(result.status, 1) << result.err;
-            EXPECT_TRUE(is_one_line(result.err)) << result.err;
-            EXPECT_NE(result.err.find("memory"), std::string::npos) << result.err;
-        }
-    }
-    EXPECT_GT(refused, 0);
-}
-
 /// A few hundred thousand names take no longer than it takes to read them.
 TEST_F(SafeFiles, ManyNamesAreNotComparedEachWithEach) {
     std::string cameras = "[[object]]\nshape='box'\n", materials = cameras, used, highlight = "[zbuffer]\nhighlight=[";
