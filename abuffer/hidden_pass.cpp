@@ -92,11 +92,13 @@ PixelTiles HiddenPass::tiles_of(const Frame& frame) {
     return {{before(r.x0), before(r.y0), before(r.x1 + kTilePx - 1), before(r.y1 + kTilePx - 1)}, kTilePx};
 }
 
-HiddenPass::HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads)
+HiddenPass::HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
+                       Progress* progress)
     : frame_(frame),
       screen_(screen),
       kernels_(kernels),
       threads_(threads),
+      progress_(progress),
       all_tiles_(tiles_of(frame)),
       tiles_(all_tiles_),
       intersections_(frame, screen, region_of_lines(frame)) {
@@ -148,7 +150,7 @@ void HiddenPass::find_parts() {
     const std::size_t before = results_.size();
     results_.resize(before + tiles_.count());
     std::vector<std::unique_ptr<HidingTile>> tiles(static_cast<std::size_t>(threads_));
-    parallel_for(tiles_.count(), threads_, [&](std::size_t index, int worker) {
+    const auto find_in = [&](std::size_t index, int worker) {
         const bool is_drawn = overlap(tiles_.tile(index), drawn);
         if (bins_.triangles(index).empty() || (!is_drawn && !may_intersect_)) return;
         auto& tile = tiles[static_cast<std::size_t>(worker)];
@@ -168,6 +170,10 @@ void HiddenPass::find_parts() {
         for (std::uint32_t i = 0; i < result.intersections.size(); ++i) {
             tile->find_parts(result.intersections[i], kOfTile | i, result.parts);
         }
+    };
+    parallel_for(tiles_.count(), threads_, [&](std::size_t index, int worker) {
+        find_in(index, worker);
+        if (progress_ != nullptr) progress_->advance();
     });
     for (const auto& tile : tiles) {
         if (tile) fragment_count_ += tile->fragment_count();

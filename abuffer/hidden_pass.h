@@ -7,6 +7,7 @@
 #include "abuffer/edges/intersection_lines.h"
 #include "abuffer/hiding/hiding_tile.h"
 #include "abuffer/hiding/occluder_bins.h"
+#include "base/progress.h"
 #include "render/film.h"
 
 namespace burin {
@@ -31,7 +32,9 @@ class HiddenPass {
     static PixelTiles tiles_of(const Frame& frame);
 
     /// The facing of all triangles must be known to `screen`.
-    HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads);
+    /// `progress`: advances by a step for each tile of find_parts().
+    HiddenPass(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, int threads,
+               Progress* progress = nullptr);
 
     /// Adds the edges of the instances shown that are lines, as far as they touch these rows; and intersections.
     /// `possible`: the possible lines of these instances, where they are known already.
@@ -60,6 +63,7 @@ class HiddenPass {
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
     int threads_;
+    Progress* progress_;
     PixelTiles all_tiles_, tiles_;
     IntersectionLines intersections_;
     std::optional<IntersectionTest> may_intersect_;  // where tiles look for intersections

@@ -40,7 +40,9 @@ class Finder {
           plan_{{{tiles_.rows(), {}}}, {{HiddenPass::tiles_of(frame).rows(), {}}}, {{}}} {
         if (has_cap_) plan_ = plan_slices(frame, screen_, tiles_, options.memory_bytes, stats.threads);
         stats_.prepare_s = watch_.lap();
-        if (options.progress != nullptr) options.progress->begin("rendering", tiles_.count());
+        if (options.progress == nullptr) return;
+        const std::size_t hidden = frame.needs.behind() ? HiddenPass::tiles_of(frame).count() : 0;
+        options.progress->begin("rendering", tiles_.count() + hidden);
     }
 
     void run() {
@@ -72,7 +74,7 @@ class Finder {
 
     void find_behind(const PossibleLines* possible) {
         const bool needs_all = frame_.needs.whole_picture_behind;
-        HiddenPass pass(frame_, screen_, best_kernels(), stats_.threads);
+        HiddenPass pass(frame_, screen_, best_kernels(), stats_.threads, options_.progress);
         const PixelTiles tiles = HiddenPass::tiles_of(frame_);
         for (const std::vector<std::uint32_t>& group : plan_.groups) {
             if (!needs_all) break;

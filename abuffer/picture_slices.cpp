@@ -10,6 +10,7 @@
 #include "abuffer/screen/sampling.h"
 #include "abuffer/slice_costs.h"
 #include "base/error.h"
+#include "base/limit_error.h"
 #include "base/parallel.h"
 #include "lines/whole_line.h"
 
@@ -169,8 +170,8 @@ SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     plan.layers = cut(frame, layers, left, least);
     if (least + lasting > cap_bytes) {
         const std::uint64_t least_mb = (least + lasting + (1 << 20) - 1) >> 20;
-        throw InputError("--memory: this picture takes at least " + std::to_string(least_mb) +
-                         "M; give that or more, or use fewer --threads");
+        throw LimitError("this picture takes at least " + std::to_string(least_mb) +
+                         "M; give that or more, or use fewer threads");
     }
     return plan;
 }

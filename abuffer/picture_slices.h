@@ -24,7 +24,7 @@ struct SlicePlan {
 };
 
 /// Makes the largest slices within `cap_bytes` of memory. It takes a look at all triangles to know what they will need,
-/// a group of instances at a time. Throws InputError with the least cap if this one is less.
+/// a group of instances at a time. Throws LimitError with the least cap if this one is less.
 SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTiles& tiles, std::uint64_t cap_bytes,
                       int threads);
 

@@ -113,6 +113,13 @@ std::string followed(const std::string& path) {
     throw InputError(path + ": cannot write: symbolic links lead in a circle; give another name");
 }
 
+/// Whether a file is not to be written: by this user, or by its permissions by anyone. These protect a file from root,
+/// too, whom the system would let write it.
+bool is_read_only(const std::string& path, const struct stat& info) {
+    return (info.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0 ||
+           ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0;
+}
+
 std::string name_of_descriptor(int fd) { return "/proc/self/fd/" + std::to_string(fd); }
 
 }  // namespace
@@ -129,6 +136,9 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(followed(
     }
     if (exists && !S_ISREG(old.st_mode)) {
         throw InputError(path + ": is not a regular file; give the name of a file to write");
+    }
+    if (exists && is_read_only(target_, old)) {
+        throw InputError(path + ": cannot write: the file is read-only; give another name or change its permissions");
     }
     const fs::path folder = fs::path(target_).parent_path();
     if (!folder.empty() && !fs::is_directory(folder, ignored)) {

@@ -13,10 +13,11 @@ namespace burin {
 /// nothing is left of it whatever ends the process; else to a temporary file in the same folder.
 /// commit() flushes it to disk and gives it its name. Without commit() (an error, an interrupt) an
 /// older file of the same name stays as it was. A symbolic link stays a link: what it points to is
-/// written, whether it exists or not. A file that is replaced keeps its permissions.
+/// written, whether it exists or not. A file that is replaced keeps its permissions; one that is
+/// read-only is not replaced.
 class AtomicFile final : public ByteSink {
   public:
-    /// Throws InputError when the folder is missing or not writable, or the name cannot be used.
+    /// Throws InputError when the folder is missing, it or the file is not writable, or the name cannot be used.
     explicit AtomicFile(const std::string& path);
     ~AtomicFile() override;
     AtomicFile(const AtomicFile&) = delete;

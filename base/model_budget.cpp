@@ -7,7 +7,7 @@
 namespace burin {
 namespace {
 
-/// A size as --memory-model takes it, rounded up.
+/// A size as options take it, rounded up.
 std::string option_text(std::uint64_t bytes) {
     constexpr int kMega = 20, kGiga = 30;
     const int shift = bytes >> kGiga < 16 ? kMega : kGiga;
@@ -30,9 +30,11 @@ void ModelBudget::add(std::uint64_t bytes, const std::string& what) {
     const std::uint64_t sum = bytes > UINT64_MAX - counted_bytes_ ? UINT64_MAX : counted_bytes_ + bytes;
     if (sum > limit_bytes_) {
         const std::string before = counted_bytes_ > 0 ? ", with what was counted before " + size_text(sum) : "";
+        const std::string option(option_);
         throw InputError(what + " needs about " + size_text(bytes) + before + ", more than the " +
-                         size_text(limit_bytes_) +
-                         " that --memory-model allows; make it simpler, or give --memory-model " + option_text(sum));
+                         size_text(limit_bytes_) + " that " +
+                         (option.empty() ? "models may take" : option + " allows") + "; make it simpler" +
+                         (option.empty() ? "" : ", or give " + option + " " + option_text(sum)));
     }
     counted_bytes_ = sum;
 }

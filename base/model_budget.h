@@ -2,12 +2,13 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 // A budget counts what a few words of a file will take, before anything is made, and refuses what is too much.
 
 namespace burin {
 
-/// A size as messages say it: "1.5 GB", "700 MB". 1 GB is 1024 MB, as for --memory.
+/// A size as messages say it: "1.5 GB", "700 MB". 1 GB is 1024 MB.
 std::string size_text(std::uint64_t bytes);
 
 /// How much memory models may take beyond the size of their files.
@@ -20,7 +21,9 @@ class ModelBudget {
   public:
     static constexpr std::uint64_t kDefaultLimit = std::uint64_t{2} << 30;
 
-    explicit ModelBudget(std::uint64_t limit_bytes = kDefaultLimit) : limit_bytes_(limit_bytes) {}
+    /// `option`: what raises the limit, as messages name it; empty: nothing does.
+    explicit ModelBudget(std::uint64_t limit_bytes = kDefaultLimit, std::string_view option = {})
+        : limit_bytes_(limit_bytes), option_(option) {}
 
     /// Counts bytes that are about to be taken. Throws InputError once they are more than the
     /// limit, with those counted before; `what` takes them, and is the subject of the message:
@@ -32,6 +35,7 @@ class ModelBudget {
 
   private:
     std::uint64_t limit_bytes_;
+    std::string_view option_;  // a literal
     std::uint64_t counted_bytes_ = 0;
 };
 

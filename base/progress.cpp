@@ -8,7 +8,6 @@
 namespace burin {
 namespace {
 
-constexpr std::chrono::milliseconds kShowInterval{100};
 constexpr int kBarWidth = 30;
 
 std::string minutes_and_seconds(double seconds) {
@@ -33,7 +32,7 @@ void Progress::begin(std::string label, std::uint64_t steps) {
     if (total_weight_ > 0) return;
     label_ = std::move(label);
     start_ = Clock::now();
-    next_show_ = (start_ + kShowInterval).time_since_epoch().count();
+    next_show_ = (start_ + interval_).time_since_epoch().count();
 }
 
 void Progress::plan(std::uint64_t total_weight) {
@@ -43,7 +42,7 @@ void Progress::plan(std::uint64_t total_weight) {
     weight_before_ = part_weight_ = 0;
     highest_ = 0;
     start_ = Clock::now();
-    next_show_ = (start_ + kShowInterval).time_since_epoch().count();
+    next_show_ = (start_ + interval_).time_since_epoch().count();
     start_phase(1);
 }
 
@@ -72,7 +71,7 @@ void Progress::advance(std::uint64_t steps) {
     if (style_ == ProgressStyle::told && std::this_thread::get_id() != maker_) return;
     std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return;
-    next_show_ = (now + kShowInterval).time_since_epoch().count();
+    next_show_ = (now + interval_).time_since_epoch().count();
     show(done);
 }
 

@@ -26,9 +26,10 @@ enum class ProgressStyle : std::uint8_t {
 class Progress {
   public:
     explicit Progress(ProgressStyle style) : style_(style) {}
-    /// Calls tell(part that is done, 0 to 1) instead, a few times a second at most, from advance() on the thread that
+    /// Calls tell(part that is done, 0 to 1) instead, after an interval at least, from advance() on the thread that
     /// made this, and on no other.
-    explicit Progress(std::function<void(double)> tell) : style_(ProgressStyle::told), tell_(std::move(tell)) {}
+    explicit Progress(std::function<void(double)> tell, std::chrono::milliseconds interval = kInterval)
+        : style_(ProgressStyle::told), tell_(std::move(tell)), interval_(interval) {}
     ~Progress() { finish(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -46,12 +47,14 @@ class Progress {
 
   private:
     using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds kInterval{100};
     void show(std::uint64_t done);
     void start_phase(std::uint64_t steps);
     double fraction(std::uint64_t done);
 
     ProgressStyle style_;
     std::function<void(double)> tell_;
+    std::chrono::milliseconds interval_ = kInterval;
     std::thread::id maker_ = std::this_thread::get_id();
     std::mutex mutex_;  // guards everything below but done_
     std::string label_;

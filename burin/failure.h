@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "burin/burin.h"
+#include "burin/struct_fields.h"
 
 namespace burin {
 
@@ -46,7 +47,7 @@ template <typename Struct>
 Struct read_struct(const Struct* given, const char* name) {
     constexpr std::uint32_t kLargest = 4096;
     const std::uint32_t size = required(given, name).size;
-    if (size < sizeof(std::uint32_t) || size > kLargest) {
+    if (size < sizeof(std::uint32_t) || size > kLargest || !ends_between_fields<Struct>(size)) {
         throw UsageError(std::string(name) + ".size is " + std::to_string(size) + "; set it to sizeof(burin_" + name +
                          ")");
     }

@@ -2,9 +2,9 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "base/error.h"
+#include "base/limit_error.h"
 #include "base/progress.h"
 #include "burin/failure.h"
 #include "burin/scene_for_frame.h"
@@ -29,15 +29,13 @@ class RunProgress {
     std::optional<Progress> progress_;
 };
 
-/// Runs what draws. What it throws names options as the program does: here it names those of the interface.
+/// Runs what draws. Says which option a limit is that was too small.
 template <typename Work>
 auto with_option_names(const Work& work) {
     try {
         return work();
-    } catch (const InputError& error) {
-        const std::string_view text = error.what(), option = "--memory: ";
-        if (!text.starts_with(option)) throw;
-        throw InputError("options.memory_bytes: " + std::string(text.substr(option.size())));
+    } catch (const LimitError& error) {
+        throw InputError("options.memory_bytes: " + std::string(error.what()));
     }
 }
 

@@ -125,9 +125,8 @@ int burin_load(burin_scene* scene, const char* path) {
             return load_description(*scene, std::move(description), std::move(settings));
         }
         if (is_model_file(file)) return load_description(*scene, bare_model_scene(file, {}), std::move(settings));
-        throw InputError(file +
-                         ": unknown kind of input; burin reads .toml scenes and .obj .ply .stl .off .gltf .glb "
-                         "models");
+        throw InputError(file + ": unknown kind of input; burin reads .toml scenes and " + kModelExtensions +
+                         " models");
     });
 }
 
@@ -290,7 +289,7 @@ int burin_set(burin_scene* scene, const char* key_and_value) {
         if (equals == std::string::npos) {
             throw UsageError("'" + printable(text) + "' must be KEY=VALUE, such as lines.width=2");
         }
-        scene->settings.set({text.substr(0, equals), text.substr(equals + 1)});
+        scene->settings.set({text.substr(0, equals), text.substr(equals + 1), Override::From::call});
         ++scene->revision;
         return int{BURIN_DONE};
     });

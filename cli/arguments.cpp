@@ -9,6 +9,7 @@
 
 #include "base/suggestion.h"
 #include "cli/option_values.h"
+#include "mesh/model.h"
 #include "mesh/text_scan.h"
 #include "methods/method_table.h"
 #include "output/output_format.h"
@@ -38,7 +39,7 @@ void add_strict_option(CLI::App& app, Texts& t) {
 }
 
 void add_input_options(CLI::App& app, Texts& t) {
-    app.add_option("INPUT", t.input, "a scene .toml, or a model .obj .ply .stl .off .gltf .glb")->required();
+    app.add_option("INPUT", t.input, "a scene .toml, or a model " + std::string(kModelExtensions))->required();
     app.add_option("--memory-model", t.model_memory,
                    "what models may take beyond the size of their files: shapes, subdivision, "
                    "instances, e.g. 500M, 8G (default 2G); what needs more is refused before it is made");
@@ -230,7 +231,8 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
 
 void fill_input_options(const Texts& t, Arguments& a) {
     a.input = t.input;
-    if (!t.model_memory.empty()) a.model_budget = ModelBudget(byte_count("--memory-model", t.model_memory));
+    if (!t.model_memory.empty())
+        a.model_budget = ModelBudget(byte_count("--memory-model", t.model_memory), "--memory-model");
 }
 
 void fill_scene_options(const Texts& t, Arguments& a) {

@@ -49,7 +49,7 @@ struct Arguments {
     int bits = 8;
     int threads = 0;
     std::uint64_t memory_bytes = 0;  ///< 0: no cap
-    ModelBudget model_budget;
+    ModelBudget model_budget{ModelBudget::kDefaultLimit, "--memory-model"};
     int repeat = 0;
     std::vector<std::string> methods;  ///< compare: names, in order; empty: all
     int frames = 0;                    ///< compare: how many the camera moves through

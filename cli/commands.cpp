@@ -12,6 +12,7 @@
 #include "base/atomic_file.h"
 #include "base/interrupt.h"
 #include "base/json_writer.h"
+#include "base/limit_error.h"
 #include "base/lower_extension.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -248,6 +249,8 @@ void run_render(const Arguments& a) {
     }
     try {
         times.render = method.render(frame, run, film);
+    } catch (const LimitError& error) {
+        throw InputError(a.input + ": --memory: " + error.what());
     } catch (const InputError& error) {
         if (writer && writer->has_failed()) throw;
         throw InputError(a.input + ": " + error.what());

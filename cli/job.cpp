@@ -24,7 +24,7 @@ SceneDescription describe_input(const Arguments& a) {
                      (is_stdin ? ": standard input is not read, and the kind of an input is told by its suffix; burin "
                                  "reads .toml scenes and "
                                : ": unknown kind of input; burin reads .toml scenes and ") +
-                     ".obj .ply .stl .off .gltf .glb models");
+                     kModelExtensions + " models");
 }
 
 const CameraSettings& chosen_camera(const Scene& scene, const std::string& name) {

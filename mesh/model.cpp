@@ -1,7 +1,9 @@
 #include "mesh/model.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -85,16 +87,15 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
         return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict),
                         options);
     }
-    throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads .obj .ply .stl .off .gltf .glb");
+    throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads " + kModelExtensions);
 }
 
 }  // namespace
 
 bool is_model_file(const std::string& path) {
-    static constexpr const char* kExtensions[] = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
     const std::string extension = lower_extension(path);
-    return std::any_of(std::begin(kExtensions), std::end(kExtensions),
-                       [&](const char* known) { return extension == known; });
+    std::istringstream known(kModelExtensions);
+    return std::find(std::istream_iterator<std::string>(known), {}, extension) != std::istream_iterator<std::string>();
 }
 
 Model read_model(const std::string& path, const MeshOptions& options) {

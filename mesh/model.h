@@ -42,10 +42,13 @@ struct Model {
     std::vector<std::string> other_files;  ///< that were read beside the model's own: materials, buffers
 };
 
+/// The extensions of the formats that read_model can read, as messages list them.
+inline constexpr const char* kModelExtensions = ".obj .ply .stl .off .gltf .glb";
+
 /// True if the extension names a format that read_model can read.
 bool is_model_file(const std::string& path);
 
-/// Reads .obj, .ply, .stl, .off, .gltf or .glb, whichever the extension says (in any case).
+/// Reads a file of the format that its extension says (in any case).
 /// Throws InputError when the file cannot be read or no polygon with an area is in it; if `options` are strict, also
 /// where there would be a note.
 Model read_model(const std::string& path, const MeshOptions& options);

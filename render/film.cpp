@@ -168,7 +168,7 @@ void Film::check_memory(std::size_t pixels) const {
     throw InputError("an image of " + std::to_string(crop_.width()) + "x" + std::to_string(crop_.height()) +
                      " pixels needs " + std::to_string(static_cast<long>(needed / 1e9)) + " GB, this machine has " +
                      std::to_string(static_cast<long>(physical / 1e9)) +
-                     "; use a smaller --size, fewer --layers, or render parts with --crop");
+                     "; make it smaller, ask for fewer layers, or draw parts of it as crops");
 }
 
 PixelRect Film::rect_of(std::size_t block) const {

@@ -49,10 +49,14 @@ struct SceneDescription {
     WireSettings wire;
 };
 
-/// "KEY=VALUE" of --set: overrides a value of the scene file, for example "lines.width=2".
+/// "KEY=VALUE", for example "lines.width=2": overrides a value of the scene file.
 struct Override {
+    /// What gives it, as messages begin.
+    enum class From : std::uint8_t { option /* --set */, call /* burin_set() */ };
+
     std::string key;
     std::string value;
+    From from = From::option;
 };
 
 /// Reads a scene file. Throws InputError with line and column for anything unknown or out of range,

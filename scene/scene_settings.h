@@ -23,7 +23,7 @@ class SceneSettings {
 
     // What throws InputError or UsageError changes nothing.
 
-    /// "lines.width=2", as --set has it.
+    /// "lines.width=2".
     void set(const Override& override);
     /// Tables of a text; a list of cameras replaces the one before. An object or a material is an error. `name`: of the
     /// text, in messages.

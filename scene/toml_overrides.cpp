@@ -15,7 +15,8 @@ namespace {
 
 /// For messages about an override; TomlReader recognises it.
 std::string override_place(const Override& o) {
-    return std::string(TomlReader::kCommandLine) + printable(o.key) + "=" + printable(o.value);
+    const std::string_view from = o.from == Override::From::option ? TomlReader::kOption : TomlReader::kCall;
+    return std::string(from) + printable(o.key) + "=" + printable(o.value);
 }
 
 [[noreturn]] void fail_override(const Override& o, const std::string& message) {
@@ -80,6 +81,17 @@ std::optional<std::string> numbers_in_toml(std::string_view key, std::string_vie
     return is_list || count > 1 ? "[" + result + "]" : result;
 }
 
+bool is_number(std::string_view part) { return part.find_first_not_of("0123456789") == std::string_view::npos; }
+
+/// The key has a number for an element, `part` of it, but what stands before it is no list.
+[[noreturn]] void fail_no_list(const Override& o, std::string_view part) {
+    const auto begin = static_cast<std::size_t>(part.data() - o.key.data());
+    const std::string list = o.key.substr(0, begin - 1);
+    fail_override(o, "there is no list '" + printable(list) + "' that has an element '" + printable(part) +
+                         "'; without the number, " + printable(list + o.key.substr(begin + part.size())) +
+                         " is a setting of its only element");
+}
+
 toml::table override_value(const Override& o) {
     if (auto value = parse_value(o, o.value)) return *std::move(value);
     if (const auto numbers = numbers_in_toml(o.key, o.value)) {
@@ -117,6 +129,7 @@ void apply_override(toml::table& root, const Override& o, std::string_view place
             }
             at = array->get(index);
         } else if (toml::table* const table = at->as_table()) {
+            if (parts > 1 && is_number(part) && !table->contains(part)) fail_no_list(o, part);
             if (is_last) {
                 table->insert_or_assign(part, std::move(value));
                 return;

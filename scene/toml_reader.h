@@ -63,7 +63,7 @@ class TomlReader {
     void finish() const;
 
     /// Throws for a key's value, or for the whole table: InputError with the place in the file,
-    /// UsageError if the value comes from the command line.
+    /// UsageError if the value comes from an override.
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
     [[noreturn]] void fail(const std::string& message) const;
     SourcePosition position(std::string_view key) const;
@@ -78,8 +78,8 @@ class TomlReader {
     /// Throws InputError, or UsageError for a place on the command line.
     [[noreturn]] static void fail_at(const SourcePosition& position, const std::string& message);
 
-    /// Values from the command line have this in front of their source path.
-    static constexpr std::string_view kCommandLine = "--set ";
+    /// Values of overrides have one of these in front of their source path.
+    static constexpr std::string_view kOption = "--set ", kCall = "burin_set() ";
 
   private:
     const toml::node* find(std::string_view key);

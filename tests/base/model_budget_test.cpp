@@ -28,7 +28,7 @@ TEST(ModelBudget, CountsUpToItsLimitAndNoFurther) {
 }
 
 TEST(ModelBudget, SaysWhatNeedsHowMuchAndWhichOptionAllowsIt) {
-    ModelBudget budget(2 * kGiga);
+    ModelBudget budget(2 * kGiga, "--memory-model");
     EXPECT_EQ(refusal(budget, 33 * kGiga),
               "object 'ball' needs about 33 GB, more than the 2.0 GB that --memory-model allows; "
               "make it simpler, or give "
@@ -38,6 +38,12 @@ TEST(ModelBudget, SaysWhatNeedsHowMuchAndWhichOptionAllowsIt) {
               "object 'ball' needs about 1.5 GB, with what was counted before 2.5 GB, more than "
               "the 2.0 GB that --memory-model "
               "allows; make it simpler, or give --memory-model 2561M");
+}
+
+TEST(ModelBudget, NamesNoOptionWhereThereIsNone) {
+    ModelBudget budget(2 * kGiga);
+    EXPECT_EQ(refusal(budget, 33 * kGiga),
+              "object 'ball' needs about 33 GB, more than the 2.0 GB that models may take; make it simpler");
 }
 
 TEST(ModelBudget, DoesNotWrapAround) {

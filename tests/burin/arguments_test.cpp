@@ -72,6 +72,11 @@ TEST(Arguments, StructsOfOtherVersionsAreTakenAsFarAsTheyAreKnown) {
         EXPECT_FALSE(render(size));
         EXPECT_EQ(burin_error(), "view.size is " + std::to_string(size) + "; set it to sizeof(burin_view)");
     }
+    // One that ends within a field is of no version.
+    for (const std::uint32_t size : {5u, 7u, 9u, 11u, 13u, 20u, 27u, 41u, std::uint32_t{sizeof(burin_view)} - 1}) {
+        EXPECT_FALSE(render(size)) << size;
+        EXPECT_EQ(burin_error(), "view.size is " + std::to_string(size) + "; set it to sizeof(burin_view)");
+    }
     // What a shorter struct does not have counts as 0, whatever stands behind it in memory.
     longer.view.shift[0] = 7;
     EXPECT_TRUE(render(12));

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "tests/burin/shapes.h"
@@ -83,6 +84,12 @@ TEST(LibraryPicture, WhatCannotBeWrittenIsSaid) {
     EXPECT_EQ(text, "unknown format 'jpg'; known are exr png png16 tif tif16");
     EXPECT_EQ(failure_of([&] { picture.write(folder.file("a.jpg")); }), BURIN_BAD_ARGUMENT);
     EXPECT_EQ(failure_of([&] { picture.write(folder.file("none/a.png")); }), BURIN_BAD_INPUT);
+    const std::string locked = folder.write("locked.png", "mine");
+    std::filesystem::permissions(locked, std::filesystem::perms::owner_read);
+    EXPECT_EQ(failure_of([&] { picture.write(locked); }, &text), BURIN_BAD_INPUT);
+    EXPECT_EQ(text, locked + ": cannot write: the file is read-only; give another name or change its permissions");
+    EXPECT_EQ(read_file(locked), "mine");
+    std::filesystem::remove(locked);
     EXPECT_EQ(burin_write(picture.get(), nullptr, "comic", folder.file("a.png").c_str()), BURIN_BAD_ARGUMENT);
     const Picture depth = scene.render({.width = 32, .height = 24}, {.layers = "Z"});
     EXPECT_EQ(failure_of([&] { depth.write(folder.file("a.png")); }), BURIN_BAD_ARGUMENT);

@@ -133,6 +133,27 @@ TEST(LibraryScene, SettingsAreThoseOfTheProgram) {
     EXPECT_TRUE(exr_of(text, kSmall) == exr_of(after, kSmall));
 }
 
+/// What fails speaks of the library: of its functions and fields, not of the program's options.
+TEST(LibraryScene, ErrorsNameNoOptionsOfTheProgram) {
+    Scene scene;
+    std::string text;
+    const auto expect = [&](int kind, const std::string& words, const auto& call) {
+        EXPECT_EQ(failure_of(call, &text), kind);
+        EXPECT_EQ(text.find(words), 0u) << text;
+        EXPECT_EQ(text.find("--"), std::string::npos) << text;
+    };
+    expect(BURIN_BAD_ARGUMENT, "burin_set() lines.width=-1: [lines] width: ", [&] { scene.set("lines.width=-1"); });
+    expect(BURIN_BAD_ARGUMENT, "burin_set() camera.0.fov=60: there is no list 'camera'",
+           [&] { scene.set("camera.0.fov=60"); });
+    expect(BURIN_BAD_INPUT, "scene:1:1: object 'sphere' of",
+           [&] { scene.add_text("[[object]]\nshape = \"sphere\"\nsegments = 4096\nrings = 4096\n"); });
+    scene.add(cube().mesh());
+    expect(BURIN_BAD_INPUT, "options.memory_bytes: this picture takes at least ",
+           [&] { scene.render({.width = 40, .height = 30}, {.threads = 2, .memory_bytes = 1}); });
+    expect(BURIN_BAD_INPUT, "an image of 65535x65535 pixels needs ",
+           [&] { scene.render({.width = 65535, .height = 65535}); });
+}
+
 TEST(LibraryScene, WhatAFileDoesNotSayStaysAsItWasSet) {
     const std::string box = "[[object]]\nshape = \"box\"\n";
     Scene before, after, file;

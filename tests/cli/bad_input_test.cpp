@@ -365,7 +365,7 @@ TEST(BadInput, AnImageThatNoMemoryHolds) {
         const ProgramResult result = run_burin(folder.path(), arguments);
         EXPECT_EQ(result.status, 1);
         EXPECT_TRUE(is_one_line(result.err)) << result.err;
-        EXPECT_NE(result.err.find("use a smaller --size"), std::string::npos) << result.err;
+        EXPECT_NE(result.err.find("make it smaller, ask for fewer layers"), std::string::npos) << result.err;
         EXPECT_EQ(folder.names(), std::vector<std::string>{"cube.obj"});
     }
 }

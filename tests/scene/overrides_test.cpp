@@ -44,6 +44,20 @@ TEST(Overrides, NumbersCountIntoLists) {
     EXPECT_EQ(text.read({{"object.0", "{shape='sphere'}"}}).objects[0].name, "sphere");
 }
 
+/// Where there is no list, the number is what is wrong; without it the key is right.
+TEST(Overrides, ANumberNeedsAList) {
+    for (const char* camera : {"", "[camera]\nfov = 20\n"}) {
+        const SceneText text("[[object]]\nshape = 'box'\n" + std::string(camera));
+        EXPECT_EQ(text.usage_error("camera.0.fov", "60"),
+                  "--set camera.0.fov=60: there is no list 'camera' that has an element '0'; without the number, "
+                  "camera.fov is a setting of its only element");
+        EXPECT_EQ(text.usage_error("camera.0", "{fov=60}"),
+                  "--set camera.0={fov=60}: there is no list 'camera' that has an element '0'; without the number, "
+                  "camera is a setting of its only element");
+        EXPECT_EQ(text.read({{"camera.fov", "60"}}).cameras.at(0).fov_deg, 60);
+    }
+}
+
 TEST(Overrides, TextsNeedNoQuotes) {
     const SceneText text(kScene);
     const auto name = [&](const std::string& value) { return text.read({{"object.0.name", value}}).objects[0].name; };
