@@ -21,6 +21,7 @@
 #include "image/image_io.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
+#include "methods/explain_strokes.h"
 #include "methods/gbuffer/gbuffer.h"
 #include "methods/patel/explain.h"
 #include "methods/patel/patel.h"
@@ -297,7 +298,7 @@ void run_explain(const Arguments& a) {
         throw UsageError("--method: only the masks of abuffer and patel can be explained, not those of " + a.method);
     }
     Scene scene = load_input(a);
-    refuse_sheet(scene, "burin explain knows no style sheets in this version");
+    if (a.method == "patel") refuse_sheet(scene, "method patel draws no style sheets");
     const Camera camera = camera_of(scene, a);
     empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
@@ -308,7 +309,11 @@ void run_explain(const Arguments& a) {
                          std::to_string(frame.height) + " pixels");
     }
     std::fputs(explain_pixel(frame, x, y).c_str(), stdout);
-    if (a.method != "patel") std::fputs(drawn_by_abuffer(frame, x, y).c_str(), stdout);
+    if (frame.sheet) {
+        std::fputs(explain_strokes(frame, x, y).c_str(), stdout);
+    } else if (a.method != "patel") {
+        std::fputs(drawn_by_abuffer(frame, x, y).c_str(), stdout);
+    }
 }
 
 void run_methods(const Arguments& a) {

@@ -64,8 +64,8 @@ void put_surfaces(const KeptSurface& surface, const Frame& frame, Film& film) {
     for (int y = frame.crop.y0; y < frame.crop.y1; ++y) {
         for (int x = frame.crop.x0; x < frame.crop.x1; ++x) {
             if (surface.pixels.empty()) continue;
-            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
-                                  static_cast<std::size_t>(x);
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) + static_cast<std::size_t>(x);
             const auto& p = surface.pixels[i];
             film.replace_surface(x, y, {p[0], p[1], p[2], p[3]});
         }
@@ -86,7 +86,8 @@ void run_restyle(const Arguments& a) {
     for (const OutputFile& file : outputs) check_output_file(file.path);
     if (output.format != OutputFormat::exr) check_display_writer(output.path);
     for (const Override& o : a.overrides) {
-        if (!o.key.starts_with("style.")) throw UsageError("--set " + printable(o.key) + ": only values of the style sheet can be set here");
+        if (!o.key.starts_with("style."))
+            throw UsageError("--set " + printable(o.key) + ": only values of the style sheet can be set here");
     }
     Stopwatch watch, total;
     LinesFile file = read_lines_file(a.input);
@@ -118,14 +119,14 @@ void run_restyle(const Arguments& a) {
     }
     const PixelRect display{0, 0, frame.width, frame.height};
     Film film(display, frame.crop, layers_of(a, scene, *frame.sheet, output, file), frame.criteria.classes);
-    if (film.channels().empty()) throw UsageError("--layers: coverage has a channel per line class, and no class is drawn");
+    if (film.channels().empty())
+        throw UsageError("--layers: coverage has a channel per line class, and no class is drawn");
     put_surfaces(file.surface, frame, film);
     std::vector<std::string> notes;
     draw_found_lines(frame, file.lines, output.threads, film, notes);
     const double draw_s = watch.lap();
     if (!a.quiet) {
-        for (const std::string& note : notes)
-            std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
+        for (const std::string& note : notes) std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
     }
     write_output(frame, film, output);
     const double write_s = watch.lap();

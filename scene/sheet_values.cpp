@@ -79,7 +79,7 @@ SheetText SheetValueReader::text_at(const Place& place) {
     SheetText result;
     result.where = place.table.position_of(place.node);
     result.context = place.context;
-    result.is_from_command_line = result.where.file.starts_with(TomlReader::kCommandLine);
+    result.is_from_command_line = TomlReader::is_override(result.where);
     if (const auto* const text = place.node.as_string()) {
         result.text = text->get();
         const toml::source_region& source = place.node.source();

@@ -31,8 +31,7 @@ SourcePosition TomlReader::position_of(const toml::node& node) const {
 }
 
 void TomlReader::fail_at(const SourcePosition& position, const std::string& message) {
-    if (position.file.starts_with(kOption) || position.file.starts_with(kCall))
-        throw UsageError(position.file + ": " + message);
+    if (is_override(position)) throw UsageError(position.file + ": " + message);
     throw InputError(position, message);
 }
 

@@ -75,7 +75,11 @@ class TomlReader {
     }
     const std::string& context() const { return context_; }
     const std::string& file() const { return file_; }
-    /// Throws InputError, or UsageError for a place on the command line.
+    /// Whether a place is that of an override's value, in no file.
+    static bool is_override(const SourcePosition& position) {
+        return position.file.starts_with(kOption) || position.file.starts_with(kCall);
+    }
+    /// Throws InputError, or UsageError for a value of an override.
     [[noreturn]] static void fail_at(const SourcePosition& position, const std::string& message);
 
     /// Values of overrides have one of these in front of their source path.
