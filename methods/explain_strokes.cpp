@@ -36,9 +36,12 @@ double distance_to(glm::dvec2 place, glm::dvec2 a, glm::dvec2 b, double& share) 
 /// How a value stands in the sheet.
 std::string text_of(const StyleValue& value) {
     switch (value.kind) {
-        case StyleValue::Kind::expression: return " = " + printable(value.source.text, 400);
-        case StyleValue::Kind::ramp: return " = ramp over " + printable(value.source.text, 400);
-        default: return "";
+        case StyleValue::Kind::expression:
+            return " = " + printable(value.source.text, 400);
+        case StyleValue::Kind::ramp:
+            return " = ramp over " + printable(value.source.text, 400);
+        default:
+            return "";
     }
 }
 
@@ -50,8 +53,8 @@ class StrokeExplainer {
           sheet_(*frame.sheet),
           x_(x),
           y_(y),
-          surfaces_({0, 0, frame.width, frame.height}, frame.crop, {true, false, false, false, false, false, false, false, {}},
-                    frame.criteria.classes),
+          surfaces_({0, 0, frame.width, frame.height}, frame.crop,
+                    {true, false, false, false, false, false, false, false, {}}, frame.criteria.classes),
           found_(found_lines(find_drawing(frame, {}, surfaces_), frame, 0)),
           columns_(found_, sheet_.needs().classes, all_variables()) {
         inked_ = ink_lines(found_, sheet_, 0, notes_);

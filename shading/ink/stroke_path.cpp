@@ -103,14 +103,24 @@ void smooth_ink(StrokePath& path, double px, bool is_closed) {
         const double share = length > 0 ? (at - fine[i - 1].at_px) / length : 0;
         return turns * of.back() + glm::mix(of[i - 1], of[i], share);
     };
+    const auto [least_width, most_width] =
+        std::minmax_element(path.begin(), path.end(),
+                            [](const PathPoint& a, const PathPoint& b) { return a.ink.width_px < b.ink.width_px; });
+    const auto [least_opacity, most_opacity] = std::minmax_element(
+        path.begin(), path.end(), [](const PathPoint& a, const PathPoint& b) { return a.ink.opacity < b.ink.opacity; });
     StrokePath smoothed = fine;
     for (std::size_t i = 0; i < n; ++i) {
         const double at = fine[i].at_px;
         const double from = is_closed ? at - px : std::max(at - px, begin);
         const double to = is_closed ? at + px : std::min(at + px, end);
         if (!(to > from)) continue;
-        smoothed[i].ink.width_px = static_cast<float>((integral(width, to) - integral(width, from)) / (to - from));
-        smoothed[i].ink.opacity = static_cast<float>((integral(opacity, to) - integral(opacity, from)) / (to - from));
+        // What is left of rounding where the way is short must not leave the range of what is averaged.
+        smoothed[i].ink.width_px =
+            std::clamp(static_cast<float>((integral(width, to) - integral(width, from)) / (to - from)),
+                       least_width->ink.width_px, most_width->ink.width_px);
+        smoothed[i].ink.opacity =
+            std::clamp(static_cast<float>((integral(opacity, to) - integral(opacity, from)) / (to - from)),
+                       least_opacity->ink.opacity, most_opacity->ink.opacity);
     }
     path = std::move(smoothed);
 }
