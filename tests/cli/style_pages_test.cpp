@@ -1,0 +1,115 @@
+// The pages on style sheets: sheets stand there in full, and commands work as they stand.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = BURIN_SOURCE_FOLDER;
+
+std::string page(const char* name) { return read_file(kRoot / "docs" / name); }
+
+/// What stands between ```toml and ```.
+std::set<std::string> sheets_in(const std::string& page) {
+    const std::string begin = "```toml\n", end = "```\n";
+    std::set<std::string> sheets;
+    for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+        at += begin.size();
+        const std::size_t length = page.find(end, at) - at;
+        sheets.insert(page.substr(at, length));
+        at += length;
+    }
+    return sheets;
+}
+
+struct Command {
+    std::vector<std::string> arguments;
+    std::string stdout_file;  ///< behind `>`
+};
+
+/// Lines that begin with `    burin `, cut into words as by a shell that knows double quotes alone.
+std::vector<Command> commands_in(const std::string& page) {
+    std::vector<Command> commands;
+    std::istringstream lines(page);
+    const std::string begin = "    burin ";
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(begin)) continue;
+        Command command;
+        std::istringstream words(line.substr(begin.size()));
+        for (std::string word; words >> word;) {
+            if (word == ">") {
+                words >> command.stdout_file;
+                continue;
+            }
+            std::erase(word, '"');
+            command.arguments.push_back(word);
+        }
+        commands.push_back(command);
+    }
+    return commands;
+}
+
+TEST(StylePages, HaveTheSheetsInFull) {
+    std::set<std::string> files;
+    for (const auto& entry : fs::directory_iterator(kRoot / "docs/shading/examples"))
+        files.insert(read_file(entry.path()));
+    EXPECT_EQ(files.size(), 9u);
+    EXPECT_EQ(sheets_in(page("shading.md")), files);
+}
+
+TEST(StylePages, CommandsWorkAsTheyStand) {
+    int count = 0;
+    for (const char* name : {"shading.md", "gallery.md"}) {
+        const TemporaryFolder folder;
+        for (const char* part : {"docs", "scenes"}) fs::create_directory_symlink(kRoot / part, folder.file(part));
+        for (const Command& command : commands_in(page(name))) {
+            ProgramOptions options;
+            if (!command.stdout_file.empty()) options.stdout_file = folder.write(command.stdout_file, "");
+            const ProgramResult result = run_burin(folder.path(), command.arguments, options);
+            EXPECT_EQ(result.status, 0) << name << ": " << command.arguments.back() << "\n" << result.err;
+            ++count;
+        }
+    }
+    EXPECT_GE(count, 20);
+}
+
+TEST(StylePages, EverySheetIsInTheGallery) {
+    const std::string gallery = page("gallery.md");
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(kRoot / "styles")) {
+        const std::string name = entry.path().stem();
+        EXPECT_NE(gallery.find("--style " + name + " "), std::string::npos) << name;
+        for (const char* scene : {"engine", "teapot", "still_life", "flange"}) {
+            const std::string picture = std::string("pictures/gallery/") + scene + "_" + name + ".png";
+            EXPECT_NE(gallery.find(picture), std::string::npos) << picture;
+            EXPECT_TRUE(fs::exists(kRoot / "docs" / picture)) << picture;
+        }
+        ++count;
+    }
+    EXPECT_GE(count, 9);
+}
+
+/// A sheet that one can read at a glance, with the parameters that `-w` and `--color` set.
+TEST(StylePages, BuiltInSheetsAreShort) {
+    for (const auto& entry : fs::directory_iterator(kRoot / "styles")) {
+        const std::string sheet = read_file(entry.path());
+        EXPECT_LE(std::count(sheet.begin(), sheet.end(), '\n'), 40) << entry.path();
+        EXPECT_NE(sheet.find("\nwidth = { value = "), std::string::npos) << entry.path();
+        EXPECT_NE(sheet.find("\ncolor = \"#"), std::string::npos) << entry.path();
+    }
+}
+
+}  // namespace
+}  // namespace burin::test
