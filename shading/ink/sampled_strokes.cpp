@@ -168,6 +168,7 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
         const LinePiece& piece = lines.runs().pieces[node.sample.piece].piece;
         PathPoint point;
         point.at_px = lines.at_of(node.sample);
+        point.piece = node.sample.piece;
         point.ink.place = lines.place_of(node.sample);
         point.ink.nearness = static_cast<float>(glm::mix(static_cast<double>(piece.nearness_from),
                                                          static_cast<double>(piece.nearness_to), node.sample.share));
