@@ -179,11 +179,12 @@ class StrokeMaker {
         }
     }
 
-    /// Adds a stroke, in parts where that changes nothing but what is known of it: strokes of opaque ink have one class
-    /// each, and those whose beginning is seen through a surface end where that ends.
+    /// Adds a stroke, in parts: what is seen through a surface is one of its own, strokes of opaque ink have one class
+    /// each, and where the depth or the ink jumps nothing is drawn from the one to the other. Round ends hide that.
     void add(const StrokePath& path, bool is_loop) {
         if (path.size() < 2) return;
-        const bool is_opaque = style_.settings.caps == StrokeCaps::round &&
+        const bool is_round = style_.settings.caps == StrokeCaps::round;
+        const bool is_opaque = is_round &&
                                std::all_of(path.begin(), path.end(), [this](const PathPoint& p) {
                                    return p.ink.opacity >= static_cast<float>(piece_of(p).seen_opacity()) / 255.0f;
                                });
@@ -192,8 +193,9 @@ class StrokeMaker {
         };
         std::size_t first = 0;
         for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-            if (path[i].piece == path[i - 1].piece || go_together(path[i - 1], path[i])) continue;
-            add_part(std::span(path).subspan(first, i + 1 - first), false);
+            const bool jumps = is_round && i > first + 1 && path[i].ink.place == path[i - 1].ink.place;
+            if (!jumps && (path[i].piece == path[i - 1].piece || go_together(path[i - 1], path[i]))) continue;
+            add_part(std::span(path).subspan(first, i + (jumps ? 0 : 1) - first), false);
             first = i;
         }
         add_part(std::span(path).subspan(first), is_loop && first == 0);

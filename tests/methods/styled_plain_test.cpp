@@ -55,7 +55,7 @@ std::vector<PlainLook> plain_looks() {
         {"plain", set + "[style.ink]\nwidth=1\n", {}},
         {"wide", set + "[style.ink]\nwidth=6\n", {{"lines.width", "6"}}},
         {"hidden", set + behind + "[style.ink]\nwidth=1\n[style.behind]\nwidth=2\ncolor='#808080'\n",
-         {{"lines.hidden.style", "\"solid\""}, {"lines.hidden.width", "2"}}},
+         {{"lines.hidden.style", "\"solid\""}, {"lines.hidden.width", "2"}, {"lines.hidden.color", "\"#808080\""}}},
         {"inside", set + "[style.ink]\nwidth=6\nside='inside'\n", {{"lines.side", "\"inside\""}, {"lines.width", "6"}}},
         {"outside", set + "[style.ink]\nwidth=6\nside='outside'\n", {{"lines.side", "\"outside\""}, {"lines.width", "6"}}},
         {"fading", "crease_angle=[20,60]\n" + set + "[style.ink]\nwidth=2\n", {{"lines.crease_angle", "[20, 60]"}, {"lines.width", "2"}}},
@@ -72,6 +72,7 @@ TEST(StyledPlain, DISABLED_Explore) {
             Scene scene = load_scene(read_scene_file(path, overrides));
             const Camera camera = resolve_camera(scene.cameras.front(), scene_points(scene), 200.0 / 160);
             Frame frame = make_frame(scene, camera, 200, 160, {0, 0, 200, 160});
+            frame.needs.whole_picture = true;
             LayerSet layers{true, true, true, true, true, true, true, true};
             Film film({0, 0, 200, 160}, frame.crop, layers, frame.criteria.classes);
             RunOptions options;
@@ -88,6 +89,39 @@ TEST(StyledPlain, DISABLED_Explore) {
                         d.where.c_str(), d.sum_a, d.sum_b);
         }
     }
+}
+
+TEST(StyledPlain, DISABLED_Classes) {
+    for (const char* scene_name : {"teapot", "cage"}) {
+        const std::string path = BURIN_SOURCE_FOLDER "/scenes/" + std::string(scene_name) + ".toml";
+        const ShadedScene styled(read_scene_file(path, {}), "[style.ink]\n[[set]]\nname='a'\nstyle='ink'\nclasses=['border','silhouette','crease','object','intersection']\n", 200, 160);
+        const FoundLines f = styled.found();
+        for (const RunPiece& p : f.runs.pieces) {
+            if ((p.piece.classes & f.classes).first() != p.piece.drawn_as) std::printf("%s %x %x drawn %d at %f %f line %lx\n", scene_name, p.piece.classes.bits, f.classes.bits, (int)p.piece.drawn_as, p.piece.from.x, p.piece.from.y, p.piece.line.bits);
+        }
+    }
+}
+
+TEST(StyledPlain, DISABLED_Boundaries) {
+    const std::string path = BURIN_SOURCE_FOLDER "/scenes/teapot.toml";
+    Scene scene = load_scene(read_scene_file(path, {}));
+    const Camera camera = resolve_camera(scene.cameras.front(), scene_points(scene), 200.0 / 160);
+    Frame frame = make_frame(scene, camera, 200, 160, {0, 0, 200, 160});
+    frame.needs.whole_picture = true;
+    Film film({0, 0, 200, 160}, frame.crop, LayerSet{}, frame.criteria.classes);
+    RunOptions options;
+    LineDrawing d = find_drawing(frame, options, film);
+    const auto near = [](glm::dvec2 p) { return glm::distance(p, glm::dvec2(134.5, 56.5)) < 3; };
+    for (const auto& list : d.visible())
+        for (const LinePiece& p : list)
+            if (near(p.from)) std::printf("P %f %f - %f %f occ %d drawn %d as %d cl %x near %g left %d\n", p.from.x, p.from.y, p.to.x, p.to.y, p.occludes, p.is_drawn, (int)p.drawn_as, p.classes.bits, p.nearness_from, p.front_on_left);
+    const ShadedScene styled(read_scene_file(path, {}), "[style.ink]\n[[set]]\nname='a'\nstyle='ink'\nclasses=['border','silhouette','crease','object','intersection']\n", 200, 160);
+    InkedLines f = styled.inked();
+    for (const InkBoundary& p : f.boundaries)
+            if (near(p.from)) std::printf("B %f %f - %f %f drawn %d as %d near %g left %d\n", p.from.x, p.from.y, p.to.x, p.to.y, p.is_drawn, (int)p.order.drawn_as, p.nearness_from, p.front_on_left);
+    for (const InkStroke& s : f.strokes)
+        for (std::size_t i = 0; i + 1 < s.point_count; ++i) { const InkPoint&p = f.points[s.first_point + i];
+            if (near(p.place)) std::printf("S %f %f as %d near %g occ %d left %d behind %d w %f\n", p.place.x, p.place.y, (int)s.order.drawn_as, p.nearness, p.occludes, p.front_on_left, s.is_behind, p.width_px);}
 }
 
 }  // namespace
