@@ -11,6 +11,8 @@ namespace {
 constexpr double kMeetsPx = 0.5;
 /// A surface in front is farther away than that from what it hides, in pixels' widths.
 constexpr double kInFrontPx = 1.0;
+/// An end so far from those of its chain is none of these.
+constexpr double kWithinPx = 1.0;
 constexpr double kCellPx = 4;
 /// Pieces of the same run that are no farther along it are the end itself.
 constexpr double kOwnPx = 2;
@@ -42,6 +44,8 @@ class RunEnds {
                 const glm::dvec2 p = place(run, which);
                 if (is_at_frame(p)) {
                     run.ends[which] = RunEnd::frame;
+                } else if (is_within_chain(run, which)) {
+                    run.ends[which] = RunEnd::occluded;
                 } else {
                     open_.push_back({cell_of(p.x, p.y), i, which});
                 }
@@ -74,6 +78,13 @@ class RunEnds {
     glm::dvec2 place(const LineRun& run, std::size_t which) const {
         const LinePiece& piece = piece_at(run, which).piece;
         return which == 0 ? piece.from : piece.to;
+    }
+    /// Whether an edge of the mesh goes on there, hidden or seen, be its other part looked for or not.
+    bool is_within_chain(const LineRun& run, std::size_t which) const {
+        if (run.chain_place == 0) return false;
+        const RunPiece& last = piece_at(run, which);
+        return run.chain_is_closed || (which == 0 ? last.at_from_px > kWithinPx
+                                                  : last.at_to_px < run.chain_length_px - kWithinPx);
     }
     bool is_at_frame(glm::dvec2 p) const {
         return p.x <= picture_.x0 + kMeetsPx || p.y <= picture_.y0 + kMeetsPx || p.x >= picture_.x1 - kMeetsPx ||
