@@ -184,8 +184,7 @@ class StrokeMaker {
     void add(const StrokePath& path, bool is_loop) {
         if (path.size() < 2) return;
         const bool is_round = style_.settings.caps == StrokeCaps::round;
-        const bool is_opaque = is_round &&
-                               std::all_of(path.begin(), path.end(), [this](const PathPoint& p) {
+        const bool is_opaque = is_round && std::all_of(path.begin(), path.end(), [this](const PathPoint& p) {
                                    return p.ink.opacity >= static_cast<float>(piece_of(p).seen_opacity()) / 255.0f;
                                });
         const auto go_together = [&](const PathPoint& a, const PathPoint& b) {

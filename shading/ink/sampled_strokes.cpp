@@ -186,6 +186,8 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
         point.ink.front_on_left = piece.front_on_left;
         if (is_moved) point.ink.place += across.at(node.sample) * static_cast<double>(node.values.offset_px);
         StrokePath& path = strokes[node.stretch].path;
+        // Parts of one edge may overlap by a little; places never go back.
+        if (!path.empty()) point.at_px = std::max(point.at_px, path.back().at_px);
         // Where two pieces meet and nothing jumps, one point is enough.
         if (!path.empty() && node.sample.share == 0 && path.back().ink.place == point.ink.place &&
             are_equal(nodes[i - 1].values, node.values) &&

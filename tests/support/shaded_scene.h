@@ -24,7 +24,8 @@ class ShadedScene {
   public:
     ShadedScene(std::string_view scene, std::string_view sheet, int width = 200, int height = 160)
         : ShadedScene(SceneText(scene).read(), sheet, width, height) {}
-    ShadedScene(SceneDescription scene, std::string_view sheet, int width, int height) : width_(width), height_(height) {
+    ShadedScene(SceneDescription scene, std::string_view sheet, int width, int height)
+        : width_(width), height_(height) {
         use_sheet(scene, std::make_shared<const StyleSheet>(read_sheet_text(sheet, "sheet.toml")));
         scene_ = std::make_unique<Scene>(load_scene(std::move(scene)));
         see();
@@ -85,8 +86,7 @@ class ShadedScene {
         return find_drawing(frame, options, film);
     }
     void see() {
-        camera_ =
-            resolve_camera(scene_->cameras.front(), scene_points(*scene_), static_cast<double>(width_) / height_);
+        camera_ = resolve_camera(scene_->cameras.front(), scene_points(*scene_), static_cast<double>(width_) / height_);
     }
 
     std::unique_ptr<Scene> scene_;
