@@ -165,8 +165,8 @@ class FeatureRuns {
 };
 
 /// Adds the runs of lines that stand along themselves.
-void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, LineRuns& runs) {
-    const PieceChains chains(std::move(pieces));
+void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, double apart_px, LineRuns& runs) {
+    const PieceChains chains(std::move(pieces), {apart_px, true});
     for (const PieceChains::Chain& chain : chains.all()) {
         LineRun run;
         run.first = runs.pieces.size();
@@ -190,7 +190,7 @@ void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, LineRuns& 
 }  // namespace
 
 LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
-                 std::span<const WholeLine> features, const SurfaceSet& surfaces) {
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces, double apart_px) {
     LineRuns runs;
     FeatureRuns of_features(features, surfaces);
     std::vector<const LinePiece*> seen, hidden;
@@ -203,8 +203,8 @@ LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& be
         }
     }
     of_features.add_to(runs);
-    add_others(std::move(seen), false, runs);
-    add_others(std::move(hidden), true, runs);
+    add_others(std::move(seen), false, apart_px, runs);
+    add_others(std::move(hidden), true, apart_px, runs);
     return runs;
 }
 

@@ -72,6 +72,7 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     const VariableSet& variables = frame.sheet->needs().variables;
     FoundLinesNeeds needs;
     needs.chains = frame.sheet->needs().chains;
+    if (frame.scene->lines.contours == Contours::smooth) needs.apart_px = SmoothContours::kApartPx;
     for (const Variable v :
          {Variable::N, Variable::N2, Variable::facing, Variable::facing2, Variable::light, Variable::light2}) {
         needs.normals = needs.normals || variables.has(v);
