@@ -6,13 +6,15 @@
 #include <optional>
 #include <tuple>
 
+#include "lines/smooth_contours.h"
+
 namespace burin {
 namespace {
 
 /// Lines that were no farther apart than this met.
 constexpr double kMetPx = 0.25;
 /// Ends no farther apart than this are joined.
-constexpr double kJoinedPx = 1.0 / 256;
+constexpr double kJoinedPx = SmoothContours::kApartPx;
 constexpr double kCellPx = 4;
 
 /// Ends by place, in cells of the picture.

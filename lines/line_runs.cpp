@@ -13,8 +13,10 @@
 namespace burin {
 namespace {
 
-/// Pieces of one chain that are no farther apart along it are one run: a vertex may lie between them.
+/// Pieces of one chain that are no farther apart along it, nor on the screen, are one run: a vertex may lie between
+/// them.
 constexpr double kTogetherPx = 0.5;
+constexpr double kApartPx = 1.0, kStubPx = 1.0;
 /// Chains that end closer to where they began are seen as a loop.
 constexpr double kClosedPx = 1.0 / 256;
 
@@ -69,8 +71,11 @@ class FeatureRuns {
             const auto is_of_chain = [&](const Placed& p) {
                 return p.chain == placed_[begin].chain && p.is_hidden == placed_[begin].is_hidden;
             };
-            while (end < placed_.size() && is_of_chain(placed_[end])) ++end;
-            add_chain(std::span(placed_).subspan(begin, end - begin), runs);
+            std::vector<Placed> own;
+            for (; end < placed_.size() && is_of_chain(placed_[end]); ++end) {
+                if (!is_stub(placed_[end], own)) own.push_back(placed_[end]);
+            }
+            add_chain(own, runs);
         }
     }
 
@@ -135,7 +140,14 @@ class FeatureRuns {
         return sum | 1;
     }
     static bool goes_on(const Placed& a, const Placed& b) {
-        return b.piece.at_from_px <= a.piece.at_to_px + kTogetherPx;
+        return b.piece.at_from_px <= a.piece.at_to_px + kTogetherPx &&
+               glm::distance(a.piece.piece.to, b.piece.piece.from) <= kApartPx;
+    }
+    /// Whether a piece is a short one that lies beside a part of those before it, as there are where several lines meet
+    /// between two samples. A run that went back for it would end there.
+    static bool is_stub(const Placed& p, std::span<const Placed> before) {
+        return !before.empty() && p.piece.at_to_px <= before.back().piece.at_to_px &&
+               glm::distance(p.piece.piece.from, p.piece.piece.to) < kStubPx;
     }
     static bool covers_all(std::span<const Placed> placed, double length) {
         for (std::size_t i = 1; i < placed.size(); ++i) {
@@ -153,8 +165,8 @@ class FeatureRuns {
 };
 
 /// Adds the runs of lines that stand along themselves.
-void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, LineRuns& runs) {
-    const PieceChains chains(std::move(pieces));
+void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, double apart_px, LineRuns& runs) {
+    const PieceChains chains(std::move(pieces), {apart_px, true});
     for (const PieceChains::Chain& chain : chains.all()) {
         LineRun run;
         run.first = runs.pieces.size();
@@ -178,7 +190,7 @@ void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, LineRuns& 
 }  // namespace
 
 LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
-                 std::span<const WholeLine> features, const SurfaceSet& surfaces) {
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces, double apart_px) {
     LineRuns runs;
     FeatureRuns of_features(features, surfaces);
     std::vector<const LinePiece*> seen, hidden;
@@ -191,8 +203,8 @@ LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& be
         }
     }
     of_features.add_to(runs);
-    add_others(std::move(seen), false, runs);
-    add_others(std::move(hidden), true, runs);
+    add_others(std::move(seen), false, apart_px, runs);
+    add_others(std::move(hidden), true, apart_px, runs);
     return runs;
 }
 

@@ -55,11 +55,13 @@ struct LineRuns {
     }
 };
 
-/// Makes runs of the pieces of a picture that are drawn. `features`: edges that are lines in every view, as wholes;
+/// Makes runs of the pieces of a picture that are drawn, each in one of them; left out are pieces shorter than a pixel
+/// beside longer ones of the same chain. `features`: edges that are lines in every view, as wholes;
 /// runs of those stand along the chains of these (chains_of()), seen or not. All other lines are chained piece by piece
 /// (PieceChains), and stand along what is seen of them. Where a chain is a loop that is seen in part, what is beyond
-/// its beginning stands beyond its length.
+/// its beginning stands beyond its length. `apart_px`: how far apart the ends of pieces of these may be that follow
+/// each other.
 LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
-                 std::span<const WholeLine> features, const SurfaceSet& surfaces);
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces, double apart_px = 0);
 
 }  // namespace burin

@@ -17,7 +17,8 @@ void reverse(PieceChains::Chain& chain) {
 
 }  // namespace
 
-PieceChains::PieceChains(std::vector<const LinePiece*> pieces) : pieces_(std::move(pieces)), links_(pieces_.size()) {
+PieceChains::PieceChains(std::vector<const LinePiece*> pieces, const PieceLinking& linking)
+    : pieces_(std::move(pieces)), linking_(linking), links_(pieces_.size()) {
     link();
 }
 
@@ -38,26 +39,125 @@ std::vector<PieceChains::Chain> PieceChains::all() const {
     return chains;
 }
 
-void PieceChains::link() {
+/// Finds the ends that are at one place.
+void PieceChains::find_nodes() {
     std::vector<std::uint32_t> ends(2 * pieces_.size());
     for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
     std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
         const glm::dvec2 p = place(a), q = place(b);
         return p != q ? is_higher(p, q) : a < b;
     });
+    nodes_.resize(ends.size());
+    std::vector<std::uint32_t> firsts;  // one end for each place, in the order of places
+    for (const std::uint32_t end : ends) {
+        if (firsts.empty() || place(firsts.back()) != place(end)) firsts.push_back(end);
+        nodes_[end] = firsts.back();
+    }
+    if (linking_.apart_px <= 0) return;
+    // Places in cells that are as wide as places may be apart.
+    const auto row_of = [&](glm::dvec2 p) { return std::floor(p.y / linking_.apart_px); };
+    struct Cell {
+        double row, x;
+        std::uint32_t end;
+        bool operator<(const Cell& o) const { return std::tie(row, x, end) < std::tie(o.row, o.x, o.end); }
+    };
+    std::vector<Cell> cells;
+    for (const std::uint32_t end : firsts) cells.push_back({row_of(place(end)), place(end).x, end});
+    std::sort(cells.begin(), cells.end());
+    const auto first_of = [&](std::uint32_t end) {
+        while (nodes_[end] != end) end = nodes_[end] = nodes_[nodes_[end]];
+        return end;
+    };
+    for (const Cell& cell : cells) {
+        for (const double row : {cell.row, cell.row + 1}) {
+            for (auto near = std::lower_bound(cells.begin(), cells.end(), Cell{row, cell.x - linking_.apart_px, 0});
+                 near != cells.end() && near->row == row && near->x <= cell.x + linking_.apart_px; ++near) {
+                if (glm::distance(place(near->end), place(cell.end)) > linking_.apart_px) continue;
+                const std::uint32_t a = first_of(near->end), b = first_of(cell.end);
+                if (is_higher(place(a), place(b))) {
+                    nodes_[b] = a;
+                } else {
+                    nodes_[a] = b;
+                }
+            }
+        }
+    }
+    for (const std::uint32_t end : ends) nodes_[end] = first_of(end);
+}
+
+void PieceChains::link() {
+    find_nodes();
+    std::vector<std::uint32_t> ends(nodes_.size());
+    for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
+    std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const glm::dvec2 p = place(nodes_[a]), q = place(nodes_[b]);
+        return p != q ? is_higher(p, q) : a < b;
+    });
     for (std::size_t i = 0; i < ends.size();) {
         std::size_t next = i + 1;
-        while (next < ends.size() && place(ends[next]) == place(ends[i])) ++next;
+        while (next < ends.size() && nodes_[ends[next]] == nodes_[ends[i]]) ++next;
         link_node({ends.begin() + static_cast<std::ptrdiff_t>(i), ends.begin() + static_cast<std::ptrdiff_t>(next)});
         i = next;
     }
 }
 
 void PieceChains::link_node(std::vector<std::uint32_t> ends) {
+    const auto keep_free = [&] { std::erase_if(ends, [&](std::uint32_t end) { return !links_.is_free(end); }); };
+    if (linking_.goes_straight && ends.size() > 2) {
+        // Hooks run to the same place as another piece, as where a contour was folded back onto itself.
+        const auto is_hook = [&](std::uint32_t end) {
+            return std::any_of(ends.begin(), ends.end(),
+                               [&](std::uint32_t b) { return b != end && nodes_[b ^ 1] == nodes_[end ^ 1]; });
+        };
+        std::vector<std::uint32_t> hooks, others;
+        for (const std::uint32_t end : ends) (is_hook(end) ? hooks : others).push_back(end);
+        if (!hooks.empty()) {
+            if (others.size() == 1) {
+                links_.link(others[0], hooks[0]);
+            } else {
+                link_pairs(hooks, [&](std::uint32_t end) { return nodes_[end ^ 1]; });
+            }
+            if (others.size() < 2) return;
+            ends = others;
+        }
+    }
     link_pairs(ends, [&](std::uint32_t end) { return piece(end).line; });
-    std::erase_if(ends, [&](std::uint32_t end) { return !links_.is_free(end); });
+    keep_free();
     if (ends.size() != 2) link_pairs(ends, [&](std::uint32_t end) { return piece(end).drawn_as; });
+    if (linking_.goes_straight) {
+        keep_free();
+        if (ends.size() > 2) link_straightest(ends);
+    }
     if (ends.size() == 2) link_pairs(ends, [](std::uint32_t) { return 0; });
+}
+
+void PieceChains::link_straightest(const std::vector<std::uint32_t>& ends) {
+    struct Pair {
+        double cosine;  // -1: straight on
+        std::uint32_t a, b;
+    };
+    constexpr double kMostCosine = -0.5;
+    const auto way = [&](std::uint32_t end) {
+        const glm::dvec2 from = place(end), to = place(end ^ 1);
+        return (to - from) / glm::distance(from, to);
+    };
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        for (std::size_t k = i + 1; k < ends.size(); ++k) {
+            if (piece(ends[i]).drawn_as != piece(ends[k]).drawn_as) continue;
+            const double cosine = glm::dot(way(ends[i]), way(ends[k]));
+            if (cosine < kMostCosine) pairs.push_back({cosine, ends[i], ends[k]});
+        }
+    }
+    const auto key = [&](const Pair& p) {
+        const glm::dvec2 a = place(p.a ^ 1), b = place(p.b ^ 1);
+        const auto [first, last] = std::minmax(std::pair(a.y, a.x), std::pair(b.y, b.x));
+        return std::tuple(p.cosine, first, last);
+    };
+    std::sort(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) { return key(p) < key(q); });
+    for (const Pair& p : pairs) {
+        if (links_.is_free(p.a) && links_.is_free(p.b)) links_.link(p.a, p.b);
+    }
 }
 
 /// Links two ends with equal keys, if there is no third one.
@@ -78,7 +178,7 @@ void PieceChains::link_pairs(const std::vector<std::uint32_t>& ends, const Key& 
 /// Makes a chain begin where dashes begin.
 void PieceChains::put_in_order(Chain& chain) const {
     const glm::dvec2 first = place(chain.ends.front()), last = place(chain.ends.back() ^ 1);
-    if (first != last) {
+    if (nodes_[chain.ends.front()] != nodes_[chain.ends.back() ^ 1]) {
         if (is_higher(last, first)) reverse(chain);
         return;
     }

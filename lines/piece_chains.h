@@ -9,9 +9,17 @@
 
 namespace burin {
 
+/// How pieces are linked where more than two meet, or none meet exactly.
+struct PieceLinking {
+    double apart_px = 0;  ///< ends that are no farther apart than this are at one place
+    /// Where more than two meet: two pieces that run to one place and back are a loop of their own, and of the others
+    /// that are left the straightest pairs of one class belong together.
+    bool goes_straight = false;
+};
+
 /// PieceChains links pieces that follow each other on the screen, over tiles and over edges of the mesh: pieces whose
-/// ends are at one place, to the bit. Where more than two meet, those of one line belong together, else those of one
-/// class if they are two; the others end there.
+/// ends are at one place, to the bit unless PieceLinking says otherwise. Where more than two meet, those of one line
+/// belong together, else those of one class if they are two; the others end there.
 class PieceChains {
   public:
     struct Chain {
@@ -20,7 +28,7 @@ class PieceChains {
     };
 
     /// The pieces, which have lengths, must stay.
-    explicit PieceChains(std::vector<const LinePiece*> pieces);
+    explicit PieceChains(std::vector<const LinePiece*> pieces, const PieceLinking& linking = {});
 
     const LinePiece& piece(std::uint32_t end) const { return *pieces_[end / 2]; }
     double length(std::uint32_t end) const { return glm::distance(piece(end).from, piece(end).to); }
@@ -33,12 +41,16 @@ class PieceChains {
   private:
     glm::dvec2 place(std::uint32_t end) const { return end % 2 == 0 ? pieces_[end / 2]->from : pieces_[end / 2]->to; }
     void link();
+    void find_nodes();
     void link_node(std::vector<std::uint32_t> ends);
+    void link_straightest(const std::vector<std::uint32_t>& ends);
     template <typename Key>
     void link_pairs(const std::vector<std::uint32_t>& ends, const Key& key);
     void put_in_order(Chain& chain) const;
 
     std::vector<const LinePiece*> pieces_;
+    PieceLinking linking_;
+    std::vector<std::uint32_t> nodes_;  // of each end: the first end, in their order, at its place
     EndLinks links_;
 };
 

@@ -11,9 +11,13 @@ namespace {
 constexpr double kMeetsPx = 0.5;
 /// A surface in front is farther away than that from what it hides, in pixels' widths.
 constexpr double kInFrontPx = 1.0;
+/// An end so far from those of its chain is none of these.
+constexpr double kWithinPx = 1.0;
 constexpr double kCellPx = 4;
 /// Pieces of the same run that are no farther along it are the end itself.
 constexpr double kOwnPx = 2;
+/// Runs that are shorter are crumbs, as lie about the cusps of contours: no line goes on in them.
+constexpr double kCrumbPx = 2;
 
 std::uint64_t cell_of(double x, double y) {
     const auto number = [](double at) {
@@ -42,6 +46,8 @@ class RunEnds {
                 const glm::dvec2 p = place(run, which);
                 if (is_at_frame(p)) {
                     run.ends[which] = RunEnd::frame;
+                } else if (is_within_chain(run, which)) {
+                    run.ends[which] = RunEnd::occluded;
                 } else {
                     open_.push_back({cell_of(p.x, p.y), i, which});
                 }
@@ -75,6 +81,13 @@ class RunEnds {
         const LinePiece& piece = piece_at(run, which).piece;
         return which == 0 ? piece.from : piece.to;
     }
+    /// Whether an edge of the mesh goes on there, hidden or seen, be its other part looked for or not.
+    bool is_within_chain(const LineRun& run, std::size_t which) const {
+        if (run.chain_place == 0) return false;
+        const RunPiece& last = piece_at(run, which);
+        return run.chain_is_closed ||
+               (which == 0 ? last.at_from_px > kWithinPx : last.at_to_px < run.chain_length_px - kWithinPx);
+    }
     bool is_at_frame(glm::dvec2 p) const {
         return p.x <= picture_.x0 + kMeetsPx || p.y <= picture_.y0 + kMeetsPx || p.x >= picture_.x1 - kMeetsPx ||
                p.y >= picture_.y1 - kMeetsPx;
@@ -93,7 +106,7 @@ class RunEnds {
         const bool is_same_line = other.line == last.piece.line && other.is_hidden() != run.is_hidden;
         if (is_same_line || (other.occludes && is_in_front(other, share, last.piece, end.which))) {
             run.ends[end.which] = RunEnd::occluded;
-        } else if (other.is_drawn) {
+        } else if (other.is_drawn && runs_.length_px(runs_.runs[own]) >= kCrumbPx) {
             run.ends[end.which] = RunEnd::corner;
         }
     }

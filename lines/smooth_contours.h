@@ -32,6 +32,8 @@ class SmoothContours {
     void move(std::vector<std::vector<LinePiece>>& lists, int threads) const;
     /// Moves the folds among some pieces, each by itself.
     void move(std::vector<LinePiece>& pieces) const;
+    /// Ends of moved lines that meet may be so far apart, in pixels.
+    static constexpr double kApartPx = 1.0 / 256;
 
   private:
     bool is_fold(const LinePiece& piece) const;

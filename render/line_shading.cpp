@@ -83,6 +83,7 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     FoundLinesNeeds needs;
     needs.chains = frame.needs.whole_lines;
     needs.normals = frame.scene->finds_all || reads_normals(frame.sheet->needs());
+    if (lines.has_smooth_contours) needs.apart_px = SmoothContours::kApartPx;
     find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, needs, threads, lines);
     return lines;
 }

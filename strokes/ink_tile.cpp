@@ -277,12 +277,9 @@ void InkTile::draw_clipped(const InkSegmentRef& ref, const InkSegment& segment, 
         from.occludes, from.front_on_left};
     const StrokeSide side = drawn_side(lines_.strokes[ref.stroke]);
     const ClipPiece* own = &piece;
-    if (side != StrokeSide::both) {  // the boundary that is drawn does not cut itself
-        for (const ClipPiece* b : hiding_) {
-            if (b->from == piece.from && b->to == piece.to && b->front_on_left == piece.front_on_left &&
-                b->depth_from_px == piece.depth_from_px && b->depth_to_px == piece.depth_to_px && piece.occludes)
-                own = b;
-        }
+    if (side != StrokeSide::both && from.boundary != InkPoint::kNoBoundary) {  // which does not cut itself
+        const auto at = std::lower_bound(boundary_numbers_.begin(), boundary_numbers_.end(), from.boundary);
+        if (at != boundary_numbers_.end() && *at == from.boundary) own = &boundaries_[at - boundary_numbers_.begin()];
     }
     clipper_.draw(*own, cone, side, onto);
 }

@@ -69,18 +69,34 @@ std::vector<Chunk> chunks_of(const LineRuns& runs, const SetMatches& matches, st
     return chunks;
 }
 
+/// Opaque ink all along a piece.
+struct OpaqueInk {
+    std::uint32_t piece = 0;
+    InkOrder order;
+    float width_px = 0;  ///< at least
+};
+
 /// What comes of one chunk, to be put behind what came of those before it.
 struct Inked {
     std::vector<InkPoint> points;
     std::vector<InkStroke> strokes;
+    std::vector<OpaqueInk> opaque;
     std::vector<NotNumbersOfStyle> not_numbers;  // of its copies
 };
 
 /// StrokeMaker makes strokes of the stretches of a chunk.
 class StrokeMaker {
   public:
-    StrokeMaker(const LineColumns& lines, const CompiledSheet& sheet, const Chunk& chunk, Inked& out)
-        : lines_(lines), sheet_(sheet), chunk_(chunk), style_(sheet.style_of(chunk.set)), out_(out) {}
+    /// `boundaries`: the number of the boundary that each piece is, or InkPoint::kNoBoundary.
+    StrokeMaker(const LineColumns& lines, const CompiledSheet& sheet, std::span<const std::uint32_t> boundaries,
+                const Chunk& chunk, Inked& out)
+        : lines_(lines),
+          sheet_(sheet),
+          boundaries_(boundaries),
+          chunk_(chunk),
+          style_(sheet.style_of(chunk.set)),
+          is_moved_(style_.has_offset || style_.has_wobble),
+          out_(out) {}
 
     void make() {
         const StyleSettings& settings = style_.settings;
@@ -110,13 +126,14 @@ class StrokeMaker {
             if (has_begin && !run.is_closed && goes_on(run.ends[0])) lengthen_end(stroke.path, true, px);
             if (has_end && !run.is_closed && goes_on(run.ends[1])) lengthen_end(stroke.path, false, px);
         }
-        order_ = {-style_.settings.priority, run.is_hidden, chunk_.set,
-                  class_of(lines_.runs().pieces[run.first].piece)};
         chain_ = std::uint64_t{stroke.stretch.run} << 3 | copy;
         halo_px_ = style_.has_halo ? value_of(stroke.chain, ChainValue::halo) : 0;
         halo_depth_px_ = {value_of(stroke.chain, ChainValue::halo_depth_near),
                           value_of(stroke.chain, ChainValue::halo_depth_far)};
-        if (style_.dash_lengths == 0) return add(stroke.path, is_loop);
+        if (style_.dash_lengths == 0) {
+            if (!run.is_hidden) add_opaque(stroke.path);
+            return add(stroke.path, is_loop);
+        }
         add_dashes(stroke, run.chain_is_closed ? run.chain_length_px : 0);
     }
 
@@ -136,17 +153,62 @@ class StrokeMaker {
         for_dashes(stroke.path, pattern, loop_px, [this](const StrokePath& dash) { add(dash, false); });
     }
 
-    LineClass class_of(const LinePiece& piece) const { return sheet_.class_of(piece.classes).value_or(piece.drawn_as); }
+    const LinePiece& piece_of(const PathPoint& p) const { return lines_.runs().pieces[p.piece].piece; }
+    InkOrder order_of(const PathPoint& p) const {
+        const LinePiece& piece = piece_of(p);
+        return {-style_.settings.priority, piece.is_hidden(), chunk_.set,
+                sheet_.class_of(piece.classes).value_or(piece.drawn_as)};
+    }
+    static bool is_behind(const LinePiece& piece) { return piece.is_hidden() || piece.transmission < 255; }
 
+    /// Notes along which pieces opaque ink lies that covers what comes out from behind them.
+    void add_opaque(const StrokePath& path) {
+        if (is_moved_ || style_.settings.blend != InkBlend::over || style_.settings.side == StrokeSide::outside) return;
+        for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+            const PathPoint &from = path[i], &to = path[i + 1];
+            if (boundaries_[from.piece] == InkPoint::kNoBoundary) continue;
+            // Ends may be shorter than their pieces.
+            if (style_.has_overshoot && (from.piece == path.front().piece || from.piece == path.back().piece)) continue;
+            const float opacity = std::min(from.ink.opacity, to.ink.opacity);
+            const float width_px = opacity < 1 ? 0.0f : std::min(from.ink.width_px, to.ink.width_px);
+            if (!out_.opaque.empty() && out_.opaque.back().piece == from.piece && i > 0) {
+                out_.opaque.back().width_px = std::min(out_.opaque.back().width_px, width_px);
+            } else {
+                out_.opaque.push_back({from.piece, order_of(path[i]), width_px});
+            }
+        }
+    }
+
+    /// Adds a stroke, in parts: what is seen through a surface is one of its own, strokes of opaque ink have one class
+    /// each, and where the depth or the ink jumps nothing is drawn from the one to the other. Round ends hide that.
     void add(const StrokePath& path, bool is_loop) {
         if (path.size() < 2) return;
+        const bool is_round = style_.settings.caps == StrokeCaps::round;
+        const bool is_opaque = is_round && std::all_of(path.begin(), path.end(), [this](const PathPoint& p) {
+                                   return p.ink.opacity >= static_cast<float>(piece_of(p).seen_opacity()) / 255.0f;
+                               });
+        const auto go_together = [&](const PathPoint& a, const PathPoint& b) {
+            return is_behind(piece_of(a)) == is_behind(piece_of(b)) && (!is_opaque || order_of(a) == order_of(b));
+        };
+        std::size_t first = 0;
+        for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+            const bool jumps = is_round && i > first + 1 && path[i].ink.place == path[i - 1].ink.place;
+            if (!jumps && (path[i].piece == path[i - 1].piece || go_together(path[i - 1], path[i]))) continue;
+            add_part(std::span(path).subspan(first, i + (jumps ? 0 : 1) - first), false);
+            first = i;
+        }
+        add_part(std::span(path).subspan(first), is_loop && first == 0);
+    }
+
+    void add_part(std::span<const PathPoint> path, bool is_loop) {
         const bool is_seen = std::any_of(path.begin(), path.end(),
                                          [](const PathPoint& p) { return p.ink.width_px > 0 && p.ink.opacity > 0; });
         if (!is_seen) return;
         InkStroke stroke;
         stroke.first_point = out_.points.size();
         stroke.point_count = path.size();
-        stroke.order = order_;
+        stroke.order = order_of(path.front());
+        stroke.is_behind = is_behind(piece_of(path.front()));
         stroke.chain = chain_;
         stroke.caps = style_.settings.caps;
         stroke.blend = style_.settings.blend;
@@ -158,46 +220,61 @@ class StrokeMaker {
         stroke.is_constant = std::all_of(path.begin(), path.end(), [&first](const PathPoint& p) {
             return p.ink.width_px == first.width_px && p.ink.opacity == first.opacity && p.ink.color == first.color;
         });
-        for (const PathPoint& p : path) out_.points.push_back(p.ink);
+        for (const PathPoint& p : path) {
+            out_.points.push_back(p.ink);
+            if (!is_moved_) out_.points.back().boundary = boundaries_[p.piece];
+        }
         out_.strokes.push_back(stroke);
     }
 
     const LineColumns& lines_;
     const CompiledSheet& sheet_;
+    std::span<const std::uint32_t> boundaries_;
     const Chunk& chunk_;
     const CompiledStyle& style_;
+    bool is_moved_;
     Inked& out_;
-    InkOrder order_;
     std::uint64_t chain_ = 0;
     float halo_px_ = 0;
     glm::vec2 halo_depth_px_{0.0f};
 };
 
-void add_boundaries(const LineColumns& lines, const SetMatches& matches, const CompiledSheet& sheet,
-                    InkedLines& inked) {
-    const auto add = [&](const LinePiece& piece, const InkOrder* order) {
-        if (!piece.occludes) return;
-        InkBoundary boundary{piece.from, piece.to, piece.nearness_from, piece.nearness_to, piece.front_on_left,
-                             {},         false};
-        if (order != nullptr) boundary.order = *order;
-        boundary.is_drawn = order != nullptr;
+/// Adds the boundaries of what is seen, and says of each piece which one it is.
+std::vector<std::uint32_t> add_boundaries(const LineColumns& lines, InkedLines& inked) {
+    std::vector<std::uint32_t> numbers(lines.runs().pieces.size(), InkPoint::kNoBoundary);
+    const auto add = [&](const LinePiece& piece) {
+        InkBoundary boundary;
+        boundary.from = piece.from;
+        boundary.to = piece.to;
+        boundary.nearness_from = piece.nearness_from;
+        boundary.nearness_to = piece.nearness_to;
+        boundary.front_on_left = piece.front_on_left;
         inked.boundaries.push_back(boundary);
     };
-    const LineRuns& runs = lines.runs();
-    for (const LineRun& run : runs.runs) {
-        if (run.is_hidden) continue;
-        for (std::size_t i = run.first; i < run.first + run.count; ++i) {
-            const LinePiece& piece = runs.pieces[i].piece;
-            std::optional<InkOrder> order;
-            for (const std::uint16_t set : matches.of(i)) {
-                const InkOrder own{-sheet.style_of(set).settings.priority, false, set,
-                                   sheet.class_of(piece.classes).value_or(piece.drawn_as)};
-                if (!order || own < *order) order = own;
-            }
-            add(piece, order ? &*order : nullptr);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const LinePiece& piece = lines.runs().pieces[i].piece;
+        if (piece.is_hidden() || !piece.occludes) continue;
+        numbers[i] = static_cast<std::uint32_t>(inked.boundaries.size());
+        add(piece);
+    }
+    for (const LinePiece& piece : lines.lines().boundaries) add(piece);
+    return numbers;
+}
+
+/// Notes the widest ink along each boundary; of equally wide ones, what lies on top.
+void add_ink_along(std::span<const Inked> parts, std::span<const std::uint32_t> boundaries, InkedLines& inked) {
+    for (const Inked& part : parts) {
+        for (const OpaqueInk& ink : part.opaque) {
+            InkBoundary& boundary = inked.boundaries[boundaries[ink.piece]];
+            if (!(ink.width_px > 0)) continue;
+            if (boundary.is_drawn && (ink.width_px < boundary.drawn_width_px ||
+                                      (ink.width_px == boundary.drawn_width_px && boundary.order < ink.order)))
+                continue;
+            boundary.is_drawn = true;
+            boundary.order = ink.order;
+            boundary.drawn_width_px = ink.width_px;
         }
     }
-    for (const LinePiece& piece : lines.lines().boundaries) add(piece, nullptr);
 }
 
 void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const Chunk> chunks, std::span<const Inked> parts,
@@ -231,11 +308,12 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
     const LineColumns lines(found, sheet.needs().classes, sheet.needs().variables);
     const SetMatches matches = match_pieces(lines, sheet);
     const std::vector<Chunk> chunks = chunks_of(found.runs, matches, sheet.sets().size());
+    InkedLines inked;
+    const std::vector<std::uint32_t> boundaries = add_boundaries(lines, inked);
     std::vector<Inked> parts(chunks.size());
     parallel_for(chunks.size(), threads,
-                 [&](std::size_t i, int) { StrokeMaker(lines, sheet, chunks[i], parts[i]).make(); });
+                 [&](std::size_t i, int) { StrokeMaker(lines, sheet, boundaries, chunks[i], parts[i]).make(); });
 
-    InkedLines inked;
     std::size_t points = 0, strokes = 0;
     for (const Inked& part : parts) {
         points += part.points.size();
@@ -252,7 +330,7 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
         }
     }
     for (const CompiledSet& set : sheet.sets()) inked.layers.push_back(set.layer);
-    add_boundaries(lines, matches, sheet, inked);
+    add_ink_along(parts, boundaries, inked);
     add_notes_on_numbers(sheet, chunks, parts, notes);
     return inked;
 }

@@ -26,6 +26,9 @@ struct InkPoint {
     /// screen.
     bool occludes = false;
     bool front_on_left = false;
+    /// Of the way to the next point: the boundary in InkedLines::boundaries that it lies on, which does not cut it.
+    std::uint32_t boundary = kNoBoundary;
+    static constexpr std::uint32_t kNoBoundary = ~0u;
 };
 
 /// Where a stroke lies among the others of a pixel. What is less lies above what is greater.

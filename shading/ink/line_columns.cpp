@@ -245,7 +245,8 @@ void LineColumns::fill_chains(std::span<const LineSample> samples, const Variabl
     // Beyond the beginning of a loop, places count from there again.
     const auto s = [&](std::size_t i) {
         const double at = at_of(samples[i]), length = run(i).chain_length_px;
-        return run(i).chain_is_closed && at > length ? at - length : at;
+        const RunPiece& own = runs_.pieces[samples[i].piece];
+        return run(i).chain_is_closed && 0.5 * (own.at_from_px + own.at_to_px) > length ? at - length : at;
     };
     out.each(V::s, s);
     out.each(V::length, [&](std::size_t i) { return run(i).chain_length_px; });

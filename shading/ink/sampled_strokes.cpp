@@ -39,6 +39,13 @@ bool are_equal(const InkValues& a, const InkValues& b) {
     return a.width_px == b.width_px && a.opacity == b.opacity && a.color == b.color && a.offset_px == b.offset_px;
 }
 
+/// Whether two depths differ by less than a small part of a pixel's width: a chain may go on at another depth.
+bool are_as_near(const Projection& projection, float a, float b) {
+    constexpr double kAsNearPx = 1.0 / 16;
+    const double difference = std::abs(static_cast<double>(a) - static_cast<double>(b)) * projection.focal_px;
+    return difference <= kAsNearPx * (projection.orthographic ? 1.0 : static_cast<double>(b));
+}
+
 /// Nodes at the ends of pieces and at most 8 pixels apart.
 std::vector<Node> first_nodes(const LineColumns& lines, std::span<const LineStretch> stretches, bool varies) {
     std::vector<Node> nodes;
@@ -168,6 +175,7 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
         const LinePiece& piece = lines.runs().pieces[node.sample.piece].piece;
         PathPoint point;
         point.at_px = lines.at_of(node.sample);
+        point.piece = node.sample.piece;
         point.ink.place = lines.place_of(node.sample);
         point.ink.nearness = static_cast<float>(glm::mix(static_cast<double>(piece.nearness_from),
                                                          static_cast<double>(piece.nearness_to), node.sample.share));
@@ -178,11 +186,12 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
         point.ink.front_on_left = piece.front_on_left;
         if (is_moved) point.ink.place += across.at(node.sample) * static_cast<double>(node.values.offset_px);
         StrokePath& path = strokes[node.stretch].path;
-        // Pieces may overlap a little where a vertex lies between them; a path does not go back.
+        // Parts of one edge may overlap by a little; places never go back.
         if (!path.empty()) point.at_px = std::max(point.at_px, path.back().at_px);
         // Where two pieces meet and nothing jumps, one point is enough.
         if (!path.empty() && node.sample.share == 0 && path.back().ink.place == point.ink.place &&
-            are_equal(nodes[i - 1].values, node.values)) {
+            are_equal(nodes[i - 1].values, node.values) &&
+            are_as_near(lines.lines().projection, path.back().ink.nearness, point.ink.nearness)) {
             path.back() = point;
         } else {
             path.push_back(point);

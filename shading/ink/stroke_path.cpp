@@ -25,9 +25,13 @@ PathPoint between(const PathPoint& a, const PathPoint& b, double share) {
 StrokePath cut(const StrokePath& path, double begin, double end) {
     StrokePath part;
     const auto add = [&](const PathPoint& p) { part.push_back(p); };
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const auto first =
+        std::lower_bound(path.begin(), path.end(), begin, [](const PathPoint& p, double at) { return p.at_px < at; });
+    for (auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first - path.begin() - 1, 0)); i + 1 < path.size();
+         ++i) {
         const PathPoint &a = path[i], &b = path[i + 1];
-        if (b.at_px < begin || a.at_px > end) continue;
+        if (a.at_px > end) break;
+        if (b.at_px < begin) continue;
         const double length = b.at_px - a.at_px;
         const double from = length > 0 ? std::clamp((begin - a.at_px) / length, 0.0, 1.0) : 0.0;
         const double to = length > 0 ? std::clamp((end - a.at_px) / length, 0.0, 1.0) : 1.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -10,10 +11,11 @@
 
 namespace burin {
 
-/// A point of a path: its ink, and where it stands along its chain.
+/// A point of a path: its ink, where it stands along its chain, and on which piece the way to the next point lies.
 struct PathPoint {
     InkPoint ink;
     double at_px = 0;
+    std::uint32_t piece = 0;  ///< in LineRuns
 };
 using StrokePath = std::vector<PathPoint>;
 

@@ -96,6 +96,15 @@ std::vector<ChainValues> StrokeValues::chain_values(std::span<const LineStretch>
     return values;
 }
 
+/// How far along its run a sample lies, 0 to 1, if that is a loop; else 0.
+float StrokeValues::share_of_loop(const LineSample& sample) const {
+    const LineRuns& runs = lines_.runs();
+    const LineRun& run = runs.runs[sample.run];
+    if (!run.is_closed) return 0;
+    const double length = runs.length_px(run);
+    return length > 0 ? static_cast<float>((lines_.at_of(sample) - runs.pieces[run.first].at_from_px) / length) : 0;
+}
+
 float StrokeValues::taper(const LineRun& run, const ChainValues& chain, double from_begin_px,
                           double from_end_px) const {
     if (!style_.has_taper || run.is_closed) return 1;
@@ -140,7 +149,8 @@ void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const
 
 /// Noise that lines are moved across by. On the object, its waves keep their place and, within a factor of two, their
 /// length on the screen: of two noises with wavelengths that are powers of two in the object's units, the one fades
-/// into the other while the camera comes nearer.
+/// into the other while the camera comes nearer. Along a loop, noise fades into the same noise a turn earlier, so that
+/// it has no seam.
 void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
                               std::vector<InkValues>& values) {
     const LineRuns& runs = lines_.runs();
@@ -163,7 +173,8 @@ void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<con
                 const LineHash hash =
                     is_on_object ? lines_.object_hash(samples[i].piece, variant_) : lines_.chain_hash(run, variant_);
                 if (!is_on_object) {
-                    x[i] = static_cast<float>(lines_.at_of(samples[i])) / std::ldexp(octave[i], -o);
+                    const double at = lines_.at_of(samples[i]) - (step == 0 ? 0.0 : runs.length_px(run));
+                    x[i] = static_cast<float>(at) / std::ldexp(octave[i], -o);
                     y[i] = LineHash(hash).add(std::uint64_t(1)).unit() * 64;
                     z[i] = LineHash(hash).add(std::uint64_t(2)).unit() * 64;
                     continue;
@@ -181,7 +192,7 @@ void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<con
             }
             compute(ExpressionOperation::noise3, n, noise.data(), x.data(), y.data(), z.data());
             for (std::size_t i = 0; i < n; ++i) {
-                const float b = is_on_object ? log_octave[i] - std::floor(log_octave[i]) : 0;
+                const float b = is_on_object ? log_octave[i] - std::floor(log_octave[i]) : share_of_loop(samples[i]);
                 const float share = (step == 0 ? 1 - b : b) / std::sqrt((1 - b) * (1 - b) + b * b);
                 sum[i] += strength * share * noise[i];
             }

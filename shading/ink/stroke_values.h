@@ -55,6 +55,7 @@ class StrokeValues {
     void run(const ExpressionProgram& program, std::span<const LineSample> samples, std::size_t column_count);
     void add_wobble(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
                     std::vector<InkValues>& values);
+    float share_of_loop(const LineSample& sample) const;
     float taper(const LineRun& run, const ChainValues& chain, double from_begin_px, double from_end_px) const;
 
     const LineColumns& lines_;

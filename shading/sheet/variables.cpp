@@ -86,7 +86,7 @@ constexpr std::array<VariableRow, kVariableCount> kTable = {{
      "of the line on the screen; 0 = level, counter-clockwise"},
     {V::rand_object, "rand_object", number, "", "[0, 1)", R::piece, T::piece, K::none,
      "a random number of the object, the same in all frames"},
-    {V::rand_chain, "rand_chain", number, "", "[0, 1)", R::chain, T::piece, K::none, "a random number of the chain"},
+    {V::rand_chain, "rand_chain", number, "", "[0, 1)", R::chain, T::chains, K::none, "a random number of the chain"},
     {V::rand_set, "rand_set", number, "", "[0, 1)", R::chain, T::piece, K::none, "a random number of the set"},
     {V::copy, "copy", number, "", "0 to 7", R::chain, T::piece, K::none,
      "number of the copy, where a style has several (`copies`)"},

@@ -43,6 +43,8 @@ InkedLines inked(const LineDrawing& drawing, const LineStyle& style) {
         point.color = piece.is_hidden() ? style.hidden.color : style.color_of(piece.drawn_as);
         point.occludes = piece.occludes;
         point.front_on_left = piece.front_on_left;
+        if (piece.occludes && !piece.is_hidden())
+            point.boundary = static_cast<std::uint32_t>(lines.boundaries.size() - 1);
         lines.points.push_back(point);
         point.place = piece.to;
         point.nearness = piece.nearness_to;
