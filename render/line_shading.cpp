@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lines/smooth_contours.h"
+#include "shading/ink/found_needs.h"
 #include "shading/ink/ink_lines.h"
 #include "shading/sheet/compiled_sheet.h"
 #include "shading/sheet/style_sheet.h"
@@ -69,14 +70,8 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     lines.light = frame.scene->sheet->light;
     lines.frame = frame.scene->frame.number;
     lines.time_s = frame.scene->frame.number / frame.scene->frame.fps;
-    const VariableSet& variables = frame.sheet->needs().variables;
-    FoundLinesNeeds needs;
-    needs.chains = frame.sheet->needs().chains;
-    for (const Variable v :
-         {Variable::N, Variable::N2, Variable::facing, Variable::facing2, Variable::light, Variable::light2}) {
-        needs.normals = needs.normals || variables.has(v);
-    }
-    find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, needs, threads, lines);
+    find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, found_needs_of(frame.sheet->needs()),
+                        threads, lines);
     return lines;
 }
 
