@@ -8,8 +8,8 @@ FoundLinesNeeds found_needs_of(const SheetNeeds& sheet) {
     constexpr Variable kOfNormals[] = {Variable::N,       Variable::N2,    Variable::facing,
                                        Variable::facing2, Variable::light, Variable::light2};
     FoundLinesNeeds needs;
-    needs.normals = std::any_of(std::begin(kOfNormals), std::end(kOfNormals),
-                                [&](Variable v) { return sheet.variables.has(v); });
+    needs.normals =
+        std::any_of(std::begin(kOfNormals), std::end(kOfNormals), [&](Variable v) { return sheet.variables.has(v); });
     needs.chains = sheet.chains;
     return needs;
 }

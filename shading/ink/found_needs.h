@@ -10,8 +10,8 @@ namespace burin {
 /// What must be known of lines so that a sheet can draw them.
 FoundLinesNeeds found_needs_of(const SheetNeeds& sheet);
 
-/// What a sheet needs and lines lack, since others were looked for when they were found: "lines of class mark, normals";
-/// empty: nothing.
+/// What a sheet needs and lines lack, since others were looked for when they were found: "lines of class mark,
+/// normals"; empty: nothing.
 std::string missing_for(const SheetNeeds& sheet, const FoundLines& lines);
 
 }  // namespace burin

@@ -29,8 +29,9 @@ std::string table() {
     static constexpr const char* kRates[] = {"frame", "chain", "piece", "place"};
     std::string text = "| name | value | changes with | tier | meaning |\n|---|---|---|---|---|\n";
     for (const VariableRow& row : variable_table()) {
-        text += "| `" + std::string(row.name) + "` | " + value_of(row) + " | " + kRates[static_cast<std::size_t>(row.rate)] + " | " +
-                std::to_string(static_cast<int>(row.tier)) + " | " + std::string(row.meaning) + " |\n";
+        text += "| `" + std::string(row.name) + "` | " + value_of(row) + " | " +
+                kRates[static_cast<std::size_t>(row.rate)] + " | " + std::to_string(static_cast<int>(row.tier)) +
+                " | " + std::string(row.meaning) + " |\n";
     }
     return text;
 }
