@@ -36,8 +36,7 @@ void check_was_found(const StyleSheet& sheet, const CompiledSheet& compiled, con
         throw UsageError("style: the drawing lacks what the style sheet needs: " + missing + kFindForIt);
     const LineSettings& found = drawing.scene.lines;
     LineSettings wanted = found;
-    if (sheet.crease_angle_deg)
-        wanted.set_crease_angle((*sheet.crease_angle_deg)[0], (*sheet.crease_angle_deg)[1]);
+    if (sheet.crease_angle_deg) wanted.set_crease_angle((*sheet.crease_angle_deg)[0], (*sheet.crease_angle_deg)[1]);
     if (wanted.crease_angle_deg != found.crease_angle_deg || wanted.crease_fade_deg != found.crease_fade_deg)
         throw UsageError(std::string("style: the drawing's creases were found with another crease_angle") + kFindForIt);
     if (sheet.smooth_contours && *sheet.smooth_contours != (found.contours == Contours::smooth))

@@ -39,8 +39,8 @@ TEST(LibraryStyle, PicturesAreTheProgramsByNameByFileAndByText) {
     const std::string text = sheet("width = \"=3 * t + 1\"");
     folder.write("mine.toml", text);
     const auto of_program = [&](const std::string& style) {
-        const ProgramResult result = run_burin(folder.path(), {"render", kScenes + "cube.toml", "--size", "160x120", "-q",
-                                                               "--style", style, "-o", "program.exr"});
+        const ProgramResult result = run_burin(folder.path(), {"render", kScenes + "cube.toml", "--size", "160x120",
+                                                               "-q", "--style", style, "-o", "program.exr"});
         EXPECT_EQ(result.status, 0) << result.err;
         return read_file(folder.file("program.exr"));
     };
@@ -83,10 +83,10 @@ TEST(LibraryStyle, ADrawingIsTheRenderedPictureOfTheSameStyle) {
 /// Lines as they are found depend on what is looked for by a little, so these need chains, too.
 TEST(LibraryStyle, ADrawingTakesSheetsThatNeedNoMore) {
     const std::string first = sheet("width = \"=1 + facing\"\ndash = [6, 4]");
-    for (const std::string& second : {sheet("width = 3\ncolor = \"#ff0000\"\ntaper = { start = 9 }"),
-                                      sheet("width = \"=2 * facing2\"\ncaps = \"butt\""),
-                                      sheet("opacity = \"=light * t\"", "light = [1, 0, 0]\n"),
-                                      sheet("dash = [5, 5]", "filter = \"mitchell\"\n")}) {
+    for (const std::string& second :
+         {sheet("width = 3\ncolor = \"#ff0000\"\ntaper = { start = 9 }"),
+          sheet("width = \"=2 * facing2\"\ncaps = \"butt\""), sheet("opacity = \"=light * t\"", "light = [1, 0, 0]\n"),
+          sheet("dash = [5, 5]", "filter = \"mitchell\"\n")}) {
         Scene from = scene();
         from.set_style(second);
         const std::vector<std::byte> rendered = exr(from);
