@@ -32,7 +32,7 @@ extern "C" {
 
 /** The version of this interface. It counts up with every change; a library works for programs that were built with
  * the same number or a smaller one. */
-#define BURIN_ABI 2
+#define BURIN_ABI 3
 /** BURIN_ABI of the library that is loaded. */
 BURIN_API int burin_abi(void);
 /** Its version, "0.1.0". */
@@ -140,6 +140,11 @@ BURIN_API int burin_set(burin_scene* scene, const char* key_and_value);
 /** Changes all settings that a text names: tables of a scene file but [[object]] and [[material]]. What it does not
  * name stays; a list of cameras replaces the one before. */
 BURIN_API int burin_set_toml(burin_scene* scene, const char* toml);
+/** Has lines look as a style sheet says (docs/shading/sheets.md), as --style of the program does: it takes the place of
+ * all looks of the scene, and of the sheet before with its changes. `text_or_name`: the text of a sheet, which has
+ * several lines; or a name, or a file that has a / or ends in .toml, which is read now. burin_set() then changes its
+ * values: "style.width=3". NULL or "": takes the sheet away, that of the scene's file, too. */
+BURIN_API int burin_set_style(burin_scene* scene, const char* text_or_name);
 
 /* ---- pictures ---- */
 
@@ -149,7 +154,7 @@ typedef struct burin_view {
     int32_t width, height; /**< pixels of the whole picture, 1 to 65535; both 0: as the scene says */
     int32_t crop[4];       /**< x0 y0 x1 y1: the part that is drawn, x1 and y1 excluded; all 0: all */
     int32_t samples;       /**< per pixel, along either axis: 2, 4 or 8; 0: as the scene says */
-    int32_t frame;         /**< for later; must be 0 */
+    int32_t frame;         /**< number of the frame, for style sheets: -1000000000 to 1000000000 */
     const char* camera;    /**< name of one of the scene's cameras, if there is no matrix; NULL: the first, or one that
                                 has all of the scene in view if there is none */
     double camera_to_world[16]; /**< the camera's x is to the right, y up, and it looks along -z; a rotation and a
@@ -166,7 +171,8 @@ typedef struct burin_options {
     int32_t threads;       /**< 0: as many as there are cores; at most 1024 */
     uint64_t memory_bytes; /**< cap for what drawing takes beyond scene and picture; 0: none */
     const char* layers;    /**< which channels the picture gets, as --layers of the program: "beauty,lines,Z"; NULL:
-                                "beauty,lines,Z,N,ids", and lines_hidden if hidden lines are drawn */
+                                "beauty,lines,Z,N,ids", lines_hidden if hidden lines are drawn, and those that sets of
+                                a style sheet have of their own */
     /** Is called about ten times a second with the part that is done, 0 to 1, on the thread that made the call. It
      * returns 0 to go on and anything else to stop. It must not use the scene, but for burin_cancel(). NULL: none. */
     int (*progress)(double done, void* user);
@@ -213,11 +219,14 @@ BURIN_API int burin_pixels(const burin_picture* picture, uint8_t* out, int chann
 typedef struct burin_drawing burin_drawing;
 
 /** Finds the lines that burin_render() would draw: visible ones, and those that surfaces hide where the scene draws
- * them ("lines.hidden.style=solid" or "dashed"). `options.layers`: of the pictures that are drawn of it. */
+ * them ("lines.hidden.style=solid" or "dashed"); with a style sheet, all that it asks for. `options.layers`: of the
+ * pictures that are drawn of it. */
 BURIN_API burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, const burin_options* options);
-/** Draws a drawing's lines over its surfaces: the bits of burin_render(). `style`: must be NULL, the look of the scene
- * when the lines were found. Of `options` only `threads` counts; `layers` must be NULL, for the drawing has its own. It
- * cannot be stopped. */
+/** Draws a drawing's lines over its surfaces: the bits of burin_render(). `style`: NULL, the look of the scene when the
+ * lines were found; or a style sheet, as for burin_set_style(), which needs no more than the sheet that the scene had
+ * then: its classes, its hidden lines, its crease_angle and contours. What it leaves open of these and of the filter is
+ * as it was. Where it needs less, the picture is that of burin_render() but for rounding in a few pixels. Of `options`
+ * only `threads` counts; `layers` must be NULL, for the drawing has its own. It cannot be stopped. */
 BURIN_API burin_picture* burin_draw(const burin_drawing* drawing, const char* style, const burin_options* options);
 /** NULL is allowed. Pictures live on. */
 BURIN_API void burin_drawing_free(burin_drawing* drawing);
@@ -243,15 +252,17 @@ BURIN_API void burin_drawing_free(burin_drawing* drawing);
  *     classes              uint16  the line classes that apply, of those that the scene draws ("lines.draw"), as bits:
  *                                  1 mark, 2 border, 4 silhouette, 8 intersection, 16 object, 32 material, 64 crease,
  *                                  128 polygon; the lowest one is what the line is called and drawn as
- *     invisibility         uint8   how many opaque surfaces are in front; 0: none; 255: that many or more */
+ *     invisibility         uint8   how many opaque surfaces are in front; 0: none; 255: that many or more; beside a style
+ *                                  sheet that does not ask how many: 0, or any other number */
 BURIN_API const void* burin_column(burin_drawing* drawing, const char* name, int32_t* type, uint64_t* count);
 /* clang-format on */
 
 /* ---- files ---- */
 
 /** A picture as the bytes of a file: the same that the program writes. `picture_or_drawing`: a burin_picture, or a
- * burin_drawing, which is drawn. `format`: "exr", "png", "png16", "tif", "tif16"; the number is bits per value. `style`
- * must be NULL. `bytes` and `count` get the file, to be freed by burin_bytes_free(). */
+ * burin_drawing, which is drawn. `format`: "exr", "png", "png16", "tif", "tif16"; the number is bits per value.
+ * `style`: as in burin_draw(); NULL for a picture. `bytes` and `count` get the file, to be freed by burin_bytes_free().
+ */
 BURIN_API int burin_encode(const void* picture_or_drawing, const char* format, const char* style, uint8_t** bytes,
                            uint64_t* count);
 /** The same into a file, which appears under its name only when it is complete. `format` NULL: by the path's suffix. */

@@ -81,6 +81,7 @@ struct View {
     Matrix camera_to_world{};
     double fov_deg = 0;
     double ortho_height = 0;
+    int frame = 0;
 };
 
 /// How to work; see burin_options.
@@ -93,10 +94,11 @@ struct Options {
 };
 
 /// The bytes of a file of a picture or a drawing.
-inline std::vector<std::byte> encoded(const void* picture_or_drawing, const std::string& format) {
+inline std::vector<std::byte> encoded(const void* picture_or_drawing, const std::string& format,
+                                      const char* style = nullptr) {
     std::uint8_t* bytes = nullptr;
     std::uint64_t count = 0;
-    checked(burin_encode(picture_or_drawing, format.c_str(), nullptr, &bytes, &count));
+    checked(burin_encode(picture_or_drawing, format.c_str(), style, &bytes, &count));
     const std::unique_ptr<std::uint8_t, void (*)(std::uint8_t*)> owner(bytes, burin_bytes_free);
     const auto* const first = reinterpret_cast<const std::byte*>(bytes);
     return {first, first + count};
@@ -170,18 +172,28 @@ class Drawing {
         return {static_cast<const T*>(values), static_cast<std::size_t>(count)};
     }
     /// The picture that the scene's look makes of it.
-    Picture draw(int threads = 0) const {
-        burin_options o = {};
-        o.size = sizeof o;
-        o.threads = threads;
-        return Picture(checked(burin_draw(get(), nullptr, &o)));
-    }
+    Picture draw(int threads = 0) const { return drawn(nullptr, threads); }
+    /// The one that a style sheet makes of it: its text, name or file; see burin_draw().
+    Picture draw(const std::string& style, int threads = 0) const { return drawn(style.c_str(), threads); }
     /// The bytes of a file, and a file, of the picture that draw() makes; see Picture.
     std::vector<std::byte> encode(const std::string& format) const { return encoded(get(), format); }
+    std::vector<std::byte> encode(const std::string& format, const std::string& style) const {
+        return encoded(get(), format, style.c_str());
+    }
     void write(const std::string& path) const { checked(burin_write(get(), nullptr, nullptr, path.c_str())); }
+    void write(const std::string& path, const std::string& style) const {
+        checked(burin_write(get(), nullptr, style.c_str(), path.c_str()));
+    }
     burin_drawing* get() const noexcept { return drawing_.get(); }
 
   private:
+    Picture drawn(const char* style, int threads) const {
+        burin_options o = {};
+        o.size = sizeof o;
+        o.threads = threads;
+        return Picture(checked(burin_draw(get(), style, &o)));
+    }
+
     static int type_of(double) { return BURIN_DOUBLE; }
     static int type_of(float) { return BURIN_FLOAT; }
     static int type_of(std::uint64_t) { return BURIN_UINT64; }
@@ -286,6 +298,8 @@ class Scene {
 
     void set(const std::string& key_and_value) { checked(burin_set(get(), key_and_value.c_str())); }
     void set_toml(const std::string& toml) { checked(burin_set_toml(get(), toml.c_str())); }
+    /// A style sheet: its text, name or file; see burin_set_style().
+    void set_style(const std::string& text_or_name) { checked(burin_set_style(get(), text_or_name.c_str())); }
 
     Picture render(const View& view = {}, const Options& options = {}) {
         return Picture(call(burin_render, view, options));
@@ -327,6 +341,7 @@ class Scene {
         for (std::size_t i = 0; i < 16; ++i) v.camera_to_world[i] = view.camera_to_world[i];
         v.fov_deg = view.fov_deg;
         v.ortho_height = view.ortho_height;
+        v.frame = view.frame;
         Teller teller{options.progress, nullptr};
         burin_options o = {};
         o.size = sizeof o;

@@ -7,10 +7,13 @@
 #include <string_view>
 #include <utility>
 
+#include "base/parallel.h"
+#include "burin/drawn_style.h"
 #include "burin/failure.h"
 #include "burin/running.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
+#include "strokes/ink_printer.h"
 #include "view/surface_numbers.h"
 
 namespace burin {
@@ -118,9 +121,14 @@ const ColumnKind& column_named(std::string_view name) {
 
 }  // namespace
 
-burin_picture* picture_of(const burin_drawing& drawing, int threads) {
+burin_picture* picture_of(const burin_drawing& drawing, const char* style, int threads) {
     Film film = drawing.surfaces.copy();
-    draw_lines(drawing.frame, drawing.inked, {threads}, film);
+    if (style == nullptr && !drawing.found) {
+        draw_lines(drawing.frame, drawing.laid_out, {threads}, film);
+    } else {
+        draw_ink(drawing.frame, inked_lines_of(drawing, style, threads), resolve_thread_count(threads), film);
+        film.end_picture();
+    }
     return new burin_picture(std::move(film), drawing.scene.picture, threads);
 }
 
@@ -132,14 +140,19 @@ burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, cons
     return guarded_pointer([&] {
         const FrameCall call(scene, view, options);
         Frame frame = call.ready().frame();
-        frame.needs.tells_invisibility = true;
+        const bool has_sheet = frame.sheet != nullptr;
+        if (!has_sheet) frame.needs.tells_invisibility = true;  // for the column; a sheet has its own needs
         const int threads = call.given().threads;
         auto drawing = std::make_unique<burin_drawing>(film_of(frame, call.given()));
         LineDrawing found = with_option_names([&] { return find_drawing(frame, call.run(), drawing->surfaces); });
         add_pieces(found.visible(), *drawing);
         add_pieces(found.behind(), *drawing);
         find_owners(frame.surfaces, *drawing);
-        drawing->inked = laid_out_if_needed(std::move(found), frame, threads);
+        if (has_sheet) {
+            drawing->found = lines_for_sheet(std::move(found), frame, resolve_thread_count(threads));
+        } else {
+            drawing->laid_out = laid_out_if_needed(std::move(found), frame, threads);
+        }
         keep_frame(call.ready(), *drawing);
         drawing->threads = threads;
         return drawing.release();
@@ -151,10 +164,9 @@ void burin_drawing_free(burin_drawing* drawing) { delete drawing; }
 burin_picture* burin_draw(const burin_drawing* drawing, const char* style, const burin_options* options) {
     return guarded_pointer([&] {
         const burin_drawing& from = checked_drawing(drawing);
-        if (style != nullptr) throw UsageError("style: must be NULL; styles come in a later version");
         const OptionsInput given = checked_options(read_struct_or_default(options, "options"));
         if (given.layers) throw UsageError("options.layers: a drawing has the layers of its burin_find_lines()");
-        return picture_of(from, given.threads);
+        return picture_of(from, style, given.threads);
     });
 }
 

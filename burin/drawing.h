@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "burin/picture.h"
 #include "lines/line_drawing.h"
 #include "render/frame.h"
+#include "shading/ink/found_lines.h"
 
 /// Lines as they were found, with all that drawing them takes: independent of the scene that they were found in.
 struct burin_drawing {
@@ -14,8 +16,9 @@ struct burin_drawing {
     burin::Scene scene;  ///< its settings: no meshes, no objects
     burin::Frame frame;  ///< of that scene, without surfaces
     burin::Film surfaces;
-    burin::LineDrawing inked;                     ///< lines as the scene's look draws them
-    std::vector<burin::LinePiece> pieces;         ///< lines as they were found: visible ones first
+    burin::LineDrawing laid_out;             ///< of a scene without a style sheet: its lines as its look draws them
+    std::optional<burin::FoundLines> found;  ///< of a scene with one: all that shading reads
+    std::vector<burin::LinePiece> pieces;    ///< lines as they were found: visible ones first
     std::vector<std::uint32_t> object, material;  ///< of each piece
     int threads = 0;
 
@@ -31,7 +34,8 @@ struct burin_drawing {
 
 namespace burin {
 
-/// Draws a drawing's lines as its scene says. Throws InputError and Interrupted.
-burin_picture* picture_of(const burin_drawing& drawing, int threads);
+/// Draws a drawing's lines. `style`: the text of a style sheet, its name or file; nullptr: as its scene said. Throws
+/// InputError, UsageError and Interrupted.
+burin_picture* picture_of(const burin_drawing& drawing, const char* style, int threads);
 
 }  // namespace burin

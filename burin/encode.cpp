@@ -40,9 +40,8 @@ class GivenPicture {
             }
             picture_ = static_cast<const burin_picture*>(given);
         } else if (kind == OutputKind::drawing) {
-            if (style != nullptr) throw UsageError("style: must be NULL; styles come in a later version");
             const auto& drawing = *static_cast<const burin_drawing*>(given);
-            drawn_.reset(picture_of(drawing, drawing.threads));
+            drawn_.reset(picture_of(drawing, style, drawing.threads));
             picture_ = drawn_.get();
         } else {
             throw UsageError("this is no picture of burin_render() and no drawing of burin_find_lines()");

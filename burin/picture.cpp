@@ -8,11 +8,11 @@
 #include "burin/running.h"
 #include "methods/abuffer.h"
 #include "output/film_files.h"
+#include "render/layer_names.h"
 
 namespace burin {
 Film film_of(const Frame& frame, const OptionsInput& options) {
-    LayerSet layers = options.layers.value_or(LayerSet{});
-    if (!options.layers) layers.lines_hidden = draws_hidden_lines(*frame.scene);
+    const LayerSet layers = with_layer_option([&] { return layers_of(*frame.scene, options.layers); });
     Film film(PixelRect{0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
     if (film.channels().empty()) {
         throw UsageError("options.layers: coverage has a channel per line class, and no class is drawn");

@@ -295,6 +295,14 @@ int burin_set(burin_scene* scene, const char* key_and_value) {
     });
 }
 
+int burin_set_style(burin_scene* scene, const char* text_or_name) {
+    return guarded([&] {
+        required(scene, "scene").settings.set_style(text_or_empty(text_or_name));
+        ++scene->revision;
+        return int{BURIN_DONE};
+    });
+}
+
 int burin_set_toml(burin_scene* scene, const char* toml) {
     return guarded([&] {
         required(scene, "scene").settings.set_tables(&required(toml, "toml"), "settings");

@@ -87,6 +87,7 @@ void SceneForFrame::make_frame_of(const burin_view& view, const OptionsInput& op
     scene_.picture.width = input.width;
     scene_.picture.height = input.height;
     if (input.samples) scene_.abuffer.samples = input.samples;
+    if (input.frame) scene_.frame.number = *input.frame;
     const double aspect = static_cast<double>(input.width) / input.height;
     Camera camera;
     try {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kLargestSide = 65535;
 constexpr int kMostThreads = 1024;
+constexpr int kLastFrame = 1000000000;
 
 std::string number_text(double number) {
     char text[32];
@@ -89,8 +90,11 @@ ViewInput checked_view(const burin_view& view, const PictureSettings& picture,
     if (!(view.pixel_aspect == 0 || view.pixel_aspect == 1)) {
         throw UsageError("view.pixel_aspect: not in this version; must be 1");
     }
-    if (view.frame != 0) throw UsageError("view.frame: not in this version; must be 0");
+    if (view.frame > kLastFrame || view.frame < -kLastFrame) {
+        throw UsageError("view.frame: must be from -1000000000 to 1000000000, got " + std::to_string(view.frame));
+    }
     ViewInput input;
+    if (view.frame != 0) input.frame = view.frame;
     const bool takes_size = view.width == 0 && view.height == 0;
     input.width = takes_size ? picture.width : view.width;
     input.height = takes_size ? picture.height : view.height;
@@ -117,11 +121,7 @@ OptionsInput checked_options(const burin_options& options) {
     input.threads = options.threads;
     input.memory_bytes = options.memory_bytes;
     if (options.layers != nullptr) {
-        try {
-            input.layers = layers_named(options.layers);
-        } catch (const UsageError& error) {
-            throw UsageError("options.layers: " + std::string(error.what()));
-        }
+        input.layers = with_layer_option([&] { return layers_named(options.layers); });
     }
     input.progress = options.progress;
     input.user = options.user;

@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
+#include "base/error.h"
 #include "base/progress.h"
 #include "burin/burin.h"
 #include "image/image.h"
@@ -18,6 +20,7 @@ struct ViewInput {
     PixelRect crop;
     std::optional<int> samples;
     CameraSettings camera;
+    std::optional<int> frame;
 };
 
 /// `cameras`: those of the scene, at least one. Throws UsageError.
@@ -32,6 +35,16 @@ struct OptionsInput {
     int (*progress)(double, void*) = nullptr;
     void* user = nullptr;
 };
+
+/// Runs what looks at layers. What it throws names the option.
+template <typename Work>
+auto with_layer_option(const Work& work) {
+    try {
+        return work();
+    } catch (const UsageError& error) {
+        throw UsageError("options.layers: " + std::string(error.what()));
+    }
+}
 
 /// Throws UsageError.
 OptionsInput checked_options(const burin_options& options);

@@ -29,7 +29,7 @@
 #include "output/lines_file.h"
 #include "render/close_cracks.h"
 #include "render/copied_objects.h"
-#include "shading/sheet/compiled_sheet.h"
+#include "render/layer_names.h"
 
 namespace burin {
 namespace {
@@ -179,6 +179,14 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
     }
 }
 
+LayerSet layers_for(const Scene& scene, const Arguments& a) {
+    try {
+        return layers_of(scene, a.names_layers ? std::optional(a.layers) : std::nullopt);
+    } catch (const UsageError& error) {
+        throw UsageError("--layers: " + std::string(error.what()));
+    }
+}
+
 Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const std::string& path) {
     try {
         const PixelRect display{0, 0, frame.width, frame.height};
@@ -227,9 +235,7 @@ void run_render(const Arguments& a) {
     times.load_s = watch.lap();
     note_limits(a, frame, method, has_hidden_lines, output);
 
-    LayerSet layers = a.layers;
-    if (!a.names_layers) layers.lines_hidden = draws_hidden_lines(scene);
-    if (frame.sheet) layers.line_sets = layers_of_sets(*frame.sheet);
+    LayerSet layers = layers_for(scene, a);
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     // An EXR is compressed while it is drawn; but not when times are taken.
     const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && method.finishes_in_bands != nullptr &&

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/lower_extension.h"
@@ -64,6 +65,11 @@ CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
     return camera;
 }
 
+/// Whether a message begins with a place in a sheet.
+bool names_sheet(std::string_view message, const StyleSheet& sheet) {
+    return message.starts_with(sheet.sets.front().where.file + ":");
+}
+
 PixelRect crop_of(const Arguments& a, int width, int height) {
     if (!a.crop) return {0, 0, width, height};
     const auto [x0, y0, x1, y1] = *a.crop;
@@ -82,7 +88,10 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
     std::vector<std::string> files;
     if (description.sheet) {
         if (!description.sheet->file.empty()) files.push_back(description.sheet->file);
-        use_sheet(description, sheet_as_wished(*description.sheet, a));
+        SheetContext context;
+        context.height_px = a.size ? (*a.size)[1] : description.picture.height;
+        context.px_per_mm = a.dpi.value_or(description.picture.dpi) / 25.4;
+        use_sheet(description, sheet_as_wished(*description.sheet, a, context));
     }
     const std::vector<std::string> unread = description.unread_line_keys;
     for (const ObjectDescription& object : description.objects) {
@@ -150,6 +159,7 @@ Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& a, con
     try {
         return make_frame(scene, camera, width, height, crop, prepared);
     } catch (const InputError& error) {
+        if (scene.sheet && names_sheet(error.what(), *scene.sheet)) throw;
         throw InputError(a.input + ": " + error.what());
     }
 }

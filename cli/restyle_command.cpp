@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,11 +16,11 @@
 #include "methods/abuffer.h"
 #include "output/film_files.h"
 #include "output/lines_file.h"
-#include "render/drawing_needs.h"
-#include "render/line_shading.h"
+#include "render/layer_names.h"
 #include "render/sheet_context.h"
 #include "scene/color.h"
 #include "scene/sheet_library.h"
+#include "shading/ink/found_needs.h"
 #include "shading/sheet/compiled_sheet.h"
 
 namespace burin {
@@ -44,19 +45,24 @@ Scene scene_of(const LinesFile& file, const Arguments& a) {
     return scene;
 }
 
-LayerSet layers_of(const Arguments& a, const Scene& scene, const CompiledSheet& sheet, const OutputOptions& output,
-                   const LinesFile& file) {
-    LayerSet layers = a.layers;
+LayerSet layers_for(const Arguments& a, const Scene& scene, const OutputOptions& output, const LinesFile& file) {
     if (output.format != OutputFormat::exr) return {true, false, false, false, false, false, false, false, {}};
+    const bool has_surface = !file.surface.pixels.empty();
     if (!a.names_layers) {
-        layers = {true, true, false, false, false, false, !file.surface.pixels.empty(), draws_hidden_lines(scene), {}};
-    } else if (layers.depth || layers.normal || layers.ids) {
-        throw UsageError("--layers: a file of lines has no Z, N and ids; render has them");
-    } else if (layers.surface && file.surface.pixels.empty()) {
-        throw UsageError("--layers: the lines were saved without surfaces; render again with --save-surface");
+        LayerSet layers = layers_of(scene, std::nullopt);
+        layers.depth = layers.normal = layers.ids = false;
+        layers.surface = has_surface;
+        return layers;
     }
-    layers.line_sets = layers_of_sets(sheet);
-    return layers;
+    if (a.layers.depth || a.layers.normal || a.layers.ids)
+        throw UsageError("--layers: a file of lines has no Z, N and ids; render has them");
+    if (a.layers.surface && !has_surface)
+        throw UsageError("--layers: the lines were saved without surfaces; render again with --save-surface");
+    try {
+        return layers_of(scene, a.layers);
+    } catch (const UsageError& error) {
+        throw UsageError("--layers: " + std::string(error.what()));
+    }
 }
 
 /// Puts the surfaces that were kept, or none.
@@ -112,13 +118,12 @@ void run_restyle(const Arguments& a) {
     frame.surfaces.projection = file.lines.projection;
     frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(frame));
     frame.criteria.classes = file.lines.classes;
-    try {
-        require_lines_for(*scene.sheet, *frame.sheet, file.lines);
-    } catch (const InputError& error) {
-        throw InputError(a.input + ": " + error.what());
+    if (const std::string missing = missing_for(*scene.sheet, frame.sheet->needs(), file.lines); !missing.empty()) {
+        throw InputError(a.input + ": the file lacks what the style sheet needs: " + missing +
+                         "; render again with this sheet, or with --find all, and --save-lines");
     }
     const PixelRect display{0, 0, frame.width, frame.height};
-    Film film(display, frame.crop, layers_of(a, scene, *frame.sheet, output, file), frame.criteria.classes);
+    Film film(display, frame.crop, layers_for(a, scene, output, file), frame.criteria.classes);
     if (film.channels().empty())
         throw UsageError("--layers: coverage has a channel per line class, and no class is drawn");
     put_surfaces(file.surface, frame, film);

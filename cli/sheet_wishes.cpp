@@ -24,17 +24,18 @@ SheetParameter& parameter_for(StyleSheet& sheet, const std::string& name, const 
                      (known.empty() ? "none" : known));
 }
 
-void set_parameter(StyleSheet& sheet, const std::string& name, const std::string& option, const StyleValue& value) {
+void set_parameter(StyleSheet& sheet, const std::string& name, const std::string& option, const StyleValue& value,
+                   const SheetContext& context) {
     SheetParameter& parameter = parameter_for(sheet, name, option);
     if (parameter.value.kind != value.kind) {
         throw UsageError(option + ": the parameter '" + name + "' of the style sheet " + sheet.name + " is " +
                          (value.kind == StyleValue::Kind::color ? "no colour" : "a colour, not a number"));
     }
-    // A range is in the unit of the parameter, not in pixels.
-    const bool has_range_in_px = parameter.value.unit == SheetUnit::px;
+    // A range is in the unit of the parameter, and the option in pixels.
+    SheetParameter in_its_unit = parameter;
+    in_its_unit.value.number = value.number / in_pixels(1, parameter.value.unit, context);
+    if (const auto fault = fault_of_parameter(in_its_unit)) throw UsageError(option + ": " + *fault);
     parameter.value = value;
-    if (!has_range_in_px) return;
-    if (const auto fault = fault_of_parameter(parameter)) throw UsageError(option + ": " + *fault);
 }
 
 /// Leaves visible lines only.
@@ -50,15 +51,15 @@ void take_hidden_lines_away(StyleSheet& sheet) {
 
 }  // namespace
 
-std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Arguments& a) {
+std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Arguments& a, const SheetContext& context) {
     if (a.lines) throw UsageError("--lines: the style sheet says which lines are drawn; remove one of the two");
     if (a.hidden && *a.hidden != HiddenStyle::none) {
         throw UsageError("--hidden: the style sheet says how hidden lines are drawn; only none can stand beside it");
     }
-    if (a.line_width_px) set_parameter(sheet, "width", "--line-width", StyleValue::of(*a.line_width_px));
+    if (a.line_width_px) set_parameter(sheet, "width", "--line-width", StyleValue::of(*a.line_width_px), context);
     if (!a.line_color.empty()) {
         const glm::vec3 color = *color_from_hex(a.line_color);
-        set_parameter(sheet, "color", "--color", StyleValue::of_color({color.r, color.g, color.b}));
+        set_parameter(sheet, "color", "--color", StyleValue::of_color({color.r, color.g, color.b}), context);
     }
     if (a.hidden) take_hidden_lines_away(sheet);
     return std::make_shared<StyleSheet>(std::move(sheet));
@@ -77,8 +78,7 @@ std::string text_of_parameter(const SheetParameter& parameter) {
                       static_cast<unsigned>(parts[1]), static_cast<unsigned>(parts[2]));
         return text;
     }
-    static constexpr const char* kUnits[] = {"", "mm", "pt", "%", "world"};
-    return text_of(value.number) + kUnits[static_cast<std::size_t>(value.unit)];
+    return text_of(value.number) + suffix_of(value.unit);
 }
 
 }  // namespace burin

@@ -3,13 +3,16 @@
 #include <memory>
 
 #include "cli/arguments.h"
+#include "shading/sheet/compiled_sheet.h"
 #include "shading/sheet/style_sheet.h"
 
 namespace burin {
 
 /// A sheet as the command line wants it: -w and --color are values of its parameters, --hidden none takes hidden lines
-/// away. Throws UsageError for what cannot stand beside a sheet, and for parameters that the sheet has not.
-std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Arguments& arguments);
+/// away. Throws UsageError for what cannot stand beside a sheet, and for parameters that the sheet has not, or whose
+/// range excludes the value. `context`: says how large units are.
+std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Arguments& arguments,
+                                                  const SheetContext& context);
 
 /// The value of a parameter as it is shown and typed: "1.6", "0.35mm", "#101010".
 std::string text_of_parameter(const SheetParameter& parameter);

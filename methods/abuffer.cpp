@@ -101,6 +101,10 @@ LineDrawing laid_out_if_needed(LineDrawing found, const Frame& frame, int thread
     return laid_out(std::move(found), with_fading_creases(frame), threads);
 }
 
+FoundLines lines_for_sheet(LineDrawing found, const Frame& frame, int threads) {
+    return found_lines(std::move(found), with_fading_creases(frame), threads);
+}
+
 void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film) {
     RowPrinter(frame, options, drawing, film).draw_rows(RowPrinter::kAllRows);
     film.end_picture();

@@ -3,6 +3,7 @@
 #include "lines/line_drawing.h"
 #include "render/method.h"
 #include "render/prepared.h"
+#include "shading/ink/found_lines.h"
 
 namespace burin {
 
@@ -23,6 +24,9 @@ RenderStats render_abuffer(const Frame& frame, const RunOptions& options, Film& 
 /// draw_lines() draws that over the film.
 LineDrawing find_drawing(const Frame& frame, const RunOptions& options, Film& film);
 LineDrawing laid_out_if_needed(LineDrawing found, const Frame& frame, int threads);
+/// For a frame with a style sheet: what shading reads of its lines. ink_lines() makes strokes of that, which draw_ink()
+/// draws.
+FoundLines lines_for_sheet(LineDrawing found, const Frame& frame, int threads);
 /// Of the frame's surfaces it reads the projection alone.
 void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film);
 

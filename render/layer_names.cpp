@@ -2,12 +2,31 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "mesh/text_scan.h"
+#include "shading/sheet/style_sheet.h"
 
 namespace burin {
+
+namespace {
+
+constexpr std::string_view kOfSet = "lines_";
+
+/// The layers that line sets of a scene's style sheet have of their own.
+std::vector<std::string> layers_of_sets(const Scene& scene) {
+    std::vector<std::string> layers;
+    if (!scene.sheet) return layers;
+    for (const LineSet& set : scene.sheet->sets) {
+        if (set.is_enabled && !set.layer.empty()) layers.push_back(set.layer);
+    }
+    return layers;
+}
+
+}  // namespace
 
 LayerSet layers_named(std::string_view list) {
     LayerSet layers{false, false, false, false, false, false, false, false};
@@ -21,14 +40,38 @@ LayerSet layers_named(std::string_view list) {
         const std::string_view name = list.substr(0, end);
         const auto it =
             std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.first == name; });
-        if (it == std::end(names)) {
+        if (it != std::end(names)) {
+            *it->second = true;
+        } else if (name.starts_with(kOfSet) && name.size() > kOfSet.size()) {
+            const std::string set(name.substr(kOfSet.size()));
+            if (std::find(layers.line_sets.begin(), layers.line_sets.end(), set) == layers.line_sets.end())
+                layers.line_sets.push_back(set);
+        } else {
             throw UsageError("unknown layer '" + printable(name) +
                              "'; known are beauty,lines,Z,N,ids,coverage,surface,lines_hidden");
         }
-        *it->second = true;
         if (end != std::string_view::npos) list.remove_prefix(end + 1);
     }
     return layers;
+}
+
+LayerSet layers_of(const Scene& scene, const std::optional<LayerSet>& named) {
+    std::vector<std::string> of_sets = layers_of_sets(scene);
+    if (!named) {
+        LayerSet layers;
+        layers.lines_hidden = draws_hidden_lines(scene);
+        layers.line_sets = std::move(of_sets);
+        return layers;
+    }
+    for (const std::string& set : named->line_sets) {
+        if (std::find(of_sets.begin(), of_sets.end(), set) != of_sets.end()) continue;
+        std::string known;
+        for (const std::string& layer : of_sets) known += (known.empty() ? "" : ",") + std::string(kOfSet) + layer;
+        throw UsageError("unknown layer 'lines_" + printable(set) + "'; " +
+                         (scene.sheet ? "sets of the style sheet have " + (known.empty() ? "none" : known)
+                                      : "only sets of a style sheet have such layers"));
+    }
+    return *named;
 }
 
 }  // namespace burin

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "base/error.h"
 #include "lines/smooth_contours.h"
+#include "shading/ink/found_needs.h"
 #include "shading/sheet/compiled_sheet.h"
 #include "shading/sheet/style_sheet.h"
 
@@ -47,12 +47,6 @@ std::vector<ObjectOfLines> objects_of(const Frame& frame) {
     return objects;
 }
 
-bool reads_normals(const SheetNeeds& needs) {
-    using enum Variable;
-    const auto is_read = [&](Variable v) { return needs.variables.has(v); };
-    return is_read(N) || is_read(N2) || is_read(facing) || is_read(facing2) || is_read(light) || is_read(light2);
-}
-
 }  // namespace
 
 FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
@@ -80,36 +74,11 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     lines.crease_angle_deg = {settings.crease_fade().from_deg, settings.crease_fade().to_deg};
     lines.has_smooth_contours = settings.contours == Contours::smooth;
     lines.filter = settings.style.filter;
-    FoundLinesNeeds needs;
-    needs.chains = frame.needs.whole_lines;
-    needs.normals = frame.scene->finds_all || reads_normals(frame.sheet->needs());
+    FoundLinesNeeds needs = found_needs_of(frame.sheet->needs());
+    if (frame.scene->finds_all) needs.normals = needs.chains = true;
     if (lines.has_smooth_contours) needs.apart_px = SmoothContours::kApartPx;
     find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, needs, threads, lines);
     return lines;
-}
-
-void require_lines_for(const StyleSheet& sheet, const CompiledSheet& compiled, const FoundLines& lines) {
-    const SheetNeeds& needs = compiled.needs();
-    const auto fail = [](const std::string& what) {
-        throw InputError("the style sheet needs " + what +
-                         "; render again with this sheet, or with --find all, and --save-lines");
-    };
-    if ((needs.classes & lines.classes) != needs.classes) {
-        fail("lines of the classes " + to_string(needs.classes) + ", and only " + to_string(lines.classes) +
-             " were looked for");
-    }
-    if (needs.most_invisibility > lines.most_invisibility) {
-        fail("lines behind up to " + std::to_string(needs.most_invisibility) + " surfaces, and only those behind " +
-             std::to_string(lines.most_invisibility) + " were looked for");
-    }
-    if (needs.tells_invisibility && !lines.tells_invisibility)
-        fail("to know how many surfaces are in front of lines, which was not asked for");
-    if (needs.chains && !lines.has_chains) fail("lines as chains, which were not asked for");
-    if ((needs.sides && !lines.has_beyond) || (reads_normals(needs) && !lines.has_normals))
-        fail("the surfaces beside and behind lines, which were not asked for");
-    if (sheet.crease_angle_deg && *sheet.crease_angle_deg != lines.crease_angle_deg)
-        fail("creases by another crease_angle");
-    if (sheet.smooth_contours && *sheet.smooth_contours != lines.has_smooth_contours) fail("other contours");
 }
 
 }  // namespace burin

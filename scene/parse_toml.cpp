@@ -63,9 +63,11 @@ toml::table parse_toml(std::string_view text, const std::string& path) {
 
 toml::table parse_checked_toml(std::string_view text, const std::string& path, const std::string& what,
                                std::size_t most_bytes) {
-    if (text.size() > most_bytes)
-        throw InputError(path + ": " + what + " of more than " + std::to_string(most_bytes >> 20) +
-                         " MB; is it a model?");
+    if (text.size() > most_bytes) {
+        const std::string most =
+            most_bytes >= 1 << 20 ? std::to_string(most_bytes >> 20) + " MB" : std::to_string(most_bytes >> 10) + " kB";
+        throw InputError(path + ": " + what + " of more than " + most + "; is it a model?");
+    }
     if (const auto line = line_nested_too_deep(text)) throw InputError({path, *line}, kTomlTooDeep);
     try {
         return parse_toml(text, path);

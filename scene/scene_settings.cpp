@@ -71,6 +71,19 @@ void SceneSettings::set_tables(std::string_view text, const std::string& name) {
     change_to(std::move(changed));
 }
 
+void SceneSettings::set_style(const std::string& text_or_name) {
+    auto changed = std::make_unique<Tables>(*tables_);
+    changed->sheet = {};
+    if (text_or_name.empty()) {
+        changed->root.erase("style");
+    } else {
+        NamedSheetText sheet = sheet_text_of(text_or_name);
+        changed->sheet.style = std::move(sheet.name);
+        changed->sheet.text = std::move(sheet.text);
+    }
+    change_to(std::move(changed));
+}
+
 SceneDescription SceneSettings::take(Tables scene, const std::string& name, const std::string& folder) {
     SceneDescription description = read_scene_tables(scene.root, {name, folder});
     // The settings stand in no folder.

@@ -28,6 +28,9 @@ class SceneSettings {
     /// Tables of a text; a list of cameras replaces the one before. An object or a material is an error. `name`: of the
     /// text, in messages.
     void set_tables(std::string_view text, const std::string& name);
+    /// A style sheet takes the place of all looks of lines, and of the one before with its overrides: a text of several
+    /// lines, or a name or a file, which is read now. An empty one takes the sheet away, that of the scene's file, too.
+    void set_style(const std::string& text_or_name);
     /// Tables of a scene's text. Returns its description, objects, materials and all. `folder`: what the models' paths
     /// are relative to.
     SceneDescription take_scene(std::string_view text, const std::string& name, const std::string& folder);

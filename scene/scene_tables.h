@@ -44,6 +44,7 @@ void apply_override(toml::table& root, const Override& o, std::string_view place
 /// What the command line says about the style sheet.
 struct SheetWishes {
     std::string style;                ///< its name or file, instead of the scene's; empty: nothing
+    std::string text;                 ///< its text, instead of both; then `style` is its name in messages
     std::vector<Override> overrides;  ///< of its values: their keys begin with "style."
 };
 

@@ -204,8 +204,9 @@ class SceneReader {
         t.finish();
     }
 
-    /// The sheet that the command line names, or else the scene.
-    void read_style() {
+    /// The sheet that the command line or the library names, or else the scene.
+    std::optional<StyleSheet> wanted_sheet() {
+        if (!wishes_.text.empty()) return read_sheet_text(wishes_.text, wishes_.style, wishes_.overrides);
         const auto named = root_.text("style");
         std::optional<SheetSource> source;
         if (!wishes_.style.empty()) {
@@ -215,15 +216,19 @@ class SceneReader {
             source = find_sheet(*named, folder_);
             if (!source) root_.fail("style", no_such_sheet(*named));
         }
-        if (!source) {
-            if (wishes_.overrides.empty()) return;
-            throw UsageError("--set " + printable(wishes_.overrides.front().key) +
-                             ": there is no style sheet; give one with --style");
-        }
+        if (source) return read_sheet(*source, wishes_.overrides);
+        if (wishes_.overrides.empty()) return std::nullopt;
+        throw UsageError("--set " + printable(wishes_.overrides.front().key) +
+                         ": there is no style sheet; give one with --style");
+    }
+
+    void read_style() {
+        std::optional<StyleSheet> sheet = wanted_sheet();
+        if (!sheet) return;
         // A sheet of the command line takes the place of all looks of the scene.
         if (const auto lines = root_.table("lines"))
             scene_.unread_line_keys = keys_beside_sheet(*lines, !wishes_.style.empty());
-        use_sheet(scene_, std::make_shared<StyleSheet>(read_sheet(*source, wishes_.overrides)));
+        use_sheet(scene_, std::make_shared<StyleSheet>(*std::move(sheet)));
     }
 
     void read_surfaces(TomlReader& t) {
@@ -343,7 +348,8 @@ namespace {
 
 SceneDescription read_with_overrides(toml::table tables, const std::string& path,
                                      const std::vector<Override>& overrides, const std::string& style) {
-    SheetWishes wishes{style, {}};
+    SheetWishes wishes;
+    wishes.style = style;
     for (const Override& o : overrides) {
         if (is_of_sheet(o)) {
             wishes.overrides.push_back(o);

@@ -28,6 +28,10 @@ std::vector<fs::path> sheet_folders() {
     return folders;
 }
 
+std::string name_in_messages(const SheetSource& source) {
+    return source.file.empty() ? "styles/" + source.name + ".toml" : source.file;
+}
+
 bool is_path(const std::string& wanted) { return wanted.find('/') != std::string::npos || wanted.ends_with(".toml"); }
 
 }  // namespace
@@ -77,7 +81,7 @@ std::string no_such_sheet(const std::string& wanted) {
 
 StyleSheet read_sheet(const SheetSource& source, const std::vector<Override>& overrides) {
     if (!source.file.empty()) return read_sheet_file(source.file, overrides);
-    StyleSheet sheet = read_sheet_text(source.text, "styles/" + source.name + ".toml", overrides);
+    StyleSheet sheet = read_sheet_text(source.text, name_in_messages(source), overrides);
     sheet.name = source.name;
     return sheet;
 }
@@ -85,7 +89,14 @@ StyleSheet read_sheet(const SheetSource& source, const std::vector<Override>& ov
 std::string text_of_sheet(const SheetSource& source) {
     if (source.file.empty()) return std::string(source.text);
     const MappedFile file(source.file);
-    return std::string(file.bytes());
+    return std::string(file.bytes().substr(0, kMaxSheetBytes + 1));  // more is an error where it is read
+}
+
+NamedSheetText sheet_text_of(const std::string& text_or_name) {
+    if (text_or_name.find('\n') != std::string::npos) return {"style", text_or_name};
+    const auto source = find_sheet(text_or_name, {});
+    if (!source) throw UsageError(no_such_sheet(text_or_name));
+    return {name_in_messages(*source), text_of_sheet(*source)};
 }
 
 }  // namespace burin

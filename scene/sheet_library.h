@@ -36,6 +36,14 @@ std::vector<SheetSource> all_sheets();
 /// "there is no style sheet 'x', did you mean ...; burin styles lists them"
 std::string no_such_sheet(const std::string& wanted);
 
+/// A sheet's text, and its name in messages.
+struct NamedSheetText {
+    std::string name, text;
+};
+/// The text of a sheet that is given as such, which is one of several lines, or by its name or file. Throws InputError,
+/// and UsageError if there is no sheet of that name.
+NamedSheetText sheet_text_of(const std::string& text_or_name);
+
 /// Reads a sheet. Throws as read_sheet_text().
 StyleSheet read_sheet(const SheetSource& source, const std::vector<Override>& overrides = {});
 /// Its text as it stands. Throws InputError.

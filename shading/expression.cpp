@@ -2,7 +2,8 @@
 
 namespace burin {
 
-ExpressionCompiler::ExpressionCompiler(const ExpressionSymbols& symbols) : builder_(symbols, graph_, inputs_) {}
+ExpressionCompiler::ExpressionCompiler(const ExpressionSymbols& symbols, std::size_t most_steps)
+    : builder_(symbols, graph_, inputs_, most_steps) {}
 
 void ExpressionCompiler::add(std::string_view text, const ExpressionTarget& target) {
     graph_.begin_expression();
@@ -27,6 +28,7 @@ void ExpressionCompiler::add(const TypedValue& value, const ExpressionTarget& ta
                               "a number is needed here, but the expression is a vector: take .x, .y, .z or length()");
     const ExpressionOutput output{value.parts, target.is_color ? 3u : 1u, value.rate, target.least, target.most};
     // A result by itself must not be too much; of several together parts may be computed again.
+    graph_.count_steps(graph_.nodes().size() / 4);
     const ExpressionProgram alone(graph_, inputs_, {output});
     outputs_.push_back(output);
 }

@@ -25,8 +25,9 @@ struct ExpressionTarget {
 /// Compiles several expressions, such as all those of a style, into one program; what they share is computed once.
 class ExpressionCompiler {
   public:
-    /// The table must stay as long as the compiler.
-    explicit ExpressionCompiler(const ExpressionSymbols& symbols);
+    /// The table must stay as long as the compiler. `most_steps`: to be an error where it takes more.
+    explicit ExpressionCompiler(const ExpressionSymbols& symbols,
+                                std::size_t most_steps = std::numeric_limits<std::size_t>::max());
     ExpressionCompiler(const ExpressionCompiler&) = delete;
     ExpressionCompiler& operator=(const ExpressionCompiler&) = delete;
 
@@ -36,6 +37,8 @@ class ExpressionCompiler {
     void add_ramp(const Ramp& ramp, std::string_view over, const ExpressionTarget& target);
     /// The program that computes all results in the order in which they were added.
     ExpressionProgram program() const;
+    /// How much work it has been; the time that it takes is about proportional to that.
+    std::size_t steps() const { return graph_.steps(); }
 
   private:
     void add(const TypedValue& value, const ExpressionTarget& target);

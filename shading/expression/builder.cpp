@@ -31,7 +31,16 @@ void ExpressionBuilder::fail(std::size_t offset, const std::string& message) con
     throw ExpressionError(column_of(text_, offset), message);
 }
 
+void ExpressionBuilder::count_steps(std::size_t steps) {
+    graph_.count_steps(steps);
+    if (graph_.steps() > most_steps_)
+        throw ExpressionError(1,
+                              "the expressions of this sheet are too many or too long, where lets and inherited "
+                              "values count wherever they are used: make them shorter");
+}
+
 TypedValue ExpressionBuilder::build(std::string_view text, ValueRate highest) {
+    count_steps(text.size());
     const SyntaxTree tree = parse_expression(text);
     const auto outer = std::pair(text_, highest_);
     text_ = text;
@@ -45,6 +54,7 @@ TypedValue ExpressionBuilder::build(std::string_view text, ValueRate highest) {
         TypedValue value = node(part, operands);
         value.begin = part.begin;
         built.push_back(value);
+        count_steps(1);
         if (graph_.is_full()) fail(0, "the expression has more than 1024 operations: make it shorter");
     }
     if (built.back().is_text)

@@ -32,8 +32,9 @@ struct TypedValue {
 /// Checks expressions and puts what they compute into a graph.
 class ExpressionBuilder {
   public:
-    ExpressionBuilder(const ExpressionSymbols& symbols, ExpressionGraph& graph, std::vector<ExpressionInput>& inputs)
-        : symbols_(symbols), graph_(graph), inputs_(inputs) {}
+    ExpressionBuilder(const ExpressionSymbols& symbols, ExpressionGraph& graph, std::vector<ExpressionInput>& inputs,
+                      std::size_t most_steps)
+        : symbols_(symbols), graph_(graph), inputs_(inputs), most_steps_(most_steps) {}
 
     /// What has been built stays valid. `highest`: no variable may have a higher rate. Throws ExpressionError.
     TypedValue build(std::string_view text, ValueRate highest);
@@ -79,10 +80,12 @@ class ExpressionBuilder {
     [[noreturn]] void fail_unknown_name(const Token& token) const;
     [[noreturn]] void fail_unknown_function(const Token& token) const;
     std::uint32_t input_number(const ExpressionInput& input);
+    void count_steps(std::size_t steps);
 
     const ExpressionSymbols& symbols_;
     ExpressionGraph& graph_;
     std::vector<ExpressionInput>& inputs_;
+    std::size_t most_steps_;
     std::map<std::string, BuiltLet, std::less<>> lets_;
     std::size_t let_levels_ = 0;
     std::string_view text_;  ///< that is being built

@@ -72,6 +72,7 @@ TypedValue ExpressionBuilder::attribute(std::string_view name, std::size_t begin
 }
 
 TypedValue ExpressionBuilder::name(const Token& token) {
+    count_steps((symbols_.parameters.size() + symbols_.lets.size()) / 8);  // which are looked through
     if (find_named(symbols_.variables, token.words) != nullptr) return variable(token.words, token.offset);
     if (const ExpressionParameter* const p = find_named(symbols_.parameters, token.words)) {
         if (p->type == ValueType::number) return constant(p->value[0]);

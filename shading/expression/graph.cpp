@@ -15,6 +15,7 @@ std::size_t ExpressionGraph::Hash::operator()(const GraphNode& node) const {
 }
 
 ExpressionGraph::Index ExpressionGraph::add(const GraphNode& node) {
+    ++steps_;
     const auto [place, is_new] = known_.try_emplace(node, static_cast<Index>(nodes_.size()));
     if (!is_new) return place->second;
     if (nodes_.size() == most_nodes_) {

@@ -45,6 +45,10 @@ class ExpressionGraph {
     float constant_value(Index node) const;
     /// Whether the expression needs more than kMostGraphNodes; what it has made means nothing then.
     bool is_full() const { return is_full_; }
+    /// How much work it has been to make: what was put into it, and what was counted. The time that it takes is about
+    /// proportional to that.
+    std::size_t steps() const { return steps_; }
+    void count_steps(std::size_t steps) { steps_ += steps; }
 
   private:
     struct Hash {
@@ -56,6 +60,7 @@ class ExpressionGraph {
     std::vector<Table> tables_;
     std::unordered_map<GraphNode, Index, Hash> known_;
     std::size_t most_nodes_ = kMostGraphNodes;
+    std::size_t steps_ = 0;
     bool is_full_ = false;
 };
 

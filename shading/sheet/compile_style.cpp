@@ -25,11 +25,14 @@ struct Range {
 /// Puts the values of a style, one after the other, into a program.
 class ValueCompiler {
   public:
-    ValueCompiler(const ExpressionSymbols& symbols, const SheetContext& context, ValueRate highest)
-        : compiler_(symbols), context_(context), highest_(highest) {}
+    ValueCompiler(const ExpressionSymbols& symbols, const SheetContext& context, ValueRate highest,
+                  std::size_t most_steps)
+        : compiler_(symbols, most_steps), context_(context), highest_(highest) {}
 
     void add(const StyleValue& value, Range range) { add(value, {false, range.least, range.most, highest_}); }
     void add_color(const StyleValue& value) { add(value, {true, 0, kMostColor, highest_}); }
+
+    std::size_t steps() const { return compiler_.steps(); }
 
     ExpressionProgram program(const std::string& style, const SourcePosition& where) const {
         try {
@@ -122,7 +125,8 @@ VariableSet variables_of(const ExpressionProgram& program) {
     return set;
 }
 
-CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& symbols, const SheetContext& context) {
+CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& symbols, const SheetContext& context,
+                            std::size_t& steps_left) {
     CompiledStyle result;
     result.name = style.name;
     result.settings = style.settings;
@@ -148,14 +152,16 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
     constexpr Range kShare{0, 1}, kWidth{0, kMostWidthPx}, kWay{-kMostWidthPx, kMostWidthPx}, kLength{0, kMostLengthPx};
     constexpr Range kWavelength{0.25f, kMostLengthPx};
     constexpr Range kDash{kLeastDashPx, kMostLengthPx}, kPhase{-kMostLengthPx, kMostLengthPx}, kHalo{0, kMostHaloPx};
-    ValueCompiler ink(symbols, context, ValueRate::sample);
+    ValueCompiler ink(symbols, context, ValueRate::sample, steps_left);
     ink.add(style.width, kWidth);
     ink.add(style.opacity, kShare);
     ink.add(style.offset, kWay);
     ink.add_color(style.color);
     result.ink = ink.program(style.name, style.where);
 
-    ValueCompiler chain(symbols, context, ValueRate::chain);
+    steps_left -= std::min(steps_left, ink.steps());
+
+    ValueCompiler chain(symbols, context, ValueRate::chain, steps_left);
     chain.add(taper.start, kLength);
     chain.add(taper.end, kLength);
     chain.add(style.dash_phase, kPhase);
@@ -168,6 +174,7 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
     for (std::size_t k = 0; k < kMostDashLengths; ++k)
         chain.add(k < style.dash.size() ? style.dash[k] : StyleValue::of(1), kDash);
     result.chain = chain.program(style.name, style.where);
+    steps_left -= std::min(steps_left, chain.steps());
 
     result.variables = variables_of(result.ink);
     result.variables |= variables_of(result.chain);

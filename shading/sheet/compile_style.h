@@ -5,8 +5,9 @@
 
 namespace burin {
 
-/// Compiles a style. Throws as CompiledSheet.
-CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& symbols, const SheetContext& context);
+/// Compiles a style. `steps_left`: of all expressions of the sheet; becomes less. Throws as CompiledSheet.
+CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& symbols, const SheetContext& context,
+                            std::size_t& steps_left);
 
 /// The variables that programs read.
 VariableSet variables_of(const ExpressionProgram& program);

@@ -13,8 +13,8 @@ namespace burin {
 namespace {
 
 /// Compiles the lets by themselves, so that what is wrong with one is told with its own place.
-void check_lets(const StyleSheet& sheet, const ExpressionSymbols& symbols) {
-    ExpressionCompiler compiler(symbols);
+void check_lets(const StyleSheet& sheet, const ExpressionSymbols& symbols, std::size_t& steps_left) {
+    ExpressionCompiler compiler(symbols, steps_left);
     std::optional<std::pair<const SheetLet*, ExpressionError>> fault;
     for (const SheetLet& let : sheet.lets) {
         try {
@@ -28,6 +28,7 @@ void check_lets(const StyleSheet& sheet, const ExpressionSymbols& symbols) {
         }
     }
     if (fault) fault->first->text.fail(fault->second.column(), fault->second.what());
+    steps_left -= std::min(steps_left, compiler.steps());
 }
 
 /// For each number, 0 = background: whether globs take its name. The background has none, and is never taken.
@@ -37,7 +38,8 @@ std::vector<bool> taken_by(const std::vector<std::string>& globs, const std::vec
     return taken;
 }
 
-CompiledSet compile_set(const LineSet& set, const ExpressionSymbols& symbols, const SheetContext& context) {
+CompiledSet compile_set(const LineSet& set, const ExpressionSymbols& symbols, const SheetContext& context,
+                        std::size_t& steps_left) {
     CompiledSet result;
     result.name = set.name;
     result.layer = set.layer;
@@ -52,7 +54,10 @@ CompiledSet compile_set(const LineSet& set, const ExpressionSymbols& symbols, co
     if (result.has_material_globs) result.materials = taken_by(set.materials, context.materials);
     if (set.select) {
         try {
-            result.select = compile_expression(set.select->text, symbols, {.highest_rate = ValueRate::piece});
+            ExpressionCompiler compiler(symbols, steps_left);
+            compiler.add(set.select->text, {.highest_rate = ValueRate::piece});
+            result.select = compiler.program();
+            steps_left -= std::min(steps_left, compiler.steps());
         } catch (const ExpressionError& error) {
             set.select->fail(error.column(), error.what());
         }
@@ -67,9 +72,10 @@ bool is_told_anyway(const std::array<int, 2>& qi) { return qi[0] <= 1 && (qi[1] 
 
 CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& context) {
     const ExpressionSymbols symbols = symbols_of(sheet, context);
-    check_lets(sheet, symbols);
-    for (const LineSet& set : sheet.sets) sets_.push_back(compile_set(set, symbols, context));
-    for (const SheetStyle& style : sheet.styles) styles_.push_back(compile_style(style, symbols, context));
+    std::size_t steps_left = kMostSheetSteps;
+    check_lets(sheet, symbols, steps_left);
+    for (const LineSet& set : sheet.sets) sets_.push_back(compile_set(set, symbols, context, steps_left));
+    for (const SheetStyle& style : sheet.styles) styles_.push_back(compile_style(style, symbols, context, steps_left));
 
     for (const CompiledSet& set : sets_) {
         if (!set.is_enabled) continue;
@@ -97,14 +103,6 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
     needs_.tells_transmission = needs_.variables.has(Variable::transmission);
     needs_.sides = needs_.variables.has_tier(VariableTier::sides);
     if (needs_.variables.has_tier(VariableTier::chains)) needs_.chains = true;
-}
-
-std::vector<std::string> layers_of_sets(const CompiledSheet& sheet) {
-    std::vector<std::string> layers;
-    for (const CompiledSet& set : sheet.sets()) {
-        if (set.is_enabled && !set.layer.empty()) layers.push_back(set.layer);
-    }
-    return layers;
 }
 
 }  // namespace burin

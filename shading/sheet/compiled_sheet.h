@@ -150,7 +150,4 @@ class CompiledSheet {
     VariableSet select_variables_;
 };
 
-/// The layers of their own that sets have, each once.
-std::vector<std::string> layers_of_sets(const CompiledSheet& sheet);
-
 }  // namespace burin

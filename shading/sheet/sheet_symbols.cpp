@@ -86,16 +86,22 @@ double in_pixels(double number, SheetUnit unit, const SheetContext& context) {
     return number;
 }
 
+const char* suffix_of(SheetUnit unit) {
+    static constexpr const char* kSuffixes[] = {"", "mm", "pt", "%", "world"};
+    return kSuffixes[static_cast<std::size_t>(unit)];
+}
+
 std::optional<std::string> fault_of_parameter(const SheetParameter& parameter) {
     if (parameter.value.kind == StyleValue::Kind::color) {
         if (parameter.least || parameter.most) return "a colour has no min and max";
         return std::nullopt;
     }
     const double value = parameter.value.number;
+    const auto shown = [unit = suffix_of(parameter.value.unit)](double number) { return text_of(number) + unit; };
     if (parameter.least && value < *parameter.least)
-        return "must be at least " + text_of(*parameter.least) + ", got " + text_of(value);
+        return "must be at least " + shown(*parameter.least) + ", got " + shown(value);
     if (parameter.most && value > *parameter.most)
-        return "must be at most " + text_of(*parameter.most) + ", got " + text_of(value);
+        return "must be at most " + shown(*parameter.most) + ", got " + shown(value);
     return std::nullopt;
 }
 

@@ -21,6 +21,9 @@ ExpressionSymbols symbols_of(const StyleSheet& sheet, const SheetContext& contex
 /// A number with a unit, in pixels. The unit must not be `world`.
 double in_pixels(double number, SheetUnit unit, const SheetContext& context);
 
+/// "mm", "%"; empty: pixels.
+const char* suffix_of(SheetUnit unit);
+
 /// Why a parameter cannot have its value: it is out of its range.
 std::optional<std::string> fault_of_parameter(const SheetParameter& parameter);
 

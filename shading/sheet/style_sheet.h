@@ -22,6 +22,9 @@
 namespace burin {
 
 constexpr std::size_t kMostSheetExpressions = 256;
+/// Of work to compile all expressions of a sheet: about its characters and numbers that are computed, those of lets and
+/// of inherited values wherever they are used.
+constexpr std::size_t kMostSheetSteps = 200000;
 constexpr std::size_t kMostSheetSets = 256;
 constexpr std::size_t kMostSheetStyles = 64;
 constexpr std::size_t kMostSheetNames = 256;  ///< parameters, groups, lets, ramps: so many of each

@@ -31,7 +31,7 @@ class LibraryCaller {
     }
 
     void call() {
-        switch (random_.integer(0, 15)) {
+        switch (random_.integer(0, 16)) {
             case 0:
                 return expect_told(add_mesh());
             case 1:
@@ -65,6 +65,8 @@ class LibraryCaller {
                 return encode();
             case 13:
                 return look_at_channels();
+            case 14:
+                return expect_told(random_.integer(0, 3) == 0 ? burin_set_style(scene_, style()) : 0);
             default:
                 return render();
         }
@@ -191,10 +193,10 @@ class LibraryCaller {
         return burin_move_object(scene_, number_of(9), to_world);
     }
     std::string setting() {
-        const char* const key =
-            one_of({"lines.width", "lines.draw", "lines.crease_angle", "lines.hidden.style", "lines.hidden.width",
-                    "lines.dash", "lines.side", "lines.filter", "lines.contours", "surfaces.shading", "abuffer.samples",
-                    "camera.fov", "camera.eye", "lines", "", "picture.background", "x.y.z"});
+        const char* const key = one_of(
+            {"lines.width", "lines.draw", "lines.crease_angle", "lines.hidden.style", "lines.hidden.width",
+             "lines.dash", "lines.side", "lines.filter", "lines.contours", "surfaces.shading", "abuffer.samples",
+             "camera.fov", "camera.eye", "lines", "", "picture.background", "x.y.z", "style.width", "style.i.opacity"});
         const char* const value =
             one_of({"1",     "2.5",    "nan",       "-1",      "1e999",    "all",        "none",    "dashed",
                     "solid", "[3, 2]", "[1, 2, 3]", "smooth",  "mitchell", "inside",     "lambert", "8",
@@ -208,6 +210,16 @@ class LibraryCaller {
                        "[surfaces]\nshading = 3\n", "\xff\xfe",
                        "[[camera]]\nprojection = \"orthographic\"\ndirection = [0, 0, 1]\n",
                        "[[object]]\nshape = \"sphere\"\nscale = [1, 1e20, 1]\n"});
+    }
+
+    /// Of the sheets, some need much of lines and some little.
+    const char* style() {
+        return one_of<const char*>(
+            {nullptr, "", "technical", "pencil", "patent", "wool", "none.toml", "[[set]]\n",
+             "[[set]]\nname=\"a\"\nclasses=[\"crease\",\"border\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=1/0*(x-x)+3\"\n",
+             "[[set]]\nname=\"a\"\nclasses=[\"silhouette\"]\nlayer=true\nstyle=\"i\"\n[style.i]\nopacity=0.5\n"
+             "color=\"=N\"\ntaper={start=9}\n",
+             "[[set]]\nname=\"a\"\nclasses=[\"crease\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=depht\"\n"});
     }
 
     void render() {
@@ -227,6 +239,7 @@ class LibraryCaller {
         if (random_.integer(0, 2) != 0) rigid_camera(view);
         if (random_.integer(0, 29) == 0) view.shift[random_.integer(0, 1)] = number();
         if (random_.integer(0, 29) == 0) view.pixel_aspect = number();
+        if (random_.integer(0, 29) == 0) view.frame = integer();
         burin_options options = {};
         options.size = size_of_struct(sizeof options);
         options.threads =
@@ -252,8 +265,7 @@ class LibraryCaller {
             std::uint64_t count = 0;
             burin_column(drawing, one_of({"x0", "line", "object", "invisibility", "", "width"}), &type, &count);
         }
-        const char* const style = random_.integer(0, 9) == 0 ? "comic" : nullptr;
-        burin_picture* const picture = burin_draw(drawing, style, nullptr);
+        burin_picture* const picture = burin_draw(drawing, random_.integer(0, 9) == 0 ? style() : nullptr, nullptr);
         burin_drawing_free(drawing);
         if (picture == nullptr) return expect_told(burin_error_kind());
         burin_picture_free(picture_);
@@ -287,7 +299,7 @@ class LibraryCaller {
         std::uint8_t* bytes = nullptr;
         std::uint64_t count = 0;
         expect_told(burin_encode(picture_, one_of({"png", "png16", "exr", "jpg", ""}),
-                                 random_.integer(0, 9) == 0 ? "comic" : nullptr, &bytes, &count));
+                                 random_.integer(0, 9) == 0 ? style() : nullptr, &bytes, &count));
         burin_bytes_free(bytes);
     }
     void look_at_channels() {

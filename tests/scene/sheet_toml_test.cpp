@@ -164,7 +164,7 @@ TEST(SheetErrors, OfTheWholeSheet) {
                          {"[lines]\nwidth = 3\n[style.ink]\n[[set]]\nname=\"a\"\nclasses=\"crease\"\nstyle=\"ink\"",
                           "1:2", "unknown key 'lines'"}});
     EXPECT_NE(error_of("style_version = 1").find("the sheet has no [[set]]"), std::string::npos);
-    EXPECT_NE(error_of(std::string(kMaxSheetBytes + 1, ' ')).find("more than 1 MB"), std::string::npos);
+    EXPECT_NE(error_of(std::string(kMaxSheetBytes + 1, ' ')).find("more than 256 kB"), std::string::npos);
     EXPECT_NE(error_of("a = " + std::string(100, '[')).find("nested more than 64 deep"), std::string::npos);
     std::string many = kInk + "[let]\n";
     for (int i = 0; i < 256; ++i) many += "l" + std::to_string(i) + " = \"=1\"\n";

@@ -1,0 +1,41 @@
+#include "shading/ink/found_needs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace burin {
+
+FoundLinesNeeds found_needs_of(const SheetNeeds& sheet) {
+    constexpr Variable kOfNormals[] = {Variable::N,       Variable::N2,    Variable::facing,
+                                       Variable::facing2, Variable::light, Variable::light2};
+    FoundLinesNeeds needs;
+    needs.normals =
+        std::any_of(std::begin(kOfNormals), std::end(kOfNormals), [&](Variable v) { return sheet.variables.has(v); });
+    needs.chains = sheet.chains;
+    return needs;
+}
+
+std::string missing_for(const StyleSheet& style, const SheetNeeds& sheet, const FoundLines& lines) {
+    const FoundLinesNeeds needs = found_needs_of(sheet);
+    std::string missing;
+    const auto add = [&missing](bool is_missing, const std::string& what) {
+        if (is_missing) missing += (missing.empty() ? "" : ", ") + what;
+    };
+    const auto classes = LineClassSet::from_bits(sheet.classes.bits & ~unsigned{lines.classes.bits});
+    add(!classes.empty(), "lines of class " + to_string(classes));
+    add(sheet.most_invisibility > lines.most_invisibility,
+        lines.most_invisibility == 0 ? "hidden lines" : "lines behind more surfaces");
+    add(sheet.tells_invisibility && !lines.tells_invisibility, "how many surfaces are in front (qi)");
+    add(sheet.sides && !lines.has_beyond, "the surfaces behind lines");
+    add(needs.normals && !lines.has_normals, "normals");
+    add(needs.chains && !lines.has_chains, "chains");
+    const auto differs = [](double a, double b) { return std::abs(a - b) > 1e-9; };
+    add(style.crease_angle_deg && (differs((*style.crease_angle_deg)[0], lines.crease_angle_deg[0]) ||
+                                   differs((*style.crease_angle_deg)[1], lines.crease_angle_deg[1])),
+        "creases by its crease_angle, which is another one");
+    add(style.smooth_contours && *style.smooth_contours != lines.has_smooth_contours, "its other kind of contours");
+    return missing;
+}
+
+}  // namespace burin
