@@ -99,10 +99,6 @@ void run_restyle(const Arguments& a) {
     LinesFile file = read_lines_file(a.input);
     const double load_s = watch.lap();
     Scene scene = scene_of(file, a);
-    scene.sheet = sheet_as_wished(read_sheet(*source, a.overrides), a);
-    scene.lines.style.filter = scene.sheet->filter.value_or(file.lines.filter);
-    file.lines.light = scene.sheet->light;
-
     Frame frame;
     frame.scene = &scene;
     frame.width = file.lines.width_px;
@@ -116,6 +112,9 @@ void run_restyle(const Arguments& a) {
         frame.crop = {x0, y0, x1, y1};
     }
     frame.surfaces.projection = file.lines.projection;
+    scene.sheet = sheet_as_wished(read_sheet(*source, a.overrides), a, sheet_context_of(frame));
+    scene.lines.style.filter = scene.sheet->filter.value_or(file.lines.filter);
+    file.lines.light = scene.sheet->light;
     frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(frame));
     frame.criteria.classes = file.lines.classes;
     if (const std::string missing = missing_for(*scene.sheet, frame.sheet->needs(), file.lines); !missing.empty()) {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "image/srgb.h"
+#include "image/image_io.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
 #include "render/line_shading.h"
