@@ -88,14 +88,32 @@ LineSidesFinder::Surfaces LineSidesFinder::at_edge(const LinePiece& piece, LineS
         }
         ++count;
     }
+    if (count == 2 && covers(piece, second, best)) std::swap(best, second);
     if (count == 2) add_fold(piece, best, second, sides);
     const Surfaces at{best.surface, piece.occludes ? numbers_.of(piece.beyond) : second.surface};
     if (!has_normals) return at;
     set_flat_normals(piece, at, sides);
     const bool is_contour = piece.occludes && count == 2;
     const bool may_be_smooth = is_contour || piece.drawn_as == LineClass::polygon || piece.drawn_as == LineClass::mark;
-    if (may_be_smooth && is_smooth_edge(mesh, h, cos_crease_angle_)) add_smooth_normals(piece, h, is_contour, sides);
+    if (may_be_smooth && is_smooth_edge(mesh, h, cos_crease_angle_))
+        add_smooth_normals(piece, h, at.front, is_contour, sides);
     return at;
+}
+
+/// Whether, of two faces of an edge that both lie on one side of it on the screen, a is in front of b.
+bool LineSidesFinder::covers(const LinePiece& piece, const Face& a, const Face& b) const {
+    const Mesh& mesh = surfaces_.mesh_of(a.surface);
+    const auto corner = [&](const Face& face, unsigned k) {
+        return surfaces_.view_position(face.surface.instance,
+                                       mesh.triangles[face.half_edge / 3][(face.half_edge % 3 + k) % 3]);
+    };
+    const glm::dvec2 middle = middle_of(piece);
+    glm::dvec3 origin, direction;
+    surfaces_.projection.view_ray(middle, origin, direction);
+    const glm::dvec3 start = corner(a, 0), across = glm::cross(corner(a, 1) - start, direction);
+    const glm::dvec3 way_a = corner(a, 2) - start, way_b = corner(b, 2) - start;
+    if (!(glm::dot(across, way_a) * glm::dot(across, way_b) > 0)) return false;
+    return glm::dot(surfaces_.normal_towards_eye(b.surface, middle), way_a) > 0;
 }
 
 /// The angle at an edge of two polygons, and whether it sticks out as seen from the side of the first one that the eye
@@ -130,7 +148,8 @@ void LineSidesFinder::set_flat_normals(const LinePiece& piece, const Surfaces& a
 }
 
 /// Normals of the smooth surface that the mesh stands for; a contour's are at right angles to the line of sight.
-void LineSidesFinder::add_smooth_normals(const LinePiece& piece, HalfEdge h, bool is_contour, LineSides& sides) const {
+void LineSidesFinder::add_smooth_normals(const LinePiece& piece, HalfEdge h, SurfaceId front, bool is_contour,
+                                         LineSides& sides) const {
     const SurfaceInstance& instance = surfaces_.instances[piece.line.instance()];
     const Mesh& mesh = *instance.mesh;
     const HalfEdge next = h - h % 3 + (h % 3 + 1) % 3;
@@ -140,6 +159,13 @@ void LineSidesFinder::add_smooth_normals(const LinePiece& piece, HalfEdge h, boo
     const glm::dvec3 normals[2] = {unit(instance.normal_to_view * smooth_normal_at(mesh, h, cos_crease_angle_)),
                                    unit(instance.normal_to_view * smooth_normal_at(mesh, next, cos_crease_angle_))};
     const glm::dvec3 along = ends[1] - ends[0];
+    // Polygons wound away from the eye are seen from behind, and so is the surface that they stand for.
+    const SurfaceId own{piece.line.instance(), h / 3};
+    const bool is_alike =
+        front.triangle == own.triangle || glm::dot(surfaces_.view_normal(front), surfaces_.view_normal(own)) > 0;
+    const bool is_front_behind =
+        glm::dot(surfaces_.view_normal(front), glm::dvec3(surfaces_.normal_towards_eye(front, middle_of(piece)))) < 0;
+    const double side = is_front_behind == is_alike ? -1 : 1;
     for (int end = 0; end < 2; ++end) {
         const double depth = surfaces_.projection.distance(end == 0 ? piece.nearness_from : piece.nearness_to);
         glm::dvec3 origin, direction;
@@ -149,8 +175,9 @@ void LineSidesFinder::add_smooth_normals(const LinePiece& piece, HalfEdge h, boo
         const double share = square > 0 ? std::clamp(glm::dot(place - ends[0], along) / square, 0.0, 1.0) : 0.0;
         glm::dvec3 normal = unit(glm::mix(normals[0], normals[1], share));
         const glm::dvec3 eye = to_eye(piece, end);
-        if (is_contour) normal = unit(normal - eye * glm::dot(normal, eye));
-        if (!is_contour && glm::dot(normal, eye) < 0) normal = -normal;
+        normal *= side;
+        // What is seen turns away no farther than across the line of sight.
+        if (is_contour || glm::dot(normal, eye) < 0) normal = unit(normal - eye * glm::dot(normal, eye));
         // A contour's normal points away from the surface that ends: to the side beyond it on the screen.
         if (is_contour) {
             const glm::dvec2 way = piece.to - piece.from;

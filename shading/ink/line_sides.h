@@ -9,8 +9,9 @@
 
 namespace burin {
 
-/// What is on the two sides of a piece of a line. The front side is the surface that ends there or, where the line lies
-/// on surfaces, the face that turns to the eye more (of equal ones, the first by object, then polygon).
+/// What is on the two sides of a piece of a line. The front side is the surface that ends there: of the two faces of a
+/// fold, the one that is seen. Where the line lies on surfaces, it is the face that turns to the eye more (of equal
+/// ones, the first by object, then polygon).
 /// docs/shading/variables.md says for each class what the sides are. No mesh is needed to read it.
 struct LineSides {
     std::uint32_t front_object = 0, other_object = 0;      ///< from 1; 0: background. A loose edge has one, too.
@@ -47,8 +48,10 @@ class LineSidesFinder {
     };
     Surfaces at_edge(const LinePiece& piece, LineSides& sides, bool has_normals) const;
     Surfaces at_meeting(const LinePiece& piece) const;
+    bool covers(const LinePiece& piece, const Face& a, const Face& b) const;
     void add_fold(const LinePiece& piece, const Face& a, const Face& b, LineSides& sides) const;
-    void add_smooth_normals(const LinePiece& piece, HalfEdge h, bool is_contour, LineSides& sides) const;
+    void add_smooth_normals(const LinePiece& piece, HalfEdge h, SurfaceId front, bool is_contour,
+                            LineSides& sides) const;
     void set_flat_normals(const LinePiece& piece, const Surfaces& surfaces, LineSides& sides) const;
     double facing(SurfaceId s, glm::dvec2 place) const;
     glm::dvec3 to_eye(const LinePiece& piece, int end) const;
