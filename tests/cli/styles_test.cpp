@@ -130,8 +130,7 @@ TEST_F(Styles, UnknownNamesHaveSuggestions) {
     folder_.write("wrong.toml", changed(kSheet, "width * share", "width * shaer"));
     const ProgramResult wrong = render({"--style", "wrong.toml"});
     EXPECT_EQ(wrong.status, 1);
-    EXPECT_EQ(wrong.err,
-              "wrong.toml:18:19: [style.ink] width: unknown variable 'shaer', did you mean 'share'?\n");
+    EXPECT_EQ(wrong.err, "wrong.toml:18:19: [style.ink] width: unknown variable 'shaer', did you mean 'share'?\n");
     EXPECT_FALSE(std::filesystem::exists(folder_.file("out.exr")));
 }
 
@@ -154,9 +153,8 @@ TEST_F(Styles, WidthAndColourAreParameters) {
     expect_usage_error({"--style", "three.toml", "-w", "10"}, "--line-width: must be at most 9, got 10");
     folder_.write("fixed.toml", changed(changed(kSheet, "width = { value = \"1mm\"", "thick = { value = \"1mm\""),
                                         "\"=width *", "\"=thick *"));
-    expect_usage_error(
-        {"--style", "fixed.toml", "-w", "3"},
-        "--line-width: the style sheet fixed has no parameter 'width'; it has thick, color, share");
+    expect_usage_error({"--style", "fixed.toml", "-w", "3"},
+                       "--line-width: the style sheet fixed has no parameter 'width'; it has thick, color, share");
     folder_.write("swapped.toml", changed(kSheet, "color = \"#000000\"", "color = 3"));
     expect_usage_error({"--style", "swapped.toml", "--color", "#ff0000"}, "'color' of the style sheet swapped is no");
 }
@@ -192,9 +190,10 @@ TEST_F(Styles, TakeThePlaceOfLooksOrRefuseThem) {
     EXPECT_EQ(one.err,
               "burin: note: the style sheet says which lines are drawn and how; lines.width changes nothing\n");
     EXPECT_EQ(render({"--style", "mine.toml", "-q"}, "plain.toml").err, "");
-    for (const std::string& key : {std::string("width = 3"), std::string("color = \"#ff0000\""), std::string("dash = [3, 3]"),
-                                   std::string("side = \"inside\""), std::string("colors = { crease = \"#ff0000\" }"),
-                                   std::string("hidden = { style = \"solid\" }")}) {
+    for (const std::string& key :
+         {std::string("width = 3"), std::string("color = \"#ff0000\""), std::string("dash = [3, 3]"),
+          std::string("side = \"inside\""), std::string("colors = { crease = \"#ff0000\" }"),
+          std::string("hidden = { style = \"solid\" }")}) {
         folder_.write("both.toml", "style = \"mine.toml\"\n[lines]\n" + key + "\n[[object]]\nfile = \"cube.obj\"\n");
         const ProgramResult both = render({}, "both.toml");
         EXPECT_EQ(both.status, 1) << key;
@@ -203,15 +202,15 @@ TEST_F(Styles, TakeThePlaceOfLooksOrRefuseThem) {
         EXPECT_EQ(render({"--style", "mine.toml", "-q"}, "both.toml").status, 0) << key;
     }
     // What says what is found may stand in [lines].
-    folder_.write("both.toml",
-                  "style = \"mine.toml\"\n[lines]\ncrease_angle = 91\n[[object]]\nfile = \"cube.obj\"\n");
+    folder_.write("both.toml", "style = \"mine.toml\"\n[lines]\ncrease_angle = 91\n[[object]]\nfile = \"cube.obj\"\n");
     EXPECT_EQ(picture({}, "both.toml"), picture({"--style", "mine.toml", "--crease-angle", "91"}));
     EXPECT_NE(picture({}, "both.toml"), picture({}, "scene.toml"));
 }
 
 TEST_F(Styles, OnlyTheABufferDrawsThem) {
     for (const Arguments& more : {Arguments{"-m", "patel"}, {"-m", "gbuffer"}, {"-m", "reference"}})
-        expect_usage_error({"--style", "mine.toml", more[0], more[1]}, "draws no style sheets; draw with method abuffer");
+        expect_usage_error({"--style", "mine.toml", more[0], more[1]},
+                           "draws no style sheets; draw with method abuffer");
     expect_usage_error({"-m", "patel"}, "--style: method patel draws no style sheets", "scene.toml");
     expect_usage_error({"--style", "mine.toml", "--hidden", "dashed"}, "--hidden: the style sheet says how");
     expect_usage_error({"--style", "mine.toml", "--hidden", "solid"}, "only none can stand beside it");
@@ -267,8 +266,8 @@ TEST_F(Styles, AreListedAndPrinted) {
     EXPECT_EQ(run_burin(folder_.path(), {"styles", "mine"}).out, kSheet);
     EXPECT_EQ(run_burin(folder_.path(), {"styles", "mine.toml"}).out, kSheet);
     const Json json = Json::parse(run_burin(folder_.path(), {"styles", "--json", "-q"}).out);
-    for (const char* const name : {"technical", "blueprint", "comic", "patent", "wireframe", "instructions", "pencil",
-                                   "architect", "mine"}) {
+    for (const char* const name :
+         {"technical", "blueprint", "comic", "patent", "wireframe", "instructions", "pencil", "architect", "mine"}) {
         const auto is_it = [&](const Json& style) { return style["name"] == name; };
         const auto found = std::find_if(json["styles"].begin(), json["styles"].end(), is_it);
         ASSERT_NE(found, json["styles"].end()) << name;

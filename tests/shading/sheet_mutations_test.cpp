@@ -91,10 +91,33 @@ dash_phase = 1.5
 }
 
 std::string mutated(std::string text, Random& random, const std::vector<std::string>& all) {
-    static const std::vector<std::string> parts{
-        "=",      "\"",        "[",        "]",      "{",      "}",     "\n",       "#",         "1e999",  "nan",  "-",
-        "mm",     "world",     "true",     "[[set]]\n", "[style.x]\n", "base = \"dots\"\n", "=depht", "\\u0031", "\"\"\"", ",",
-        "[let]\na = \"=a\"\n", "qi = 3\n", "\xC3\xA9", "= \"=P\"", "[ramp.r]\nstops = [[0, 1]]\n", "over = \"t\""};
+    static const std::vector<std::string> parts{"=",
+                                                "\"",
+                                                "[",
+                                                "]",
+                                                "{",
+                                                "}",
+                                                "\n",
+                                                "#",
+                                                "1e999",
+                                                "nan",
+                                                "-",
+                                                "mm",
+                                                "world",
+                                                "true",
+                                                "[[set]]\n",
+                                                "[style.x]\n",
+                                                "base = \"dots\"\n",
+                                                "=depht",
+                                                "\\u0031",
+                                                "\"\"\"",
+                                                ",",
+                                                "[let]\na = \"=a\"\n",
+                                                "qi = 3\n",
+                                                "\xC3\xA9",
+                                                "= \"=P\"",
+                                                "[ramp.r]\nstops = [[0, 1]]\n",
+                                                "over = \"t\""};
     const auto place = [&] { return static_cast<std::size_t>(random.integer(0, static_cast<int>(text.size()))); };
     const auto line_at = [&](std::size_t at) {
         const std::size_t begin = text.rfind('\n', at == 0 ? 0 : at - 1), end = text.find('\n', at);
@@ -116,7 +139,7 @@ std::string mutated(std::string text, Random& random, const std::vector<std::str
             case 3:
                 text.insert(at, parts[static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 1))]);
                 break;
-            case 4:  // a line goes
+            case 4:    // a line goes
             case 5: {  // or comes again, elsewhere
                 const auto [first, end] = line_at(at);
                 const std::string line = text.substr(first, end - first);
@@ -212,7 +235,8 @@ TEST(SheetMutations, TooMuchWorkIsRefused) {
     for (const std::string& text : {inherited, styles, lets, faulty, selects}) {
         const std::string error = error_of(text);
         EXPECT_NE(error.find("the expressions of this sheet are too many or too long"), std::string::npos)
-            << text.substr(0, 200) << "\n" << error;
+            << text.substr(0, 200) << "\n"
+            << error;
     }
 }
 
@@ -221,9 +245,10 @@ TEST(SheetMutations, ALargeSheetIsNotTooMuch) {
     std::string text = kSet + "[let]\n";
     for (int i = 0; i < 20; ++i)
         text += "part" + std::to_string(i) + " = \"=smoothstep(0.1, 0.9, 1 - facing) * (1 + 0.5 * light)\"\n";
-    text += "[style.s]\nwidth = \"=1.2 * (part0 + part1 + part2 + part3) * (1 + 0.3 * noise(s / 12, rand_chain))\"\n"
-            "opacity = \"=exp(-depth / 50) * part4\"\ncolor = \"=mix(C, C2, fbm(P, 4))\"\n"
-            "dash = [\"=length / 20\", 3]\ntaper = { start = \"=length / 9\" }\n";
+    text +=
+        "[style.s]\nwidth = \"=1.2 * (part0 + part1 + part2 + part3) * (1 + 0.3 * noise(s / 12, rand_chain))\"\n"
+        "opacity = \"=exp(-depth / 50) * part4\"\ncolor = \"=mix(C, C2, fbm(P, 4))\"\n"
+        "dash = [\"=length / 20\", 3]\ntaper = { start = \"=length / 9\" }\n";
     for (int i = 0; i < 40; ++i) text += "[style.s" + std::to_string(i) + "]\nbase = \"s\"\nwidth = \"=part5 * 2\"\n";
     EXPECT_EQ(error_of(text), "");
 }
