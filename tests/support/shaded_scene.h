@@ -11,6 +11,7 @@
 #include "methods/abuffer.h"
 #include "render/line_shading.h"
 #include "scene/sheet_toml.h"
+#include "shading/ink/ink_lines.h"
 #include "shading/ink/line_columns.h"
 #include "tests/scene/scene_text.h"
 #include "tests/support/drawing.h"
@@ -72,7 +73,8 @@ class ShadedScene {
     InkedLines inked(PixelRect crop, int threads = 1, std::vector<std::string>* notes = nullptr) const {
         const Frame seen = frame(crop);
         std::vector<std::string> all;
-        InkedLines lines = shaded_lines(drawing(seen, threads), seen, threads, all);
+        InkedLines lines = ink_lines(found_lines(drawing(seen, threads), seen, threads), *seen.sheet, threads, all);
+        lines.filter = scene_->lines.style.filter;
         if (notes != nullptr) *notes = all;
         return lines;
     }

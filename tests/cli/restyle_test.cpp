@@ -1,0 +1,82 @@
+// Saved lines, drawn again.
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+std::string scene_file(const std::string& name) { return std::string(BURIN_SOURCE_FOLDER) + "/scenes/" + name; }
+
+ProgramResult run_in(const TemporaryFolder& folder, Arguments arguments, const Arguments& more = {}) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_burin(folder.path(), arguments);
+}
+
+TEST(Restyle, EqualsARenderToTheBit) {
+    for (const char* const scene : {"still_life.toml", "crossing.toml", "teapot.toml"}) {
+        for (const char* const style : {"pencil", "technical", "strata"}) {
+            for (const Arguments& crop : {Arguments{}, Arguments{"--crop", "40,30,110,80"}}) {
+                SCOPED_TRACE(std::string(scene) + " " + style + (crop.empty() ? "" : " crop"));
+                const TemporaryFolder folder;
+                const Arguments layers = {"--style", style, "--layers", "lines,lines_hidden,coverage"};
+                Arguments render = {"render", scene_file(scene), "-o", "a.exr", "-r", "160x120", "-q",
+                                    "--save-lines", "a.lines"};
+                render.insert(render.end(), layers.begin(), layers.end());
+                ASSERT_EQ(run_in(folder, render, crop).err, "");
+                Arguments restyle = {"restyle", "a.lines", "-o", "b.exr", "-j", "1"};
+                restyle.insert(restyle.end(), layers.begin(), layers.end());
+                ASSERT_EQ(run_in(folder, restyle, crop).err, "");
+                EXPECT_TRUE(read_file(folder.file("a.exr")) == read_file(folder.file("b.exr")));
+            }
+        }
+    }
+}
+
+TEST(Restyle, DrawsOverTheSurfacesThatWereKept) {
+    const TemporaryFolder folder;
+    const std::string scene = scene_file("still_life.toml");
+    ASSERT_EQ(run_in(folder, {"render", scene, "-o", "a.png", "-r", "160x120", "-q", "--style", "comic", "--save-lines",
+                              "a.lines", "--save-surface", "--find", "all"}).err, "");
+    ASSERT_EQ(run_in(folder, {"render", scene, "-o", "b.png", "-r", "160x120", "-q", "--style", "pencil", "--find", "all"}).err, "");
+    const ProgramResult result = run_in(folder, {"restyle", "a.lines", "-o", "c.png", "--style", "pencil", "-q"});
+    ASSERT_EQ(result.err, "");
+    EXPECT_TRUE(read_file(folder.file("b.png")) == read_file(folder.file("c.png")));
+}
+
+TEST(Restyle, SaysWhatTheFileLacks) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_in(folder, {"render", scene_file("crossing.toml"), "-o", "a.png", "-r", "80x60", "-q", "--style",
+                              "wireframe", "--save-lines", "a.lines"}).status, 0);
+    const ProgramResult result = run_in(folder, {"restyle", "a.lines", "-o", "b.png", "--style", "technical"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("a.lines: the file lacks what the style sheet needs: "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("hidden lines"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("--find all"), std::string::npos) << result.err;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.lines", "a.png"}));
+}
+
+TEST(Restyle, RefusesWhatMakesNoSense) {
+    const TemporaryFolder folder;
+    const std::string scene = scene_file("crossing.toml");
+    const auto refusal = [&](const Arguments& arguments) {
+        const ProgramResult result = run_in(folder, arguments);
+        EXPECT_EQ(result.status, 2) << result.err;
+        return result.err;
+    };
+    EXPECT_EQ(refusal({"render", scene, "-o", "a.png", "--save-lines", "a.lines"}),
+              "burin: --save-lines: lines are found for a style sheet; give one with --style\n");
+    EXPECT_EQ(refusal({"render", scene, "-o", "a.png", "--style", "comic", "--save-surface"}),
+              "burin: --save-surface: needs --save-lines\n");
+    EXPECT_NE(refusal({"restyle", "a.lines"}).find("--style"), std::string::npos);
+    const ProgramResult none = run_in(folder, {"restyle", "a.lines", "--style", "comic"});
+    EXPECT_EQ(none.status, 1);
+    EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace burin::test

@@ -1,0 +1,206 @@
+// Files of lines: what is read back is what was written, and nothing that stands in one can do harm.
+
+#include "output/lines_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "tests/support/random.h"
+#include "tests/support/shaded_scene.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+constexpr std::string_view kScene = R"(
+[[object]]
+shape = "box"
+name = "box"
+[[object]]
+shape = "sphere"
+name = "ball"
+translate = [0.6, 0.3, 0.9]
+[lines]
+)";
+constexpr std::string_view kSheet = R"(
+[[set]]
+name = "seen"
+classes = ["silhouette", "border", "crease", "intersection", "object"]
+style = "ink"
+[[set]]
+name = "behind"
+classes = ["silhouette", "crease"]
+qi = [1, 255]
+style = "dots"
+[style.ink]
+width = "=1 + 3*light + min(gap_px, 10)/10 + 0.5*facing2"
+taper = { start = 20, end = 20 }
+wobble = { amplitude = 1 }
+copies = 2
+color = "=mix(C, C2, 0.3)"
+[style.dots]
+dash = [1, 3]
+width = "=1.2 * 0.8^qi + 0.3*rand_chain + 0.2*rand_object"
+)";
+
+std::string bytes_of(const FoundLines& lines, const KeptSurface& surface = {}) {
+    MemorySink file;
+    write_lines_file(file, lines, surface);
+    return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+}
+
+/// The picture that a scene's sheet makes of lines.
+Image drawn(const ShadedScene& scene, const FoundLines& lines) {
+    const Frame frame = scene.frame(scene.whole());
+    Film film(scene.whole(), scene.whole(), {true, true, false, false, false, true, false, true, {}},
+              frame.criteria.classes);
+    std::vector<std::string> notes;
+    draw_found_lines(frame, lines, 1, film, notes);
+    return film.image();
+}
+
+void expect_equal(const Image& a, const Image& b) {
+    ASSERT_EQ(a.channels().size(), b.channels().size());
+    for (std::size_t i = 0; i < a.channels().size(); ++i) {
+        const auto &p = a.channels()[i].bytes, &q = b.channels()[i].bytes;
+        ASSERT_EQ(p.size(), q.size());
+        EXPECT_EQ(std::memcmp(p.data(), q.data(), p.size()), 0) << a.channels()[i].name;
+    }
+}
+
+TEST(LinesFile, IsReadBackToTheBit) {
+    const ShadedScene scene(kScene, kSheet);
+    FoundLines lines = scene.found();
+    ASSERT_GT(lines.runs.pieces.size(), 50u);
+    const TemporaryFolder folder;
+    KeptSurface surface{lines.width_px, lines.height_px, {}};
+    surface.pixels.resize(static_cast<std::size_t>(lines.width_px * lines.height_px), {0.25f, 0.5f, 1, 1});
+    const std::string bytes = bytes_of(lines, surface);
+    LinesFile read = read_lines_file(folder.write("a.lines", bytes));
+    EXPECT_EQ(bytes_of(read.lines, read.surface), bytes);
+    read.lines.light = lines.light;
+    expect_equal(drawn(scene, lines), drawn(scene, read.lines));
+}
+
+TEST(LinesFile, HasTheLayoutOfSafetensors) {
+    const std::string bytes = bytes_of(ShadedScene(kScene, kSheet).found());
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    EXPECT_EQ((size + sizeof size) % 64, 0u);
+    const auto directory = nlohmann::ordered_json::parse(bytes.substr(sizeof size, size));
+    EXPECT_EQ(directory["__metadata__"]["format"], "burin-lines 1");
+    std::uint64_t at = 0;
+    std::size_t width = 8;
+    for (const auto& [name, entry] : directory.items()) {
+        if (name == "__metadata__") continue;
+        EXPECT_EQ(entry["data_offsets"][0], at) << name;
+        at = entry["data_offsets"][1].get<std::uint64_t>();
+        const std::string type = entry["dtype"];
+        const std::size_t bytes_of_number = static_cast<std::size_t>(std::stoi(type.substr(1))) / 8;
+        EXPECT_LE(bytes_of_number, width) << name << ": arrays of wide numbers come first";
+        width = bytes_of_number;
+    }
+    EXPECT_EQ(sizeof size + size + at, bytes.size());
+}
+
+TEST(LinesFile, AnEmptyPictureIsAFileToo) {
+    ShadedScene scene(kScene, kSheet);
+    FoundLines lines = scene.found();
+    lines.runs = {};
+    lines.sides.clear();
+    lines.boundaries.clear();
+    const TemporaryFolder folder;
+    EXPECT_TRUE(read_lines_file(folder.write("a.lines", bytes_of(lines))).lines.runs.runs.empty());
+}
+
+void expect_error(const std::string& bytes, const std::string& message) {
+    const TemporaryFolder folder;
+    try {
+        read_lines_file(folder.write("a.lines", bytes));
+        FAIL() << "read: " << message;
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("a.lines"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+}
+
+/// A file with a change of its directory.
+template <typename Change>
+std::string with_directory(const std::string& bytes, const Change& change) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    auto directory = nlohmann::ordered_json::parse(bytes.substr(sizeof size, size));
+    change(directory);
+    const std::string text = directory.dump();
+    size = text.size();
+    std::string changed(reinterpret_cast<const char*>(&size), sizeof size);
+    return changed + text + bytes.substr(sizeof size + static_cast<std::size_t>(*reinterpret_cast<const std::uint64_t*>(bytes.data())));
+}
+
+TEST(LinesFile, WhatIsWrongIsNamed) {
+    const FoundLines lines = ShadedScene(kScene, kSheet).found();
+    const std::string bytes = bytes_of(lines);
+    expect_error("abc", "too short");
+    expect_error(std::string(64, '\xff'), "its directory is longer than the file");
+    expect_error(bytes.substr(0, bytes.size() - 1), "lies beyond the end");
+    expect_error(bytes + "x", "has bytes that no array has");
+    using Json = nlohmann::ordered_json;
+    expect_error(with_directory(bytes, [](Json& d) { d["__metadata__"]["format"] = "burin-lines 9"; }), "format");
+    expect_error(with_directory(bytes, [](Json& d) { d["xy"]["dtype"] = "F32"; }), "xy: dtype must be F64");
+    expect_error(with_directory(bytes, [](Json& d) { d["qi"]["shape"] = {3}; }), "qi: must have");
+    expect_error(with_directory(bytes, [](Json& d) { d["__metadata__"]["width"] = "0"; }), "width");
+    expect_error(with_directory(bytes, [](Json& d) { d["__metadata__"]["objects"] = "[\"box\"]"; }), "object_from_view");
+    expect_error(with_directory(bytes, [](Json& d) { d["s"]["data_offsets"] = d["xy"]["data_offsets"]; }), "overlap");
+    FoundLines wrong = lines;
+    wrong.sides[5].front_object = 77;
+    expect_error(bytes_of(wrong), "owners: row 5");
+    wrong = lines;
+    wrong.runs.pieces[3].piece.from.x = std::numeric_limits<double>::quiet_NaN();
+    expect_error(bytes_of(wrong), "xy: row 6 is not finite");
+    wrong = lines;
+    wrong.runs.runs[1].first = 0;
+    expect_error(bytes_of(wrong), "chain_first: row 1");
+}
+
+/// Bytes of numbers and of the directory are changed: the file is refused, or its lines can be drawn.
+TEST(LinesFileMutations, DoNoHarm) {
+    const ShadedScene scene(kScene, kSheet, 60, 50);
+    const std::string bytes = bytes_of(scene.found());
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    const TemporaryFolder folder;
+    int read = 0;
+    for (std::uint64_t trial = 0; trial < 3000; ++trial) {
+        SCOPED_TRACE("trial " + std::to_string(trial));
+        Random random(trial);
+        std::string changed = bytes;
+        const bool is_in_directory = random.integer(0, 1) == 0;
+        for (int k = random.integer(1, 4); k > 0; --k) {
+            const std::size_t low = is_in_directory ? 0 : sizeof size + size;
+            const std::size_t high = is_in_directory ? sizeof size + size : bytes.size();
+            const std::size_t at = low + random.bits() % (high - low);
+            changed[at] = static_cast<char>(is_in_directory && random.integer(0, 3) > 0
+                                                ? "0123456789[]{}\",:-e"[random.integer(0, 18)]
+                                                : static_cast<int>(random.bits() & 0xFF));
+        }
+        if (random.integer(0, 9) == 0) changed.resize(random.bits() % changed.size());
+        try {
+            const LinesFile file = read_lines_file(folder.write("a.lines", changed));
+            ++read;
+            if (read % 8 != 0) continue;
+            std::vector<std::string> notes;
+            ink_lines(file.lines, *scene.frame(scene.whole()).sheet, 1, notes);
+        } catch (const InputError& error) {
+            ASSERT_NE(std::string(error.what()).find("a.lines"), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_GT(read, 100);
+}
+
+}  // namespace
+}  // namespace burin
