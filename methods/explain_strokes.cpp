@@ -123,6 +123,7 @@ class StrokeExplainer {
         for (const std::size_t i : strokes) some.strokes.push_back(inked_.strokes[i]);
         Film film({0, 0, frame_.width, frame_.height}, pixel_.crop,
                   {true, false, false, false, false, false, false, false, {}}, frame_.criteria.classes);
+        film.put_background(x_, x_ + 1, y_);
         draw_ink(pixel_, some, 1, film);
         const Channel* const alpha = film.image().find("A");
         return alpha == nullptr ? 0 : film.image().value(*alpha, 0, 0);

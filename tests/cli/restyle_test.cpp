@@ -24,8 +24,8 @@ TEST(Restyle, EqualsARenderToTheBit) {
                 SCOPED_TRACE(std::string(scene) + " " + style + (crop.empty() ? "" : " crop"));
                 const TemporaryFolder folder;
                 const Arguments layers = {"--style", style, "--layers", "lines,lines_hidden,coverage"};
-                Arguments render = {"render", scene_file(scene), "-o", "a.exr", "-r", "160x120", "-q",
-                                    "--save-lines", "a.lines"};
+                Arguments render = {"render", scene_file(scene), "-o",     "a.exr", "-r", "160x120",
+                                    "-q",     "--save-lines",    "a.lines"};
                 render.insert(render.end(), layers.begin(), layers.end());
                 ASSERT_EQ(run_in(folder, render, crop).err, "");
                 Arguments restyle = {"restyle", "a.lines", "-o", "b.exr", "-j", "1"};
@@ -41,8 +41,13 @@ TEST(Restyle, DrawsOverTheSurfacesThatWereKept) {
     const TemporaryFolder folder;
     const std::string scene = scene_file("still_life.toml");
     ASSERT_EQ(run_in(folder, {"render", scene, "-o", "a.png", "-r", "160x120", "-q", "--style", "comic", "--save-lines",
-                              "a.lines", "--save-surface", "--find", "all"}).err, "");
-    ASSERT_EQ(run_in(folder, {"render", scene, "-o", "b.png", "-r", "160x120", "-q", "--style", "pencil", "--find", "all"}).err, "");
+                              "a.lines", "--save-surface", "--find", "all"})
+                  .err,
+              "");
+    ASSERT_EQ(
+        run_in(folder, {"render", scene, "-o", "b.png", "-r", "160x120", "-q", "--style", "pencil", "--find", "all"})
+            .err,
+        "");
     const ProgramResult result = run_in(folder, {"restyle", "a.lines", "-o", "c.png", "--style", "pencil", "-q"});
     ASSERT_EQ(result.err, "");
     EXPECT_TRUE(read_file(folder.file("b.png")) == read_file(folder.file("c.png")));
@@ -51,7 +56,9 @@ TEST(Restyle, DrawsOverTheSurfacesThatWereKept) {
 TEST(Restyle, SaysWhatTheFileLacks) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_in(folder, {"render", scene_file("crossing.toml"), "-o", "a.png", "-r", "80x60", "-q", "--style",
-                              "wireframe", "--save-lines", "a.lines"}).status, 0);
+                              "wireframe", "--save-lines", "a.lines"})
+                  .status,
+              0);
     const ProgramResult result = run_in(folder, {"restyle", "a.lines", "-o", "b.png", "--style", "technical"});
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.err.find("a.lines: the file lacks what the style sheet needs: "), std::string::npos) << result.err;

@@ -139,7 +139,8 @@ std::string with_directory(const std::string& bytes, const Change& change) {
     const std::string text = directory.dump();
     size = text.size();
     std::string changed(reinterpret_cast<const char*>(&size), sizeof size);
-    return changed + text + bytes.substr(sizeof size + static_cast<std::size_t>(*reinterpret_cast<const std::uint64_t*>(bytes.data())));
+    return changed + text +
+           bytes.substr(sizeof size + static_cast<std::size_t>(*reinterpret_cast<const std::uint64_t*>(bytes.data())));
 }
 
 TEST(LinesFile, WhatIsWrongIsNamed) {
@@ -154,7 +155,8 @@ TEST(LinesFile, WhatIsWrongIsNamed) {
     expect_error(with_directory(bytes, [](Json& d) { d["xy"]["dtype"] = "F32"; }), "xy: dtype must be F64");
     expect_error(with_directory(bytes, [](Json& d) { d["qi"]["shape"] = {3}; }), "qi: must have");
     expect_error(with_directory(bytes, [](Json& d) { d["__metadata__"]["width"] = "0"; }), "width");
-    expect_error(with_directory(bytes, [](Json& d) { d["__metadata__"]["objects"] = "[\"box\"]"; }), "object_from_view");
+    expect_error(with_directory(bytes, [](Json& d) { d["__metadata__"]["objects"] = "[\"box\"]"; }),
+                 "object_from_view");
     expect_error(with_directory(bytes, [](Json& d) { d["s"]["data_offsets"] = d["xy"]["data_offsets"]; }), "overlap");
     FoundLines wrong = lines;
     wrong.sides[5].front_object = 77;

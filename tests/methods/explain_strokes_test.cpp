@@ -1,0 +1,69 @@
+// What `burin explain` says of a style sheet in one pixel.
+
+#include "methods/explain_strokes.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/shaded_scene.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+constexpr std::string_view kScene = R"(
+[[object]]
+shape = "box"
+name = "crate"
+[[camera]]
+eye = [0, 0, 5]
+target = [0, 0, 0]
+height = 2
+)";
+constexpr std::string_view kSheet = R"(
+[[set]]
+name = "marks"
+classes = ["mark"]
+style = "thin"
+[[set]]
+name = "elsewhere"
+classes = ["silhouette", "crease"]
+objects = ["barrel"]
+style = "thin"
+[[set]]
+name = "far"
+classes = ["silhouette"]
+select = "dihedral < 0"
+style = "thin"
+[[set]]
+name = "outline"
+classes = ["silhouette"]
+style = "brush"
+[style.thin]
+[style.brush]
+width = "=2 + 2*is_silhouette"
+opacity = 0.5
+color = "#ff0000"
+)";
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ExplainStrokes, TellsSetStyleOwnerSharesAndValues) {
+    const ShadedScene scene(kScene, kSheet, 100, 100);
+    const Frame frame = scene.frame(scene.whole());
+    // The box's left side is at x = 25 px: the stroke of 4 px covers 23 to 27.
+    const std::string text = explain_strokes(frame, 24, 50);
+    EXPECT_TRUE(contains(text, "1 set outline (")) << text;
+    EXPECT_TRUE(contains(text, "marks: class silhouette is not in its classes")) << text;
+    EXPECT_TRUE(contains(text, "elsewhere: no object fits its objects")) << text;
+    EXPECT_TRUE(contains(text, "far: its select is false")) << text;
+    EXPECT_TRUE(contains(text, "style brush: silhouette of crate")) << text;
+    EXPECT_TRUE(contains(text, "before background")) << text;
+    EXPECT_TRUE(contains(text, "covers 0.5, shows 0.5\n    width 4 px = 2 + 2*is_silhouette")) << text;
+    EXPECT_TRUE(contains(text, "opacity 0.5\n    color #ff0000")) << text;
+    EXPECT_TRUE(contains(text, "where is_silhouette 1")) << text;
+    EXPECT_EQ(explain_strokes(frame, 50, 50), "the style sheet draws nothing in this pixel\n");
+}
+
+}  // namespace
+}  // namespace burin
