@@ -17,7 +17,7 @@
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::array kColumn{0.0f, 1.0f,   -0.0f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(),
+constexpr std::array kColumn{0.0f,  1.0f,   -0.0f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(),
                              3e38f, 1e-40f, 2.5f,  -3.0f};
 
 void require(bool holds) {
