@@ -225,8 +225,9 @@ BURIN_API burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* 
 /** Draws a drawing's lines over its surfaces: the bits of burin_render(). `style`: NULL, the look of the scene when the
  * lines were found; or a style sheet, as for burin_set_style(), which needs no more than the sheet that the scene had
  * then: its classes, its hidden lines, its crease_angle and contours. What it leaves open of these and of the filter is
- * as it was. Where it needs less, the picture is that of burin_render() but for rounding in a few pixels. Of `options`
- * only `threads` counts; `layers` must be NULL, for the drawing has its own. It cannot be stopped. */
+ * as it was. Where it needs less, some pixels may differ from those of burin_render(): what is found depends a little
+ * on what is looked for. Of `options` only `threads` counts; `layers` must be NULL, for the drawing has its own. It
+ * cannot be stopped. */
 BURIN_API burin_picture* burin_draw(const burin_drawing* drawing, const char* style, const burin_options* options);
 /** NULL is allowed. Pictures live on. */
 BURIN_API void burin_drawing_free(burin_drawing* drawing);

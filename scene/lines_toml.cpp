@@ -81,7 +81,7 @@ std::optional<PixelFilter> read_pixel_filter(TomlReader& t) {
 
 LineSettings read_line_settings(TomlReader& t) {
     LineSettings lines;
-    if (t.has("draw")) lines.classes = read_classes(t);
+    if (t.node("draw") != nullptr) lines.classes = read_classes(t);
     lines.style.width_px = t.number("width", {0, 1024, true, false}).value_or(1);
     if (const auto angles = read_crease_angle(t)) lines.set_crease_angle((*angles)[0], (*angles)[1]);
     static constexpr Contours kContours[] = {Contours::mesh, Contours::smooth};

@@ -175,6 +175,9 @@ TEST(SceneErrors, Syntax) {
         {"name='x", "3:8", ""},
         {"size=[1,1,1]\nsize=[1,1,1]", "4:6", "redefine"},
         {"[lines", "3:7", ""},
+        {"[;", "3:2", "saw ';'"},
+        {"[[]]", "3:3", "prohibited"},
+        {"size=[1, \xC6\xA2]", "3:10", ""},
         {"name=\"\\q\"", "3:8", ""},
         {"name=\"\xFF\"", "3:6", "utf-8"},
     });

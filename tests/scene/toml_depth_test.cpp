@@ -4,8 +4,8 @@
 #include "scene/toml_depth.h"
 
 #include <gtest/gtest.h>
-#include <toml++/toml.h>
 
+#include "scene/toml_reader.h"
 #include "tests/scene/scene_text.h"
 #include "tests/support/random.h"
 
