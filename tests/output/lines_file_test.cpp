@@ -27,7 +27,7 @@ name = "ball"
 translate = [0.6, 0.3, 0.9]
 [lines]
 )";
-constexpr std::string_view kSheet = R"(
+constexpr std::string_view kSheet = R"sheet(
 [[set]]
 name = "seen"
 classes = ["silhouette", "border", "crease", "intersection", "object"]
@@ -46,7 +46,7 @@ color = "=mix(C, C2, 0.3)"
 [style.dots]
 dash = [1, 3]
 width = "=1.2 * 0.8^qi + 0.3*rand_chain + 0.2*rand_object"
-)";
+)sheet";
 
 std::string bytes_of(const FoundLines& lines, const KeptSurface& surface = {}) {
     MemorySink file;
