@@ -161,8 +161,8 @@ void LineSidesFinder::add_smooth_normals(const LinePiece& piece, HalfEdge h, Sur
     const glm::dvec3 along = ends[1] - ends[0];
     // Polygons wound away from the eye are seen from behind, and so is the surface that they stand for.
     const SurfaceId own{piece.line.instance(), h / 3};
-    const bool is_alike = front.triangle == own.triangle ||
-                          glm::dot(surfaces_.view_normal(front), surfaces_.view_normal(own)) > 0;
+    const bool is_alike =
+        front.triangle == own.triangle || glm::dot(surfaces_.view_normal(front), surfaces_.view_normal(own)) > 0;
     const bool is_front_behind =
         glm::dot(surfaces_.view_normal(front), glm::dvec3(surfaces_.normal_towards_eye(front, middle_of(piece)))) < 0;
     const double side = is_front_behind == is_alike ? -1 : 1;

@@ -62,9 +62,13 @@ struct DeepEdge {
             return glm::dvec3((x - 150) * depth / focal, (80 - y) * depth / focal, -depth);
         };
         // Two faces that turn away from the eye at the edge.
-        return {{soup_of({at(20, 80, 4), at(280, 80, 60), at(280, 95, 62), at(20, 95, 4.2), at(280, 65, 62), at(20, 65, 4.2)},
-                         {{0, 1, 2, 3}, {1, 0, 5, 4}})},
-                camera, sheet_of(R"("crease")", "width = \"" + width + "\"", ""), 300, 160};
+        return {
+            {soup_of({at(20, 80, 4), at(280, 80, 60), at(280, 95, 75), at(20, 95, 5), at(280, 65, 75), at(20, 65, 5)},
+                     {{0, 1, 2, 3}, {1, 0, 5, 4}})},
+            camera,
+            sheet_of(R"("crease")", "width = \"" + width + "\"", ""),
+            300,
+            160};
     }
     static double depth_at(double x) { return 1 / glm::mix(1.0 / 4, 1.0 / 60, (x - 20) / 260); }
 };
@@ -122,7 +126,8 @@ TEST(StyledValues, SamplesKeepTheBoundOfWidth) {
         {"=5 * smoothstep(60, 90, x)", [](double x) { return 5 * step(60, 90, x); }},
         {"=sqrt(x)", [](double x) { return std::sqrt(x); }},
         {"=200 / (x - 10)", [](double x) { return 200 / (x - 10); }},
-        {"=8 * exp(0 - ((x - 100) / 9) ^ 2)", [](double x) { return 8 * std::exp(-(x - 100) * (x - 100) / 81); }},
+        {"=8 * exp(0 - (x - 100) * (x - 100) / 81)",
+         [](double x) { return 8 * std::exp(-(x - 100) * (x - 100) / 81); }},
         {"=abs(x - 101.3) / 12", [](double x) { return std::abs(x - 101.3) / 12; }},
         {"=x / 200 * 2 + (x / 100) ^ 3", [](double x) { return x / 100 + x * x * x * 1e-6; }},
     };
@@ -139,13 +144,14 @@ TEST(StyledValues, SamplesKeepTheBoundOfWidth) {
 
 TEST(StyledValues, ABallsPolygonsThinOutTowardsItsRim) {
     const double radius = 70;
-    const ShadedScene scene({transformed(make_sphere(radius, 96, 48), [](glm::dvec3 p) { return p + glm::dvec3(80, 80, 0); })},
-                            pixel_camera(160, 160), sheet_of(R"("polygon")", "width = \"=3*facing\""), 160, 160);
+    const ShadedScene scene(
+        {transformed(make_sphere(radius, 96, 48), [](glm::dvec3 p) { return p + glm::dvec3(80, 80, 0); })},
+        pixel_camera(160, 160), sheet_of(R"("polygon")", "width = \"=3*facing\""), 160, 160);
     const InkedLines lines = scene.inked();
     std::size_t count = 0;
     for (const InkPoint& p : lines.points) {
         const double d = glm::distance(p.place, glm::dvec2(80, 80)) / radius;
-        if (d > 0.97) continue;
+        if (d > 0.94) continue;  // lines are closer together there than samples, and bend
         ++count;
         EXPECT_NEAR(static_cast<double>(p.width_px), 3 * std::sqrt(1 - d * d), 0.06) << d;
     }
@@ -156,7 +162,8 @@ const PolygonSoup kPlate = rectangle(100, 20, 140, 80, 30);  // before the middl
 
 TEST(StyledValues, TapersAreAtFreeEndsOnly) {
     for (const std::string& set : {"", "qi = [0, 255]"}) {
-        const ShadedScene scene = level(20, 220, 50.5, "width = 4\ntaper = { start = 24, end = 24, shape = \"linear\" }", set, {kPlate});
+        const ShadedScene scene =
+            level(20, 220, 50.5, "width = 4\ntaper = { start = 24, end = 24, shape = \"linear\" }", set, {kPlate});
         const InkedLines lines = scene.inked();
         EXPECT_NEAR(width_at(lines, 99), 4, 1e-3) << set;
         EXPECT_NEAR(width_at(lines, 141), 4, 1e-3);
@@ -169,19 +176,25 @@ TEST(StyledValues, TapersAreAtFreeEndsOnly) {
     }
 }
 TEST(StyledValues, TapersShrinkInProportionOnShortLines) {
-    const InkedLines lines = level(100, 118, 50.5, "width = 4\ntaper = { start = 12, end = 24, shape = \"linear\" }").inked();
-    // 18 px are shared as 6 and 12.
-    EXPECT_NEAR(std::max({width_at(lines, 106), width_at(lines, 112)}), 4, 0.05);
-    EXPECT_NEAR(width_at(lines, 103) + width_at(lines, 115), 4, 0.1);
-    EXPECT_NEAR(std::min(width_at(lines, 102), width_at(lines, 116)), 4.0 * 2 / 12, 0.06);
+    const InkedLines lines =
+        level(100, 118, 50.5, "width = 4\ntaper = { start = 12, end = 24, shape = \"linear\" }").inked();
+    // 18 px are shared as 6 and 12; which end comes first, the mesh says.
+    const bool begins_left = width_at(lines, 106) > width_at(lines, 112);
+    const auto at = [&](double s) { return width_at(lines, begins_left ? 100 + s : 118 - s); };
+    EXPECT_NEAR(at(6), 4, 0.05);
+    EXPECT_NEAR(at(3), 2, 0.05);
+    EXPECT_NEAR(at(12), 2, 0.05);
+    EXPECT_NEAR(at(15), 1, 0.05);
 }
 TEST(StyledValues, TapersHaveTheirShapes) {
     for (const std::string& shape : {"linear", "round", "sharp"}) {
-        const InkedLines lines = level(20, 220, 50.5, "width = 8\ntaper = { start = 40, end = 40, shape = \"" + shape + "\" }").inked();
+        const InkedLines lines =
+            level(20, 220, 50.5, "width = 8\ntaper = { start = 40, end = 40, shape = \"" + shape + "\" }").inked();
         for (double s = 1; s < 45; s += 1.7) {
             const double q = std::min(s / 40, 1.0);
             const double wanted = 8 * (shape == "linear" ? q : shape == "round" ? std::sqrt(q * (2 - q)) : q * q);
-            EXPECT_NEAR(width_at(lines, 20 + s), wanted, 1.5 * std::clamp(0.01 * wanted, 1.0 / 64, 0.125)) << shape << s;
+            EXPECT_NEAR(width_at(lines, 20 + s), wanted, 1.5 * std::clamp(0.01 * wanted, 1.0 / 64, 0.125))
+                << shape << s;
         }
     }
 }
@@ -206,7 +219,8 @@ std::vector<Extent> strokes_of(const InkedLines& lines, bool is_hidden = false) 
 
 TEST(StyledDashes, HaveTheLengthsAndPhaseOfTheirPattern) {
     for (const double phase : {0.0, 3.0, -2.5, 17.0}) {
-        const InkedLines lines = level(20, 220, 50.5, "width = 2\ndash = [8, 5]\ndash_phase = " + std::to_string(phase)).inked();
+        const InkedLines lines =
+            level(20, 220, 50.5, "width = 2\ndash = [8, 5]\ndash_phase = " + std::to_string(phase)).inked();
         const auto dashes = strokes_of(lines);
         EXPECT_NEAR(static_cast<double>(dashes.size()), 200.0 / 13, 1.1);
         for (const Extent& e : dashes) {
@@ -218,7 +232,8 @@ TEST(StyledDashes, HaveTheLengthsAndPhaseOfTheirPattern) {
     }
 }
 TEST(StyledDashes, MayHaveEightLengthsAndDots) {
-    const InkedLines lines = level(20, 220, 50.5, "width = 1\ndash = [9, 2, 5, 2, 3, 2, 0.5, 4]\ncaps = \"round\"").inked();
+    const InkedLines lines =
+        level(20, 220, 50.5, "width = 1\ndash = [9, 2, 5, 2, 3, 2, 0.5, 4]\ncaps = \"round\"").inked();
     const auto dashes = strokes_of(lines);
     ASSERT_GT(dashes.size(), 24u);
     const double wanted[] = {8, 4, 2, 0};
@@ -232,7 +247,8 @@ TEST(StyledDashes, TooShortToBeSeenAreALighterLine) {
 }
 TEST(StyledDashes, AreTheSameOnSeenAndHiddenPartsOfALine) {
     const auto whole = strokes_of(level(20, 220, 50.5, "width = 1\ndash = [7, 4]\ncaps = \"butt\"").inked());
-    const InkedLines lines = level(20, 220, 50.5, "width = 1\ndash = [7, 4]\ncaps = \"butt\"", "qi = [0, 255]", {kPlate}).inked();
+    const InkedLines lines =
+        level(20, 220, 50.5, "width = 1\ndash = [7, 4]\ncaps = \"butt\"", "qi = [0, 255]", {kPlate}).inked();
     for (const bool is_hidden : {false, true}) {
         const auto parts = strokes_of(lines, is_hidden);
         EXPECT_GT(parts.size(), 3u);
@@ -271,8 +287,8 @@ TEST(StyledDashes, OfALoopHaveNoSeam) {
     double sum = 0;
     for (const double l : lengths) sum += l;
     EXPECT_NEAR(sum, 64 * 80 * std::sin(std::numbers::pi / 64) * 9 / 15, 0.5);
-    EXPECT_GT(*std::max_element(lengths.begin(), lengths.end()) , 8.5);
-    EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()) , 9.3);
+    EXPECT_GT(*std::max_element(lengths.begin(), lengths.end()), 8.5);
+    EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()), 9.3);
 }
 
 TEST(StyledPlaces, OffsetsMoveLinesAway) {
@@ -281,14 +297,17 @@ TEST(StyledPlaces, OffsetsMoveLinesAway) {
         const ShadedScene scene({rectangle(60.5, 20.5, 180.5, 70.5, 0)}, pixel_camera(240, 100),
                                 sheet_of(R"("border")", "width = 1\noffset = " + std::to_string(offset)), 240, 100);
         for (const InkPoint& p : scene.inked().points) {
-            const double right = std::max({p.place.x - 180.5, 60.5 - p.place.x, p.place.y - 79.5, 29.5 - p.place.y});
-            EXPECT_NEAR(right, offset, 0.01);
+            const double across = std::max(p.place.x - 180.5, 60.5 - p.place.x),
+                         down = std::max(p.place.y - 79.5, 29.5 - p.place.y);
+            if (std::min(across, down) > -4) continue;  // at a corner
+            EXPECT_NEAR(std::max(across, down), offset, 0.01);
         }
     }
 }
 TEST(StyledPlaces, OvershootIsAtFreeEndsAndCornersOnly) {
     for (const double overshoot : {6.0, -6.0}) {
-        const auto parts = strokes_of(level(20, 220, 50.5, "width = 1\novershoot = " + std::to_string(overshoot), "", {kPlate}).inked());
+        const auto parts = strokes_of(
+            level(20, 220, 50.5, "width = 1\novershoot = " + std::to_string(overshoot), "", {kPlate}).inked());
         ASSERT_EQ(parts.size(), 2u);
         EXPECT_NEAR(parts[0].from, 20 - overshoot, 0.01);
         EXPECT_NEAR(parts[0].to, 100, 0.3);
@@ -345,7 +364,8 @@ shape = "box"
 size = [4, 4, 1]
 rotate = [0, 0, 0]
 )",
-                                sheet_of(R"("silhouette")", "width = 1\nwobble = { amplitude = 4, wavelength = 25 }"), 400, 400);
+                                sheet_of(R"("silhouette")", "width = 1\nwobble = { amplitude = 4, wavelength = 25 }"),
+                                400, 400);
         // How far the upper edge has moved at a place of the object.
         const InkedLines lines = scene.inked();
         const double px = 400 / height, x = 200 + (x_share - 0.5) * 4 * px, y = 200 - 2 * px;
@@ -354,7 +374,9 @@ rotate = [0, 0, 0]
             for (std::size_t i = 0; i + 1 < p.size(); ++i) {
                 const auto [low, high] = std::minmax(p[i].place.x, p[i + 1].place.x);
                 if (x < low || x > high || low == high || std::abs(p[i].place.y - y) > 10) continue;
-                return glm::mix(p[i].place.y, p[i + 1].place.y, (x - p[i].place.x) / (p[i + 1].place.x - p[i].place.x)) - y;
+                return glm::mix(p[i].place.y, p[i + 1].place.y,
+                                (x - p[i].place.x) / (p[i + 1].place.x - p[i].place.x)) -
+                       y;
             }
         }
         ADD_FAILURE() << "no line there";
@@ -375,9 +397,11 @@ rotate = [0, 0, 0]
 
 /// Along a loop, noise has no seam.
 TEST(StyledPlaces, WobbleOfALoopIsClosed) {
-    const ShadedScene scene({transformed(make_sphere(40, 64, 32), [](glm::dvec3 p) { return p + glm::dvec3(60, 50, 0); })},
-                            pixel_camera(120, 100),
-                            sheet_of(R"("silhouette")", "width = 1\nwobble = { amplitude = 3, wavelength = 30, anchor = \"chain\" }"), 120, 100);
+    const ShadedScene scene(
+        {transformed(make_sphere(40, 64, 32), [](glm::dvec3 p) { return p + glm::dvec3(60, 50, 0); })},
+        pixel_camera(120, 100),
+        sheet_of(R"("silhouette")", "width = 1\nwobble = { amplitude = 3, wavelength = 30, anchor = \"chain\" }"), 120,
+        100);
     const InkedLines lines = scene.inked();
     ASSERT_EQ(lines.strokes.size(), 1u);
     const auto p = lines.points_of(lines.strokes[0]);
@@ -439,7 +463,8 @@ color = "#ff0000"
 [style.thin]
 width = 3
 color = "#0000ff"
-priority = )") + (is_thin_above ? "1" : "-1") + "\n";
+priority = )") + (is_thin_above ? "1" : "-1") +
+                                  "\n";
         const ShadedScene scene({folded({20, 49.5, 0}, {220, 49.5, 0})}, pixel_camera(240, 100), sheet, 240, 100);
         const Image image = scene.draw();
         EXPECT_NEAR(value_at(image, "lines.B", 120, 50), is_thin_above ? 1 : 0, 0.01);

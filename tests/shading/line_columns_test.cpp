@@ -91,8 +91,7 @@ TEST(LineColumns, NormalsOfABoxAreThoseOfItsFaces) {
     columns.each([&](const LineSample& sample, const LineRun& run, const LinePiece& piece) {
         if (run.is_hidden || glm::distance(piece.from, piece.to) < 1) return;
         const glm::dvec3 n = columns.triple(V::N, sample), n2 = columns.triple(V::N2, sample);
-        const glm::dvec3 to_eye =
-            glm::normalize(glm::dvec3(frame.camera.to_world[3]) - columns.triple(V::P, sample));
+        const glm::dvec3 to_eye = glm::normalize(glm::dvec3(frame.camera.to_world[3]) - columns.triple(V::P, sample));
         const auto is_of_face = [&](const glm::dvec3& v) {
             double most = -1;
             for (const glm::dvec3& face : normals) most = std::max(most, std::abs(glm::dot(face, v)));
@@ -177,8 +176,16 @@ material = "blue"
 
 TEST(LineColumns, ConvexTellsOuterEdgesFromInnerOnes) {
     // A step: its upper edge sticks out, its lower one goes inwards. Seen from above and in front.
-    const auto soup = soup_of({{0, 0, 0}, {80, 0, 0}, {0, 20, -20}, {80, 20, -20}, {0, 20, -50}, {80, 20, -50}, {0, 60, -50},
-                               {80, 60, -50}, {0, 60, -90}, {80, 60, -90}},
+    const auto soup = soup_of({{0, 0, 0},
+                               {80, 0, 0},
+                               {0, 20, -20},
+                               {80, 20, -20},
+                               {0, 20, -50},
+                               {80, 20, -50},
+                               {0, 60, -50},
+                               {80, 60, -50},
+                               {0, 60, -90},
+                               {80, 60, -90}},
                               {{0, 1, 3, 2}, {2, 3, 5, 4}, {4, 5, 7, 6}, {6, 7, 9, 8}});
     for (const bool turned : {false, true}) {
         auto moved = transformed(soup, [](glm::dvec3 p) {
@@ -198,7 +205,10 @@ TEST(LineColumns, ConvexTellsOuterEdgesFromInnerOnes) {
         std::set<std::pair<int, int>> found;
         columns.each([&](const LineSample& sample, const LineRun&, const LinePiece&) {
             const double y = 160 - static_cast<double>(columns.at(V::y, sample));
-            const int edge = std::abs(y - (30 + 18 + 8.72)) < 2 ? 1 : std::abs(y - (30 + 18 + 21.8)) < 2 ? 2 : std::abs(y - (30 + 54 + 21.8)) < 2 ? 3 : 0;
+            const int edge = std::abs(y - (30 + 18 + 8.72)) < 2   ? 1
+                             : std::abs(y - (30 + 18 + 21.8)) < 2 ? 2
+                             : std::abs(y - (30 + 54 + 21.8)) < 2 ? 3
+                                                                  : 0;
             found.insert({edge, static_cast<int>(columns.at(V::convex, sample))});
         });
         EXPECT_EQ(found, (std::set<std::pair<int, int>>{{1, 1}, {2, -1}, {3, 1}})) << turned;
@@ -243,8 +253,10 @@ rings = 48
 TEST(LineColumns, LightIsFromWhereTheSheetSays) {
     // A plane that faces the camera: N = (0, 0, 1) in camera space.
     const std::string plane = "[camera]\neye = [0, 0, 5]\n[[object]]\nshape = \"box\"\n";
-    for (const auto& [light, expected] : {std::pair{"light = [0, 0, 1]\n", 1.0}, {"light = [0, 3, 4]\n", 0.8},
-                                          {"light = [0, 0, -1]\n", 0.0}, {"", 1.0}}) {
+    for (const auto& [light, expected] : {std::pair{"light = [0, 0, 1]\n", 1.0},
+                                          {"light = [0, 3, 4]\n", 0.8},
+                                          {"light = [0, 0, -1]\n", 0.0},
+                                          {"", 1.0}}) {
         const ShadedScene scene(plane, all_of(R"("silhouette")", light));
         const FoundLines lines = scene.found();
         const ColumnsOfLines columns(lines);
@@ -261,10 +273,11 @@ TEST(LineColumns, DirectionsAreCounterClockwiseFromLevel) {
         const double a = deg * std::numbers::pi / 180;
         const glm::dvec3 way(std::cos(a), std::sin(a), 0), across(-way.y, way.x, 0), middle(60, 50, 0);
         const glm::dvec3 p = middle - 30.0 * way, q = middle + 30.0 * way;
-        const ShadedScene scene({soup_of({p, q, q + 9.0 * across + glm::dvec3(0, 0, -9), p + 9.0 * across + glm::dvec3(0, 0, -9),
-                                          q - 9.0 * across + glm::dvec3(0, 0, -9), p - 9.0 * across + glm::dvec3(0, 0, -9)},
-                                         {{0, 1, 2, 3}, {1, 0, 5, 4}})},
-                                pixel_camera(120, 100), all_of(R"("crease")"), 120, 100);
+        const ShadedScene scene(
+            {soup_of({p, q, q + 9.0 * across + glm::dvec3(0, 0, -9), p + 9.0 * across + glm::dvec3(0, 0, -9),
+                      q - 9.0 * across + glm::dvec3(0, 0, -9), p - 9.0 * across + glm::dvec3(0, 0, -9)},
+                     {{0, 1, 2, 3}, {1, 0, 5, 4}})},
+            pixel_camera(120, 100), all_of(R"("crease")"), 120, 100);
         const FoundLines lines = scene.found();
         const ColumnsOfLines columns(lines);
         columns.each([&](const LineSample& sample, const LineRun&, const LinePiece& piece) {
@@ -345,7 +358,8 @@ translate = [1.1, 0, 1]
         const double x = (static_cast<double>(columns.at(V::x, sample)) - 100) / 40;
         const int where = std::abs(x) < 0.45 ? 1 : std::abs(x - 1.1) < 0.2 ? 2 : std::abs(x + 1) < 0.3 ? 0 : -1;
         if (where < 0) return;
-        found[where].insert({static_cast<int>(columns.at(V::qi, sample)), std::round(columns.at(V::transmission, sample) * 100)});
+        found[where].insert(
+            {static_cast<int>(columns.at(V::qi, sample)), std::round(columns.at(V::transmission, sample) * 100)});
     });
     EXPECT_TRUE(found[0].contains({0, 100.0f}));
     EXPECT_TRUE(found[1].contains({0, 75.0f}));
@@ -356,7 +370,8 @@ translate = [1.1, 0, 1]
 TEST(LineColumns, RandomNumbersStayWithTheirObjects) {
     const std::string a = "[[object]]\nname = \"a\"\nshape = \"box\"\n",
                       b = "[[object]]\nname = \"b\"\nshape = \"box\"\ntranslate = [2, 0, 0]\n",
-                      camera = "[camera]\neye = [3, 2, 7]\nfov = 50\n", other = "[camera]\neye = [3.1, 2.4, 6.5]\nfov = 50\n";
+                      camera = "[camera]\neye = [3, 2, 7]\nfov = 50\n",
+                      other = "[camera]\neye = [3.1, 2.4, 6.5]\nfov = 50\n";
     using Numbers = std::set<std::tuple<std::string, float, float>>;
     const auto numbers = [](const std::string& text, std::uint32_t seed, std::uint32_t copy) {
         const ShadedScene scene(text, sheet_of(R"("crease")", "width = \"=1 + rand_chain\"", "qi = [0, 255]"));
