@@ -13,7 +13,9 @@ namespace burin {
 struct PieceLinking {
     double apart_px = 0;  ///< ends that are no farther apart than this are at one place
     /// Where more than two meet: two pieces that run to one place and back are a loop of their own, and of the others
-    /// that are left the straightest pairs of one class belong together.
+    /// that are left the straightest pairs of one class belong together. And chains of one class go on in each other
+    /// that end less than a pixel apart and run on straight: where several lines lie between two samples, pieces of one
+    /// may be missing, in one frame and not in the next.
     bool goes_straight = false;
 };
 
@@ -46,6 +48,7 @@ class PieceChains {
     void link_straightest(const std::vector<std::uint32_t>& ends);
     template <typename Key>
     void link_pairs(const std::vector<std::uint32_t>& ends, const Key& key);
+    void bridge_gaps();
     void put_in_order(Chain& chain) const;
 
     std::vector<const LinePiece*> pieces_;

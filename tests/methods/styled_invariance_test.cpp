@@ -14,9 +14,7 @@ using namespace test;
 
 constexpr int kWidth = 180, kHeight = 140;
 
-std::string sheet_file(const std::string& name) {
-    return BURIN_SOURCE_FOLDER "/styles/" + name + ".toml";
-}
+std::string sheet_file(const std::string& name) { return BURIN_SOURCE_FOLDER "/styles/" + name + ".toml"; }
 ShadedScene styled(const std::string& scene, const std::string& sheet, const std::vector<Override>& overrides = {}) {
     SceneDescription description =
         read_scene_file(BURIN_SOURCE_FOLDER "/scenes/" + scene + ".toml", overrides, sheet_file(sheet));
@@ -102,7 +100,8 @@ wobble = { amplitude = 1 }
             if (s.order.set != 0) continue;
             const auto points = lines.points_of(s);
             for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-                const double reach = 0.5 * static_cast<double>(std::max(points[i].width_px, points[i + 1].width_px)) + 1.5;
+                const double reach =
+                    0.5 * static_cast<double>(std::max(points[i].width_px, points[i + 1].width_px)) + 1.5;
                 const glm::dvec2 low = glm::min(points[i].place, points[i + 1].place) - reach,
                                  high = glm::max(points[i].place, points[i + 1].place) + reach;
                 for (int y = std::max(0, static_cast<int>(low.y)); y < std::min<double>(kHeight, high.y); ++y) {
@@ -127,10 +126,11 @@ wobble = { amplitude = 1 }
 
 /// Objects in another order in the file make the same ink.
 TEST(StyledOrder, TheOrderOfObjectsChangesNothing) {
-    const std::string camera = "[camera]\neye = [3, 3, 8]\n",
-                      a = "[[object]]\nname = \"a\"\nshape = \"box\"\ntranslate = [-1, 0, 0]\n",
-                      b = "[[object]]\nname = \"b\"\nshape = \"torus\"\ntranslate = [0.7, 0, 0.4]\nrotate = [60, 0, 20]\n",
-                      c = "[[object]]\nname = \"c\"\nshape = \"cylinder\"\ntranslate = [0, 1.2, 0]\n";
+    const std::string
+        camera = "[camera]\neye = [3, 3, 8]\n",
+        a = "[[object]]\nname = \"a\"\nshape = \"box\"\ntranslate = [-1, 0, 0]\n",
+        b = "[[object]]\nname = \"b\"\nshape = \"torus\"\ntranslate = [0.7, 0, 0.4]\nrotate = [60, 0, 20]\n",
+        c = "[[object]]\nname = \"c\"\nshape = \"cylinder\"\ntranslate = [0, 1.2, 0]\n";
     const std::string sheet = sheet_of(R"("silhouette", "crease", "border", "object", "intersection")",
                                        "width = \"=1 + 2 * rand_object + rand_chain + t\"\nopacity = 0.7\n"
                                        "wobble = { amplitude = 1.5, wavelength = 20 }\ntaper = { start = 10 }");
@@ -139,7 +139,8 @@ TEST(StyledOrder, TheOrderOfObjectsChangesNothing) {
     std::size_t different = 0;
     for (const std::string& channel : {"R", "G", "lines.A", "lines.R"}) {
         for (int y = 0; y < kHeight; ++y) {
-            for (int x = 0; x < kWidth; ++x) different += value_at(one, channel, x, y) != value_at(other, channel, x, y);
+            for (int x = 0; x < kWidth; ++x)
+                different += value_at(one, channel, x, y) != value_at(other, channel, x, y);
         }
     }
     EXPECT_EQ(different, 0u);
