@@ -40,8 +40,8 @@ std::vector<PieceChains::Chain> PieceChains::all() const {
     return chains;
 }
 
-/// Finds the ends that are at one place.
-void PieceChains::find_nodes() {
+/// Finds the ends that are at one place. Returns all ends, place by place.
+std::vector<std::uint32_t> PieceChains::find_nodes() {
     std::vector<std::uint32_t> ends(2 * pieces_.size());
     for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
     std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -54,7 +54,7 @@ void PieceChains::find_nodes() {
         if (firsts.empty() || place(firsts.back()) != place(end)) firsts.push_back(end);
         nodes_[end] = firsts.back();
     }
-    if (linking_.apart_px <= 0) return;
+    if (linking_.apart_px <= 0) return ends;
     // Places in cells that are as wide as places may be apart.
     const auto row_of = [&](glm::dvec2 p) { return std::floor(p.y / linking_.apart_px); };
     struct Cell {
@@ -84,16 +84,15 @@ void PieceChains::find_nodes() {
         }
     }
     for (const std::uint32_t end : ends) nodes_[end] = first_of(end);
-}
-
-void PieceChains::link() {
-    find_nodes();
-    std::vector<std::uint32_t> ends(nodes_.size());
-    for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
     std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
         const glm::dvec2 p = place(nodes_[a]), q = place(nodes_[b]);
         return p != q ? is_higher(p, q) : a < b;
     });
+    return ends;
+}
+
+void PieceChains::link() {
+    const std::vector<std::uint32_t> ends = find_nodes();
     for (std::size_t i = 0; i < ends.size();) {
         std::size_t next = i + 1;
         while (next < ends.size() && nodes_[ends[next]] == nodes_[ends[i]]) ++next;

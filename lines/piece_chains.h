@@ -43,7 +43,7 @@ class PieceChains {
   private:
     glm::dvec2 place(std::uint32_t end) const { return end % 2 == 0 ? pieces_[end / 2]->from : pieces_[end / 2]->to; }
     void link();
-    void find_nodes();
+    std::vector<std::uint32_t> find_nodes();
     void link_node(std::vector<std::uint32_t> ends);
     void link_straightest(const std::vector<std::uint32_t>& ends);
     template <typename Key>
