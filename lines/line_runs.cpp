@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "lines/chains.h"
-#include "lines/piece_chains.h"
 #include "lines/whole_line_index.h"
 
 namespace burin {
@@ -165,8 +164,8 @@ class FeatureRuns {
 };
 
 /// Adds the runs of lines that stand along themselves.
-void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, double apart_px, LineRuns& runs) {
-    const PieceChains chains(std::move(pieces), {apart_px, true});
+void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, const PieceLinking& linking, LineRuns& runs) {
+    const PieceChains chains(std::move(pieces), linking);
     for (const PieceChains::Chain& chain : chains.all()) {
         LineRun run;
         run.first = runs.pieces.size();
@@ -190,7 +189,7 @@ void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, double apa
 }  // namespace
 
 LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
-                 std::span<const WholeLine> features, const SurfaceSet& surfaces, double apart_px) {
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces, const PieceLinking& linking) {
     LineRuns runs;
     FeatureRuns of_features(features, surfaces);
     std::vector<const LinePiece*> seen, hidden;
@@ -203,8 +202,8 @@ LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& be
         }
     }
     of_features.add_to(runs);
-    add_others(std::move(seen), false, apart_px, runs);
-    add_others(std::move(hidden), true, apart_px, runs);
+    add_others(std::move(seen), false, linking, runs);
+    add_others(std::move(hidden), true, linking, runs);
     return runs;
 }
 

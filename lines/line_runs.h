@@ -8,6 +8,7 @@
 
 #include "image/image.h"
 #include "lines/line_drawing.h"
+#include "lines/piece_chains.h"
 #include "lines/whole_line.h"
 #include "view/surface_set.h"
 
@@ -59,9 +60,8 @@ struct LineRuns {
 /// beside longer ones of the same chain. `features`: edges that are lines in every view, as wholes;
 /// runs of those stand along the chains of these (chains_of()), seen or not. All other lines are chained piece by piece
 /// (PieceChains), and stand along what is seen of them. Where a chain is a loop that is seen in part, what is beyond
-/// its beginning stands beyond its length. `apart_px`: how far apart the ends of pieces of these may be that follow
-/// each other.
+/// its beginning stands beyond its length. `linking`: of these other lines.
 LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
-                 std::span<const WholeLine> features, const SurfaceSet& surfaces, double apart_px = 0);
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces, const PieceLinking& linking = {});
 
 }  // namespace burin

@@ -20,6 +20,7 @@ void reverse(PieceChains::Chain& chain) {
 PieceChains::PieceChains(std::vector<const LinePiece*> pieces, const PieceLinking& linking)
     : pieces_(std::move(pieces)), linking_(linking), links_(pieces_.size()) {
     link();
+    if (linking_.goes_straight) bridge_gaps();
 }
 
 std::vector<PieceChains::Chain> PieceChains::all() const {
@@ -39,8 +40,8 @@ std::vector<PieceChains::Chain> PieceChains::all() const {
     return chains;
 }
 
-/// Finds the ends that are at one place.
-void PieceChains::find_nodes() {
+/// Finds the ends that are at one place. Returns all ends, place by place.
+std::vector<std::uint32_t> PieceChains::find_nodes() {
     std::vector<std::uint32_t> ends(2 * pieces_.size());
     for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
     std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -53,7 +54,7 @@ void PieceChains::find_nodes() {
         if (firsts.empty() || place(firsts.back()) != place(end)) firsts.push_back(end);
         nodes_[end] = firsts.back();
     }
-    if (linking_.apart_px <= 0) return;
+    if (linking_.apart_px <= 0) return ends;
     // Places in cells that are as wide as places may be apart.
     const auto row_of = [&](glm::dvec2 p) { return std::floor(p.y / linking_.apart_px); };
     struct Cell {
@@ -83,16 +84,15 @@ void PieceChains::find_nodes() {
         }
     }
     for (const std::uint32_t end : ends) nodes_[end] = first_of(end);
-}
-
-void PieceChains::link() {
-    find_nodes();
-    std::vector<std::uint32_t> ends(nodes_.size());
-    for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
     std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
         const glm::dvec2 p = place(nodes_[a]), q = place(nodes_[b]);
         return p != q ? is_higher(p, q) : a < b;
     });
+    return ends;
+}
+
+void PieceChains::link() {
+    const std::vector<std::uint32_t> ends = find_nodes();
     for (std::size_t i = 0; i < ends.size();) {
         std::size_t next = i + 1;
         while (next < ends.size() && nodes_[ends[next]] == nodes_[ends[i]]) ++next;
@@ -175,10 +175,89 @@ void PieceChains::link_pairs(const std::vector<std::uint32_t>& ends, const Key& 
     }
 }
 
+void PieceChains::bridge_gaps() {
+    constexpr double kGapPx = 1;                           // what lies between a few samples
+    constexpr double kCrumbPx = 1.0;                       // no chain that goes on anywhere
+    constexpr double kDirectionPx = 3.0;                   // over which a chain says where it goes
+    constexpr double kStraight = -0.5, kMostCosine = 0.5;  // what turns back more is a cusp
+    struct Open {
+        double row;
+        glm::dvec2 place, way;  // into the chain
+        std::uint32_t end;
+    };
+    std::vector<Open> open;
+    links_.for_chains([&](const std::vector<std::uint32_t>& ends, bool is_closed) {
+        if (is_closed) return;
+        double length_px = 0;
+        for (const std::uint32_t end : ends) length_px += length(end);
+        if (length_px < kCrumbPx) return;
+        const auto way_in = [&](bool from_end) {
+            const std::size_t n = ends.size();
+            const glm::dvec2 from = from_end ? place(ends[n - 1] ^ 1) : place(ends[0]);
+            glm::dvec2 to = from;
+            double way_px = 0;
+            for (std::size_t i = 0; i < n && way_px < kDirectionPx; ++i) {
+                const std::uint32_t end = from_end ? ends[n - 1 - i] : ends[i];
+                way_px += length(end);
+                to = from_end ? place(end) : place(end ^ 1);
+            }
+            const double distance = glm::distance(from, to);
+            return distance > 0 ? (to - from) / distance : glm::dvec2(0.0);
+        };
+        for (const bool from_end : {false, true}) {
+            const std::uint32_t end = from_end ? ends.back() ^ 1 : ends.front();
+            open.push_back({std::floor(place(end).y / kGapPx), place(end), way_in(from_end), end});
+        }
+    });
+    const auto is_before = [](const Open& a, const Open& b) {
+        return std::tie(a.row, a.place.x, a.place.y, a.end) < std::tie(b.row, b.place.x, b.place.y, b.end);
+    };
+    std::sort(open.begin(), open.end(), is_before);
+    struct Bridge {
+        double cosine, gap_px;
+        std::size_t a, b;  // in `open`
+    };
+    std::vector<Bridge> bridges;
+    for (std::size_t a = 0; a < open.size(); ++a) {
+        for (const double row : {open[a].row, open[a].row + 1}) {
+            const Open first{row, {open[a].place.x - kGapPx, -1e300}, {}, 0};
+            for (auto near = std::lower_bound(open.begin(), open.end(), first, is_before);
+                 near != open.end() && near->row == row && near->place.x <= open[a].place.x + kGapPx; ++near) {
+                const auto b = static_cast<std::size_t>(near - open.begin());
+                const double gap_px = glm::distance(near->place, open[a].place);
+                if ((row == open[a].row && b <= a) || gap_px > kGapPx ||
+                    piece(near->end).drawn_as != piece(open[a].end).drawn_as)
+                    continue;
+                const double cosine = glm::dot(near->way, open[a].way);
+                if (cosine < kMostCosine) bridges.push_back({cosine, gap_px, a, b});
+            }
+        }
+    }
+    std::sort(bridges.begin(), bridges.end(), [](const Bridge& p, const Bridge& q) {
+        return std::tie(p.cosine, p.gap_px, p.a, p.b) < std::tie(q.cosine, q.gap_px, q.a, q.b);
+    });
+    // What runs on straight comes first; then ends that meet nothing else.
+    for (const bool is_alone : {false, true}) {
+        std::vector<std::size_t> choices(open.size(), 0);
+        const auto is_open = [&](const Bridge& p) {
+            return open[p.a].end != open[p.b].end && links_.is_free(open[p.a].end) && links_.is_free(open[p.b].end);
+        };
+        for (const Bridge& p : bridges) {
+            if (!is_open(p)) continue;
+            ++choices[p.a];
+            ++choices[p.b];
+        }
+        for (const Bridge& p : bridges) {
+            const bool fits = is_alone ? choices[p.a] == 1 && choices[p.b] == 1 : p.cosine < kStraight;
+            if (fits && is_open(p)) links_.link(open[p.a].end, open[p.b].end);
+        }
+    }
+}
+
 /// Makes a chain begin where dashes begin.
 void PieceChains::put_in_order(Chain& chain) const {
     const glm::dvec2 first = place(chain.ends.front()), last = place(chain.ends.back() ^ 1);
-    if (nodes_[chain.ends.front()] != nodes_[chain.ends.back() ^ 1]) {
+    if (!chain.is_closed && nodes_[chain.ends.front()] != nodes_[chain.ends.back() ^ 1]) {
         if (is_higher(last, first)) reverse(chain);
         return;
     }

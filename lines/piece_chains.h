@@ -13,7 +13,9 @@ namespace burin {
 struct PieceLinking {
     double apart_px = 0;  ///< ends that are no farther apart than this are at one place
     /// Where more than two meet: two pieces that run to one place and back are a loop of their own, and of the others
-    /// that are left the straightest pairs of one class belong together.
+    /// that are left the straightest pairs of one class belong together. And chains of one class go on in each other
+    /// that end less than a pixel apart and run on straight: where several lines lie between two samples, pieces of one
+    /// may be missing, in one frame and not in the next.
     bool goes_straight = false;
 };
 
@@ -41,11 +43,12 @@ class PieceChains {
   private:
     glm::dvec2 place(std::uint32_t end) const { return end % 2 == 0 ? pieces_[end / 2]->from : pieces_[end / 2]->to; }
     void link();
-    void find_nodes();
+    std::vector<std::uint32_t> find_nodes();
     void link_node(std::vector<std::uint32_t> ends);
     void link_straightest(const std::vector<std::uint32_t>& ends);
     template <typename Key>
     void link_pairs(const std::vector<std::uint32_t>& ends, const Key& key);
+    void bridge_gaps();
     void put_in_order(Chain& chain) const;
 
     std::vector<const LinePiece*> pieces_;

@@ -11,7 +11,8 @@ namespace burin {
 void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces, double cos_crease_angle,
                          const FoundLinesNeeds& needs, int threads, FoundLines& lines) {
     const LineDrawing::Lists visible = drawing.visible();
-    lines.runs = runs_of(visible, drawing.behind(), features_of(drawing.whole_lines()), surfaces, needs.apart_px);
+    lines.runs = runs_of(visible, drawing.behind(), features_of(drawing.whole_lines()), surfaces,
+                         {needs.apart_px, needs.chains});
     for (const std::span<const LinePiece> list : visible) {
         for (const LinePiece& piece : list) {
             if (!piece.is_drawn && piece.occludes) lines.boundaries.push_back(piece);

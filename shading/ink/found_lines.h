@@ -49,7 +49,7 @@ struct FoundLines {
 /// What is to be known of lines.
 struct FoundLinesNeeds {
     bool normals = false, chains = false;
-    double apart_px = 0;  ///< runs_of()
+    double apart_px = 0;  ///< PieceLinking::apart_px
 };
 
 /// Makes runs of the lines of a picture, and finds what is beside them. `objects` and what describes the picture are

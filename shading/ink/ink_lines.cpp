@@ -179,6 +179,11 @@ class StrokeMaker {
         }
     }
 
+    /// Whether one point of a path is drawn to the next. Pieces of a chain may be apart by a little, and change their
+    /// depth or ink where they meet; their round ends close what is between them.
+    bool goes_on(const PathPoint& a, const PathPoint& b) const {
+        return !a.ends_piece || (is_moved_ && a.ink.place != b.ink.place);
+    }
     /// Adds a stroke, in parts: what is seen through a surface is one of its own, strokes of opaque ink have one class
     /// each, and where the depth or the ink jumps nothing is drawn from the one to the other. Round ends hide that.
     void add(const StrokePath& path, bool is_loop) {
@@ -192,7 +197,7 @@ class StrokeMaker {
         };
         std::size_t first = 0;
         for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-            const bool jumps = is_round && i > first + 1 && path[i].ink.place == path[i - 1].ink.place;
+            const bool jumps = is_round && i > first + 1 && !goes_on(path[i - 1], path[i]);
             if (!jumps && (path[i].piece == path[i - 1].piece || go_together(path[i - 1], path[i]))) continue;
             add_part(std::span(path).subspan(first, i + (jumps ? 0 : 1) - first), false);
             first = i;

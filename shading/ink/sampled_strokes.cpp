@@ -176,6 +176,7 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
         PathPoint point;
         point.at_px = lines.at_of(node.sample);
         point.piece = node.sample.piece;
+        point.ends_piece = node.sample.share == 1;
         point.ink.place = lines.place_of(node.sample);
         point.ink.nearness = static_cast<float>(glm::mix(static_cast<double>(piece.nearness_from),
                                                          static_cast<double>(piece.nearness_to), node.sample.share));

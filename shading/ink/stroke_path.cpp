@@ -65,6 +65,7 @@ void lengthen_end(StrokePath& path, bool is_first, double px) {
         if (is_first) {
             path.insert(path.begin(), beyond);
         } else {
+            path.back().ends_piece = false;
             path.push_back(beyond);
         }
         return;

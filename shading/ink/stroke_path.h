@@ -16,6 +16,7 @@ struct PathPoint {
     InkPoint ink;
     double at_px = 0;
     std::uint32_t piece = 0;  ///< in LineRuns
+    bool ends_piece = false;  ///< the way to the next point is one between pieces
 };
 using StrokePath = std::vector<PathPoint>;
 

@@ -18,32 +18,7 @@ std::string classes_of(LineClassSet classes) {
     return text;
 }
 
-struct Difference {
-    std::size_t count = 0;
-    double most = 0, sum_a = 0, sum_b = 0;
-    std::string where;
-};
-Difference difference(const Image& a, const Image& b) {
-    Difference d;
-    for (const Channel& channel : a.channels()) {
-        const Channel* other = b.find(channel.name);
-        if (other == nullptr) continue;
-        for (int y = 0; y < a.height(); ++y) {
-            for (int x = 0; x < a.width(); ++x) {
-                const double p = a.value(channel, x, y), q = b.value(*other, x, y);
-                if (channel.name == "lines.A") d.sum_a += p, d.sum_b += q;
-                if (p == q) continue;
-                ++d.count;
-                if (std::abs(p - q) > d.most) {
-                    d.most = std::abs(p - q);
-                    d.where = channel.name + " " + std::to_string(x) + "," + std::to_string(y) + ": " +
-                              std::to_string(p) + " " + std::to_string(q);
-                }
-            }
-        }
-    }
-    return d;
-}
+constexpr int kWidth = 200, kHeight = 160;
 
 struct PlainLook {
     std::string name, sheet;
@@ -69,84 +44,30 @@ std::vector<PlainLook> plain_looks() {
     };
 }
 
-TEST(StyledPlain, DISABLED_Explore) {
-    for (const char* scene_name : {"cube", "still_life", "crossing", "flange", "teapot", "star", "cage"}) {
-        const std::string path = BURIN_SOURCE_FOLDER "/scenes/" + std::string(scene_name) + ".toml";
-        for (const PlainLook& look : plain_looks()) {
-            std::vector<Override> overrides = look.overrides;
-            overrides.push_back({"lines.color", "\"#000000\""});
-            for (const std::string_view c : kLineClassNames)
-                overrides.push_back({"lines.colors." + std::string(c), "\"#000000\""});
-            Scene scene = load_scene(read_scene_file(path, overrides));
-            const Camera camera = resolve_camera(scene.cameras.front(), scene_points(scene), 200.0 / 160);
-            Frame frame = make_frame(scene, camera, 200, 160, {0, 0, 200, 160});
-            frame.needs.whole_picture = true;
-            LayerSet layers{true, true, true, true, true, true, true, true};
-            Film film({0, 0, 200, 160}, frame.crop, layers, frame.criteria.classes);
-            RunOptions options;
-            options.threads = 1;
-            render_abuffer(frame, options, film);
-            const Image plain = film.image();
-            std::string sheet = look.sheet;
-            for (std::size_t at; (at = sheet.find("CLASSES")) != std::string::npos;)
-                sheet.replace(at, 7, classes_of(scene.lines.classes));
-            SceneDescription description = read_scene_file(path, {{"lines.draw", "\"all\""}});
-            const ShadedScene styled(std::move(description), sheet, 200, 160);
-            const Difference d = difference(plain, styled.draw());
-            std::printf("%-12s %-8s %zu differ, most %.4f (%s), mass %.2f %.2f\n", scene_name, look.name.c_str(),
-                        d.count, d.most, d.where.c_str(), d.sum_a, d.sum_b);
-        }
-    }
-}
+class StyledPlain : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, StyledPlain,
+                         ::testing::Values("cage", "crossing", "cube", "flange", "star", "still_life", "teapot"),
+                         [](const auto& of) { return of.param; });
 
-TEST(StyledPlain, DISABLED_Classes) {
-    for (const char* scene_name : {"teapot", "cage"}) {
-        const std::string path = BURIN_SOURCE_FOLDER "/scenes/" + std::string(scene_name) + ".toml";
-        const ShadedScene styled(read_scene_file(path, {}),
-                                 "[style.ink]\n[[set]]\nname='a'\nstyle='ink'\nclasses=['border','silhouette','crease',"
-                                 "'object','intersection']\n",
-                                 200, 160);
-        const FoundLines f = styled.found();
-        for (const RunPiece& p : f.runs.pieces) {
-            if ((p.piece.classes & f.classes).first() != p.piece.drawn_as)
-                std::printf("%s %x %x drawn %d at %f %f line %lx\n", scene_name, p.piece.classes.bits, f.classes.bits,
-                            (int)p.piece.drawn_as, p.piece.from.x, p.piece.from.y, p.piece.line.bits);
-        }
+/// The pictures are equal to the bit, layers of classes and of hidden lines as well. Only where creases that fade meet
+/// do they differ: of these, [lines] shows the more opaque one, and a sheet lays one over the other.
+TEST_P(StyledPlain, IsWhatLinesSay) {
+    const std::string path = BURIN_SOURCE_FOLDER "/scenes/" + GetParam() + ".toml";
+    for (const PlainLook& look : plain_looks()) {
+        if (look.name == "fading" && (GetParam() == "cage" || GetParam() == "teapot")) continue;
+        std::vector<Override> overrides = look.overrides;
+        for (const std::string_view c : kLineClassNames)
+            overrides.push_back({"lines.colors." + std::string(c), "\"#000000\""});
+        ShadedScene plain(read_scene_file(path, overrides), kWidth, kHeight);
+        std::string sheet = look.sheet;
+        for (std::size_t at; (at = sheet.find("CLASSES")) != std::string::npos;)
+            sheet.replace(at, 7, classes_of(plain.scene().lines.classes));
+        const ShadedScene styled(read_scene_file(path, {{"lines.draw", "\"all\""}}), sheet, kWidth, kHeight);
+        // Sheets look for edges that another one covers, too.
+        Frame frame = plain.frame(plain.whole());
+        frame.needs.whole_picture = true;
+        EXPECT_TRUE(same_bits(plain.draw(frame), styled.draw())) << look.name;
     }
-}
-
-TEST(StyledPlain, DISABLED_Boundaries) {
-    const std::string path = BURIN_SOURCE_FOLDER "/scenes/teapot.toml";
-    Scene scene = load_scene(read_scene_file(path, {}));
-    const Camera camera = resolve_camera(scene.cameras.front(), scene_points(scene), 200.0 / 160);
-    Frame frame = make_frame(scene, camera, 200, 160, {0, 0, 200, 160});
-    frame.needs.whole_picture = true;
-    Film film({0, 0, 200, 160}, frame.crop, LayerSet{}, frame.criteria.classes);
-    RunOptions options;
-    LineDrawing d = find_drawing(frame, options, film);
-    const auto near = [](glm::dvec2 p) { return glm::distance(p, glm::dvec2(134.5, 56.5)) < 3; };
-    for (const auto& list : d.visible())
-        for (const LinePiece& p : list)
-            if (near(p.from))
-                std::printf("P %f %f - %f %f occ %d drawn %d as %d cl %x near %g left %d\n", p.from.x, p.from.y, p.to.x,
-                            p.to.y, p.occludes, p.is_drawn, (int)p.drawn_as, p.classes.bits, p.nearness_from,
-                            p.front_on_left);
-    const ShadedScene styled(read_scene_file(path, {}),
-                             "[style.ink]\n[[set]]\nname='a'\nstyle='ink'\nclasses=['border','silhouette','crease','"
-                             "object','intersection']\n",
-                             200, 160);
-    InkedLines f = styled.inked();
-    for (const InkBoundary& p : f.boundaries)
-        if (near(p.from))
-            std::printf("B %f %f - %f %f drawn %d as %d near %g left %d\n", p.from.x, p.from.y, p.to.x, p.to.y,
-                        p.is_drawn, (int)p.order.drawn_as, p.nearness_from, p.front_on_left);
-    for (const InkStroke& s : f.strokes)
-        for (std::size_t i = 0; i + 1 < s.point_count; ++i) {
-            const InkPoint& p = f.points[s.first_point + i];
-            if (near(p.place))
-                std::printf("S %f %f as %d near %g occ %d left %d behind %d w %f\n", p.place.x, p.place.y,
-                            (int)s.order.drawn_as, p.nearness, p.occludes, p.front_on_left, s.is_behind, p.width_px);
-        }
 }
 
 }  // namespace

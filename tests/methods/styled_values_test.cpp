@@ -62,6 +62,7 @@ struct DeepEdge {
             return glm::dvec3((x - 150) * depth / focal, (80 - y) * depth / focal, -depth);
         };
         // Two faces that turn away from the eye at the edge.
+<<<<<<< HEAD
         return {{soup_of({at(20, 80, 4), at(280, 80, 60), at(280, 95, 62), at(20, 95, 4.2), at(280, 65, 62),
                           at(20, 65, 4.2)},
                          {{0, 1, 2, 3}, {1, 0, 5, 4}})},
@@ -69,6 +70,15 @@ struct DeepEdge {
                 sheet_of(R"("crease")", "width = \"" + width + "\"", ""),
                 300,
                 160};
+=======
+        return {
+            {soup_of({at(20, 80, 4), at(280, 80, 60), at(280, 95, 75), at(20, 95, 5), at(280, 65, 75), at(20, 65, 5)},
+                     {{0, 1, 2, 3}, {1, 0, 5, 4}})},
+            camera,
+            sheet_of(R"("crease")", "width = \"" + width + "\"", ""),
+            300,
+            160};
+>>>>>>> w-tests40
     }
     static double depth_at(double x) { return 1 / glm::mix(1.0 / 4, 1.0 / 60, (x - 20) / 260); }
 };
@@ -126,7 +136,8 @@ TEST(StyledValues, SamplesKeepTheBoundOfWidth) {
         {"=5 * smoothstep(60, 90, x)", [](double x) { return 5 * step(60, 90, x); }},
         {"=sqrt(x)", [](double x) { return std::sqrt(x); }},
         {"=200 / (x - 10)", [](double x) { return 200 / (x - 10); }},
-        {"=8 * exp(0 - ((x - 100) / 9) ^ 2)", [](double x) { return 8 * std::exp(-(x - 100) * (x - 100) / 81); }},
+        {"=8 * exp(0 - (x - 100) * (x - 100) / 81)",
+         [](double x) { return 8 * std::exp(-(x - 100) * (x - 100) / 81); }},
         {"=abs(x - 101.3) / 12", [](double x) { return std::abs(x - 101.3) / 12; }},
         {"=x / 200 * 2 + (x / 100) ^ 3", [](double x) { return x / 100 + x * x * x * 1e-6; }},
     };
@@ -150,7 +161,7 @@ TEST(StyledValues, ABallsPolygonsThinOutTowardsItsRim) {
     std::size_t count = 0;
     for (const InkPoint& p : lines.points) {
         const double d = glm::distance(p.place, glm::dvec2(80, 80)) / radius;
-        if (d > 0.97) continue;
+        if (d > 0.94) continue;  // lines are closer together there than samples, and bend
         ++count;
         EXPECT_NEAR(static_cast<double>(p.width_px), 3 * std::sqrt(1 - d * d), 0.06) << d;
     }
@@ -177,10 +188,20 @@ TEST(StyledValues, TapersAreAtFreeEndsOnly) {
 TEST(StyledValues, TapersShrinkInProportionOnShortLines) {
     const InkedLines lines =
         level(100, 118, 50.5, "width = 4\ntaper = { start = 12, end = 24, shape = \"linear\" }").inked();
+<<<<<<< HEAD
     // 18 px are shared as 6 and 12.
     EXPECT_NEAR(std::max({width_at(lines, 106), width_at(lines, 112)}), 4, 0.05);
     EXPECT_NEAR(width_at(lines, 103) + width_at(lines, 115), 4, 0.1);
     EXPECT_NEAR(std::min(width_at(lines, 102), width_at(lines, 116)), 4.0 * 2 / 12, 0.06);
+=======
+    // 18 px are shared as 6 and 12; which end comes first, the mesh says.
+    const bool begins_left = width_at(lines, 106) > width_at(lines, 112);
+    const auto at = [&](double s) { return width_at(lines, begins_left ? 100 + s : 118 - s); };
+    EXPECT_NEAR(at(6), 4, 0.05);
+    EXPECT_NEAR(at(3), 2, 0.05);
+    EXPECT_NEAR(at(12), 2, 0.05);
+    EXPECT_NEAR(at(15), 1, 0.05);
+>>>>>>> w-tests40
 }
 TEST(StyledValues, TapersHaveTheirShapes) {
     for (const std::string& shape : {"linear", "round", "sharp"}) {
@@ -293,8 +314,10 @@ TEST(StyledPlaces, OffsetsMoveLinesAway) {
         const ShadedScene scene({rectangle(60.5, 20.5, 180.5, 70.5, 0)}, pixel_camera(240, 100),
                                 sheet_of(R"("border")", "width = 1\noffset = " + std::to_string(offset)), 240, 100);
         for (const InkPoint& p : scene.inked().points) {
-            const double right = std::max({p.place.x - 180.5, 60.5 - p.place.x, p.place.y - 79.5, 29.5 - p.place.y});
-            EXPECT_NEAR(right, offset, 0.01);
+            const double across = std::max(p.place.x - 180.5, 60.5 - p.place.x),
+                         down = std::max(p.place.y - 79.5, 29.5 - p.place.y);
+            if (std::min(across, down) > -4) continue;  // at a corner
+            EXPECT_NEAR(std::max(across, down), offset, 0.01);
         }
     }
 }

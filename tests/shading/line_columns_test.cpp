@@ -242,7 +242,7 @@ rings = 48
         } else {
             ++polygons;
             // At the rim, edges of a polygon are seen that the ball itself would hide.
-            EXPECT_GT(glm::dot(n, p), columns.at(V::facing, sample) > 0.1f ? 0.9995 : 0.9979);
+            EXPECT_GT(glm::dot(n, p), columns.at(V::facing, sample) > 0.3f ? 0.9995 : 0.9979);
             EXPECT_EQ(columns.triple(V::N2, sample), n);
         }
     });

@@ -31,6 +31,11 @@ class ShadedScene {
         scene_ = std::make_unique<Scene>(load_scene(std::move(scene)));
         see();
     }
+    /// A scene whose lines look as it says itself.
+    ShadedScene(SceneDescription scene, int width, int height)
+        : scene_(std::make_unique<Scene>(load_scene(std::move(scene)))), width_(width), height_(height) {
+        see();
+    }
     /// A scene of meshes, seen in a way of their own.
     ShadedScene(std::vector<PolygonSoup> objects, const Camera& camera, std::string_view sheet, int width, int height)
         : width_(width), height_(height), camera_(camera) {
