@@ -96,9 +96,10 @@ void add_method_option(CLI::App& app, Texts& t) {
 void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("-o,--output", t.output,
                    "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
-    app.add_option("--layers", t.layers,
-                   "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden (default: the first five; the "
-                   "last with --hidden)");
+    app.add_option(
+        "--layers", t.layers,
+        "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden, and lines_NAME of sets of a style "
+        "sheet (default: the first five; lines_hidden with --hidden; those of sets that have one)");
     app.add_option("-f,--frames", t.frames, "frames to render (not in this version)");
     app.add_option("--crop", t.crop, "render only these pixels, X0,Y0,X1,Y1, half open");
     app.add_option("--memory", t.memory,
