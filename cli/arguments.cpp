@@ -97,9 +97,10 @@ void add_method_option(CLI::App& app, Texts& t) {
 void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("-o,--output", t.output,
                    "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
-    app.add_option("--layers", t.layers,
-                   "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden (default: the first five; the "
-                   "last with --hidden)");
+    app.add_option(
+        "--layers", t.layers,
+        "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden, and lines_NAME of sets of a style "
+        "sheet (default: the first five; lines_hidden with --hidden; those of sets that have one)");
     app.add_option("--save-lines", t.save_lines,
                    "write the lines found to this file .lines, for burin restyle; needs a style sheet");
     app.add_flag("--save-surface", t.save_surface, "keep the filled surfaces in it, too");

@@ -147,8 +147,9 @@ TypedValue ExpressionBuilder::ramp_named(const TypedValue& name, const TypedValu
 }
 
 template <typename IsIn>
-TypedValue ExpressionBuilder::one_of(const TypedValue& value, const IsIn& is_in) {
+TypedValue ExpressionBuilder::one_of(const TypedValue& value, std::size_t patterns, const IsIn& is_in) {
     const NameList& list = *value.names;
+    count_steps(list.names.size() * patterns / 128);  // scenes may have very many objects
     std::vector<float> table{0};
     for (std::size_t i = 0; i < list.names.size(); ++i) {
         if (!is_in(list.names[i])) {
@@ -179,7 +180,7 @@ TypedValue ExpressionBuilder::is_name(const TypedValue& value, const TypedValue&
         fail(pattern.begin,
              "unknown " + list.kind + " " + in_quotes(pattern.text) + suggestion_of(pattern.text, list.names));
     }
-    return one_of(value, [&](const std::string& name) { return matches_glob(pattern.text, name); });
+    return one_of(value, 1, [&](const std::string& name) { return matches_glob(pattern.text, name); });
 }
 
 TypedValue ExpressionBuilder::membership(const Token& group, const TypedValue& value) {
@@ -192,7 +193,8 @@ TypedValue ExpressionBuilder::membership(const Token& group, const TypedValue& v
             other_kind = &candidate;
             continue;
         }
-        return one_of(value, [&](const std::string& name) { return matches_globs(candidate.patterns, name); });
+        return one_of(value, candidate.patterns.size(),
+                      [&](const std::string& name) { return matches_globs(candidate.patterns, name); });
     }
     if (other_kind != nullptr)
         fail(group.offset, "the group " + in_quotes(group.words) + " is one of kind '" + other_kind->kind + "', not '" +

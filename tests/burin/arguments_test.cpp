@@ -114,7 +114,8 @@ TEST(Arguments, EveryNumberOfAViewIsChecked) {
     expect_refused([](burin_view& v) { v.fov_deg = 180; }, "fov_deg");
     expect_refused([](burin_view& v) { v.shift[0] = 0.25; }, "shift");
     expect_refused([](burin_view& v) { v.pixel_aspect = 2; }, "pixel_aspect");
-    expect_refused([](burin_view& v) { v.frame = 1; }, "frame");
+    for (const int bad : {1000000001, -1000000001, std::numeric_limits<int>::min()})
+        expect_refused([&](burin_view& v) { v.frame = bad; }, "frame");
     for (const int bad : {-1, 1, 3, 16, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()})
         expect_refused([&](burin_view& v) { v.samples = bad; }, "samples");
     for (const int bad : {-1, 0, 65536, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {

@@ -62,7 +62,6 @@ TEST_F(Usage, CommandsAndInputs) {
 
 TEST_F(Usage, WhatIsNotInThisVersion) {
     const std::string words = "not in this version";
-    expect_bad_options({"--style", "blueprint"}, words);
     expect_bad_options({"--frames", "1-10"}, words);
     expect_bad_options({"-f", "1,5"}, words);
     for (const char* output : {"a.svg", "a.pdf", "a.####.exr", "a.%04d.png"}) {

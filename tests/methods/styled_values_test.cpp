@@ -62,15 +62,6 @@ struct DeepEdge {
             return glm::dvec3((x - 150) * depth / focal, (80 - y) * depth / focal, -depth);
         };
         // Two faces that turn away from the eye at the edge.
-<<<<<<< HEAD
-        return {{soup_of({at(20, 80, 4), at(280, 80, 60), at(280, 95, 62), at(20, 95, 4.2), at(280, 65, 62),
-                          at(20, 65, 4.2)},
-                         {{0, 1, 2, 3}, {1, 0, 5, 4}})},
-                camera,
-                sheet_of(R"("crease")", "width = \"" + width + "\"", ""),
-                300,
-                160};
-=======
         return {
             {soup_of({at(20, 80, 4), at(280, 80, 60), at(280, 95, 75), at(20, 95, 5), at(280, 65, 75), at(20, 65, 5)},
                      {{0, 1, 2, 3}, {1, 0, 5, 4}})},
@@ -78,7 +69,6 @@ struct DeepEdge {
             sheet_of(R"("crease")", "width = \"" + width + "\"", ""),
             300,
             160};
->>>>>>> w-tests40
     }
     static double depth_at(double x) { return 1 / glm::mix(1.0 / 4, 1.0 / 60, (x - 20) / 260); }
 };
@@ -188,12 +178,6 @@ TEST(StyledValues, TapersAreAtFreeEndsOnly) {
 TEST(StyledValues, TapersShrinkInProportionOnShortLines) {
     const InkedLines lines =
         level(100, 118, 50.5, "width = 4\ntaper = { start = 12, end = 24, shape = \"linear\" }").inked();
-<<<<<<< HEAD
-    // 18 px are shared as 6 and 12.
-    EXPECT_NEAR(std::max({width_at(lines, 106), width_at(lines, 112)}), 4, 0.05);
-    EXPECT_NEAR(width_at(lines, 103) + width_at(lines, 115), 4, 0.1);
-    EXPECT_NEAR(std::min(width_at(lines, 102), width_at(lines, 116)), 4.0 * 2 / 12, 0.06);
-=======
     // 18 px are shared as 6 and 12; which end comes first, the mesh says.
     const bool begins_left = width_at(lines, 106) > width_at(lines, 112);
     const auto at = [&](double s) { return width_at(lines, begins_left ? 100 + s : 118 - s); };
@@ -201,7 +185,6 @@ TEST(StyledValues, TapersShrinkInProportionOnShortLines) {
     EXPECT_NEAR(at(3), 2, 0.05);
     EXPECT_NEAR(at(12), 2, 0.05);
     EXPECT_NEAR(at(15), 1, 0.05);
->>>>>>> w-tests40
 }
 TEST(StyledValues, TapersHaveTheirShapes) {
     for (const std::string& shape : {"linear", "round", "sharp"}) {

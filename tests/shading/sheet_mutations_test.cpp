@@ -240,6 +240,27 @@ TEST(SheetMutations, TooMuchWorkIsRefused) {
     }
 }
 
+/// Patterns are matched with the names of a scene, which may have many.
+TEST(SheetMutations, PatternsForManyObjectsAreWork) {
+    SheetContext many;
+    for (int i = 0; i < 3000; ++i) many.objects.push_back("object" + std::to_string(i));
+    std::string patterns;
+    for (int i = 0; i < 256; ++i) patterns += "\"*" + std::to_string(i) + "*x*\", ";
+    const auto compile = [&](const std::string& select) {
+        const std::string text =
+            "[groups]\nall = { objects = [" + patterns + "] }\n[style.s]\n" + kSet + "select = '" + select + "'\n";
+        try {
+            const CompiledSheet compiled(read_sheet_text(text, "s.toml"), many);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(compile("object in all or object2 in all or object == \"object1?\""), "");
+    const std::string error = compile(repeated("object in all or ", 4000) + "1");
+    EXPECT_NE(error.find("the expressions of this sheet are too many or too long"), std::string::npos) << error;
+}
+
 /// What people write is far from that.
 TEST(SheetMutations, ALargeSheetIsNotTooMuch) {
     std::string text = kSet + "[let]\n";
