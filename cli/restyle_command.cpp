@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/json_writer.h"
 #include "base/stopwatch.h"
+#include "base/stream_store.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/output_options.h"
@@ -68,14 +69,17 @@ LayerSet layers_for(const Arguments& a, const Scene& scene, const OutputOptions&
 /// Puts the surfaces that were kept, or none.
 void put_surfaces(const KeptSurface& surface, const Frame& frame, Film& film) {
     for (int y = frame.crop.y0; y < frame.crop.y1; ++y) {
+        film.put_background(frame.crop.x0, frame.crop.x1, y);
+        if (surface.pixels.empty()) continue;
+        finish_stream_stores();
         for (int x = frame.crop.x0; x < frame.crop.x1; ++x) {
-            if (surface.pixels.empty()) continue;
             const std::size_t i =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) + static_cast<std::size_t>(x);
             const auto& p = surface.pixels[i];
             film.replace_surface(x, y, {p[0], p[1], p[2], p[3]});
         }
     }
+    finish_stream_stores();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/stream_store.h"
 #include "image/image_io.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
@@ -124,6 +125,7 @@ class StrokeExplainer {
         Film film({0, 0, frame_.width, frame_.height}, pixel_.crop,
                   {true, false, false, false, false, false, false, false, {}}, frame_.criteria.classes);
         film.put_background(x_, x_ + 1, y_);
+        finish_stream_stores();
         draw_ink(pixel_, some, 1, film);
         const Channel* const alpha = film.image().find("A");
         return alpha == nullptr ? 0 : film.image().value(*alpha, 0, 0);

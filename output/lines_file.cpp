@@ -106,6 +106,7 @@ class ArrayReader {
         check_tiling();
     }
 
+    const std::string& path() const { return path_; }
     JsonPlace metadata() const { return JsonPlace(path_, json_, "").at("__metadata__"); }
 
     /// The rows of an array that there must be. `rows`: how many, or ~0 for any number.
@@ -317,7 +318,7 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
 /// MetadataReader reads what the directory says beside arrays.
 class MetadataReader {
   public:
-    explicit MetadataReader(const ArrayReader& in) : in_(in), data_(in.metadata()) {}
+    explicit MetadataReader(const ArrayReader& in) : in_(in), data_(in.metadata()), file_(in.path()) {}
 
     std::int64_t integer(const char* key, std::int64_t least, std::int64_t most) const {
         const double number = parsed(key).number();
@@ -349,7 +350,7 @@ class MetadataReader {
 
     const ArrayReader& in_;
     JsonPlace data_;
-    std::string file_ = "the .lines file";
+    std::string file_;
     mutable nlohmann::json json_;
 };
 

@@ -33,8 +33,8 @@ std::string missing_for(const StyleSheet& style, const SheetNeeds& sheet, const 
     const auto differs = [](double a, double b) { return std::abs(a - b) > 1e-9; };
     add(style.crease_angle_deg && (differs((*style.crease_angle_deg)[0], lines.crease_angle_deg[0]) ||
                                    differs((*style.crease_angle_deg)[1], lines.crease_angle_deg[1])),
-        "creases by its crease_angle, which is another one");
-    add(style.smooth_contours && *style.smooth_contours != lines.has_smooth_contours, "its other kind of contours");
+        "creases by another crease_angle");
+    add(style.smooth_contours && *style.smooth_contours != lines.has_smooth_contours, "other contours");
     return missing;
 }
 

@@ -40,15 +40,15 @@ TEST(Restyle, EqualsARenderToTheBit) {
 TEST(Restyle, DrawsOverTheSurfacesThatWereKept) {
     const TemporaryFolder folder;
     const std::string scene = scene_file("still_life.toml");
-    ASSERT_EQ(run_in(folder, {"render", scene, "-o", "a.png", "-r", "160x120", "-q", "--style", "comic", "--save-lines",
-                              "a.lines", "--save-surface", "--find", "all"})
+    ASSERT_EQ(run_in(folder, {"render", scene, "-o", "a.png", "-r", "160x120", "-q", "--style", "technical",
+                              "--save-lines", "a.lines", "--save-surface", "--find", "all"})
                   .err,
               "");
     ASSERT_EQ(
-        run_in(folder, {"render", scene, "-o", "b.png", "-r", "160x120", "-q", "--style", "pencil", "--find", "all"})
+        run_in(folder, {"render", scene, "-o", "b.png", "-r", "160x120", "-q", "--style", "strata", "--find", "all"})
             .err,
         "");
-    const ProgramResult result = run_in(folder, {"restyle", "a.lines", "-o", "c.png", "--style", "pencil", "-q"});
+    const ProgramResult result = run_in(folder, {"restyle", "a.lines", "-o", "c.png", "--style", "strata", "-q"});
     ASSERT_EQ(result.err, "");
     EXPECT_TRUE(read_file(folder.file("b.png")) == read_file(folder.file("c.png")));
 }

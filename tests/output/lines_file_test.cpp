@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/stream_store.h"
 #include "tests/support/random.h"
 #include "tests/support/shaded_scene.h"
 #include "tests/support/temporary_folder.h"
@@ -59,6 +60,8 @@ Image drawn(const ShadedScene& scene, const FoundLines& lines) {
     const Frame frame = scene.frame(scene.whole());
     Film film(scene.whole(), scene.whole(), {true, true, false, false, false, true, false, true, {}},
               frame.criteria.classes);
+    for (int y = 0; y < film.display().height(); ++y) film.put_background(0, film.display().width(), y);
+    finish_stream_stores();
     std::vector<std::string> notes;
     draw_found_lines(frame, lines, 1, film, notes);
     return film.image();
