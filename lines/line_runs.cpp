@@ -45,9 +45,9 @@ class FeatureRuns {
     bool take(const LinePiece& piece) {
         const auto line = index_.find(piece);
         if (!line) return false;
-        const auto& [at_from, at_to] = chains_.positions[*line];
+        const std::array<double, 2>& at = chains_.positions[*line];
         const auto place = [&](glm::dvec2 p) {
-            return glm::mix(at_from, at_to, WholeLineIndex::share_of(features_[*line], p));
+            return glm::mix(at[0], at[1], WholeLineIndex::share_of(features_[*line], p));
         };
         Placed placed{chain_of_[*line], piece.is_hidden(), {piece, place(piece.from), place(piece.to)}};
         if (placed.piece.at_to_px < placed.piece.at_from_px) {
