@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/interrupt.h"
+
 namespace burin {
 namespace {
 
@@ -158,6 +160,7 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
 }
 
 void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
+    throw_if_interrupted();
     placed_.clear();
     bool has_changes = false, has_thin = false, has_others = false;
     for (const InkSegmentRef& ref : segments) {
