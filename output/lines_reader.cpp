@@ -150,7 +150,8 @@ Value checked(const ArrayReader& in, const char* name, std::size_t row, std::uin
 }
 
 void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines& lines) {
-    if (data.text("format") != kLinesFormat) in.fail("__metadata__.format: must be '" + std::string(kLinesFormat) + "'");
+    if (data.text("format") != kLinesFormat)
+        in.fail("__metadata__.format: must be '" + std::string(kLinesFormat) + "'");
     lines.width_px = static_cast<int>(data.integer("width", 1, 65535));
     lines.height_px = static_cast<int>(data.integer("height", 1, 65535));
     lines.classes =
