@@ -151,8 +151,8 @@ void PieceChains::link_straightest(const std::vector<std::uint32_t>& ends) {
     }
     const auto key = [&](const Pair& p) {
         const glm::dvec2 a = place(p.a ^ 1), b = place(p.b ^ 1);
-        const auto [first, last] = std::minmax(std::pair(a.y, a.x), std::pair(b.y, b.x));
-        return std::tuple(p.cosine, first, last);
+        const std::pair at_a(a.y, a.x), at_b(b.y, b.x);
+        return std::tuple(p.cosine, std::min(at_a, at_b), std::max(at_a, at_b));
     };
     std::sort(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) { return key(p) < key(q); });
     for (const Pair& p : pairs) {

@@ -244,8 +244,8 @@ TEST(RunEnds, SayWhatStopsALine) {
 
 /// A line that goes around a body is not free where it leaves the visible side, whatever else is drawn.
 TEST(RunEnds, OfALineAroundABodyAreOccludedAtTheContour) {
-    for (const std::string& set : {"", "qi = [0, 255]"}) {
-        for (const std::string& classes : {R"("crease")", R"("crease", "silhouette")"}) {
+    for (const std::string set : {"", "qi = [0, 255]"}) {
+        for (const std::string classes : {R"("crease")", R"("crease", "silhouette")"}) {
             // A cylinder's lower rim, seen from above: its front half is seen. The upper one is a loop.
             const ShadedScene scene({transformed(make_cylinder(30, 30, 40, 48),
                                                  [](glm::dvec3 p) {
@@ -271,7 +271,7 @@ TEST(RunEnds, OfALineAroundABodyAreOccludedAtTheContour) {
 
 /// Seen from a side, the inner contour of a ring ends at cusps: nothing stops it there.
 TEST(RunEnds, AreFreeAtCusps) {
-    for (const std::string& contours : {"mesh", "smooth"}) {
+    for (const std::string contours : {"mesh", "smooth"}) {
         ShadedScene scene({transformed(make_torus(40, 15, 96, 48),
                                        [](glm::dvec3 p) {
                                            return glm::dvec3(100 + p.x, 80 + 0.954 * p.y - 0.3 * p.z,

@@ -137,7 +137,7 @@ TEST(StyledOrder, TheOrderOfObjectsChangesNothing) {
     const Image one = ShadedScene(camera + a + b + c, sheet, kWidth, kHeight).draw(),
                 other = ShadedScene(camera + c + b + a, sheet, kWidth, kHeight).draw();
     std::size_t different = 0;
-    for (const std::string& channel : {"R", "G", "lines.A", "lines.R"}) {
+    for (const std::string channel : {"R", "G", "lines.A", "lines.R"}) {
         for (int y = 0; y < kHeight; ++y) {
             for (int x = 0; x < kWidth; ++x)
                 different += value_at(one, channel, x, y) != value_at(other, channel, x, y);

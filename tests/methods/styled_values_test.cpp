@@ -161,7 +161,7 @@ TEST(StyledValues, ABallsPolygonsThinOutTowardsItsRim) {
 const PolygonSoup kPlate = rectangle(100, 20, 140, 80, 30);  // before the middle of a line from 20 to 220
 
 TEST(StyledValues, TapersAreAtFreeEndsOnly) {
-    for (const std::string& set : {"", "qi = [0, 255]"}) {
+    for (const std::string set : {"", "qi = [0, 255]"}) {
         const ShadedScene scene =
             level(20, 220, 50.5, "width = 4\ntaper = { start = 24, end = 24, shape = \"linear\" }", set, {kPlate});
         const InkedLines lines = scene.inked();
@@ -172,7 +172,9 @@ TEST(StyledValues, TapersAreAtFreeEndsOnly) {
             EXPECT_NEAR(width_at(lines, 20 + s), 4 * s / 24, 0.06);
             EXPECT_NEAR(width_at(lines, 220 - s), 4 * s / 24, 0.06);
         }
-        if (!set.empty()) EXPECT_NEAR(width_at(lines, 101), 4, 1e-3);
+        if (!set.empty()) {
+            EXPECT_NEAR(width_at(lines, 101), 4, 1e-3);
+        }
     }
 }
 TEST(StyledValues, TapersShrinkInProportionOnShortLines) {
@@ -187,7 +189,7 @@ TEST(StyledValues, TapersShrinkInProportionOnShortLines) {
     EXPECT_NEAR(at(15), 1, 0.05);
 }
 TEST(StyledValues, TapersHaveTheirShapes) {
-    for (const std::string& shape : {"linear", "round", "sharp"}) {
+    for (const std::string shape : {"linear", "round", "sharp"}) {
         const InkedLines lines =
             level(20, 220, 50.5, "width = 8\ntaper = { start = 40, end = 40, shape = \"" + shape + "\" }").inked();
         for (double s = 1; s < 45; s += 1.7) {
@@ -351,7 +353,9 @@ TEST(StyledPlaces, WobbleHoldsItsEndsAndStaysWithinItsAmplitude) {
     for (const InkPoint& p : lines.points) {
         most = std::max(most, std::abs(p.place.y - 50.5));
         sum += p.place.y - 50.5;
-        if (p.place.x < 20.01 || p.place.x > 219.99) EXPECT_NEAR(p.place.y, 50.5, 1e-6);
+        if (p.place.x < 20.01 || p.place.x > 219.99) {
+            EXPECT_NEAR(p.place.y, 50.5, 1e-6);
+        }
     }
     EXPECT_GT(most, 0.7);
     EXPECT_LE(most, 4.5);

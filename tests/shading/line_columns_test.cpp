@@ -37,7 +37,7 @@ translate = [0.3, -0.2, 0.1]
 )";
 
 TEST(LineColumns, PlacesAndDepthsAreThoseOfTheProjection) {
-    for (const std::string& projection : {"", "projection = \"orthographic\"\nheight = 4\n"}) {
+    for (const std::string projection : {"", "projection = \"orthographic\"\nheight = 4\n"}) {
         std::string text = kTurnedBox;
         text.insert(text.find("[[object]]"), projection);
         const ShadedScene scene(text, all_of(R"("crease", "silhouette")"));
@@ -126,7 +126,7 @@ TEST(LineColumns, NormalsOfABoxAreThoseOfItsFaces) {
 
 /// A box before a wall: how far behind its outline the wall is, and whose it is.
 TEST(LineColumns, TheGapIsTheWayToWhatIsSeenBehind) {
-    for (const std::string& projection : {"", "projection = \"orthographic\"\nheight = 4\n"}) {
+    for (const std::string projection : {"", "projection = \"orthographic\"\nheight = 4\n"}) {
         const ShadedScene scene("[camera]\neye = [0.7, 0.4, 6]\ntarget = [0, 0, 0]\nfov = 40\n" + projection + R"(
 [[material]]
 name = "red"
