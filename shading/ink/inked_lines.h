@@ -71,8 +71,8 @@ struct InkBoundary {
     glm::dvec2 from{0.0}, to{0.0};
     float nearness_from = 0, nearness_to = 0;
     bool front_on_left = false;
-    /// The order of the strokes that are drawn along it. Those that lie below these are covered by them, and so not
-    /// hidden by the boundary; nothing is drawn along it: is_drawn is false.
+    /// The order of the opaque strokes that are drawn along it, if is_drawn. They cover strokes that lie below them, so
+    /// the boundary need not hide these.
     InkOrder order;
     bool is_drawn = false;
     /// The full width of the opaque ink that is drawn along it. Wider strokes are not covered by that: it hides them.

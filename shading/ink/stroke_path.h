@@ -24,7 +24,7 @@ using StrokePath = std::vector<PathPoint>;
 /// that.
 void lengthen_end(StrokePath& path, bool is_first, double px);
 
-/// Averages width and opacity over so much to either side along the path.
+/// Makes width and opacity of each point their means over a length of `px` to either side along the path.
 void smooth_ink(StrokePath& path, double px, bool is_closed);
 
 /// A pattern of dashes along chains.

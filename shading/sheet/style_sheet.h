@@ -27,7 +27,7 @@ constexpr std::size_t kMostSheetExpressions = 256;
 constexpr std::size_t kMostSheetSteps = 200000;
 constexpr std::size_t kMostSheetSets = 256;
 constexpr std::size_t kMostSheetStyles = 64;
-constexpr std::size_t kMostSheetNames = 256;  ///< parameters, groups, lets, ramps: so many of each
+constexpr std::size_t kMostSheetNames = 256;  ///< of parameters, groups, lets and ramps: at most this many of each
 
 /// A text of a sheet, and how to find a character of it in the file.
 struct SheetText {
