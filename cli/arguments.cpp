@@ -34,6 +34,21 @@ struct Texts {
     bool quiet = false, json = false, strict = false, save_surface = false;
 };
 
+/// The picture file that a command writes, and its statistics.
+void add_file_options(CLI::App& app, Texts& t) {
+    app.add_option("-o,--output", t.output,
+                   "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
+    app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
+    app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
+    app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
+}
+
+void add_thread_options(CLI::App& app, Texts& t) {
+    app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
+    app.add_flag("-v", t.verbose, "say more");
+    app.add_flag("-q", t.quiet, "say nothing but errors");
+}
+
 void add_strict_option(CLI::App& app, Texts& t) {
     app.add_flag("--strict", t.strict, "refuse a model of which a part would be left out with a note");
 }
@@ -84,10 +99,8 @@ void add_scene_options(CLI::App& app, Texts& t) {
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
-    app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
+    add_thread_options(app, t);
     add_strict_option(app, t);
-    app.add_flag("-v", t.verbose, "say more");
-    app.add_flag("-q", t.quiet, "say nothing but errors");
 }
 
 void add_method_option(CLI::App& app, Texts& t) {
@@ -95,8 +108,7 @@ void add_method_option(CLI::App& app, Texts& t) {
 }
 
 void add_render_options(CLI::App& app, Texts& t) {
-    app.add_option("-o,--output", t.output,
-                   "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
+    add_file_options(app, t);
     app.add_option(
         "--layers", t.layers,
         "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden, and lines_NAME of sets of a style "
@@ -113,17 +125,13 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--memory", t.memory,
                    "method abuffer: cap for the renderer's own memory beyond the model and the finished image, "
                    "e.g. 200M, 2G; the picture is made in smaller pieces and is the same");
-    app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
-    app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
-    app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
     app.add_option("--repeat", t.repeat, "render this many times and report the median times in --stats");
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }
 
 void add_restyle_options(CLI::App& app, Texts& t) {
     app.add_option("INPUT", t.input, "lines that burin render --save-lines has written")->required();
-    app.add_option("-o,--output", t.output,
-                   "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
+    add_file_options(app, t);
     app.add_option("--style", t.style, "style sheet: a name (see burin styles), or a file .toml")->required();
     app.add_option("-w,--line-width", t.width, "the sheet's parameter `width`");
     app.add_option("--color", t.color, "the sheet's parameter `color`");
@@ -135,12 +143,7 @@ void add_restyle_options(CLI::App& app, Texts& t) {
         ->allow_extra_args(false);
     app.add_option("--layers", t.layers, "layers of an EXR: beauty lines coverage surface lines_hidden");
     app.add_option("--crop", t.crop, "draw only these pixels, X0,Y0,X1,Y1, half open");
-    app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
-    app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
-    app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
-    app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
-    app.add_flag("-v", t.verbose, "say more");
-    app.add_flag("-q", t.quiet, "say nothing but errors");
+    add_thread_options(app, t);
 }
 
 void add_compare_options(CLI::App& app, Texts& t) {

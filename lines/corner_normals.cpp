@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "lines/sharp_edges.h"
+#include "lines/vertex_normal.h"
 
 namespace burin {
 namespace {
@@ -58,14 +59,6 @@ std::vector<std::int8_t> find_windings(const Mesh& mesh, std::vector<std::uint8_
         }
     }
     return windings;
-}
-
-double angle_at(const Mesh& mesh, HalfEdge corner) {
-    const auto& t = mesh.triangles[corner / 3];
-    const glm::dvec3 p = mesh.local_position(t[corner % 3]);
-    const glm::dvec3 a = mesh.local_position(t[(corner + 1) % 3]) - p;
-    const glm::dvec3 b = mesh.local_position(t[(corner + 2) % 3]) - p;
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 }  // namespace

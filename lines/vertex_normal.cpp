@@ -18,6 +18,8 @@ std::uint32_t start_of(const Mesh& mesh, HalfEdge h) { return mesh.triangles[h /
 /// Whether the triangles at an edge are wound the same way round: they run along it in opposite directions.
 bool are_alike(const Mesh& mesh, HalfEdge h, HalfEdge g) { return start_of(mesh, h) != start_of(mesh, g); }
 
+}  // namespace
+
 double angle_at(const Mesh& mesh, HalfEdge corner) {
     const auto& t = mesh.triangles[corner / 3];
     const glm::dvec3 p = mesh.local_position(t[corner % 3]);
@@ -25,8 +27,6 @@ double angle_at(const Mesh& mesh, HalfEdge corner) {
     const glm::dvec3 b = mesh.local_position(t[(corner + 2) % 3]) - p;
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
-
-}  // namespace
 
 bool is_smooth_edge(const Mesh& mesh, HalfEdge h, double cos_crease_angle) {
     const HalfEdge g = mesh.next_on_edge[h];

@@ -12,6 +12,9 @@ namespace burin {
 /// `corner` has the number of the half-edge that starts there.
 glm::dvec3 smooth_normal_at(const Mesh& mesh, HalfEdge corner, double cos_crease_angle);
 
+/// The angle of a triangle at a corner, in radians.
+double angle_at(const Mesh& mesh, HalfEdge corner);
+
 /// Whether a surface is smooth over an edge: it has two polygons, which turn by less than the crease angle, and is not
 /// marked.
 bool is_smooth_edge(const Mesh& mesh, HalfEdge h, double cos_crease_angle);

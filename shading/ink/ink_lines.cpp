@@ -11,7 +11,7 @@
 namespace burin {
 namespace {
 
-/// Stretches are evaluated in chunks of so many pieces, whichever thread takes them.
+/// Stretches are evaluated in chunks of this many pieces, which do not depend on the number of threads.
 constexpr std::size_t kChunkPieces = 512;
 
 /// The line sets of each piece.

@@ -130,14 +130,10 @@ void smooth_ink(StrokePath& path, double px, bool is_closed) {
     path = std::move(smoothed);
 }
 
-double DashPattern::period_px() const {
-    const double sum = std::accumulate(lengths_px.begin(), lengths_px.end(), 0.0);
-    return lengths_px.size() % 2 == 1 ? 2 * sum : sum;
-}
+double DashPattern::period_px() const { return std::accumulate(lengths_px.begin(), lengths_px.end(), 0.0); }
 
 double DashPattern::share() const {
     const double period = period_px();
-    if (lengths_px.size() % 2 == 1) return 0.5;
     double on = 0;
     for (std::size_t i = 0; i < lengths_px.size(); i += 2) on += lengths_px[i];
     return period > 0 ? on / period : 1;
@@ -148,16 +144,15 @@ void for_dashes(const StrokePath& path, const DashPattern& pattern, double loop_
     if (path.size() < 2) return;
     const double period = pattern.period_px();
     const double scale = loop_px > 0 ? loop_px / (period * std::max(1.0, std::round(loop_px / period))) : 1;
-    const std::size_t lengths = pattern.lengths_px.size(), marks = lengths % 2 == 1 ? 2 * lengths : lengths;
     const double begin = path.front().at_px, end = path.back().at_px;
     const double first = std::floor((begin / scale + pattern.phase_px) / period) - 1;
     for (double turn = first;; ++turn) {
         double at = (turn * period - pattern.phase_px) * scale;
         if (at > end) break;
-        for (std::size_t mark = 0; mark < marks; ++mark) {
-            const double from = at, to = at + pattern.lengths_px[mark % lengths] * scale;
+        for (std::size_t mark = 0; mark < pattern.lengths_px.size(); ++mark) {
+            const double from = at, to = at + pattern.lengths_px[mark] * scale;
             at = to;
-            if (mark % 2 == 1 || to < begin || from > end) continue;
+            if (mark % 2 == 1 || to <= begin || from >= end) continue;  // nothing of it is on the path
             StrokePath dash = cut(path, std::max(from, begin), std::min(to, end));
             if (dash.size() < 2) continue;
             if (pattern.has_round_caps) {

@@ -29,7 +29,7 @@ void smooth_ink(StrokePath& path, double px, bool is_closed);
 
 /// A pattern of dashes along chains.
 struct DashPattern {
-    std::vector<double> lengths_px;  ///< on, off, on, off ...; of an odd number, the pattern is taken twice
+    std::vector<double> lengths_px;  ///< on, off, on, off ...: an even number
     double phase_px = 0;
     bool has_round_caps = true;  ///< a dash includes the round ends of its pen
 

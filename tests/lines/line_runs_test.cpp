@@ -269,6 +269,25 @@ TEST(RunEnds, OfALineAroundABodyAreOccludedAtTheContour) {
     }
 }
 
+/// A contour has no chain beyond what is seen of it: only the nearer surface's own contour tells why it ends.
+TEST(RunEnds, OfAContourBehindAnotherObjectAreOccluded) {
+    const auto ball_at = [](double x, double z) {
+        return transformed(make_sphere(25, 64, 32), [=](glm::dvec3 p) { return glm::dvec3(x, 50, z) + p; });
+    };
+    const ShadedScene scene({ball_at(45, 0), ball_at(75, 80)}, pixel_camera(120, 100),
+                            sheet_of(R"("silhouette")", "width = \"=1 + t\""), 120, 100);
+    const FoundLines lines = scene.found();
+    int loops = 0, arcs = 0;
+    for (const LineRun& run : lines.runs.runs) {
+        if (lines.runs.length_px(run) < 8) continue;
+        (run.is_closed ? loops : arcs) += 1;
+        if (run.is_closed) continue;
+        EXPECT_EQ(run.ends, (std::array{RunEnd::occluded, RunEnd::occluded}));
+    }
+    EXPECT_EQ(loops, 1);
+    EXPECT_EQ(arcs, 1);
+}
+
 /// Seen from a side, the inner contour of a ring ends at cusps: nothing stops it there.
 TEST(RunEnds, AreFreeAtCusps) {
     for (const std::string contours : {"mesh", "smooth"}) {
