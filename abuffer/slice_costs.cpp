@@ -13,7 +13,6 @@
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 1 << 14;
 // The numbers below are bytes. Lists that grow may have twice the room that they need.
 constexpr std::uint64_t kPerSmall = sizeof(TileTriangle);
 // A chunk's list in a tile, as found and as sorted, and the room behind it.

@@ -11,6 +11,9 @@ target_compile_options(burin_flags INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(burin_flags INTERFACE -Wno-restrict)  # g++ 12 sees overlaps in every "text" + string (GCC bug 105651)
 endif()
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(burin_flags INTERFACE -Wno-subobject-linkage)  # of private types in a source file that is included
+endif()
 if(BURIN_WERROR)
     target_compile_options(burin_flags INTERFACE -Werror)
 endif()

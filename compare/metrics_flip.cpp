@@ -1,6 +1,7 @@
 #include "compare/metrics_flip.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "image/image_io.h"
 
@@ -8,12 +9,11 @@ namespace burin {
 namespace {
 
 constexpr double kPixelsPerDegree = 67.0206;
-constexpr double kColorExponent = .7;      // q_c
-constexpr double kKnee = .4;               // p_c: share of the largest difference ...
-constexpr double kKneeValue = .95;         // p_t: ... that is mapped to this value
-constexpr double kFeatureWidthDeg = .082;  // w
-constexpr double kFeatureExponent = .5;    // q_f
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kColorExponent = .7;                       // q_c
+constexpr double kKnee = .4;                                // p_c: share of the largest difference ...
+constexpr double kKneeValue = .95;                          // p_t: ... that is mapped to this value
+constexpr double kFeatureWidthDeg = .082;                   // w
+constexpr double kFeatureExponent = .5;                     // q_f
 constexpr double kWhite[3] = {.950428545, 1, 1.088900371};  // D65
 
 struct Vec3 {
@@ -77,7 +77,8 @@ struct Sensitivity {
 constexpr Sensitivity kSensitivities[3] = {{1, .0047, 0, 1e-5}, {1, .0053, 0, 1e-5}, {34.1, .04, 13.5, .025}};
 
 int sensitivity_radius() {
-    return static_cast<int>(std::ceil(3 * std::sqrt(.04 / (2 * kPi * kPi)) * kPixelsPerDegree));
+    return static_cast<int>(
+        std::ceil(3 * std::sqrt(.04 / (2 * std::numbers::pi * std::numbers::pi)) * kPixelsPerDegree));
 }
 
 Plane filtered(const Plane& plane, const Sensitivity& s, int threads) {
@@ -91,11 +92,11 @@ Plane filtered(const Plane& plane, const Sensitivity& s, int threads) {
         double sum = 0;
         for (int i = -radius; i <= radius; ++i) {
             const double x = i / kPixelsPerDegree;
-            sum += std::exp(-kPi * kPi * x * x / terms[k][1]);
+            sum += std::exp(-std::numbers::pi * std::numbers::pi * x * x / terms[k][1]);
         }
-        const double sigma_px = std::sqrt(terms[k][1] / (2 * kPi * kPi)) * kPixelsPerDegree;
+        const double sigma_px = std::sqrt(terms[k][1] / (2 * std::numbers::pi * std::numbers::pi)) * kPixelsPerDegree;
         kernels[k] = gaussian_kernel(sigma_px, radius);
-        weights[k] = terms[k][0] * std::sqrt(kPi / terms[k][1]) * sum * sum;
+        weights[k] = terms[k][0] * std::sqrt(std::numbers::pi / terms[k][1]) * sum * sum;
         total += weights[k];
     }
     for (int k = 0; k < 2; ++k) {

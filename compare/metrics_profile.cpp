@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <numeric>
 
 namespace burin {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kStepAcross_px = 0.125;
 
 /// Area of a unit square on the side u <= t of a line with unit normal n through a point t away
@@ -159,7 +159,7 @@ std::optional<Modulation> modulation(const LineSpread& spread) {
         std::complex<double> sum = 0;
         for (std::size_t i = 0; i < spread.mean.size(); ++i) {
             const double u = spread.first_u + static_cast<double>(i) * LineSpread::kBin_px;
-            sum += spread.mean[i] * std::polar(1.0, -2 * kPi * frequency * u);
+            sum += spread.mean[i] * std::polar(1.0, -2 * std::numbers::pi * frequency * u);
         }
         const double value = std::abs(sum) / total;
         if (!m.mtf50 && value < 0.5) {

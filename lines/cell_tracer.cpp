@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
+#include "mesh/vectors.h"
+
 namespace burin {
 namespace {
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 bool is_inside(glm::dvec2 p, glm::dvec2 low, glm::dvec2 high) {
     constexpr double kSlack = 1e-3;

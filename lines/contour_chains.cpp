@@ -4,20 +4,17 @@
 #include <cmath>
 #include <tuple>
 
+#include "lines/contour_grid.h"
 #include "view/screen_polygon.h"
 
 namespace burin {
 namespace {
 
-/// Triangles at an edge come to the same place but for rounding; chains of lines need equal bits.
-constexpr double kGridPerPx = 4096;
 /// Curves are drawn as straight pieces that are off by no more, unless they would be too many.
 constexpr double kOffPx = 1.0 / 64;
 constexpr double kMostPieces = 24;
 /// What turns more between two edges is no curve: its tangents may be on the wrong side.
 constexpr double kCosLargestTurn = 0.5;
-
-glm::dvec2 rounded(glm::dvec2 p) { return glm::round(p * kGridPerPx) / kGridPerPx; }
 
 bool is_less(const glm::dvec3& a, const glm::dvec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 bool comes_before(glm::dvec2 a, glm::dvec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
@@ -111,7 +108,7 @@ ContourFinder::Crossing ContourFinder::crossing(std::uint32_t a, const Corner& a
     // At a contour the tangent plane passes through the eye, and is seen as a line.
     const glm::dvec3 normal = glm::mix(at_a.normal, at_b.normal, share);
     const glm::dvec2 along(normal.y, normal.x);
-    return {rounded(surfaces_.projection.to_pixel(place)), along / std::max(glm::length(along), 1e-300)};
+    return {on_contour_grid(surfaces_.projection.to_pixel(place)), along / std::max(glm::length(along), 1e-300)};
 }
 
 /// Whether a contour passes over the triangle.
@@ -145,7 +142,7 @@ bool ContourFinder::add_piece(std::uint32_t triangle, std::vector<Piece>& pieces
     const double count = std::clamp(std::ceil(std::sqrt(bend / (8 * kOffPx))), 1.0, kMostPieces);
     Piece piece{a};
     for (double i = 1; i < count; ++i) {
-        const glm::dvec2 p = rounded(glm::dvec2(on_cubic({a, 0}, {b, 0}, {c, 0}, {d, 0}, i / count)));
+        const glm::dvec2 p = on_contour_grid(glm::dvec2(on_cubic({a, 0}, {b, 0}, {c, 0}, {d, 0}, i / count)));
         if (p != piece.back() && p != d) piece.push_back(p);
     }
     piece.push_back(d);

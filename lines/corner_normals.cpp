@@ -6,14 +6,13 @@
 
 #include "lines/sharp_edges.h"
 #include "lines/vertex_normal.h"
+#include "mesh/vectors.h"
 
 namespace burin {
 namespace {
 
 /// The cosine of 60 degrees: whatever the crease angle, no surface is smooth that turns by more around a vertex.
 constexpr double kCosBluntestTip = 0.5;
-
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 
 glm::dvec3 unit_normal(const Mesh& mesh, std::uint32_t t) { return unit(glm::dvec3(mesh.polygon_area_vector(t))); }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/vectors.h"
+
 namespace burin {
 namespace {
 
@@ -12,8 +14,6 @@ namespace {
 constexpr double kMostTurned = 1.0 / 8, kMostOffPx = 1.0 / 32;
 constexpr int kSmallestCellPx = 4;
 constexpr std::int64_t kMostCells = 1 << 20;
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// Cuts [begin, end] to where a value that runs from `at_0` at 0 to `at_1` at 1 is within [low, high].
 bool cut(double at_0, double at_1, double low, double high, double& begin, double& end) {

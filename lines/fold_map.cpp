@@ -4,11 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "lines/contour_grid.h"
+
 namespace burin {
 namespace {
 
-/// An edge is looked at in steps of kStepPx, or in kMostSteps steps if these are longer.
-constexpr double kStepPx = 0.25, kMostSteps = 2048;
+/// An edge is looked at in steps of kStepPx, or in kMostStepsOfEdge steps if these are longer.
+constexpr double kStepPx = 0.25, kMostStepsOfEdge = 2048;
 /// A contour is followed from one foot to the next one unless that is more than this many times as long as the
 /// straight way, and longer than this: then it goes elsewhere, and comes back.
 constexpr double kLongestDetour = 4, kShortDetourPx = 3;
@@ -18,9 +20,6 @@ constexpr double kShortRest = 3;
 /// How long a way from a contour over to where an edge ends is on the contour, in lengths of the
 /// step that it replaces.
 constexpr double kSlant = 2;
-constexpr double kGridPerPx = 4096;
-
-glm::dvec2 rounded(glm::dvec2 p) { return glm::round(p * kGridPerPx) / kGridPerPx; }
 
 }  // namespace
 
@@ -33,7 +32,7 @@ FoldMap::Foot FoldMap::nearest(std::span<const ContourChain> chains, glm::dvec2 
         for (std::size_t i = 0; i < last; ++i) {
             const glm::dvec2 a = chain.points[i], along = chain.points[i + 1] - a;
             const double share = std::clamp(glm::dot(place - a, along) / glm::dot(along, along), 0.0, 1.0);
-            const glm::dvec2 foot = rounded(a + along * share);
+            const glm::dvec2 foot = on_contour_grid(a + along * share);
             const double square = glm::dot(place - foot, place - foot);
             if (!(square < least)) continue;
             least = square;
@@ -80,7 +79,7 @@ FoldMap::FoldMap(glm::dvec2 from, glm::dvec2 to, std::span<const ContourChain> c
     : from_(from), to_(to) {
     const double length = glm::distance(from, to);
     if (chains.empty() || !(length > 0)) return;
-    const double steps = std::clamp(std::ceil(length / kStepPx), 1.0, kMostSteps);
+    const double steps = std::clamp(std::ceil(length / kStepPx), 1.0, kMostStepsOfEdge);
     std::vector<Foot> feet;
     for (double i = 0; i <= steps; ++i) feet.push_back(nearest(chains, glm::mix(from, to, i / steps)));
     const auto is_off = [](const Foot& foot) { return foot.chain == Foot::kNoChain; };
@@ -149,7 +148,7 @@ void FoldMap::lead_to_end(glm::dvec2 place) {
         if (length >= rest) {
             const double part = length > 0 ? rest / length : 0;
             stops_.back() = {glm::mix(last.share, before.share, part),
-                             rounded(glm::mix(last.place, before.place, part)), false};
+                             on_contour_grid(glm::mix(last.place, before.place, part)), false};
             break;
         }
         rest -= length;
@@ -175,7 +174,7 @@ std::vector<glm::dvec2> FoldMap::moved(glm::dvec2 from, glm::dvec2 to) const {
     const auto between = [&](const Stop& a, const Stop& b, double share, glm::dvec2 given) {
         if (a.is_on_edge && b.is_on_edge) return given;
         const double range = b.share - a.share;
-        return rounded(range > 0 ? glm::mix(a.place, b.place, (share - a.share) / range) : a.place);
+        return on_contour_grid(range > 0 ? glm::mix(a.place, b.place, (share - a.share) / range) : a.place);
     };
     const auto is_after = [](double share, const Stop& s) { return share < s.share; };
     const auto is_before = [](const Stop& s, double share) { return s.share < share; };

@@ -5,13 +5,12 @@
 #include <limits>
 #include <optional>
 
+#include "base/infinity.h"
 #include "lines/narrow_lap.h"
 #include "view/rounded_copies.h"
 
 namespace burin {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The two points with the ways over their surfaces towards each other.
 class Decider {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/infinity.h"
+
 namespace burin {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void forget_pieces_above(double y, std::vector<LinePiece>& list) {
     std::erase_if(list, [y](const LinePiece& piece) { return std::max(piece.from.y, piece.to.y) < y; });

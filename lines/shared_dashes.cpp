@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/vectors.h"
+
 namespace burin {
 namespace {
 
 constexpr double kFinestReachPx = 0.25;
 /// The cosine of the angle at which one course goes on straight from another, at least.
 constexpr double kStraight = 0.99;
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// A straight way that is made longer piece by piece, for as long as all of them stay within a reach of it.
 class StraightWay {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "base/infinity.h"
 #include "kernels/screen_triangle.h"
 #include "lines/circle_finder.h"
 #include "lines/seam_sight.h"
@@ -16,7 +17,6 @@ namespace {
 /// A triangle lower than this (in pixels) and than kSliverHeightPart of its length is a sliver: rounding
 /// decides its normal, and it says nothing about the surface.
 constexpr double kSliverHeightPx = 1.0 / 64;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an orthographic view. It is
 /// linear in view space, also behind the eye. Corners are snapped as the rasterizer snaps them, but not those of

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "kernels/subpixel.h"
 #include "lines/line_class.h"
 #include "view/surface_set.h"
 
@@ -115,6 +116,7 @@ constexpr double kNoAdvance = 1e-9;
 
 /// A fold that turns back by less than this is no contour.
 constexpr double kNegligibleFoldPx = 1.0 / 64;
+constexpr double kNegligibleFoldSubpixels = to_subpixels(kNegligibleFoldPx);
 /// Snapping of corners to 1/256 pixel may decide which of two edges a walk comes to first if they are nearer than this.
 constexpr double kSnappingPx = 4.0 / kSubpixelsPerPixel;
 /// Whether a part of a wall between two distances may make it so deep that the surface ends there.

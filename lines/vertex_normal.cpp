@@ -5,13 +5,14 @@
 #include <cmath>
 #include <tuple>
 
+#include "mesh/vectors.h"
+
 namespace burin {
 namespace {
 
 /// More triangles than that around a vertex are not looked at.
 constexpr std::size_t kMostAround = 64;
 
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 glm::dvec3 normal_of(const Mesh& mesh, HalfEdge h) { return unit(mesh.polygon_area_vector(h / 3)); }
 HalfEdge turned(HalfEdge h, unsigned by) { return h - h % 3 + (h % 3 + by) % 3; }
 std::uint32_t start_of(const Mesh& mesh, HalfEdge h) { return mesh.triangles[h / 3][h % 3]; }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/interrupt.h"
+#include "mesh/vectors.h"
 
 namespace burin {
 namespace {
@@ -17,7 +18,6 @@ constexpr double kFlatHeight = 1e-6;
 /// Circles that a corner lies on within rounding leave the edge as it is.
 constexpr double kRounding = 1e-12;
 
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return cross(b - a, c - a); }
 
 class Flipper {

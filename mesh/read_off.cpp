@@ -14,7 +14,7 @@ namespace burin {
 namespace {
 
 /// How vertices, or polygons, stand in the text.
-enum class ItemLayout : std::uint8_t {
+enum class OffLayout : std::uint8_t {
     lines,   ///< each begins a line; what follows its values on that line is nothing (colours, mostly)
     values,  ///< value after value, on any lines; polygons have no colours then
 };
@@ -28,13 +28,13 @@ class FileEnds : public InputError {
 /// Reads an OFF file in one layout. Nearly all programs write one vertex and one polygon per line.
 class OffParser {
   public:
-    OffParser(const std::string& path, std::string_view text, ItemLayout vertices, ItemLayout polygons)
+    OffParser(const std::string& path, std::string_view text, OffLayout vertices, OffLayout polygons)
         : path_(path), lines_(text), bytes_(text.size()), vertex_layout_(vertices), polygon_layout_(polygons) {}
 
     PolygonSoup parse() {
         read_counts();
         read_vertices();
-        if (vertex_layout_ == ItemLayout::values && polygon_layout_ == ItemLayout::lines && !item_.at_end()) {
+        if (vertex_layout_ == OffLayout::values && polygon_layout_ == OffLayout::lines && !item_.at_end()) {
             fail("something stands behind the last vertex on its line; repair or re-export the file");
         }
         read_polygons();
@@ -51,7 +51,7 @@ class OffParser {
         // The number of edges says nothing, and is left out here and there.
         if (counts.at_end()) {
             skip_edge_count();
-        } else if (vertex_layout_ == ItemLayout::values) {
+        } else if (vertex_layout_ == OffLayout::values) {
             std::int64_t edges = 0;
             if (!counts.integer(edges)) fail("the number of edges must be an integer; repair the file");
             item_ = counts;
@@ -62,7 +62,7 @@ class OffParser {
     bool is_certain() const { return do_vertices_share_lines_ && least_corners_ >= 3; }
     /// What is left behind the last polygon.
     SurplusLines surplus() {
-        if (polygon_layout_ == ItemLayout::lines || item_.at_end())
+        if (polygon_layout_ == OffLayout::lines || item_.at_end())
             return surplus_lines(lines_.rest(), lines_.line_number());
         const char* const begin = item_.rest().data();
         const std::string_view behind = lines_.rest();
@@ -91,12 +91,12 @@ class OffParser {
     }
 
     /// Goes to where the next item begins.
-    void begin_item(ItemLayout layout, const char* what) {
-        if (layout == ItemLayout::lines || item_.at_end()) item_ = next_line(what);
+    void begin_item(OffLayout layout, const char* what) {
+        if (layout == OffLayout::lines || item_.at_end()) item_ = next_line(what);
     }
     /// Goes to the next value of an item, which an item that begins a line has on that line.
-    void go_to_value(ItemLayout layout, const char* what) {
-        if (layout == ItemLayout::values && item_.at_end()) item_ = next_line(what);
+    void go_to_value(OffLayout layout, const char* what) {
+        if (layout == OffLayout::values && item_.at_end()) item_ = next_line(what);
     }
 
     /// What stands behind the word OFF, or on the next line. The counts may follow it without a
@@ -184,13 +184,13 @@ class OffParser {
                 fail("a coordinate is not finite or beyond 1e30; repair or re-export the file");
             }
             soup_.positions.push_back(p);
-            if (vertex_layout_ == ItemLayout::values) skip_attributes();
+            if (vertex_layout_ == OffLayout::values) skip_attributes();
         }
     }
     /// Normal, colour and texture coordinates of a vertex, as the letters in front of OFF announce them.
     void skip_attributes() {
         for (int k = 0; k < attributes_; ++k) {
-            go_to_value(ItemLayout::values, "a vertex");
+            go_to_value(OffLayout::values, "a vertex");
             double value = 0;
             if (!item_.number(value)) fail("a vertex needs more numbers; repair or re-export the file");
         }
@@ -199,7 +199,7 @@ class OffParser {
     void read_polygons() {
         std::vector<std::uint32_t> corners;
         // No program writes polygons without corners; in the other layout they would make sense of nearly any zeros.
-        const std::int64_t least_size = polygon_layout_ == ItemLayout::lines ? 0 : 1;
+        const std::int64_t least_size = polygon_layout_ == OffLayout::lines ? 0 : 1;
         for (std::uint64_t i = 0; i < polygons_; ++i) {
             if ((i & 0xFFFF) == 0) throw_if_interrupted();
             begin_item(polygon_layout_, "a polygon");
@@ -213,7 +213,7 @@ class OffParser {
                 std::int64_t index = 0;
                 if (!item_.integer(index)) {
                     fail("a polygon of " + std::to_string(size) + " corners has only " + std::to_string(k) +
-                         " vertex numbers" + (polygon_layout_ == ItemLayout::lines ? " on its line" : "") +
+                         " vertex numbers" + (polygon_layout_ == OffLayout::lines ? " on its line" : "") +
                          "; repair the file");
                 }
                 if (index < 0 || static_cast<std::uint64_t>(index) >= soup_.positions.size()) {
@@ -233,7 +233,7 @@ class OffParser {
     std::string path_;
     LineReader lines_;
     std::size_t bytes_;
-    ItemLayout vertex_layout_, polygon_layout_;
+    OffLayout vertex_layout_, polygon_layout_;
     std::string_view current_;
     LineScanner item_{std::string_view()};  // what is left of the line that is being read
     std::uint64_t vertices_ = 0, polygons_ = 0;
@@ -246,7 +246,7 @@ class OffParser {
 /// Reads item by item, each on a line of its own, as nearly all programs write them. Where that fails, or leaves lines
 /// over, several vertices or polygons may share a line: the layout that makes sense of the whole file counts.
 PolygonSoup read_text(const std::string& path, std::string_view text, bool strict) {
-    using enum ItemLayout;
+    using enum OffLayout;
     OffParser by_line(path, text, lines, lines);
     PolygonSoup soup;
     std::optional<InputError> error;
@@ -260,7 +260,7 @@ PolygonSoup read_text(const std::string& path, std::string_view text, bool stric
         ends_early = dynamic_cast<const FileEnds*>(&e) != nullptr;
     }
     std::string by_value_error;
-    constexpr std::pair<ItemLayout, ItemLayout> kOthers[] = {{values, lines}, {lines, values}, {values, values}};
+    constexpr std::pair<OffLayout, OffLayout> kOthers[] = {{values, lines}, {lines, values}, {values, values}};
     for (const auto& [vertices, polygons] : kOthers) {
         OffParser by_value(path, text, vertices, polygons);
         PolygonSoup other;

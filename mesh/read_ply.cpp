@@ -21,7 +21,7 @@ namespace burin {
 namespace {
 
 /// How items are looked for in a text. (In a binary body there is but one way.)
-enum class ItemLayout : std::uint8_t {
+enum class PlyLayout : std::uint8_t {
     plain_rows,  ///< a row of plain numbers each, where there are such rows; value by value where
                  ///< not
     values,      ///< value by value, whatever lines they stand on
@@ -32,7 +32,7 @@ template <typename Values>
 class BodyReader {
   public:
     BodyReader(const std::string& path, const MappedFile& file, const PlyHeader& header, Values values, int threads,
-               ItemLayout layout = ItemLayout::plain_rows)
+               PlyLayout layout = PlyLayout::plain_rows)
         : path_(path),
           file_(file),
           header_(header),
@@ -83,7 +83,7 @@ class BodyReader {
         }
         if (largest_plain_ >= soup_.positions.size()) {
             soup_ = {};
-            BodyReader by_value(path_, file_, header_, first_values_, threads_, ItemLayout::values);
+            BodyReader by_value(path_, file_, header_, first_values_, threads_, PlyLayout::values);
             soup_ = by_value.read();
             values_ = by_value.values_;
             return std::move(soup_);
@@ -127,7 +127,7 @@ class BodyReader {
 
     void end_item() {
         if constexpr (kIsText) {
-            if (layout_ != ItemLayout::lines || !values_.skip_rest_of_line()) return;
+            if (layout_ != PlyLayout::lines || !values_.skip_rest_of_line()) return;
             if (long_lines_.count++ == 0) long_lines_ = {1, values_.line(), element_};
         }
     }
@@ -198,7 +198,7 @@ class BodyReader {
     /// Reads items in the usual form; the rest of this class reads any form, one item at a time.
     void read_plain_positions(const PlyElement& element, std::span<const int> axis_of) {
         if constexpr (kIsText) {
-            if (layout_ != ItemLayout::plain_rows || element.has_lists()) return;
+            if (layout_ != PlyLayout::plain_rows || element.has_lists()) return;
             if (item_ == 0 && is_large()) {
                 item_ =
                     read_large(element.count, 1, soup_.positions, [&](AsciiValues& values, std::span<glm::dvec3> rows) {
@@ -211,7 +211,7 @@ class BodyReader {
     }
     void read_plain_triangles(const PlyElement& element) {
         if constexpr (kIsText) {
-            if (layout_ != ItemLayout::plain_rows || element.properties.size() != 1) return;
+            if (layout_ != PlyLayout::plain_rows || element.properties.size() != 1) return;
             const auto read_triangles = [this](AsciiValues& values, std::span<std::uint32_t> corners) {
                 const std::size_t count = values.plain_triangles(corners);
                 std::uint32_t largest = 0;
@@ -423,7 +423,7 @@ class BodyReader {
     } largest_;
     std::atomic<std::uint32_t> largest_plain_ = 0;  // of plain rows; there is a vertex 0
     int threads_;
-    ItemLayout layout_;
+    PlyLayout layout_;
     LongLines long_lines_;
 };
 
@@ -448,7 +448,7 @@ PolygonSoup read_text(const std::string& path, const MappedFile& file, const Ply
         note_surplus(soup, path, surplus_lines(reader.values().rest(), reader.values().line() - 1), "the last element",
                      strict);
     };
-    BodyReader by_line(path, file, header, values, threads, ItemLayout::lines);
+    BodyReader by_line(path, file, header, values, threads, PlyLayout::lines);
     const auto& surplus = by_line.long_lines();
     try {
         PolygonSoup lines = by_line.read();

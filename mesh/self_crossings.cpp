@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "mesh/vectors.h"
 
 namespace burin {
 namespace {
@@ -23,7 +24,6 @@ constexpr double kFlat = 1e-4;   // how far corners may lie off the polygon's pl
 constexpr double kClear = 1e-6;  // how far ends of sides that cross lie beyond each other: no rounding does that
 constexpr double kSame = 1e-12;  // crossings nearer than that, of the extent, are one
 
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 /// Twice the signed area of a triangle; positive when it turns left.
 double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return cross(b - a, c - a); }
 

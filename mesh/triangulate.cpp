@@ -5,13 +5,12 @@
 
 #include "base/interrupt.h"
 #include "mesh/delaunay_flips.h"
+#include "mesh/vectors.h"
 
 namespace burin {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// Twice the signed area of a triangle; positive when it turns left.
 double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return cross(b - a, c - a); }

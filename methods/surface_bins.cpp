@@ -7,7 +7,7 @@
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 16384;
+constexpr std::uint32_t kMostInChunk = 16384;
 
 struct Chunk {
     std::uint32_t instance, first, end;
@@ -17,8 +17,8 @@ std::vector<Chunk> split_into_chunks(const SurfaceSet& surfaces) {
     std::vector<Chunk> chunks;
     for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
         const auto count = static_cast<std::uint32_t>(surfaces.instances[i].mesh->triangles.size());
-        for (std::uint32_t first = 0; first < count; first += std::min(kChunkTriangles, count - first)) {
-            chunks.push_back({i, first, first + std::min(kChunkTriangles, count - first)});
+        for (std::uint32_t first = 0; first < count; first += std::min(kMostInChunk, count - first)) {
+            chunks.push_back({i, first, first + std::min(kMostInChunk, count - first)});
         }
     }
     return chunks;

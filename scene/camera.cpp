@@ -10,10 +10,10 @@
 namespace burin {
 namespace {
 
-constexpr double kHuge = 1e30;  // as for models: squares and products must stay finite
+constexpr double kMostCoordinate = 1e30;  // as for models: squares and products must stay finite
 
 bool is_reasonable(const glm::dvec3& v) {
-    return std::abs(v.x) <= kHuge && std::abs(v.y) <= kHuge && std::abs(v.z) <= kHuge;
+    return std::abs(v.x) <= kMostCoordinate && std::abs(v.y) <= kMostCoordinate && std::abs(v.z) <= kMostCoordinate;
 }
 
 glm::dvec3 center_of(const Box& box) { return box.is_empty() ? glm::dvec3(0.0) : 0.5 * (box.low + box.high); }
@@ -27,7 +27,7 @@ double farthest_along(const glm::dvec3& axis, const Box& box) {
 /// The largest coordinates within a box, without sign.
 glm::dvec3 largest_in(const Box& box) { return glm::max(glm::abs(box.low), glm::abs(box.high)); }
 /// What rounding may add to sums of products as large as these.
-constexpr double kRounding = 1e-12;
+constexpr double kRoundingOfBoxes = 1e-12;
 
 /// Where the front of a model usually is: +Z if it stands along Y, -Y if it stands along Z.
 glm::dvec3 front_of(const glm::dvec3& up) {
@@ -63,7 +63,7 @@ glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double 
     const std::array<glm::dvec3, 5> along = {x + kx * z, -x + kx * z, y + ky * z, -y + ky * z, z};
     const auto needs = [&](const Box& box, bool) {
         const double slack =
-            kRounding * glm::dot(glm::abs(x) + glm::abs(y) + (1 + kx + ky) * glm::abs(z), largest_in(box));
+            kRoundingOfBoxes * glm::dot(glm::abs(x) + glm::abs(y) + (1 + kx + ky) * glm::abs(z), largest_in(box));
         for (std::size_t i = 0; i < most.size(); ++i) {
             if (!(farthest_along(along[i], box) + slack <= most[i])) return true;
         }
@@ -92,7 +92,7 @@ double fitted_distance(const PointSource& points, const glm::dvec3& target, cons
     const auto needs = [&](const Box& box, bool) {
         const Box seen{box.low - target, box.high - target};
         const glm::dvec3 size = largest_in(box) + glm::abs(target);
-        const double slack = kRounding * (glm::dot(glm::abs(x) + glm::abs(y) + glm::abs(z), size) + nearest);
+        const double slack = kRoundingOfBoxes * (glm::dot(glm::abs(x) + glm::abs(y) + glm::abs(z), size) + nearest);
         const double most =
             std::max({farthest_along(x + z, seen), farthest_along(z - x, seen), farthest_along(y + z, seen),
                       farthest_along(z - y, seen), farthest_along(z, seen) + nearest});
@@ -197,7 +197,7 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     const bool needs_bounds = fits || !settings.target;
     const Box bounds = needs_bounds ? box_of(points) : Box{};
     const double radius = radius_of(bounds);
-    if (!(radius <= kHuge)) {
+    if (!(radius <= kMostCoordinate)) {
         throw InputError("the scene is larger than 1e30 units; scale it down");
     }
     const glm::dvec3 up = glm::normalize(settings.up.value_or(glm::dvec3(0, 1, 0)));
@@ -232,7 +232,7 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
         if (!settings.height || !settings.eye) {
             const auto needs = [&](const Box& box, bool) {
                 for (int k = 0; k < 2; ++k) {
-                    const double slack = kRounding * glm::dot(glm::abs(axes[k]), largest_in(box));
+                    const double slack = kRoundingOfBoxes * glm::dot(glm::abs(axes[k]), largest_in(box));
                     if (!(farthest_along(axes[k], box) + slack <= high[k])) return true;
                     if (!(-farthest_along(-axes[k], box) - slack >= low[k])) return true;
                 }

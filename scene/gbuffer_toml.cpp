@@ -38,7 +38,6 @@ std::optional<GBufferOperator> gbuffer_operator_named(std::string_view name) {
 }
 
 GBufferSettings read_gbuffer(TomlReader& t) {
-    constexpr TomlReader::Range kPositive{0, 1e30, true, false};
     GBufferSettings s;
     s.operators = read_operators(t, s.operators);
     s.supersample = t.integer("supersample", 1, 8).value_or(s.supersample);

@@ -26,9 +26,6 @@ namespace burin {
 namespace {
 
 constexpr std::size_t kMaxSceneBytes = 64u << 20;
-constexpr double kHuge = 1e30;
-constexpr TomlReader::Range kAnyNumber{-kHuge, kHuge};
-constexpr TomlReader::Range kPositive{0, kHuge, true, false};
 
 // ---- transforms ----
 

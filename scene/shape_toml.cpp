@@ -5,8 +5,6 @@
 namespace burin {
 namespace {
 
-constexpr TomlReader::Range kPositive{0, 1e30, true, false};
-
 class ShapeReader {
   public:
     explicit ShapeReader(TomlReader& t) : t_(t) {}

@@ -8,17 +8,12 @@
 
 #include "mesh/text_scan.h"
 #include "scene/color.h"
+#include "scene/number_text.h"
 
 namespace burin {
 namespace {
 
 using Of = SheetValueRule::Of;
-
-std::string number_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.10g", value);
-    return text;
-}
 
 std::size_t characters_in(std::string_view text) {
     std::size_t count = 0;

@@ -8,18 +8,9 @@
 #include "base/suggestion.h"
 #include "mesh/text_scan.h"
 #include "scene/color.h"
+#include "scene/number_text.h"
 
 namespace burin {
-namespace {
-
-std::string number_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.10g", value);
-    return text;
-}
-
-}  // namespace
-
 const toml::node* TomlReader::find(std::string_view key) {
     known_.emplace(key);
     return table_->get(key);

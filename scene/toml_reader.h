@@ -109,4 +109,7 @@ class TomlReader {
     std::set<std::string, std::less<>> known_;
 };
 
+/// Numbers of scenes stay so small that their squares and products are finite.
+constexpr TomlReader::Range kAnyNumber{-1e30, 1e30}, kPositive{0, 1e30, true, false};
+
 }  // namespace burin

@@ -27,9 +27,6 @@ void for_strokes(std::span<const LinePiece> pieces, const LineStyle& style, std:
 void remove(StrokeMask& mask, const StrokeMask& taken) {
     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
 }
-void unite(StrokeMask& mask, const StrokeMask& other) {
-    for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] |= other.rows[r];
-}
 
 /// TileStrokes keeps what each pixel of one tile has of lines. Buffers are used again, and only what was used is
 /// cleared.

@@ -8,9 +8,6 @@ namespace {
 
 constexpr float kSamples = InkRegions::kSamples;
 
-void unite(StrokeMask& mask, const StrokeMask& other) {
-    for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] |= other.rows[r];
-}
 StrokeMask without(StrokeMask mask, const StrokeMask& taken) {
     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
     return mask;

@@ -22,6 +22,10 @@ struct StrokeMask {
     std::array<std::uint32_t, kRows> rows{};
 };
 
+inline void unite(StrokeMask& mask, const StrokeMask& other) {
+    for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] |= other.rows[r];
+}
+
 /// StrokeCanvas has the coverage masks of a rectangle of pixels, into which strokes are drawn. Pieces that overlap or
 /// meet count once, so pieces of a line need no joins.
 class StrokeCanvas {

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "mesh/vectors.h"
 #include "view/depth_plane.h"
 #include "view/screen_polygon.h"
 
@@ -74,7 +75,6 @@ class Region {
 
   private:
     static constexpr std::size_t kMost = 2 * ScreenPolygon::kMaxCorners + 8;  // each side of another one adds a corner
-    static double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
     std::array<glm::dvec2, kMost> corners_;
     std::size_t count_ = 0;

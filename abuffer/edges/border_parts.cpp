@@ -12,9 +12,9 @@ namespace {
 
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = to_subpixels(kWidestCrackPx);
-/// A mesh with more than kMostPairs pairs of a border and one about it has heaps of borders: there only borders that
-/// come near are told apart. Where more than kMostNear come near, the border lies in a crowd.
-constexpr std::size_t kMostPairs = std::size_t{1} << 24, kFewAbout = 256, kMostNear = 32;
+/// A mesh with more than kMostBorderPairs pairs of a border and one about it has heaps of borders: there only borders
+/// that come near are told apart. Where more than kMostNear come near, the border lies in a crowd.
+constexpr std::size_t kMostBorderPairs = std::size_t{1} << 24, kFewAbout = 256, kMostNear = 32;
 /// What runs along a border in a crowd is looked up at this many places, and at fewer in meshes of more than 2^13
 /// borders, so that all lookups of a mesh are limited.
 constexpr std::size_t kPartsInCrowd = 8, kPlacesInCrowd = std::size_t{1} << 16;
@@ -72,7 +72,7 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     const Mesh& mesh = screen.surfaces().mesh_of(s);
     BorderIndex::SeamCandidates about, near;
     const std::size_t most_about =
-        std::max(kMostPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
+        std::max(kMostBorderPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
     const bool is_crowd =
         !mesh.borders.find_candidates(h, most_about, about) && !mesh.borders.find_near(h, kMostNear, about);
     if (!is_crowd && about.segments().empty()) return {{}};

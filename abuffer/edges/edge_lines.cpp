@@ -17,8 +17,6 @@
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 1 << 14;
-
 /// Prefetches the vertices of both triangles at an edge.
 void ask_for_vertices(const ScreenMesh& mesh, HalfEdge h) {
     for (const HalfEdge side : {h, mesh.partners[h]}) {

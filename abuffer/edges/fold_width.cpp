@@ -5,14 +5,10 @@
 #include <cstdint>
 
 #include "lines/surface_walk.h"
+#include "mesh/vectors.h"
 
 namespace burin {
 namespace {
-
-/// A fold that turns back by no more than this is no contour (docs/conventions.md).
-constexpr double kNegligibleFoldSubpixels = to_subpixels(kNegligibleFoldPx);
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// A place on an edge, in 1/256 pixel. Nearness that differs by at most `level` is one.
 struct PlaceOnEdge {

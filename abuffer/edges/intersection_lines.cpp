@@ -5,14 +5,13 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "mesh/vectors.h"
 #include "view/rounded_copies.h"
 
 namespace burin {
 namespace {
 
 constexpr std::size_t kChunkPairs = 256;
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// Names the place where an edge of one triangle passes through another one.
 std::uint64_t node_of(const Occluder& edge_owner, std::size_t edge, const Occluder& other) {

@@ -14,7 +14,6 @@ namespace {
 constexpr double kMargin = 1.0 / 16;
 constexpr double kFarthestPlace = to_subpixels(8192.0);
 constexpr double kMostAlongPerSide = 256;
-constexpr double kNegligibleFoldSubpixels = to_subpixels(kNegligibleFoldPx);
 /// Depths are compared where it gets no farther than by kSnappingPx.
 constexpr double kSnappingSubpixels = to_subpixels(kSnappingPx);
 /// Surely less than depth_tolerance(), which is kDepthTolerancePx or more.

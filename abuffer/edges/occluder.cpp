@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/vectors.h"
+
 namespace burin {
 namespace {
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// Whether points on an edge belong to the triangle, by the top-left rule; its corners run clockwise as seen.
 bool owns_edge(double along_x, double along_y) { return (along_y < 0) | ((along_y == 0) & (along_x > 0)); }

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/vectors.h"
+
 namespace burin {
 namespace {
 
 /// Where very many lines have different places, none stands for another one.
 constexpr std::size_t kMostParts = 64;
 
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 int axis_of(glm::dvec2 way) { return std::abs(way.x) >= std::abs(way.y) ? 0 : 1; }
 
 }  // namespace

@@ -18,8 +18,9 @@ constexpr double kBehindBorder = 64;
 /// How far beside a line triangles are asked for, with what rounding may do to places. 1/256 pixel.
 constexpr int kReach = kBeyondSubpixels + 1;
 /// 1/256 pixel. Four times as far as any place on the screen.
-constexpr float kFar = 1 << 24;
-constexpr CrossedTriangle kAllOfTheScreen = {{-kFar, 3 * kFar, -kFar}, {-kFar, -kFar, 3 * kFar}, kNothing, 0};
+constexpr float kFarOnScreen = 1 << 24;
+constexpr CrossedTriangle kAllOfTheScreen = {
+    {-kFarOnScreen, 3 * kFarOnScreen, -kFarOnScreen}, {-kFarOnScreen, -kFarOnScreen, 3 * kFarOnScreen}, kNothing, 0};
 
 }  // namespace
 

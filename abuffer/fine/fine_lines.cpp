@@ -21,7 +21,7 @@ constexpr bool kHasBothOfSeam = true;
 constexpr double kShortestPiecePx = 1.0 / 32;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
-constexpr double kFar = 1e300;
+constexpr double kFarthestDepth = 1e300;
 /// The most pairs of an edge and a triangle near it in one block: if there are more, as in a heap of very many
 /// surfaces, lines are left to the samples, for time would grow with the square.
 constexpr std::size_t kMostLooks = std::size_t{1} << 22;
@@ -31,7 +31,7 @@ constexpr std::size_t kManyInCell = 256, kMostLooksInHeap = std::size_t{1} << 18
 /// In a block with more candidates, those behind others on the same straight line are left out.
 constexpr std::size_t kFewCandidates = 12;
 /// What rounding does to nearness, as part of what counts as level.
-constexpr double kRounding = 1.0 / 64;
+constexpr double kRoundingOfNearness = 1.0 / 64;
 
 }  // namespace
 
@@ -83,7 +83,7 @@ class FineLines::BlockClipper {
             return level_slack(screen_.surfaces(), nearest, level_px) + by_snapping;
         };
         const double slack = slack_of(kLevelPx), coincident = slack_of(kCoincidentPx), certain = slack_of(kCertainPx);
-        const double rounding = kRounding * level_slack(screen_.surfaces(), line.nearness_at(begin));
+        const double rounding = kRoundingOfNearness * level_slack(screen_.surfaces(), line.nearness_at(begin));
         const bool is_border = line.owners[0] == line.owners[1], is_by_itself = line.is_by_itself();
         const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
         hidden_.clear();
@@ -297,15 +297,17 @@ class FineLines::BlockClipper {
         const glm::dvec2 at = line.at(t), beyond = at + outward(candidate);
         const double nearness = line.nearness_at(t);
         std::optional<Occluder> behind;
-        double nearest = -kFar;
-        for_triangles(line, beyond, beyond, screen_line(beyond, beyond, -kFar), [&](const Occluder& triangle) {
-            const double other = triangle.nearness_at(at);
-            const bool is_nearest = other > nearest || (behind && other == nearest && triangle.number < behind->number);
-            if (!triangle.covers(beyond) || !is_nearest) return true;
-            behind = triangle;
-            nearest = other;
-            return true;
-        });
+        double nearest = -kFarthestDepth;
+        for_triangles(line, beyond, beyond, screen_line(beyond, beyond, -kFarthestDepth),
+                      [&](const Occluder& triangle) {
+                          const double other = triangle.nearness_at(at);
+                          const bool is_nearest =
+                              other > nearest || (behind && other == nearest && triangle.number < behind->number);
+                          if (!triangle.covers(beyond) || !is_nearest) return true;
+                          behind = triangle;
+                          nearest = other;
+                          return true;
+                      });
         if (!behind) return std::nullopt;
         const SurfaceSet& surfaces = screen_.surfaces();
         const Projection& p = surfaces.projection;

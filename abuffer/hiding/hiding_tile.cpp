@@ -8,7 +8,7 @@ namespace burin {
 namespace {
 
 /// Cells are made so small that about this many triangles begin in one.
-constexpr double kTrianglesPerCell = 4096;
+constexpr double kTrianglesPerHidingCell = 4096;
 /// What is left of a line between contacts is at least this long.
 constexpr double kShortestRestPx = 1.0 / 32;
 
@@ -54,7 +54,7 @@ void HidingTile::fill(std::size_t tile) {
         while (next < list.size() && list[next] < end) ++next;  // not clipped
         add(s.instance, list.subspan(i, next - i));
     }
-    cells_.sort(kTrianglesPerCell);
+    cells_.sort(kTrianglesPerHidingCell);
     cells_.make_indices();
     fragment_count_ += cells_.places().size();
 }

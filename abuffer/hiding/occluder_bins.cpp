@@ -9,7 +9,6 @@
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 1 << 14;
 constexpr float kNearerThanAll = 3e38f;
 
 using Record = TileLists<std::uint32_t>::Record;

@@ -10,8 +10,8 @@ namespace {
 /// Lines are looked up in a cell by parts no longer than an eighth of it. 1/256 pixel for each of its pixels.
 constexpr double kPartOfCell = double{kSubpixelsPerPixel} / 8;
 /// A margin greater than what rounding does to places. 1/256 pixel.
-constexpr float kRounding = 4;
-constexpr float kFar = 1e30f;
+constexpr float kRoundingOfPlaces = 4;
+constexpr float kFarPlace = 1e30f;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void OccluderCells::clear(PixelRect rect) {
 ScreenBox OccluderCells::box_of(const CrossedTriangle& t) {
     const auto low = [](const float(&v)[3]) { return std::min(std::min(v[0], v[1]), v[2]); };
     const auto high = [](const float(&v)[3]) { return std::max(std::max(v[0], v[1]), v[2]); };
-    return {low(t.x), low(t.y), high(t.x), high(t.y), -kFar, t.highest};
+    return {low(t.x), low(t.y), high(t.x), high(t.y), -kFarPlace, t.highest};
 }
 
 int OccluderCells::cell_along(float offset, int count) const {
@@ -74,7 +74,7 @@ void OccluderCells::fill() {
 }
 
 void OccluderCells::make_indices() {
-    ScreenBox bounds{0, 0, 0, 0, kFar, -kFar};
+    ScreenBox bounds{0, 0, 0, 0, kFarPlace, -kFarPlace};
     for (std::size_t i = 0; i < count_; ++i) {
         bounds.low = std::min(bounds.low, triangles_[i].highest);
         bounds.high = std::max(bounds.high, triangles_[i].highest);
@@ -109,8 +109,9 @@ std::size_t OccluderCells::find_crossed(std::size_t cell, const WholeLine& line,
     const double length = (to - from) * std::max(std::abs(along.x), std::abs(along.y));
     const int parts = std::max(1, static_cast<int>(std::ceil(length / (cell_px_ * kPartOfCell))));
     const auto around = [&](glm::vec2 a, glm::vec2 b) {
-        const glm::vec2 first = glm::min(a, b) - (kRounding + reach), last = glm::max(a, b) + (kRounding + reach);
-        return ScreenBox{first.x, first.y, last.x, last.y, low, kFar};
+        const glm::vec2 first = glm::min(a, b) - (kRoundingOfPlaces + reach),
+                        last = glm::max(a, b) + (kRoundingOfPlaces + reach);
+        return ScreenBox{first.x, first.y, last.x, last.y, low, kFarPlace};
     };
     const auto place = [&](int i) { return glm::vec2(line.from + along * (from + (to - from) * i / parts) - corner); };
     boxes_.clear();

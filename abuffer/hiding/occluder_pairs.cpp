@@ -10,8 +10,8 @@ namespace burin {
 namespace {
 
 /// Cells are made so small that about this many triangles begin in one: pairs are looked for one by one.
-constexpr double kTrianglesPerCell = 80;
-constexpr float kFar = 1e30f;
+constexpr double kTrianglesPerPairCell = 80;
+constexpr float kFarOfPairs = 1e30f;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::span<const OccluderPairs::Pair> OccluderPairs::find(const OccluderCells& tr
     cells_.clear(rect);
     CrossedTriangle* const to = cells_.add(entries_.size());
     for (std::size_t i = 0; i < entries_.size(); ++i) to[i] = triangles[i];
-    cells_.sort(kTrianglesPerCell);
+    cells_.sort(kTrianglesPerPairCell);
     const std::span<const std::uint32_t> places = cells_.places();
     boxes_.resize(places.size());
     vertices_.resize(places.size());
@@ -47,9 +47,9 @@ std::span<const OccluderPairs::Pair> OccluderPairs::find(const OccluderCells& tr
 void OccluderPairs::find_in_cell(int column, int row) {
     // A pair counts in one of the cells that both triangles touch: the one with the corner where their boxes begin to
     // overlap.
-    const float left = column == 0 ? -kFar : cells_.pitch() * static_cast<float>(column);
-    const float top = row == 0 ? -kFar : cells_.pitch() * static_cast<float>(row);
-    const auto from = [](float begin, float border) { return begin >= border ? -kFar : border; };
+    const float left = column == 0 ? -kFarOfPairs : cells_.pitch() * static_cast<float>(column);
+    const float top = row == 0 ? -kFarOfPairs : cells_.pitch() * static_cast<float>(row);
+    const auto from = [](float begin, float border) { return begin >= border ? -kFarOfPairs : border; };
     const auto have_vertex_in_common = [&](std::size_t i, std::size_t j) {
         const auto& a = vertices_[i];
         const auto& b = vertices_[j];

@@ -16,6 +16,8 @@
 
 namespace burin {
 
+/// Threads share triangles in chunks of at most this many.
+constexpr std::uint32_t kChunkTriangles = 1 << 14;
 /// Triangles [begin, end) of the mesh of an instance.
 struct TriangleChunk {
     std::uint32_t instance, begin, end;

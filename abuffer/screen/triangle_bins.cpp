@@ -15,9 +15,7 @@
 namespace burin {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 1 << 14;
-
-struct Box {  // in 1/256 pixel
+struct SubpixelBox {  // in 1/256 pixel
     std::int32_t x0, y0, x1, y1;
 };
 
@@ -28,8 +26,8 @@ struct SampleBox {  // inclusive, relative to the grid
 };
 
 template <typename Corners>
-Box box_of(const Corners& corners, int count) {
-    Box box{corners[0].x, corners[0].y, corners[0].x, corners[0].y};
+SubpixelBox box_of(const Corners& corners, int count) {
+    SubpixelBox box{corners[0].x, corners[0].y, corners[0].x, corners[0].y};
     for (int k = 1; k < count; ++k) {
         const auto& c = corners[static_cast<std::size_t>(k)];
         box.x0 = std::min(box.x0, c.x);
@@ -204,7 +202,7 @@ class Binner {
         const std::int64_t area = doubled_area(t.corners[0], t.corners[1], t.corners[2]);
         surfaces_.set_facing(number, area == 0 ? edge_on : area > 0 ? clockwise : counterclockwise);
         if (area == 0) return;
-        const Box box = box_of(t.corners, 3);
+        const SubpixelBox box = box_of(t.corners, 3);
         if (box.x1 - box.x0 < kLargestSmallTriangle && box.y1 - box.y0 < kLargestSmallTriangle)
             return add_small(s, t, box, scratch);
         LargePolygon large;
@@ -216,7 +214,7 @@ class Binner {
     }
 
     /// Lists a small triangle once for every tile that it may touch.
-    void add_small(SurfaceId s, const ScreenTriangle& t, const Box& box, Scratch& scratch) const {
+    void add_small(SurfaceId s, const ScreenTriangle& t, const SubpixelBox& box, Scratch& scratch) const {
         const bool turned = surfaces_.facing(surfaces_.number_of(s)) == clockwise;
         const float highest = std::max({t.corners[0].nearness, t.corners[1].nearness, t.corners[2].nearness});
         for_tiles(box, nullptr, [&](std::uint32_t touched, const SampleBox& samples) {
@@ -231,7 +229,7 @@ class Binner {
         large.surface = s;
         large.polygon = surfaces_.surfaces().screen_polygon(s);
         if (large.polygon.count == 0) return;
-        const Box box = box_of(large.polygon.corners, large.polygon.count);
+        const SubpixelBox box = box_of(large.polygon.corners, large.polygon.count);
         const DepthPlane plane = surfaces_.surfaces().plane(s);
         const SubpixelPoint at = large.polygon.corners[0];
         const double zero = surfaces_.surfaces().farthest_nearness;
@@ -246,7 +244,7 @@ class Binner {
         add_large(large, box, records);
     }
 
-    void add_large(const LargePolygon& large, const Box& box, Records& records) const {
+    void add_large(const LargePolygon& large, const SubpixelBox& box, Records& records) const {
         const auto index = static_cast<std::uint32_t>(records.polygons.size());
         const PolygonSides sides(large.polygon);
         std::array<PolygonRows::Corner, ScreenPolygon::kMaxCorners> corners;
@@ -298,7 +296,7 @@ class Binner {
 
     /// Calls visit(tile, samples in the box), but for most tiles that a polygon passes by. nullptr: for all.
     template <typename Visit>
-    void for_tiles(const Box& box, const PolygonRows* polygon, const Visit& visit) const {
+    void for_tiles(const SubpixelBox& box, const PolygonRows* polygon, const Visit& visit) const {
         // The samples in the box, relative to the grid.
         const std::int32_t half = (1 << grid_.pitch_shift) / 2;
         const auto first_from = [&](std::int32_t at) { return (at + half - 1) >> grid_.pitch_shift; };

@@ -17,7 +17,7 @@
 namespace burin {
 namespace {
 
-constexpr int kTilePx = 32;
+constexpr int kGbufferTilePx = 32;
 
 /// One tile: draw the G-buffer, find lines, filter down to pixels.
 class GBufferTile {
@@ -156,7 +156,7 @@ RenderStats render_gbuffer(const Frame& frame, const RunOptions& options, Film& 
     const int s = frame.scene->gbuffer.supersample;
     const DetectionContext context{frame, s, depth_scale(frame, s)};
     const int margin_px = (detection_margin(frame, s) + s - 1) / s + 1;
-    const SurfaceBins bins(frame.surfaces, frame.crop, kTilePx, margin_px, stats.threads);
+    const SurfaceBins bins(frame.surfaces, frame.crop, kGbufferTilePx, margin_px, stats.threads);
     stats.prepare_s = watch.lap();
 
     if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());

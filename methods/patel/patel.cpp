@@ -13,7 +13,7 @@
 namespace burin {
 namespace {
 
-constexpr int kTilePx = 32;
+constexpr int kPatelTilePx = 32;
 
 template <typename Mask>
 void render_tile(PatelTile<Mask>& tile, PixelRect rect, std::span<const SurfaceId> surfaces, Film& film,
@@ -45,7 +45,7 @@ RenderStats render_with(const Frame& frame, const ExtendedGrid& grid, const RunO
     stats.threads = resolve_thread_count(options.threads);
     Stopwatch watch;
     const int margin_px = grid.apron / grid.samples_per_pixel() + 1;
-    const SurfaceBins bins(frame.surfaces, frame.crop, kTilePx, margin_px, stats.threads);
+    const SurfaceBins bins(frame.surfaces, frame.crop, kPatelTilePx, margin_px, stats.threads);
     stats.prepare_s = watch.lap();
 
     if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());

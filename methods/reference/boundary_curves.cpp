@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/vectors.h"
+
 namespace burin {
 namespace {
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 glm::dvec2 closest_on(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
     const glm::dvec2 d = b - a;

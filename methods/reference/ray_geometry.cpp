@@ -5,10 +5,10 @@
 #include <iterator>
 #include <limits>
 
+#include "base/infinity.h"
+
 namespace burin {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<glm::dvec3> areas_of_polygons(const Mesh& mesh) {
     std::vector<glm::dvec3> areas;

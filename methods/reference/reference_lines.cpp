@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/infinity.h"
+
 namespace burin {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFarApartPx = 2;  // conventions: a farther surface
 constexpr double kWidestCrackPx = 1;
 constexpr int kMaxRays = 96;    // between two samples

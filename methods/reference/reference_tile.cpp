@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/vectors.h"
 #include "shading/surface_shader.h"
 
 namespace burin {
@@ -13,8 +14,6 @@ constexpr double kHalfDiagonal = 0.70710678118654752;
 constexpr int kLeastCells = 16;
 /// Curves are simplified by less than their own exactness.
 constexpr double kStraightPx = 1.0 / 2048;
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 StrokeBand band_of(const LineStyle& style, bool has_front) {
     const double half = 0.5 * style.width_px;

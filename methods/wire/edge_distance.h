@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "mesh/vectors.h"
+
 // How dark a pixel is depends on its distance from the edges of its triangle, which papers find in different ways.
 
 namespace burin {
@@ -14,8 +16,6 @@ namespace burin {
 /// have found. Positions are in pixels; w is the distance from the eye (1 in an orthographic view),
 /// and a screen position in homogeneous coordinates is (x w, y w, w). Edge k is opposite of corner
 /// k.
-
-inline double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 constexpr double kNoEdge = std::numeric_limits<double>::infinity();
 

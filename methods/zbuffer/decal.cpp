@@ -8,7 +8,7 @@ namespace burin {
 namespace {
 
 constexpr Pass kColorOfFill{.depth_test = DepthTest::less, .writes_depth = false};
-constexpr Pass kEdges{.depth_test = DepthTest::less_equal};
+constexpr Pass kDecalEdges{.depth_test = DepthTest::less_equal};
 constexpr Pass kDepthOfFill{.depth_test = DepthTest::less, .writes_frame = false};
 
 }  // namespace
@@ -17,7 +17,7 @@ ZBufferMethod decal_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
         z.fill(polygon, kColorOfFill);
-        z.edges(polygon, kEdges);
+        z.edges(polygon, kDecalEdges);
         z.fill(polygon, kDepthOfFill);
     }};
     return method;

@@ -7,16 +7,16 @@
 namespace burin {
 namespace {
 
-constexpr Pass kFill{.depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace};
-constexpr Pass kEdges{.depth_test = DepthTest::less_equal, .bit_passes_depth = true};
+constexpr Pass kEdgingPlaneFill{.depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace};
+constexpr Pass kEdgingPlaneEdges{.depth_test = DepthTest::less_equal, .bit_passes_depth = true};
 
 }  // namespace
 
 ZBufferMethod edging_plane_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
-        z.fill(polygon, kFill);
-        z.edges(polygon, kEdges);
+        z.fill(polygon, kEdgingPlaneFill);
+        z.edges(polygon, kEdgingPlaneEdges);
         z.set_bits_of_box(polygon, false);
     }};
     return method;

@@ -7,8 +7,8 @@
 namespace burin {
 namespace {
 
-constexpr Pass kFill{.depth_test = DepthTest::less};
-constexpr Pass kEdges{.depth_test = DepthTest::less_equal};
+constexpr Pass kOffsetFill{.depth_test = DepthTest::less};
+constexpr Pass kOffsetEdges{.depth_test = DepthTest::less_equal};
 
 }  // namespace
 
@@ -19,8 +19,8 @@ ZBufferMethod offset_edging(DepthOffset offset, DepthAdjust adjust) {
     const DepthOffset of_edges = moves_fills ? DepthOffset{} : offset;
     ZBufferMethod method;
     method.sweeps = {
-        [=](ZBuffer& z, const ProjectedPolygon& polygon) { z.fill(polygon, kFill, of_fills); },
-        [=](ZBuffer& z, const ProjectedPolygon& polygon) { z.edges(polygon, kEdges, of_edges); },
+        [=](ZBuffer& z, const ProjectedPolygon& polygon) { z.fill(polygon, kOffsetFill, of_fills); },
+        [=](ZBuffer& z, const ProjectedPolygon& polygon) { z.edges(polygon, kOffsetEdges, of_edges); },
     };
     method.edge_offset = of_edges;
     return method;

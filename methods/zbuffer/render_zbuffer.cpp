@@ -13,7 +13,7 @@
 namespace burin {
 namespace {
 
-constexpr int kTilePx = 128;
+constexpr int kZbufferTilePx = 128;
 
 /// What is visible at the centres of the pixels, by an ordinary z-buffer. The first of equals wins.
 class CentreSurfaces {
@@ -146,7 +146,7 @@ RenderStats render_zbuffer(const Frame& frame, const RunOptions& options, Film& 
                                  : DepthRange::fitted(frame);
     const FeatureEdges features(frame, stats.threads);
     const double reach_px = 1 + aliased_width_px(frame.scene->lines.style.width_px);
-    const PolygonBins bins(frame, features, depth, kTilePx, reach_px, stats.threads);
+    const PolygonBins bins(frame, features, depth, kZbufferTilePx, reach_px, stats.threads);
     stats.prepare_s = watch.lap();
 
     if (options.progress != nullptr) options.progress->begin("rendering", bins.tile_count());

@@ -7,16 +7,16 @@
 namespace burin {
 namespace {
 
-constexpr Pass kFill{.depth_test = DepthTest::less};
-constexpr Pass kEdges{.depth_test = DepthTest::less_equal};
+constexpr Pass kSimpleFill{.depth_test = DepthTest::less};
+constexpr Pass kSimpleEdges{.depth_test = DepthTest::less_equal};
 
 }  // namespace
 
 ZBufferMethod simple_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {
-        [](ZBuffer& z, const ProjectedPolygon& polygon) { z.fill(polygon, kFill); },
-        [](ZBuffer& z, const ProjectedPolygon& polygon) { z.edges(polygon, kEdges); },
+        [](ZBuffer& z, const ProjectedPolygon& polygon) { z.fill(polygon, kSimpleFill); },
+        [](ZBuffer& z, const ProjectedPolygon& polygon) { z.edges(polygon, kSimpleEdges); },
     };
     return method;
 }

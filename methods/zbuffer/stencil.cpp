@@ -8,7 +8,7 @@ namespace {
 
 // glDepthFunc, glDepthMask, glColorMask; glStencilFunc(func, ref, 1); glStencilOp(fail, zfail,
 // pass)
-constexpr Pass kFill{.depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace};
+constexpr Pass kStencilFill{.depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace};
 constexpr Pass kEdgesBeside{.depth_test = DepthTest::less_equal, .bit_test = BitTest::not_equal, .reference = true};
 constexpr Pass kEdgesOnFill{.depth_test = DepthTest::always, .bit_test = BitTest::equal, .reference = true};
 constexpr Pass kClear{.depth_test = DepthTest::never,
@@ -22,7 +22,7 @@ constexpr Pass kClear{.depth_test = DepthTest::never,
 ZBufferMethod stencil_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
-        z.fill(polygon, kFill);
+        z.fill(polygon, kStencilFill);
         z.edges(polygon, kEdgesBeside);
         z.edges(polygon, kEdgesOnFill);
         z.fill(polygon, kClear);

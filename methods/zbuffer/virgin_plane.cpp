@@ -11,9 +11,9 @@
 namespace burin {
 namespace {
 
-constexpr Pass kFill{
+constexpr Pass kVirginPlaneFill{
     .depth_test = DepthTest::less, .reference = true, .on_pass = BitOp::replace, .bit_passes_depth = true};
-constexpr Pass kEdges{
+constexpr Pass kVirginPlaneEdges{
     .depth_test = DepthTest::less_equal, .reference = false, .on_pass = BitOp::replace, .bit_passes_depth = true};
 constexpr Pass kGiveBack{.depth_test = DepthTest::always,
                          .writes_depth = false,
@@ -27,8 +27,8 @@ ZBufferMethod virgin_plane_method(const ZBufferSettings&) {
     ZBufferMethod method;
     method.initial_bit = true;
     method.sweeps = {[](ZBuffer& z, const ProjectedPolygon& polygon) {
-        z.fill(polygon, kFill);
-        z.edges(polygon, kEdges);
+        z.fill(polygon, kVirginPlaneFill);
+        z.edges(polygon, kVirginPlaneEdges);
         z.fill(polygon, kGiveBack);
     }};
     return method;

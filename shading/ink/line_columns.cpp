@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "kernels/expression_kernels.h"
+#include "mesh/vectors.h"
 
 namespace burin {
 namespace {
 
 using V = Variable;
-
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 
 /// The direction of (x, y) in degrees, equal on all machines.
 float angle_deg(double y, double x) {

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "lines/vertex_normal.h"
+#include "mesh/vectors.h"
 
 namespace burin {
 namespace {
 
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 glm::dvec2 middle_of(const LinePiece& piece) { return 0.5 * (piece.from + piece.to); }
 
 }  // namespace

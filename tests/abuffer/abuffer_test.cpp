@@ -15,7 +15,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::abuffer_test {
 namespace {
 
 using namespace test;
@@ -435,4 +435,4 @@ TEST(Abuffer, ALongStepIsDrawnLikeOneInPieces) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::abuffer_test

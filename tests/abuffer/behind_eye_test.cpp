@@ -11,7 +11,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::behind_eye_test {
 namespace {
 
 using namespace test;
@@ -178,4 +178,4 @@ TEST(BehindTheEye, WallsPassThroughEachOtherNearTheEye) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::behind_eye_test

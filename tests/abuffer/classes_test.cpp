@@ -10,7 +10,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::classes_test {
 namespace {
 
 using namespace test;
@@ -422,4 +422,4 @@ TEST(TwoSided, WindingChangesNothing) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::classes_test

@@ -9,7 +9,7 @@
 #include "abuffer/masks/mask_grid.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::coverage_mask_test {
 namespace {
 
 using test::Random;
@@ -269,4 +269,4 @@ TEST(Mask16, StrokeWidthFollowsTheLargerDirectionCosine) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::coverage_mask_test

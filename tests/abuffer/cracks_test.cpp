@@ -14,7 +14,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::cracks_test {
 namespace {
 
 using namespace test;
@@ -151,4 +151,4 @@ TEST(Cracks, AreClosedThoughAnotherInstanceIsBehindTheEye) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::cracks_test

@@ -8,7 +8,7 @@
 #include "methods/abuffer.h"
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::crease_fade_test {
 namespace {
 
 using namespace test;
@@ -101,4 +101,4 @@ TEST(CreaseFade, LiesBelowOtherLinesWithoutCountingTwice) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::crease_fade_test

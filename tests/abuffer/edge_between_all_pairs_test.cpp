@@ -6,7 +6,7 @@
 #include "abuffer/coverage_mask.h"
 #include "base/parallel.h"
 
-namespace burin {
+namespace burin::edge_between_all_pairs_test {
 namespace {
 
 // Patel's published functions, operation by operation, as the yardstick. The 16-bit type cuts off
@@ -97,4 +97,4 @@ TEST(Mask16, EdgeLiesWithinItsMasksAndVanishesWithoutABorder) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::edge_between_all_pairs_test

@@ -11,7 +11,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/joined_soups.h"
 
-namespace burin {
+namespace burin::far_models_test {
 namespace {
 
 using namespace test;
@@ -182,4 +182,4 @@ TEST(FarModels, TheEyeMayBeCloseToAHugeSurface) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::far_models_test

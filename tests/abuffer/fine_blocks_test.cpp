@@ -10,7 +10,7 @@
 #include "tests/support/polygon_rect.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::fine_blocks_test {
 namespace {
 
 using namespace test;
@@ -135,4 +135,4 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::fine_blocks_test

@@ -4,7 +4,7 @@
 
 #include "tests/abuffer/fine_drawings.h"
 
-namespace burin {
+namespace burin::fine_contacts_test {
 namespace {
 
 using namespace test;
@@ -17,8 +17,8 @@ TEST(FineContacts, BothSidesOfANarrowGapAreDrawn) {
                 angle);
         };
         const Scene scene = scene_of({half(1), half(-1), wall()});
-        const Camera camera = pixel_camera(kSize, kSize);
-        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.06) << angle;
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        EXPECT_LT(largest_error(draw_fine(scene, camera, kFineSize), truth(scene, camera, kFineSize)), 0.06) << angle;
     }
 }
 
@@ -42,8 +42,9 @@ TEST(FineContacts, BothSidesOfNarrowGapsBetweenPlanksAreDrawn) {
         }
         Scene scene = scene_of(planks);
         scene.lines.style.width_px = random.integer(0, 1) == 0 ? 0.3 : 1;
-        const Camera camera = pixel_camera(kSize, kSize);
-        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize, 32)), 0.12) << "seed " << seed;
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        EXPECT_LT(largest_error(draw_fine(scene, camera, kFineSize), truth(scene, camera, kFineSize, 32)), 0.12)
+            << "seed " << seed;
     }
 }
 
@@ -85,8 +86,8 @@ TEST(FineContacts, ACrackBesideAPartOfABorderIsNoLine) {
                                                      {-12, y - crack, 0}},
                                                     {{0, 1, 2, 3}, {4, 5, 6, 7}});
                 const Scene scene = scene_of({placed(patches, 0), wall()});
-                const Camera camera = pixel_camera(kSize, kSize);
-                EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.4)
+                const Camera camera = pixel_camera(kFineSize, kFineSize);
+                EXPECT_LT(largest_error(draw_fine(scene, camera, kFineSize), truth(scene, camera, kFineSize)), 0.4)
                     << "crack " << crack << ", share " << share << ", y " << y;
             }
         }
@@ -106,7 +107,7 @@ TEST(FineContacts, PlatesInContactHaveNoBorders) {
                 };
                 Scene scene = scene_of({plate(5.3, end - gap), plate(end, 90.3)});
                 scene.lines.classes = LineClass::border;
-                const Drawing drawn = draw(scene, pixel_camera(kWide, kWide), kWide);
+                const Drawing drawn = draw_fine(scene, pixel_camera(kWide, kWide), kWide);
                 double ink = 0;
                 for (int along = 8; along < 88; ++along) {
                     for (int across = 8; across < 88; ++across)
@@ -144,7 +145,8 @@ TEST(FineContacts, ContactsDoNotHangOnTiles) {
         scene.lines.classes = LineClass::border;
         scene.lines.style.width_px = 0.25;
         const Camera camera = pixel_camera(kWide, kWide);
-        const Drawing whole = draw(scene, camera, kWide), part(scene, camera, kWide, kWide, crop, 2, render_abuffer);
+        const Drawing whole = draw_fine(scene, camera, kWide),
+                      part(scene, camera, kWide, kWide, crop, 2, render_abuffer);
         for (int y = crop.y0; y < crop.y1; ++y) {
             for (int x = crop.x0; x < crop.x1; ++x)
                 ASSERT_EQ(part.line(x - crop.x0, y - crop.y0), whole.line(x, y)) << x << ", " << y << ", gap " << gap;
@@ -153,4 +155,4 @@ TEST(FineContacts, ContactsDoNotHangOnTiles) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::fine_contacts_test

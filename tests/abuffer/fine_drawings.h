@@ -17,13 +17,13 @@
 
 namespace burin::test {
 
-inline Drawing draw(const Scene& scene, const Camera& camera, int size, RenderFunction render = render_abuffer) {
+inline Drawing draw_fine(const Scene& scene, const Camera& camera, int size, RenderFunction render = render_abuffer) {
     return Drawing(scene, camera, size, size, {0, 0, size, size}, 2, render);
 }
 
 inline Drawing truth(Scene scene, const Camera& camera, int size, int samples = 16) {
     scene.reference.samples = samples;
-    return draw(scene, camera, size, render_reference);
+    return draw_fine(scene, camera, size, render_reference);
 }
 
 inline double largest_error(const Drawing& a, const Drawing& b) {
@@ -51,8 +51,8 @@ inline int count_false(const Drawing& drawn, const Drawing& truth) {
     return count;
 }
 
-/// In a picture of kSize pixels whose units are pixels: turned around the middle, and moved a little.
-inline constexpr int kSize = 44;
+/// In a picture of kFineSize pixels whose units are pixels: turned around the middle, and moved a little.
+inline constexpr int kFineSize = 44;
 inline PolygonSoup placed(PolygonSoup soup, double angle_deg, double depth = 0) {
     const double a = glm::radians(angle_deg);
     return transformed(std::move(soup), [=](glm::dvec3 p) {

@@ -4,7 +4,7 @@
 
 #include "tests/abuffer/fine_drawings.h"
 
-namespace burin {
+namespace burin::fine_lines_test {
 namespace {
 
 using namespace test;
@@ -13,11 +13,12 @@ TEST(FineLines, ARodThinnerThanASampleHasNoDropouts) {
     for (const double angle : kAngles_deg) {
         for (const double width : {0.2, 0.1}) {
             const Scene scene = scene_of({placed(make_box({30, width, width}), angle), wall()});
-            const Camera camera = pixel_camera(kSize, kSize);
-            const Drawing drawn = draw(scene, camera, kSize);
-            EXPECT_LT(largest_error(drawn, truth(scene, camera, kSize)), 0.15) << angle << " deg, " << width << " px";
+            const Camera camera = pixel_camera(kFineSize, kFineSize);
+            const Drawing drawn = draw_fine(scene, camera, kFineSize);
+            EXPECT_LT(largest_error(drawn, truth(scene, camera, kFineSize)), 0.15)
+                << angle << " deg, " << width << " px";
             const double a = glm::radians(angle);
-            const glm::dvec2 middle(22.13, kSize - 21.86), along(std::cos(a), -std::sin(a));
+            const glm::dvec2 middle(22.13, kFineSize - 21.86), along(std::cos(a), -std::sin(a));
             EXPECT_EQ(drawn.drawn_share(middle - 14.0 * along, middle + 14.0 * along, 0), 1.0) << angle;
         }
     }
@@ -35,9 +36,9 @@ TEST(FineLines, ARoundWireThinnerThanASampleHasNoDropouts) {
             section.emplace_back(radius * std::cos(a), radius * std::sin(a));
         }
         const Scene scene = scene_of({placed(prism(section, 15), angle), wall()});
-        const Drawing drawn = draw(scene, pixel_camera(kSize, kSize), kSize);
+        const Drawing drawn = draw_fine(scene, pixel_camera(kFineSize, kFineSize), kFineSize);
         const double a = glm::radians(angle);
-        const glm::dvec2 middle(22.13, kSize - 21.86), along(std::cos(a), -std::sin(a));
+        const glm::dvec2 middle(22.13, kFineSize - 21.86), along(std::cos(a), -std::sin(a));
         EXPECT_EQ(drawn.drawn_share(middle - 14.0 * along, middle + 14.0 * along, 0), 1.0)
             << "seed " << seed << ": " << radius << " px, " << sides << " sides, " << angle << " deg";
     }
@@ -48,8 +49,8 @@ TEST(FineLines, BothEdgesOfANarrowChamferAreDrawn) {
         const double c = 0.1;
         const Scene scene =
             scene_of({placed(prism({{-10, -6}, {10, -6}, {10, -5.5}, {0, 5}, {-c, 5}, {-c - 10, -5.5}}, 14), angle)});
-        const Camera camera = pixel_camera(kSize, kSize);
-        const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize);
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        const Drawing drawn = draw_fine(scene, camera, kFineSize), expected = truth(scene, camera, kFineSize);
         EXPECT_LT(largest_error(drawn, expected), 0.15) << angle;
         EXPECT_NEAR(drawn.sum("lines.A") / expected.sum("lines.A"), 1, 0.01) << angle;
     }
@@ -66,8 +67,8 @@ TEST(FineLines, BothEdgesOfANarrowRimAreDrawn) {
             });
             Scene scene = scene_of({placed(box, angle)});
             scene.lines.style.width_px = 0.3;
-            const Camera camera = pixel_camera(kSize, kSize);
-            const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize, 32);
+            const Camera camera = pixel_camera(kFineSize, kFineSize);
+            const Drawing drawn = draw_fine(scene, camera, kFineSize), expected = truth(scene, camera, kFineSize, 32);
             EXPECT_LT(largest_error(drawn, expected), 0.1) << rim_px << " px, " << angle << " deg";
             EXPECT_NEAR(drawn.sum("lines.A") / expected.sum("lines.A"), 1, 0.01)
                 << rim_px << " px, " << angle << " deg";
@@ -105,8 +106,8 @@ TEST(FineLines, AStepLowerThanASampleIsDrawn) {
         };
         const Scene scene =
             scene_of({placed(make_box({28, 16, 5}), angle), placed(moved({14, 16, 5}, {0, 0.15, -5}), angle), wall()});
-        const Camera camera = pixel_camera(kSize, kSize);
-        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize)), 0.15) << angle;
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        EXPECT_LT(largest_error(draw_fine(scene, camera, kFineSize), truth(scene, camera, kFineSize)), 0.15) << angle;
     }
 }
 
@@ -115,8 +116,8 @@ TEST(FineLines, AcuteTipsAreNotCutShort) {
         PolygonSoup needle = soup_of({{-10, -2, 0}, {10, 0, 0}, {-10, 2, 0}, {-10, 0, -2}},
                                      {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}});
         const Scene tip = scene_of({placed(needle, angle), wall()});
-        const Camera camera = pixel_camera(kSize, kSize);
-        EXPECT_LT(largest_error(draw(tip, camera, kSize), truth(tip, camera, kSize, 32)), 0.15) << angle;
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        EXPECT_LT(largest_error(draw_fine(tip, camera, kFineSize), truth(tip, camera, kFineSize, 32)), 0.15) << angle;
     }
 }
 
@@ -127,8 +128,8 @@ TEST(FineLines, BothLinesOfASlenderCornerAreDrawn) {
             for (const double between : {7.0, 12.0}) {
                 const Scene scene = scene_of({placed(make_box({36, 2.7, 1}), angle),
                                               placed(make_box({36, 2.7, 1}), angle + between, depth), wall()});
-                const Camera camera = pixel_camera(kSize, kSize);
-                EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize, 32)), 0.08)
+                const Camera camera = pixel_camera(kFineSize, kFineSize);
+                EXPECT_LT(largest_error(draw_fine(scene, camera, kFineSize), truth(scene, camera, kFineSize, 32)), 0.08)
                     << angle << " and " << angle + between << " deg, " << depth << " px";
             }
         }
@@ -143,8 +144,8 @@ TEST(FineLines, SheetsThatPassThroughEachOtherEndWhereTheyMeet) {
                 turn_deg + 29.3 * i);
         };
         const Scene scene = scene_of({sheet(0, 0.7), sheet(74, 0.9)});
-        const Camera camera = pixel_camera(kSize, kSize);
-        EXPECT_LT(largest_error(draw(scene, camera, kSize), truth(scene, camera, kSize, 32)), 0.08) << i;
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        EXPECT_LT(largest_error(draw_fine(scene, camera, kFineSize), truth(scene, camera, kFineSize, 32)), 0.08) << i;
     }
 }
 
@@ -178,7 +179,7 @@ TEST(FineLines, NothingHiddenAppears) {
     for (std::uint64_t seed = 0; seed < 2; ++seed) {
         const Scene scene = rough_scene(seed, 60 + 40 * static_cast<int>(seed));
         const Camera camera = perspective_camera(kEye, {0, 0, 0});
-        const Drawing drawn = draw(scene, camera, kPicture), expected = truth(scene, camera, kPicture, 32);
+        const Drawing drawn = draw_fine(scene, camera, kPicture), expected = truth(scene, camera, kPicture, 32);
         EXPECT_EQ(count_false(drawn, expected), 0) << "seed " << seed;
         EXPECT_LE(count_false(expected, drawn), 1) << "seed " << seed;
         // The tips of slivers are thinner than the truth's samples, too.
@@ -205,20 +206,21 @@ TEST(FineLines, OfFlushFacesTheFirstIsSeen) {
     for (const double middle : {0.2, 0.8}) {
         const PolygonSoup box = make_box({1, 1, 1});
         for (const Scene& scene : {scene_of({box, prism(middle)}), scene_of({as_one_mesh(box, prism(middle))})}) {
-            const Drawing drawn = draw(scene, camera, kSize), expected = truth(scene, camera, kSize);
+            const Drawing drawn = draw_fine(scene, camera, kFineSize), expected = truth(scene, camera, kFineSize);
             EXPECT_EQ(count_false(drawn, expected), 0) << middle << ' ' << scene.objects.size();
             EXPECT_EQ(count_false(expected, drawn), 0) << middle << ' ' << scene.objects.size();
         }
     }
     // At exactly one depth all over.
     const auto in_the_middle = [](glm::dvec3 size) {
-        return transformed(make_box(size),
-                           [](glm::dvec3 p) { return p + glm::dvec3(kSize / 2.0 + 0.13, kSize / 2.0 + 0.27, 30); });
+        return transformed(make_box(size), [](glm::dvec3 p) {
+            return p + glm::dvec3(kFineSize / 2.0 + 0.13, kFineSize / 2.0 + 0.27, 30);
+        });
     };
     const Scene scene = scene_of({in_the_middle({40, 40, 20}), in_the_middle({17, 11, 20})});
-    const Drawing drawn = draw(scene, pixel_camera(kSize, kSize), kSize);
+    const Drawing drawn = draw_fine(scene, pixel_camera(kFineSize, kFineSize), kFineSize);
     EXPECT_GT(drawn.sum("lines.A"), 100);
-    EXPECT_EQ(count_false(drawn, truth(scene, pixel_camera(kSize, kSize), kSize)), 0);
+    EXPECT_EQ(count_false(drawn, truth(scene, pixel_camera(kFineSize, kFineSize), kFineSize)), 0);
 }
 
 // A folded quad, and its two triangles once more as objects of their own, each of which ends along the fold.
@@ -229,9 +231,9 @@ TEST(FineLines, AFinThatTouchesFromBehindIsNotSeen) {
         return soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.1}, {1, -1, -0.1}, {0, 0, z}, {0.5, 0.3, -1}},
                        {{0, 1, 3}, {1, 0, 4}, {5, 1, 6}});
     };
-    const Drawing welded = draw(scene_of({sheet_with_fin_at(0)}), camera, 160);
+    const Drawing welded = draw_fine(scene_of({sheet_with_fin_at(0)}), camera, 160);
     for (const double z : {-1e-6, -1e-5, -1e-4, -1e-3, -3e-3}) {
-        EXPECT_LE(largest_error(draw(scene_of({sheet_with_fin_at(z)}), camera, 160), welded), 0.3) << z;
+        EXPECT_LE(largest_error(draw_fine(scene_of({sheet_with_fin_at(z)}), camera, 160), welded), 0.3) << z;
     }
 }
 
@@ -250,18 +252,18 @@ TEST(FineLines, WhatLiesInAFoldedPolygonHasNoOutline) {
         }
         const glm::dvec3 middle(0.38, 0.08, 0);
         const Camera camera = perspective_camera(middle + 1.6 * random.direction(), middle);
-        const Drawing alone = draw(scene_of({quad}), camera, 200), all = draw(scene_of(objects), camera, 200);
+        const Drawing alone = draw_fine(scene_of({quad}), camera, 200), all = draw_fine(scene_of(objects), camera, 200);
         EXPECT_NEAR(all.sum("lines.A"), alone.sum("lines.A"), 4) << "seed " << seed;
     }
 }
 
 TEST(FineLines, ThePreviewLeavesThemOutUnlessAskedFor) {
     Scene scene = scene_of({placed(make_box({30, 0.2, 0.2}), 17), wall()});
-    const Camera camera = pixel_camera(kSize, kSize);
+    const Camera camera = pixel_camera(kFineSize, kFineSize);
     const auto draw_with = [&](std::optional<int> samples, std::optional<bool> fine_lines) {
         scene.abuffer.samples = samples;
         scene.abuffer.fine_lines = fine_lines;
-        return draw(scene, camera, kSize);
+        return draw_fine(scene, camera, kFineSize);
     };
     EXPECT_EQ(largest_error(draw_with({}, {}), draw_with(2, true)), 0);
     EXPECT_EQ(largest_error(draw_with(2, {}), draw_with(2, false)), 0);
@@ -280,7 +282,7 @@ TEST(FineLines, HundredsOfTrianglesToAPixelAreLookedThrough) {
         const Drawing real = truth(scene, camera, kFewPixels, 32);
         const auto error_with = [&](bool has_fine_lines) {
             scene.abuffer.fine_lines = has_fine_lines;
-            const Drawing drawn = draw(scene, camera, kFewPixels);
+            const Drawing drawn = draw_fine(scene, camera, kFewPixels);
             double sum = 0;
             for (int y = 0; y < kFewPixels; ++y) {
                 for (int x = 0; x < kFewPixels; ++x) sum += std::abs(drawn.line(x, y) - real.line(x, y));
@@ -327,4 +329,4 @@ TEST(FineLines, ThreadsTilesAndCropsChangeNothing) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::fine_lines_test

@@ -4,7 +4,7 @@
 
 #include "tests/abuffer/fine_drawings.h"
 
-namespace burin {
+namespace burin::fine_slivers_test {
 namespace {
 
 using namespace test;
@@ -71,7 +71,7 @@ TEST(FineSlivers, TrianglesSmallerThanTheGridOfCornersHaveNoContours) {
             Scene scene = scene_of(objects);
             scene.lines.classes = LineClass::silhouette;
             scene.lines.style.hidden.style = HiddenStyle::solid;
-            const Drawing drawn = draw(scene, pixel_camera(kSize, kSize), kSize);
+            const Drawing drawn = draw_fine(scene, pixel_camera(kFineSize, kFineSize), kFineSize);
             double ink = 0;
             for (int v = 19; v < 25; ++v) {
                 for (int u = 19; u < 25; ++u) ink += drawn.at(is_hidden ? "lines_hidden.A" : "lines.A", u, v);
@@ -105,7 +105,7 @@ TEST(FineSlivers, NeedlesOnAnEdgeMakeNoLines) {
             for (const char* const layer : {"lines.A", "lines_hidden.A"}) {
                 Scene scene = scene_of(objects);
                 scene.lines.style.hidden.style = HiddenStyle::solid;
-                const Drawing drawn = draw(scene, pixel_camera(kSize, kSize), kSize);
+                const Drawing drawn = draw_fine(scene, pixel_camera(kFineSize, kFineSize), kFineSize);
                 double ink = 0;
                 for (int y = 17; y < 27; ++y) {
                     for (int x = 17; x < 27; ++x) ink += drawn.at(layer, x, y);
@@ -138,8 +138,9 @@ TEST(FineSlivers, ACreaseBetweenPatchesGoesOnBesideANeedle) {
             return glm::dvec3(glm::rotate(glm::dmat4(1.0), -0.8, glm::dvec3(1, 0, 0)) * glm::dvec4(p, 1));
         });
         const double angle = random.real(0, 360), a = glm::radians(angle);
-        const Drawing drawn = draw(scene_of({placed(turned, angle)}), pixel_camera(kSize, kSize), kSize);
-        const glm::dvec2 middle(22.13, kSize - 21.86), way(std::cos(a), -std::sin(a));
+        const Drawing drawn =
+            draw_fine(scene_of({placed(turned, angle)}), pixel_camera(kFineSize, kFineSize), kFineSize);
+        const glm::dvec2 middle(22.13, kFineSize - 21.86), way(std::cos(a), -std::sin(a));
         EXPECT_EQ(drawn.drawn_share(middle - 11.0 * way, middle + 11.0 * way, 0), 1.0) << "seed " << seed;
     }
 }
@@ -173,4 +174,4 @@ TEST(FineSlivers, ANarrowStripKeepsItsBorderBesideANeedle) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::fine_slivers_test

@@ -12,7 +12,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::flush_faces_test {
 namespace {
 
 using namespace test;
@@ -410,4 +410,4 @@ TEST(FlushFaces, MarksStay) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::flush_faces_test

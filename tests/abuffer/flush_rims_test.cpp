@@ -12,7 +12,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::flush_rims_test {
 namespace {
 
 using namespace test;
@@ -137,4 +137,4 @@ TEST(FlushRims, ABodyThatEndsInTwoHasNoLine) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::flush_rims_test

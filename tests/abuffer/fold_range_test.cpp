@@ -8,7 +8,7 @@
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::fold_range_test {
 namespace {
 
 using namespace test;
@@ -104,4 +104,4 @@ TEST(FoldRange, NothingInItIsWide) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::fold_range_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::fragment_lists_test {
 namespace {
 
 using test::Random;
@@ -94,4 +94,4 @@ TEST(ExtendedGrid, WidthsFollowTheTableOfMaskSizes) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::fragment_lists_test

@@ -14,7 +14,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::front_views_test {
 namespace {
 
 using namespace test;
@@ -238,4 +238,4 @@ TEST(DrawnParts, CoverOnlyWhatLiesBehindThemEverywhere) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::front_views_test

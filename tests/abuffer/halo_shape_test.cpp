@@ -4,7 +4,7 @@
 
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::halo_shape_test {
 namespace {
 
 TEST(HaloShape, FourIsPatelsHalo) {
@@ -34,4 +34,4 @@ TEST(HaloShape, EightStaysInTheWindow) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::halo_shape_test

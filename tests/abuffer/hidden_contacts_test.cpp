@@ -9,7 +9,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::hidden_contacts_test {
 namespace {
 
 using namespace test;
@@ -324,4 +324,4 @@ TEST(HiddenContacts, BodiesThatStandFlushHideNothingOfEachOther) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::hidden_contacts_test

@@ -9,7 +9,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::hidden_lines_test {
 namespace {
 
 using namespace test;
@@ -491,4 +491,4 @@ TEST(HiddenLines, OpenMeshesShowTheirInsides) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::hidden_lines_test

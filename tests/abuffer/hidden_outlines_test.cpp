@@ -9,7 +9,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::hidden_outlines_test {
 namespace {
 
 using namespace test;
@@ -142,4 +142,4 @@ TEST(HiddenLines, OutlineOverAWallThatLeansBack) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::hidden_outlines_test

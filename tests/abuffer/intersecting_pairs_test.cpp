@@ -17,7 +17,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::intersecting_pairs_test {
 namespace {
 
 using namespace test;
@@ -464,4 +464,4 @@ TEST(HiddenLines, ACropIsThatPartOfTheWhole) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::intersecting_pairs_test

@@ -9,7 +9,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::invariance_test {
 namespace {
 
 using namespace test;
@@ -251,4 +251,4 @@ TEST(Extremes, AnEmptyViewIsBackground) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::invariance_test

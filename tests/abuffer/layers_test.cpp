@@ -8,7 +8,7 @@
 #include "methods/method_table.h"
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::layers_test {
 namespace {
 
 using namespace test;
@@ -119,4 +119,4 @@ TEST(Layers, AnImageThatDoesNotFitTheMachineIsRefused) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::layers_test

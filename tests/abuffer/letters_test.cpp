@@ -12,7 +12,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::letters_test {
 namespace {
 
 using namespace test;
@@ -266,4 +266,4 @@ TEST(Letters, InAPlateKeepWhatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::letters_test

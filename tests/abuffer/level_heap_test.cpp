@@ -10,7 +10,7 @@
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::level_heap_test {
 namespace {
 
 using namespace test;
@@ -139,4 +139,4 @@ TEST(LevelHeap, TheNearestTakePart) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::level_heap_test

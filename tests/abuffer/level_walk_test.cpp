@@ -11,7 +11,7 @@
 #include "tests/support/rough_sphere.h"
 #include "tests/support/terraces.h"
 
-namespace burin {
+namespace burin::level_walk_test {
 namespace {
 
 using namespace test;
@@ -87,4 +87,4 @@ TEST(LevelWalk, WallsSeenEdgeOn) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::level_walk_test

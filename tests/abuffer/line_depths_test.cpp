@@ -12,7 +12,7 @@
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::line_depths_test {
 namespace {
 
 using namespace test;
@@ -165,4 +165,4 @@ TEST(LineDepths, KernelsFindWhatMayHideALine) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::line_depths_test

@@ -10,7 +10,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::line_ids_test {
 namespace {
 
 using namespace test;
@@ -89,4 +89,4 @@ TEST(LineIds, AnEdgeOfAnyNumberOfPolygonsIsOneLine) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::line_ids_test

@@ -12,7 +12,7 @@
 #include "tests/support/polygon_rect.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::long_triangles_test {
 namespace {
 
 using namespace test;
@@ -183,4 +183,4 @@ TEST(LongTriangles, AreInBlocksThatTheyTouch) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::long_triangles_test

@@ -12,7 +12,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::loose_lines_test {
 namespace {
 
 using namespace test;
@@ -338,4 +338,4 @@ TEST(LooseLines, ThousandsInOnePlace) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::loose_lines_test

@@ -10,7 +10,7 @@
 #include "tests/support/ink_apart.h"
 #include "tests/support/layers.h"
 
-namespace burin {
+namespace burin::low_relief_test {
 namespace {
 
 using namespace test;
@@ -92,4 +92,4 @@ TEST(LowRelief, IsSeenOnAGround) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::low_relief_test

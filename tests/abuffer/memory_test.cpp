@@ -15,7 +15,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::memory_test {
 namespace {
 
 using namespace test;
@@ -292,4 +292,4 @@ TEST(Tiles, TheirSizeChangesNothing) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::memory_test

@@ -12,7 +12,7 @@
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::occluder_test {
 namespace {
 
 using namespace test;
@@ -183,4 +183,4 @@ TEST(Occluder, FewNumbersAreSorted) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::occluder_test

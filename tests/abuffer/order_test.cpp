@@ -13,7 +13,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::order_test {
 namespace {
 
 using namespace test;
@@ -242,4 +242,4 @@ TEST(Order, OfDashesOnALoopOfIntersections) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::order_test

@@ -13,7 +13,7 @@
 #include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin {
+namespace burin::peak_memory_test {
 namespace {
 
 using namespace test;
@@ -114,4 +114,4 @@ TEST(PeakMemory, APictureInBandsIsNeverThereAsAWhole) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::peak_memory_test

@@ -13,7 +13,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::rounded_copies_test {
 namespace {
 
 using namespace test;
@@ -195,4 +195,4 @@ TEST(RoundedCopies, AreNotSurfacesThatCross) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::rounded_copies_test

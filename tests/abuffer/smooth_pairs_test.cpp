@@ -12,7 +12,7 @@
 #include "tests/support/random.h"
 #include "tests/support/rough_sphere.h"
 
-namespace burin {
+namespace burin::smooth_pairs_test {
 namespace {
 
 using namespace test;
@@ -135,4 +135,4 @@ TEST(SmoothPairs, Slivers) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::smooth_pairs_test

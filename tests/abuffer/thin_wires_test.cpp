@@ -11,12 +11,12 @@
 #include "render/close_cracks.h"
 #include "tests/abuffer/fine_drawings.h"
 
-namespace burin {
+namespace burin::thin_wires_test {
 namespace {
 
 using namespace test;
 
-/// A straight wire through the middle of a picture of kSize pixels, whose units are pixels.
+/// A straight wire through the middle of a picture of kFineSize pixels, whose units are pixels.
 struct Wire {
     double thickness = 0.01;
     int sides = 4;
@@ -50,7 +50,7 @@ struct Wire {
 Camera pixels_in_perspective() {
     // At the depth of the middle a unit is a pixel.
     const double distance = 60;
-    return perspective_camera({22, 22, distance}, {22, 22, 0}, glm::degrees(2 * std::atan(0.5 * kSize / distance)));
+    return perspective_camera({22, 22, distance}, {22, 22, 0}, glm::degrees(2 * std::atan(0.5 * kFineSize / distance)));
 }
 
 Wire random_wire(Random& random) {
@@ -70,15 +70,15 @@ struct Found {
     double share, strength;
 };
 Found look(const Drawing& drawn, const Camera& camera, const Wire& wire) {
-    const Projection projection = camera.projection(kSize, kSize, 0);
+    const Projection projection = camera.projection(kFineSize, kFineSize, 0);
     const auto pixel = [&](double end) {
         return projection.to_pixel(
             glm::dvec3(camera.to_view() * glm::dvec4(wire.middle() + end * wire.half_length * wire.direction(), 1)));
     };
     const glm::dvec2 a = pixel(-1), b = pixel(1);
     double sum = 0;
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) sum += drawn.line(x, y);
+    for (int y = 0; y < kFineSize; ++y) {
+        for (int x = 0; x < kFineSize; ++x) sum += drawn.line(x, y);
     }
     return {drawn.drawn_share(a, b, 0.5, 0.5), sum / (glm::distance(a, b) + M_PI / 4)};
 }
@@ -92,12 +92,12 @@ TEST(ThinWires, AreLinesOfFullStrengthAtAnyThickness) {
     for (std::uint64_t seed = 0; seed < 500; ++seed) {
         Random random(seed);
         const Wire wire = random_wire(random);
-        const Camera camera = seed % 2 == 0 ? pixel_camera(kSize, kSize) : pixels_in_perspective();
+        const Camera camera = seed % 2 == 0 ? pixel_camera(kFineSize, kFineSize) : pixels_in_perspective();
         std::vector<PolygonSoup> objects{wire.soup()};
         if (seed % 3 == 0) objects.push_back(wall());
         Scene scene = scene_of(objects);
         if (seed % 5 == 0) scene.lines.classes = LineClass::silhouette;
-        const Found found = look(draw(scene, camera, kSize), camera, wire);
+        const Found found = look(draw_fine(scene, camera, kFineSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire);
         EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire);
         EXPECT_LT(found.strength, 1.06 + 1.1 * wire.thickness) << seed << ": " << words(wire);
@@ -111,13 +111,13 @@ TEST(ThinWires, DoNotBlinkWhileTheyMove) {
         Wire wire = random_wire(random);
         wire.thickness = std::pow(10, random.real(-3, -1.2));
         wire.sides = random.integer(8, 16);
-        const Camera camera = seed % 2 == 0 ? pixel_camera(kSize, kSize) : pixels_in_perspective();
+        const Camera camera = seed % 2 == 0 ? pixel_camera(kFineSize, kFineSize) : pixels_in_perspective();
         const glm::dvec3 step = random.in_box(0.03);
         double least = 2, most = 0;
         for (int frame = 0; frame < 20; ++frame) {
             wire.place += step;
             wire.angle_deg += 0.037;
-            const double strength = look(draw(scene_of({wire.soup()}), camera, kSize), camera, wire).strength;
+            const double strength = look(draw_fine(scene_of({wire.soup()}), camera, kFineSize), camera, wire).strength;
             least = std::min(least, strength);
             most = std::max(most, strength);
         }
@@ -135,8 +135,8 @@ TEST(ThinWires, AreDrawnCloseToASurface) {
         const double gap = seed % 3 == 0 ? 0.5 * wire.thickness : random.real(0.02, 1);
         const PolygonSoup face = transformed(
             make_box({100, 100, 4}), [&](glm::dvec3 p) { return p + glm::dvec3(22, 22, wire.place.z - gap - 2); });
-        const Camera camera = pixel_camera(kSize, kSize);
-        const Found found = look(draw(scene_of({wire.soup(), face}), camera, kSize), camera, wire);
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        const Found found = look(draw_fine(scene_of({wire.soup(), face}), camera, kFineSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire) << ", " << gap << " in front";
         EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire) << ", " << gap << " in front";
     }
@@ -148,18 +148,18 @@ TEST(ThinWires, BehindASurfaceAreHidden) {
         const Wire wire = random_wire(random);
         Scene scene = scene_of({wire.soup(), transformed(make_box({100, 100, 4}),
                                                          [](glm::dvec3 p) { return p + glm::dvec3(22, 22, 40); })});
-        const Camera camera = pixel_camera(kSize, kSize);
-        EXPECT_EQ(draw(scene, camera, kSize).sum("lines.A"), 0) << seed;
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        EXPECT_EQ(draw_fine(scene, camera, kFineSize).sum("lines.A"), 0) << seed;
         scene.lines.style.hidden.style = HiddenStyle::solid;
-        const Frame frame = make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize});
+        const Frame frame = make_frame(scene, camera, kFineSize, kFineSize, {0, 0, kFineSize, kFineSize});
         LayerSet layers;
         layers.lines_hidden = true;
-        Film film({0, 0, kSize, kSize}, frame.crop, layers, frame.criteria.classes);
+        Film film({0, 0, kFineSize, kFineSize}, frame.crop, layers, frame.criteria.classes);
         render_abuffer(frame, {2}, film);
         const Image image = film.image();
         double sum = 0;
-        for (int y = 0; y < kSize; ++y) {
-            for (int x = 0; x < kSize; ++x) sum += image.value(*image.find("lines_hidden.A"), x, y);
+        for (int y = 0; y < kFineSize; ++y) {
+            for (int x = 0; x < kFineSize; ++x) sum += image.value(*image.find("lines_hidden.A"), x, y);
         }
         const double width = scene.lines.style.hidden_width_px();
         const glm::dvec3 along = wire.direction();
@@ -176,8 +176,8 @@ TEST(ThinWires, MayGetThinTowardsOneEnd) {
         Wire wire = random_wire(random);
         wire.thickness = std::pow(10, random.real(-2.5, 0));
         wire.taper = seed % 2 == 0 ? 0.01 : 0.1;
-        const Camera camera = seed % 4 < 2 ? pixel_camera(kSize, kSize) : pixels_in_perspective();
-        const Found found = look(draw(scene_of({wire.soup()}), camera, kSize), camera, wire);
+        const Camera camera = seed % 4 < 2 ? pixel_camera(kFineSize, kFineSize) : pixels_in_perspective();
+        const Found found = look(draw_fine(scene_of({wire.soup()}), camera, kFineSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire);
         EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire);
     }
@@ -188,8 +188,8 @@ TEST(ThinWires, MayGetThinTowardsOneEnd) {
         wire.tilt_deg = 0;
         const PolygonSoup cone = transformed(make_cylinder(0.5 * wire.thickness, 0, 2 * wire.half_length, wire.sides),
                                              [&](glm::dvec3 p) { return turn * p + wire.middle(); });
-        const Camera camera = pixel_camera(kSize, kSize);
-        const Found found = look(draw(scene_of({cone}), camera, kSize), camera, wire);
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        const Found found = look(draw_fine(scene_of({cone}), camera, kFineSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire);
         EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire);
     }
@@ -203,7 +203,7 @@ TEST(ThinWires, RingsOfThemAreClosed) {
         const glm::dvec3 offset = glm::dvec3(22, 22, 0) + random.in_box(2);
         const PolygonSoup ring = transformed(make_torus(radius, 0.5 * thickness, segments, random.integer(3, 12)),
                                              [&](glm::dvec3 p) { return glm::dvec3(p.x, p.z, p.y) + offset; });
-        const Drawing drawn = draw(scene_of({ring}), pixel_camera(kSize, kSize), kSize);
+        const Drawing drawn = draw_fine(scene_of({ring}), pixel_camera(kFineSize, kFineSize), kFineSize);
         const double length = 2 * segments * radius * std::sin(M_PI / segments);
         EXPECT_GT(drawn.sum("lines.A"), 0.96 * length) << seed << ": " << thickness << ' ' << segments;
         EXPECT_LT(drawn.sum("lines.A"), (1.06 + 1.1 * thickness) * length)
@@ -222,8 +222,8 @@ TEST(ThinWires, PlatesSeenEdgeOn) {
         const PolygonSoup plate =
             transformed(make_box({2 * wire.half_length, wire.thickness, depth}),
                         [&](glm::dvec3 p) { return turn * (p + glm::dvec3(0, lean * p.z, 0)) + wire.middle(); });
-        const Camera camera = pixel_camera(kSize, kSize);
-        const Found found = look(draw(scene_of({plate}), camera, kSize), camera, wire);
+        const Camera camera = pixel_camera(kFineSize, kFineSize);
+        const Found found = look(draw_fine(scene_of({plate}), camera, kFineSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire);
         EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire);
     }
@@ -240,14 +240,14 @@ TEST(ThinWires, OpenBandsAndTubes) {
         const bool is_tube = seed % 2 == 0;
         const auto sides = static_cast<std::size_t>(is_tube ? wire.sides : random.integer(1, wire.sides - 1));
         for (std::size_t i = 0; i < sides; ++i) open.add_polygon(closed.polygon(i));
-        const Camera camera = seed % 4 < 2 ? pixel_camera(kSize, kSize) : pixels_in_perspective();
+        const Camera camera = seed % 4 < 2 ? pixel_camera(kFineSize, kFineSize) : pixels_in_perspective();
         Scene scene = scene_of({open});
-        close_cracks(scene, camera, kSize, kSize);
-        const Found found = look(draw(scene, camera, kSize), camera, wire);
+        close_cracks(scene, camera, kFineSize, kFineSize);
+        const Found found = look(draw_fine(scene, camera, kFineSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire) << ", " << sides;
         EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire) << ", " << sides;
     }
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::thin_wires_test

@@ -8,7 +8,7 @@
 #include "tests/support/layers.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::transparency_test {
 namespace {
 
 using namespace test;
@@ -152,4 +152,4 @@ TEST(Transparency, GlassDoesNotCountAsALayer) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::transparency_test

@@ -12,7 +12,7 @@
 #include "tests/support/random.h"
 #include "tests/support/rough_sphere.h"
 
-namespace burin {
+namespace burin::triangle_bins_test {
 namespace {
 
 using namespace test;
@@ -60,4 +60,4 @@ TEST(TriangleBins, RunsThatFaceAwayAreSummedUp) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::triangle_bins_test

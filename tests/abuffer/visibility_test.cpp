@@ -6,7 +6,7 @@
 
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::visibility_test {
 namespace {
 
 using test::Random;
@@ -146,4 +146,4 @@ TEST(Visibility, TheOrderOfTheListDoesNotMatterWhereDepthsDiffer) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::visibility_test

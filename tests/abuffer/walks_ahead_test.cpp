@@ -16,7 +16,7 @@
 #include "tests/support/rough_sphere.h"
 #include "tests/support/terraces.h"
 
-namespace burin {
+namespace burin::walks_ahead_test {
 namespace {
 
 using namespace test;
@@ -206,4 +206,4 @@ TEST(WalksAhead, PolygonsTurnedOver) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::walks_ahead_test

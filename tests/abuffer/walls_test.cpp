@@ -7,7 +7,7 @@
 #include "methods/abuffer.h"
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::walls_test {
 namespace {
 
 using namespace test;
@@ -102,4 +102,4 @@ TEST(Wall, OfASmoothBossIsAnOutline) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::walls_test

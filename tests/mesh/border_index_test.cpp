@@ -9,7 +9,7 @@
 #include "tests/mesh/mesh_checks.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::border_index_test {
 namespace {
 
 using test::Random;
@@ -199,4 +199,4 @@ TEST(SeamPartner, APolygonIsNoSeamOfItself) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::border_index_test

@@ -11,7 +11,7 @@
 #include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin {
+namespace burin::ply_variants_test {
 namespace {
 
 using test::ByteWriter;
@@ -202,4 +202,4 @@ TEST_F(PlyVariants, TheHeaderMayBeInCapitals) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::ply_variants_test

@@ -9,7 +9,7 @@
 #include "tests/mesh/model_files.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin {
+namespace burin::read_gltf_test {
 namespace {
 
 GltfScene read_file(const std::string& path) { return read_gltf(path); }
@@ -305,4 +305,4 @@ TEST_F(ReadGltf, SurfacesThatHaveNothingToDrawAreRefusedByReadModel) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::read_gltf_test

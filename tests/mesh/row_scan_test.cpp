@@ -10,7 +10,7 @@
 #include "tests/mesh/plain_decimal.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::row_scan_test {
 namespace {
 
 using test::Random;
@@ -129,4 +129,4 @@ TEST(RowScan, TakesTheRowsThatFilesHave) {
 #endif
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::row_scan_test

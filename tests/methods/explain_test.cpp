@@ -5,7 +5,7 @@
 #include "mesh/shapes.h"
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::explain_test {
 namespace {
 
 using namespace test;
@@ -80,4 +80,4 @@ TEST(Explain, TellsOfLinesThatItsSamplesMiss) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::explain_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/shaded_scene.h"
 
-namespace burin {
+namespace burin::styled_plain_test {
 namespace {
 
 using namespace test;
@@ -71,4 +71,4 @@ TEST_P(StyledPlain, IsWhatLinesSay) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::styled_plain_test

@@ -14,7 +14,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::dashes_test {
 namespace {
 
 using namespace test;
@@ -275,4 +275,4 @@ TEST(VisibleDashes, DependOnThePictureOnly) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::dashes_test

@@ -16,7 +16,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin {
+namespace burin::golden_test {
 namespace {
 
 using namespace test;
@@ -140,4 +140,4 @@ TEST(Golden, JoinsAreRoundAndNothingIsDoubled) {
 TEST(Golden, ThinStrokesAreLightNotBroken) { expect_stroke("thin", arrow(), 0.3); }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::golden_test

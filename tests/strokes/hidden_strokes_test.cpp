@@ -7,7 +7,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::hidden_strokes_test {
 namespace {
 
 using namespace test;
@@ -62,4 +62,4 @@ TEST(HiddenStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::hidden_strokes_test

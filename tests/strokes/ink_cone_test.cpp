@@ -10,7 +10,7 @@
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::ink_cone_test {
 namespace {
 
 using namespace test;
@@ -204,4 +204,4 @@ TEST(InkCones, CutsLeaveWhatLiesBeforeThem) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::ink_cone_test

@@ -10,7 +10,7 @@
 #include "tests/strokes/ink_picture.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::ink_equality_test {
 namespace {
 
 using namespace test;
@@ -249,4 +249,4 @@ TEST(InkEquality, AStylesChangeStaysWhereItsStrokesAre) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::ink_equality_test

@@ -10,7 +10,7 @@
 #include "tests/strokes/ink_picture.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::ink_printer_test {
 namespace {
 
 using namespace test;
@@ -241,4 +241,4 @@ TEST(InkPrinter, HalosEraseWhatIsFartherAsWideAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::ink_printer_test

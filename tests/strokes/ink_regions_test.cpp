@@ -13,7 +13,7 @@
 #include "tests/strokes/ink_picture.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::ink_regions_test {
 namespace {
 
 using namespace test;
@@ -169,4 +169,4 @@ TEST(InkRegions, SharesOfASampleLieOnEachOther) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::ink_regions_test

@@ -14,7 +14,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::shared_dashes_test {
 namespace {
 
 using namespace test;
@@ -324,4 +324,4 @@ TEST(SharedDashes, StandStillInAnAnimation) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::shared_dashes_test

@@ -11,7 +11,7 @@
 #include "shading/dash_style.h"
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::short_dashes_test {
 namespace {
 
 using namespace test;
@@ -125,4 +125,4 @@ TEST(ShortDashes, OnlyThoseThatCanBeSeenAreLaidOut) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::short_dashes_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::stroke_clip_test {
 namespace {
 
 using test::Random;
@@ -221,4 +221,4 @@ TEST(StrokeClipper, ADotIsCutOffAsAVeryShortStroke) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::stroke_clip_test

@@ -11,7 +11,7 @@
 #include "tests/support/kernels.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::stroke_mask_test {
 namespace {
 
 using namespace test;
@@ -258,4 +258,4 @@ TEST(StrokeCanvas, WideStrokesAreTheUnionOfEach) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::stroke_mask_test

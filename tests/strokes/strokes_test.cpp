@@ -13,7 +13,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::strokes_test {
 namespace {
 
 using namespace test;
@@ -341,4 +341,4 @@ TEST(Strokes, CropsAndThreadsChangeNothingOfFiltersAndSides) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::strokes_test
