@@ -173,6 +173,8 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
     // is thin comes last: its ink is light, and would keep darker ink of the same chain away.
     for (const bool is_thin : {false, true}) {
         if (!(is_thin ? has_thin : has_others)) continue;
+        cut_masks_.clear();
+        cut_ends_.clear();
         if (has_changes) draw_parts(is_thin, true);
         draw_parts(is_thin, false);
     }
@@ -183,6 +185,12 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
 }
 
 void InkTile::draw_parts(bool is_thin, bool body_only) {
+    const auto use_cut = [&](const Placed& placed, const InkSegment::Part& part, const auto& use) {
+        piece_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
+        draw_clipped(placed.ref, placed.segment, part.cone, piece_);
+        piece_.for_touched([&](int column, int row) { use(column, row, piece_.at(column, row)); });
+    };
+    std::size_t next_part = 0;
     for (const Placed& placed : placed_) {
         if (body_only && placed.segment.is_constant()) continue;
         const bool is_cut = is_clipped(placed.ref);
@@ -193,19 +201,24 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
             if (!is_cut) {
                 one_.draw(kernels_, cone, rect_,
                           [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); });
-                continue;
+            } else if (body_only) {
+                use_cut(placed, part, [&](int column, int row, const StrokeMask& mask) {
+                    cut_masks_.push_back({column, row, mask});
+                });
+                cut_ends_.push_back(cut_masks_.size());
+                one_.draw(kernels_, cone, rect_, [&](int column, int row, StrokeMask mask) {
+                    const StrokeMask& left = piece_.at(column, row);
+                    for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= left.rows[r];
+                    take(placed, column, row, mask);
+                });
+            } else if (placed.segment.is_constant()) {
+                use_cut(placed, part,
+                        [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); });
+            } else {  // as when its body was drawn
+                for (std::size_t i = next_part == 0 ? 0 : cut_ends_[next_part - 1]; i < cut_ends_[next_part]; ++i)
+                    take(placed, cut_masks_[i].column, cut_masks_[i].row, cut_masks_[i].mask);
+                ++next_part;
             }
-            piece_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
-            draw_clipped(placed.ref, placed.segment, part.cone, piece_);
-            if (!body_only) {
-                piece_.for_touched([&](int column, int row) { take(placed, column, row, piece_.at(column, row)); });
-                continue;
-            }
-            one_.draw(kernels_, cone, rect_, [&](int column, int row, StrokeMask mask) {
-                const StrokeMask& left = piece_.at(column, row);
-                for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= left.rows[r];
-                take(placed, column, row, mask);
-            });
         }
     }
 }

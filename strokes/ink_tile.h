@@ -151,6 +151,11 @@ class InkTile {
         InkSegmentRef ref;
         InkSegment segment;
     };
+    /// What boundaries leave of a part of a segment in one pixel.
+    struct CutMask {
+        int column, row;
+        StrokeMask mask;
+    };
     /// What decides which boundaries hide a stroke.
     struct Hiding {
         std::uint32_t rank;
@@ -184,6 +189,8 @@ class InkTile {
     std::vector<InkSegmentRef> segments_;  // by rank
     std::vector<std::uint64_t> keys_;
     std::vector<Placed> placed_;
+    std::vector<CutMask> cut_masks_;     // of the parts of a chain whose bodies are drawn, part by part
+    std::vector<std::size_t> cut_ends_;  // of each part's masks
 
     std::vector<InkRecord> records_;
     std::vector<std::uint32_t> record_at_;  // of the chain that is drawn, by pixel: number + 1
