@@ -60,9 +60,9 @@ void add_columns(std::string_view word, std::vector<WantedColumn>& columns) {
         const std::string_view part = word.substr(dot + 1);
         const std::size_t component = part.size() == 1 ? components.find(part) : std::string_view::npos;
         if (type == ValueType::number || component == std::string_view::npos) {
-            throw UsageError("variables: there is no " + in_quotes(word) + "; " + std::string(name) +
-                             (type == ValueType::number ? " is a number"
-                                                        : " has the parts " + std::string(components)));
+            throw UsageError(
+                "variables: there is no " + in_quotes(word) + "; " + std::string(name) +
+                (type == ValueType::number ? " is a number" : " has the parts " + std::string(components)));
         }
         columns.push_back({*variable, component, std::string(word)});
         return;

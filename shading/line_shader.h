@@ -49,8 +49,8 @@ struct StrokeInk {
     std::span<float> red, green, blue;  ///< linear
 };
 
-/// A LineShader computes the ink of lines. What it returns is brought to the ranges of the style's keys; NaN counts as 0
-/// and is noted.
+/// A LineShader computes the ink of lines. What it returns is brought to the ranges of the style's keys; NaN counts as
+/// 0 and is noted.
 class LineShader {
   public:
     virtual ~LineShader() = default;

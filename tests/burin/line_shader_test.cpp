@@ -119,12 +119,15 @@ TEST(LibraryLineShader, IsInheritedAndTakenAway) {
     Scene from = scene();
     from.add_line_shader("three", each([](LineInk& out, std::size_t i) { out.width_px[i] = 3; }));
     const std::string base = "[style.base]\nwidth = 1\nshader = \"three\"\ncaps = \"butt\"\n";
-    expect_alike(from, base + "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"own\"\n[style.own]\nbase = \"base\"\n",
-                 "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"own\"\n[style.own]\nwidth = 3\ncaps = \"butt\"\n");
-    expect_alike(from,
-                 base + "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"own\"\n"
-                        "[style.own]\nbase = \"base\"\nshader = \"none\"\n",
-                 "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"own\"\n[style.own]\nwidth = 1\ncaps = \"butt\"\n");
+    expect_alike(
+        from, base + "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"own\"\n[style.own]\nbase = \"base\"\n",
+        "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"own\"\n[style.own]\nwidth = 3\ncaps = \"butt\"\n");
+    expect_alike(
+        from,
+        base +
+            "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"own\"\n"
+            "[style.own]\nbase = \"base\"\nshader = \"none\"\n",
+        "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"own\"\n[style.own]\nwidth = 1\ncaps = \"butt\"\n");
     from.set_style(sheet("width = 1\ncaps = \"butt\""));
     from.set("style.ink.shader=three");
     EXPECT_TRUE(from.find_lines(kView).draw(sheet("width = 3\ncaps = \"butt\"")).encode("exr") == exr(from));
@@ -174,8 +177,7 @@ TEST(LibraryLineShader, NumbersAreBroughtToTheirRangesAndNotesSayWhereTheyWereNo
                              out.opacity[i] = kNan;
                              out.red[i] = kNan;
                          }));
-    from.add_line_test("wild",
-                       test_of("", [](const LineSamples&, std::span<float> strength) { strength[0] = kNan; }));
+    from.add_line_test("wild", test_of("", [](const LineSamples&, std::span<float> strength) { strength[0] = kNan; }));
     from.set_style(sheet("shader = \"wild\"", "test = \"wild\"\n"));
     std::vector<std::string> begins;
     for (const std::string& note : from.render(kView).notes()) begins.push_back(note.substr(0, note.find(" is not")));
@@ -247,7 +249,9 @@ TEST(LibraryLineShader, WhatItReadsIsANeedOfTheSheet) {
     from.set_style(sheet("dash = [9, 9]"));
     const Drawing plain = from.find_lines(kView);
     EXPECT_EQ(failure_of([&] { plain.draw(sheet("shader = \"reads\"")); }, &error), BURIN_BAD_ARGUMENT);
-    EXPECT_NE(error.find("the drawing lacks what the style sheet needs: the surfaces behind lines, normals"), std::string::npos) << error;
+    EXPECT_NE(error.find("the drawing lacks what the style sheet needs: the surfaces behind lines, normals"),
+              std::string::npos)
+        << error;
 }
 
 TEST(LibraryLineShader, WhatFailsEndsTheDrawWithItsMessage) {
@@ -326,8 +330,9 @@ TEST(LibraryLineShader, UnknownNamesAreErrorsWithAPlace) {
     // The program has none.
     const TemporaryFolder folder;
     folder.write("mine.toml", sheet("shader = \"mine\""));
-    const ProgramResult result = run_burin(folder.path(), {"render", std::string(BURIN_SOURCE_FOLDER) + "/scenes/cube.toml",
-                                                           "--style", "./mine.toml", "-o", "program.exr"});
+    const ProgramResult result =
+        run_burin(folder.path(), {"render", std::string(BURIN_SOURCE_FOLDER) + "/scenes/cube.toml", "--style",
+                                  "./mine.toml", "-o", "program.exr"});
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.err.find("mine.toml:8:10: [style.ink] shader: a line shader is code of a program that draws with "
                               "the library (burin_add_line_shader()); this program has none"),
