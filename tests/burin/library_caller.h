@@ -66,7 +66,6 @@ class LibraryCaller {
             case 13:
                 return look_at_channels();
             case 14:
-                if (random_.integer(0, 3) == 0) return expect_told(add_shader());
                 return expect_told(random_.integer(0, 3) == 0 ? burin_set_style(scene_, style()) : 0);
             default:
                 return render();
@@ -220,50 +219,7 @@ class LibraryCaller {
              "[[set]]\nname=\"a\"\nclasses=[\"crease\",\"border\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=1/0*(x-x)+3\"\n",
              "[[set]]\nname=\"a\"\nclasses=[\"silhouette\"]\nlayer=true\nstyle=\"i\"\n[style.i]\nopacity=0.5\n"
              "color=\"=N\"\ntaper={start=9}\n",
-             "[[set]]\nname=\"a\"\nclasses=[\"crease\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=depht\"\n",
-             "[[set]]\nname=\"a\"\nclasses=[\"crease\",\"silhouette\"]\ntest=\"wild\"\nstyle=\"i\"\n[style.i]\n"
-             "shader=\"wild\"\n"});
-    }
-
-    /// Callbacks that leave numbers of any kind.
-    int add_shader() {
-        const char* const name = one_of<const char*>({"wild", "wild", "wild", "", nullptr, "none", "a b"});
-        const char* const variables =
-            one_of<const char*>({nullptr, "", "depth", "N,C.r,s", "gap, facing,qi", "depht", ",", "N.", "x.x"});
-        const auto fill = [](float* to, std::uint32_t count, std::uint32_t from) {
-            using Limits = std::numeric_limits<float>;
-            constexpr float kNumbers[] = {Limits::quiet_NaN(),
-                                          3,
-                                          Limits::infinity(),
-                                          -Limits::infinity(),
-                                          0.5f,
-                                          Limits::max(),
-                                          -0.0f,
-                                          1e-40f,
-                                          -7};
-            for (std::uint32_t i = 0; i < count; ++i) to[i] = kNumbers[(i + from) % 9];
-        };
-        if (random_.integer(0, 2) == 0) {
-            return burin_add_line_test(
-                scene_, name, variables,
-                [](const burin_line_samples* in, float* strength, void*) {
-                    const decltype(fill) numbers{};
-                    numbers(strength, in->count, 3);
-                    return 0;
-                },
-                nullptr);
-        }
-        burin_line_shader shader = [](const burin_line_samples* in, burin_line_ink* out, void*) {
-            const decltype(fill) numbers{};
-            numbers(out->width_px, in->count, 0);
-            numbers(out->offset_px, in->count, 1);
-            numbers(out->opacity, in->count, 2);
-            numbers(out->blue, in->count, 5);
-            return 0;
-        };
-        if (random_.integer(0, 9) == 0) shader = nullptr;
-        if (random_.integer(0, 9) == 0) shader = [](const burin_line_samples*, burin_line_ink*, void*) { return -9; };
-        return burin_add_line_shader(scene_, name, variables, shader, nullptr);
+             "[[set]]\nname=\"a\"\nclasses=[\"crease\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=depht\"\n"});
     }
 
     void render() {

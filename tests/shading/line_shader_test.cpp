@@ -61,8 +61,8 @@ struct Place {
     double share;
 
     double depth() const {
-        return lines.projection.distance(glm::mix(static_cast<double>(piece.nearness_from),
-                                                  static_cast<double>(piece.nearness_to), share));
+        return lines.projection.distance(
+            glm::mix(static_cast<double>(piece.nearness_from), static_cast<double>(piece.nearness_to), share));
     }
     double light() const {
         const glm::dvec3 n =
@@ -128,35 +128,61 @@ float mixf(float a, float b, float share) { return a + (b - a) * share; }
 // Widths up to 1.5 px: beyond, samples may leave more than 1/64 px between them.
 std::vector<Shipped> shipped() {
     return {
-        {"depth fade", "width = { over = \"depth\", stops = [[4, 1.5], [9, 0.3]] }", "", false, {V::depth},
+        {"depth fade",
+         "width = { over = \"depth\", stops = [[4, 1.5], [9, 0.3]] }",
+         "",
+         false,
+         {V::depth},
          width_from(V::depth, [](float d) { return mixf(1.5f, 0.3f, std::clamp((d - 4) / 5, 0.0f, 1.0f)); }),
          [](const Place& p) { return glm::dvec3(mix(1.5, 0.3, std::clamp((p.depth() - 4) / 5, 0.0, 1.0))); }},
-        {"layer thinner", "width = \"=1.5 * 0.5^qi\"", "", false, {V::qi},
+        {"layer thinner",
+         "width = \"=1.5 * 0.5^qi\"",
+         "",
+         false,
+         {V::qi},
          width_from(V::qi, [](float qi) { return 1.5f * std::exp2(-qi); }),
          [](const Place& p) { return glm::dvec3(1.5 * std::pow(0.5, p.piece.invisibility)); }},
-        {"layer thinner behind glass", "width = \"=1.5 * transmission\"", "", false, {V::transmission},
+        {"layer thinner behind glass",
+         "width = \"=1.5 * transmission\"",
+         "",
+         false,
+         {V::transmission},
          width_from(V::transmission, [](float t) { return 1.5f * t; }),
          [](const Place& p) { return glm::dvec3(1.5 * static_cast<double>(p.piece.transmission) / 255); }},
-        {"curvature", "width = \"=mix(0.3, 1.5, 0.5 - 0.5 * cosd(dihedral))\"", "", false, {V::dihedral},
-         width_from(V::dihedral,
-                    [](float deg) {
-                        return mixf(0.3f, 1.5f, 0.5f - 0.5f * std::cos(deg * std::numbers::pi_v<float> / 180));
-                    }),
+        {"curvature",
+         "width = \"=mix(0.3, 1.5, 0.5 - 0.5 * cosd(dihedral))\"",
+         "",
+         false,
+         {V::dihedral},
+         width_from(
+             V::dihedral,
+             [](float deg) { return mixf(0.3f, 1.5f, 0.5f - 0.5f * std::cos(deg * std::numbers::pi_v<float> / 180)); }),
          [](const Place& p) {
              const double radians = static_cast<double>(p.sides.dihedral_deg) * std::numbers::pi / 180;
              return glm::dvec3(mix(0.3, 1.5, 0.5 - 0.5 * std::cos(radians)));
          }},
-        {"width from light", "width = \"=mix(1.5, 0.3, light)\"", "", false, {V::light},
+        {"width from light",
+         "width = \"=mix(1.5, 0.3, light)\"",
+         "",
+         false,
+         {V::light},
          width_from(V::light, [](float light) { return mixf(1.5f, 0.3f, light); }),
          [](const Place& p) { return glm::dvec3(mix(1.5, 0.3, p.light())); }},
-        {"width from light direction", "width = \"=mix(1.5, 0.3, light)\"", "light = [-1, 2, 1]\n", false, {V::light},
+        {"width from light direction",
+         "width = \"=mix(1.5, 0.3, light)\"",
+         "light = [-1, 2, 1]\n",
+         false,
+         {V::light},
          width_from(V::light, [](float light) { return mixf(1.5f, 0.3f, light); }),
          [](const Place& p) { return glm::dvec3(mix(1.5, 0.3, p.light())); }},
-        {"width from colour", "width = \"=mix(1.5, 0.3, max(C.r, C.g, C.b))\"", "", false, {V::C},
+        {"width from colour",
+         "width = \"=mix(1.5, 0.3, max(C.r, C.g, C.b))\"",
+         "",
+         false,
+         {V::C},
          [](const StrokeSamples& in, StrokeInk& out) {
              for (std::size_t i = 0; i < in.count(); ++i) {
-                 const float most =
-                     std::max({in.column(V::C, 0)[i], in.column(V::C, 1)[i], in.column(V::C, 2)[i]});
+                 const float most = std::max({in.column(V::C, 0)[i], in.column(V::C, 1)[i], in.column(V::C, 2)[i]});
                  out.width_px[i] = mixf(1.5f, 0.3f, most);
              }
          },
@@ -164,9 +190,18 @@ std::vector<Shipped> shipped() {
              const glm::dvec3 c = p.color(true);
              return glm::dvec3(mix(1.5, 0.3, std::max({c.r, c.g, c.b})));
          }},
-        {"factor colour", "color = \"=0.5 * C\"", "", true, {V::C, V::C2},
-         color_from([](float c, float) { return 0.5f * c; }), [](const Place& p) { return 0.5 * p.color(true); }},
-        {"maximum colour", "color = \"=max(C, C2)\"", "", true, {V::C, V::C2},
+        {"factor colour",
+         "color = \"=0.5 * C\"",
+         "",
+         true,
+         {V::C, V::C2},
+         color_from([](float c, float) { return 0.5f * c; }),
+         [](const Place& p) { return 0.5 * p.color(true); }},
+        {"maximum colour",
+         "color = \"=max(C, C2)\"",
+         "",
+         true,
+         {V::C, V::C2},
          color_from([](float c, float c2) { return std::max(c, c2); }),
          [](const Place& p) { return glm::max(p.color(true), p.color(false)); }},
     };
@@ -261,7 +296,8 @@ TEST(LineShader, NeedsOfTheSheetAreThoseOfItsCode) {
         shaders.shaders["native"] = native;
         SheetContext context;
         context.shaders = &shaders;
-        return CompiledSheet(read_sheet_text(sheet_of(R"("crease")", "shader = \"native\""), "s.toml"), context).needs();
+        return CompiledSheet(read_sheet_text(sheet_of(R"("crease")", "shader = \"native\""), "s.toml"), context)
+            .needs();
     };
     EXPECT_TRUE(needs_of({}).chains);  // it may move lines
     EXPECT_FALSE(needs_of({V::depth}).sides);
