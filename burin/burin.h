@@ -32,7 +32,7 @@ extern "C" {
 
 /** The version of this interface. It counts up with every change; a library works for programs that were built with
  * the same number or a smaller one. */
-#define BURIN_ABI 3
+#define BURIN_ABI 4
 /** BURIN_ABI of the library that is loaded. */
 BURIN_API int burin_abi(void);
 /** Its version, "0.1.0". */
@@ -202,6 +202,10 @@ enum burin_type {
     BURIN_UINT8 = 7
 };
 
+/** What drawing found that its user should know, such as a value of a style sheet that is not a number at some places:
+ * note `index`, from 0, as the program prints it; NULL behind the last one, which is no failure. */
+BURIN_API const char* burin_picture_note(const burin_picture* picture, int index);
+
 /** The values of a channel ("R", "lines.A", "Z", "id.object" ...: docs/conventions.md, Images), row by row from the
  * top, without gaps. `type`: gets its burin_type; `size`: gets columns and rows, those of the crop. Either may be
  * NULL. The picture owns them. */
@@ -257,6 +261,57 @@ BURIN_API void burin_drawing_free(burin_drawing* drawing);
  *                                  sheet that does not ask how many: 0, or any other number */
 BURIN_API const void* burin_column(burin_drawing* drawing, const char* name, int32_t* type, uint64_t* count);
 /* clang-format on */
+
+/* ---- looks that a program computes ---- */
+
+/** Places on lines that one style of a style sheet draws, with what is known there: what a line shader and a line test
+ * read. */
+typedef struct burin_line_samples {
+    uint32_t size;
+    uint32_t count;              /**< how many places: 1 to 1024 */
+    const float* const* columns; /**< one for each variable that was asked for, in that order, with `count` values */
+    const char* const* names;    /**< theirs: "depth", "N.x" */
+    uint32_t column_count;       /**< how many of both */
+    uint32_t message_size;       /**< bytes of `message`, with the final 0: 256 */
+    const char* style;           /**< the name of the style */
+    char* message;               /**< to be filled before something else than 0 is returned: why */
+} burin_line_samples;
+
+/** The ink at the same places: `count` values each, those of the style before and those that are drawn after. They are
+ * brought to their ranges; one that is not a number counts as 0 (a colour as a whole), and a note says how often that
+ * was (burin_picture_note()). */
+typedef struct burin_line_ink {
+    uint32_t size;
+    float* width_px;           /**< full width, 0 to 4096 */
+    float* offset_px;          /**< across, -4096 to 4096; > 0: away from the front surface */
+    float* opacity;            /**< 0 to 1 */
+    float *red, *green, *blue; /**< linear, 0 to 65504 */
+} burin_line_ink;
+
+/** Changes the ink of lines. Returns 0; anything else ends the call that draws, which fails with BURIN_BAD_ARGUMENT and
+ * a text that has `message`. Several threads call it at once, for batches that may be any; the same place must get the
+ * same ink, whatever the batch, for only then are pictures the same. It must not use the scene or its drawings, but for
+ * burin_cancel(). */
+typedef int (*burin_line_shader)(const burin_line_samples* samples, burin_line_ink* ink, void* user);
+/** Says how much of a line there is: `strength` gets `count` values from 0, nothing is drawn there, to 1, as all are
+ * before. Opacity is multiplied by it. All else as for burin_line_shader. */
+typedef int (*burin_line_test)(const burin_line_samples* samples, float* strength, void* user);
+
+/** Adds a line shader: style sheets of the scene have it by `shader = "NAME"` in a style. It gets what the style's
+ * width, offset, opacity and color say, and changes it; tapers, dashes and all else come after it. `name`: letters,
+ * digits, _ and -; one that is there already gets the new callback. `variables`: those of docs/shading/variables.md
+ * that it reads, "depth, N, light"; a triple such as N stands for its three columns N.x, N.y and N.z (a colour such as
+ * C for C.r, C.g, C.b), each of which may also be named by itself; NULL: none. They are computed because it asks for
+ * them, as if the style had them in an expression. `callback` NULL: takes the shader away.
+ *
+ * Drawings of burin_find_lines() keep the shaders that the scene had then; `callback` and `user` must last as long as
+ * they do. */
+BURIN_API int burin_add_line_shader(burin_scene* scene, const char* name, const char* variables,
+                                    burin_line_shader callback, void* user);
+/** Adds a line test: style sheets have it by `test = "NAME"` in a line set, and it weakens what that set draws. All
+ * else as for burin_add_line_shader(). */
+BURIN_API int burin_add_line_test(burin_scene* scene, const char* name, const char* variables, burin_line_test callback,
+                                  void* user);
 
 /* ---- files ---- */
 

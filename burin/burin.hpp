@@ -10,12 +10,14 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -131,6 +133,12 @@ class Picture {
         if (type != type_of(T{})) throw Error(BURIN_BAD_ARGUMENT, ("channel " + name + " has another type").c_str());
         return {static_cast<const T*>(values), static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1])};
     }
+    /// What drawing found that its user should know; see burin_picture_note().
+    std::vector<std::string> notes() const {
+        std::vector<std::string> notes;
+        for (int i = 0; const char* const note = burin_picture_note(get(), i); ++i) notes.emplace_back(note);
+        return notes;
+    }
     /// The whole picture for a display, of the view's size; see burin_pixels().
     void pixels(std::uint8_t* out, int channels) const { checked(burin_pixels(get(), out, channels)); }
     /// The bytes of a file: "exr", "png", "png16", "tif", "tif16".
@@ -150,10 +158,54 @@ class Picture {
     std::unique_ptr<burin_picture, Free> picture_;
 };
 
+/// Places on lines that one style draws, with what is known there; see burin_line_samples.
+class LineSamples {
+  public:
+    explicit LineSamples(const burin_line_samples& samples) : samples_(samples) {}
+
+    std::size_t count() const { return samples_.count; }
+    /// The values of a variable that needs() names, one for each place: "depth", "N.x", "C.r".
+    std::span<const float> column(std::string_view name) const {
+        for (std::uint32_t i = 0; i < samples_.column_count; ++i) {
+            if (samples_.names[i] == name) return {samples_.columns[i], count()};
+        }
+        throw Error(BURIN_BAD_ARGUMENT, ("needs() has no column '" + std::string(name) + "'").c_str());
+    }
+    std::string_view style() const { return samples_.style; }
+
+  private:
+    const burin_line_samples& samples_;
+};
+
+/// The ink at these places: the style's before, what is drawn after; see burin_line_ink.
+struct LineInk {
+    std::span<float> width_px, offset_px, opacity, red, green, blue;
+};
+
+/// Changes the ink of lines; see burin_add_line_shader(). Several threads call shade() at once. What it throws ends the
+/// call that draws: as an Error that has its message.
+class LineShader {
+  public:
+    virtual ~LineShader() = default;
+    /// The variables that it reads, "depth, N, light".
+    virtual std::string needs() const { return {}; }
+    virtual void shade(const LineSamples& in, LineInk& out) const = 0;
+};
+
+/// Says how much of a line there is, 0 to 1; see burin_add_line_test(). All else as for LineShader.
+class LineTest {
+  public:
+    virtual ~LineTest() = default;
+    virtual std::string needs() const { return {}; }
+    virtual void test(const LineSamples& in, std::span<float> strength) const = 0;
+};
+
 /// The lines of a picture, found once: to be read as columns and drawn. See burin_find_lines().
 class Drawing {
   public:
-    explicit Drawing(burin_drawing* owned) : drawing_(owned) {}
+    /// `used`: what drawing it calls, and so must live as long.
+    explicit Drawing(burin_drawing* owned, std::vector<std::shared_ptr<const void>> used = {})
+        : used_(std::move(used)), drawing_(owned) {}
 
     /// How many straight pieces it has: as many values each column.
     std::size_t piece_count() const {
@@ -204,6 +256,7 @@ class Drawing {
     struct Free {
         void operator()(burin_drawing* drawing) const noexcept { burin_drawing_free(drawing); }
     };
+    std::vector<std::shared_ptr<const void>> used_;
     std::unique_ptr<burin_drawing, Free> drawing_;
 };
 
@@ -301,18 +354,74 @@ class Scene {
     /// A style sheet: its text, name or file; see burin_set_style().
     void set_style(const std::string& text_or_name) { checked(burin_set_style(get(), text_or_name.c_str())); }
 
+    /// Style sheets have it by `shader = "NAME"`. nullptr takes it away.
+    void add_line_shader(const std::string& name, std::shared_ptr<const LineShader> shader) {
+        add_called(shaders_, name, std::move(shader), burin_add_line_shader, &shade);
+    }
+    /// Style sheets have it by `test = "NAME"`. nullptr takes it away.
+    void add_line_test(const std::string& name, std::shared_ptr<const LineTest> test) {
+        add_called(tests_, name, std::move(test), burin_add_line_test, &test_lines);
+    }
+
     Picture render(const View& view = {}, const Options& options = {}) {
         return Picture(call(burin_render, view, options));
     }
     /// The lines that render() would draw, as data.
     Drawing find_lines(const View& view = {}, const Options& options = {}) {
-        return Drawing(call(burin_find_lines, view, options));
+        std::vector<std::shared_ptr<const void>> used;
+        for (const auto& named : shaders_) used.push_back(named.second);
+        for (const auto& named : tests_) used.push_back(named.second);
+        return Drawing(call(burin_find_lines, view, options), std::move(used));
     }
     /// From any thread: see burin_cancel().
     void cancel() noexcept { burin_cancel(get()); }
     burin_scene* get() const noexcept { return scene_.get(); }
 
   private:
+    template <typename Called>
+    using Named = std::map<std::string, std::shared_ptr<const Called>>;
+
+    template <typename Called, typename Function>
+    void add_called(Named<Called>& all, const std::string& name, std::shared_ptr<const Called> called,
+                    int (*give)(burin_scene*, const char*, const char*, Function, void*),
+                    std::type_identity_t<Function> function) {
+        const auto at = all.try_emplace(name).first;  // before the scene calls it
+        const std::string needs = called ? called->needs() : std::string();
+        checked(
+            give(get(), name.c_str(), needs.c_str(), called ? function : nullptr, const_cast<Called*>(called.get())));
+        at->second = std::move(called);
+    }
+    static int shade(const burin_line_samples* samples, burin_line_ink* ink, void* user) noexcept {
+        return without_exceptions(*samples, [&] {
+            const auto part = [&](float* values) { return std::span<float>(values, samples->count); };
+            LineInk out{part(ink->width_px), part(ink->offset_px), part(ink->opacity),
+                        part(ink->red),      part(ink->green),     part(ink->blue)};
+            static_cast<const LineShader*>(user)->shade(LineSamples(*samples), out);
+        });
+    }
+    static int test_lines(const burin_line_samples* samples, float* strength, void* user) noexcept {
+        return without_exceptions(*samples, [&] {
+            static_cast<const LineTest*>(user)->test(LineSamples(*samples), {strength, samples->count});
+        });
+    }
+    template <typename Work>
+    static int without_exceptions(const burin_line_samples& samples, const Work& work) noexcept {
+        const auto failed = [&](std::string_view why) {
+            const std::size_t size = std::min<std::size_t>(why.size(), samples.message_size - 1);
+            std::copy_n(why.begin(), size, samples.message);
+            samples.message[size] = 0;
+            return 1;
+        };
+        try {
+            work();
+            return 0;
+        } catch (const std::exception& error) {
+            return failed(error.what());
+        } catch (...) {
+            return failed("it threw what is no std::exception");
+        }
+    }
+
     struct Teller {
         const std::function<bool(double)>& progress;
         std::exception_ptr thrown;
@@ -358,6 +467,8 @@ class Scene {
     struct Free {
         void operator()(burin_scene* scene) const noexcept { burin_scene_free(scene); }
     };
+    Named<LineShader> shaders_;  // the scene calls them
+    Named<LineTest> tests_;
     std::unique_ptr<burin_scene, Free> scene_;
 };
 

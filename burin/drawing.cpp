@@ -52,6 +52,7 @@ void keep_frame(const SceneForFrame& from, burin_drawing& drawing) {
     drawing.scene.frame = from.scene().frame;
     drawing.scene.lines = from.scene().lines;
     drawing.scene.sheet = from.scene().sheet;
+    drawing.scene.line_shaders = from.scene().line_shaders;
     drawing.scene.surfaces = from.scene().surfaces;
     drawing.scene.abuffer = from.scene().abuffer;
     drawing.frame = from.frame();
@@ -123,13 +124,14 @@ const ColumnKind& column_named(std::string_view name) {
 
 burin_picture* picture_of(const burin_drawing& drawing, const char* style, int threads) {
     Film film = drawing.surfaces.copy();
+    std::vector<std::string> notes;
     if (style == nullptr && !drawing.found) {
         draw_lines(drawing.frame, drawing.laid_out, {threads}, film);
     } else {
-        draw_ink(drawing.frame, inked_lines_of(drawing, style, threads), resolve_thread_count(threads), film);
+        draw_ink(drawing.frame, inked_lines_of(drawing, style, threads, notes), resolve_thread_count(threads), film);
         film.end_picture();
     }
-    return new burin_picture(std::move(film), drawing.scene.picture, threads);
+    return new burin_picture(std::move(film), drawing.scene.picture, threads, std::move(notes));
 }
 
 }  // namespace burin

@@ -27,6 +27,7 @@ SheetContext context_of(const burin_drawing& drawing) {
     context.px_per_mm = drawing.scene.picture.dpi / 25.4;
     context.frame = lines.frame;
     context.fps = drawing.scene.frame.fps;
+    context.shaders = drawing.scene.line_shaders.get();
     return context;
 }
 
@@ -38,11 +39,11 @@ void check_was_found(const StyleSheet& sheet, const CompiledSheet& compiled, con
 
 }  // namespace
 
-InkedLines inked_lines_of(const burin_drawing& drawing, const char* style, int threads) {
+InkedLines inked_lines_of(const burin_drawing& drawing, const char* style, int threads,
+                          std::vector<std::string>& notes) {
     if (!drawing.found)
         throw UsageError(std::string("style: the drawing's lines were found without a style sheet") + kFindForIt);
     threads = resolve_thread_count(threads);
-    std::vector<std::string> notes;
     InkedLines inked;
     inked.filter = drawing.scene.lines.style.filter;
     const PixelFilter filter = inked.filter;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "burin/burin.h"
@@ -33,6 +34,12 @@ auto guarded_pointer(const Work& work) noexcept -> decltype(work()) {
         note_failure();
         return nullptr;
     }
+}
+
+/// Note `index` as the interface returns it: NULL where there is none.
+inline const char* note_at(const std::vector<std::string>& notes, int index) {
+    return index >= 0 && static_cast<std::size_t>(index) < notes.size() ? notes[static_cast<std::size_t>(index)].c_str()
+                                                                        : nullptr;
 }
 
 /// Throws UsageError for a pointer that is NULL.

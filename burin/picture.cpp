@@ -47,8 +47,9 @@ burin_picture* burin_render(burin_scene* scene, const burin_view* view, const bu
         const FrameCall call(scene, view, options);
         const Frame& frame = call.ready().frame();
         Film film = film_of(frame, call.given());
-        with_option_names([&] { return render_abuffer(frame, call.run(), film); });
-        return new burin_picture(std::move(film), call.ready().scene().picture, call.given().threads);
+        RenderStats stats = with_option_names([&] { return render_abuffer(frame, call.run(), film); });
+        return new burin_picture(std::move(film), call.ready().scene().picture, call.given().threads,
+                                 std::move(stats.notes));
     });
 }
 
@@ -82,6 +83,10 @@ const char* burin_channel_name(const burin_picture* picture, int index) {
         if (index < 0 || static_cast<std::size_t>(index) >= channels.size()) return nullptr;
         return channels[static_cast<std::size_t>(index)].name.c_str();
     });
+}
+
+const char* burin_picture_note(const burin_picture* picture, int index) {
+    return guarded_pointer([&]() -> const char* { return note_at(required(picture, "picture").notes, index); });
 }
 
 int burin_pixels(const burin_picture* picture, uint8_t* out, int channels) {

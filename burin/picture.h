@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "burin/burin.h"
 #include "burin/view_input.h"
@@ -23,7 +25,8 @@ struct burin_picture {
     burin::Film film;
     burin::PictureSettings settings;  ///< what is below it
     int threads = 0;                  ///< for encoding, as for drawing
+    std::vector<std::string> notes;   ///< what its user should know
 
-    burin_picture(burin::Film f, burin::PictureSettings s, int t)
-        : film(std::move(f)), settings(std::move(s)), threads(t) {}
+    burin_picture(burin::Film f, burin::PictureSettings s, int t, std::vector<std::string> n)
+        : film(std::move(f)), settings(std::move(s)), threads(t), notes(std::move(n)) {}
 };

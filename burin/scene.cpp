@@ -141,12 +141,7 @@ int burin_load_text(burin_scene* scene, const char* toml, const char* base_folde
 }
 
 const char* burin_note(const burin_scene* scene, int index) {
-    return guarded_pointer([&]() -> const char* {
-        const std::vector<std::string>& notes = required(scene, "scene").notes;
-        return index >= 0 && static_cast<std::size_t>(index) < notes.size()
-                   ? notes[static_cast<std::size_t>(index)].c_str()
-                   : nullptr;
-    });
+    return guarded_pointer([&]() -> const char* { return note_at(required(scene, "scene").notes, index); });
 }
 
 int burin_add_material(burin_scene* scene, const burin_material* material) {

@@ -19,6 +19,7 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
     scene_.frame = settings.frame;
     scene_.lines = settings.lines;
     scene_.sheet = settings.sheet;
+    scene_.line_shaders = state.line_shaders;
     scene_.surfaces = settings.surfaces;
     scene_.abuffer = settings.abuffer;
     scene_.cameras = !settings.cameras.empty() ? settings.cameras : state.file_cameras;

@@ -12,6 +12,7 @@
 #include "render/prepared.h"
 #include "scene/scene.h"
 #include "scene/scene_settings.h"
+#include "shading/line_shader.h"
 
 namespace burin {
 
@@ -57,6 +58,8 @@ struct burin_scene {
     std::map<int, burin::ObjectState> objects;                ///< by their numbers
     int last_mesh = 0, last_object = 0;                       ///< numbers that were given
     std::vector<std::string> notes;
+    /// Of the program, by name; drawings share it, so that it is replaced and not changed.
+    std::shared_ptr<const burin::LineShaders> line_shaders = std::make_shared<const burin::LineShaders>();
     std::uint64_t revision = 1;  ///< counts changes of objects, materials and settings
     burin::Preparation preparation;
     burin::StopFlag stop{false};

@@ -7,11 +7,14 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
 #include "scene/sheet_toml.h"
+#include "shading/line_shader.h"
 #include "shading/sheet/compiled_sheet.h"
 
 namespace {
@@ -19,6 +22,15 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::array kColumn{0.0f,  1.0f,   -0.0f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(),
                              3e38f, 1e-40f, 2.5f,  -3.0f};
+
+struct NoShader final : burin::LineShader {
+    burin::VariableSet needs() const override { return {}; }
+    void shade(const burin::StrokeSamples&, burin::StrokeInk&) const override {}
+};
+struct NoTest final : burin::LineTest {
+    burin::VariableSet needs() const override { return {}; }
+    void test(const burin::StrokeSamples&, std::span<float>) const override {}
+};
 
 void require(bool holds) {
     if (!holds) std::abort();
@@ -67,6 +79,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     burin::SheetContext context;
     context.objects = {"wheel_left", "wheel_spare", "body"};
     context.materials = {"steel", "glass"};
+    static const burin::LineShaders shaders{{{"mine", std::make_shared<NoShader>()}},
+                                            {{"mine", std::make_shared<NoTest>()}}};
+    context.shaders = &shaders;
     try {
         const burin::CompiledSheet sheet(burin::read_sheet_text(text, "s.toml"), context);
         for (const burin::CompiledStyle& style : sheet.styles()) check_style(style);

@@ -205,7 +205,7 @@ class StrokeExplainer {
         const CompiledStyle& compiled = sheet_.style_of(stroke.order.set);
         const SampleVariant variant{compiled.settings.seed, static_cast<std::uint32_t>(stroke.chain & 7),
                                     sheet_.sets()[stroke.order.set].name};
-        StrokeValues values(columns_, compiled, variant);
+        StrokeValues values(columns_, compiled, variant, sheet_.sets()[stroke.order.set].test.get());
         const LineStretch stretch{sample.run, sample.piece, 1};
         const std::vector<ChainValues> chains = values.chain_values({&stretch, 1});
         const ChainValues* const chain = &chains.front();

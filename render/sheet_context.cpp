@@ -12,6 +12,7 @@ SheetContext sheet_context_of(const Frame& frame) {
     context.px_per_mm = scene.picture.dpi / 25.4;
     context.frame = scene.frame.number;
     context.fps = scene.frame.fps;
+    context.shaders = scene.line_shaders.get();
     return context;
 }
 

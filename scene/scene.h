@@ -20,6 +20,7 @@
 
 namespace burin {
 
+struct LineShaders;
 struct StyleSheet;
 
 /// The picture as a whole.
@@ -83,6 +84,7 @@ struct Scene {
     LineSettings lines;
     /// How lines look; none: as `lines.style` says. What it says of finding lines stands in `lines`, too (use_sheet()).
     std::shared_ptr<const StyleSheet> sheet;
+    std::shared_ptr<const LineShaders> line_shaders;  ///< that the sheet may name; nullptr: the program has none
     /// Beside a sheet: lines are found and known as if it asked for everything, so that any sheet can restyle them.
     bool finds_all = false;
     SurfaceStyle surfaces;

@@ -86,6 +86,7 @@ class SetReader {
         set.objects = read_globs(t, "objects").value_or(std::vector<std::string>{});
         set.materials = read_globs(t, "materials").value_or(std::vector<std::string>{});
         set.style = read_style(t);
+        if (t.node("test") != nullptr) set.test = SheetValueReader::word(t, "test");
         set.also = t.boolean("also").value_or(false);
         set.is_enabled = t.boolean("enabled").value_or(true);
         set.layer = read_layer(t, set.name);

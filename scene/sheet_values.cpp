@@ -238,4 +238,9 @@ SheetText SheetValueReader::expression(TomlReader& table, std::string_view key) 
     return expression(Place{table, *table.node(key), table.context_of(key)});
 }
 
+SheetText SheetValueReader::word(TomlReader& table, std::string_view key) {
+    if (!is_sheet_word(*table.text(key))) table.fail(key, "must be a name, which has letters, digits, _ and - only");
+    return text_at({table, *table.node(key), table.context_of(key)});
+}
+
 }  // namespace burin

@@ -41,6 +41,8 @@ class SheetValueReader {
     static std::size_t list_size(TomlReader& table, std::string_view key);
     /// The text of a key that is there: an expression, with or without "=".
     SheetText expression(TomlReader& table, std::string_view key);
+    /// The name that a key has, of something outside of the sheet.
+    static SheetText word(TomlReader& table, std::string_view key);
     /// A ramp without what it goes over.
     static Ramp ramp(TomlReader& table, const SheetValueRule& rule, SheetUnit& unit);
 

@@ -32,9 +32,7 @@ class StyleReader {
         : t_(table), values_(values), style_(style) {}
 
     void read() {
-        for (const char* const later : {"shader", "texture"}) {
-            if (t_.has(later)) t_.fail(later, "is not in this version");
-        }
+        if (t_.has("texture")) t_.fail("texture", "is not in this version");
         read_value("width", kWidth, style_.width);
         read_value("opacity", kOpacity, style_.opacity);
         read_value("color", kColor, style_.color);
@@ -49,6 +47,10 @@ class StyleReader {
         read_pair("min_length", style_.min_length, true);
         read_value("smooth", kSmooth, style_.smooth);
         if (style_.smooth.unit == SheetUnit::world) t_.fail("smooth", "takes no world units; use px, mm, pt or %");
+        if (t_.node("shader") != nullptr) {
+            style_.shader = SheetValueReader::word(t_, "shader");
+            if (style_.shader->text == "none") style_.shader.reset();
+        }
         read_settings();
         t_.finish();
     }

@@ -95,7 +95,6 @@ class StrokeMaker {
           boundaries_(boundaries),
           chunk_(chunk),
           style_(sheet.style_of(chunk.set)),
-          is_moved_(style_.has_offset || style_.has_wobble),
           out_(out) {}
 
     void make() {
@@ -105,7 +104,7 @@ class StrokeMaker {
         for (int copy = 0; copy < settings.copies; ++copy) {
             const SampleVariant variant{settings.seed + turn * 0x9E3779B9u, static_cast<std::uint32_t>(copy),
                                         sheet_.sets()[chunk_.set].name};
-            StrokeValues values(lines_, style_, variant);
+            StrokeValues values(lines_, style_, variant, sheet_.sets()[chunk_.set].test.get());
             for (SampledStroke& stroke : sample_strokes(lines_, chunk_.stretches, values)) {
                 finish(stroke, static_cast<std::uint64_t>(copy));
             }
@@ -115,6 +114,7 @@ class StrokeMaker {
 
   private:
     void finish(SampledStroke& stroke, std::uint64_t copy) {
+        is_moved_ = stroke.is_moved;
         const LineRun& run = lines_.runs().runs[stroke.stretch.run];
         const bool has_begin = stroke.stretch.first == run.first,
                    has_end = stroke.stretch.first + stroke.stretch.count == run.first + run.count;
@@ -237,7 +237,7 @@ class StrokeMaker {
     std::span<const std::uint32_t> boundaries_;
     const Chunk& chunk_;
     const CompiledStyle& style_;
-    bool is_moved_;
+    bool is_moved_ = false;  ///< the stroke
     Inked& out_;
     std::uint64_t chain_ = 0;
     float halo_px_ = 0;
@@ -284,19 +284,20 @@ void add_ink_along(std::span<const Inked> parts, std::span<const std::uint32_t> 
 
 void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const Chunk> chunks, std::span<const Inked> parts,
                           std::vector<std::string>& notes) {
-    constexpr std::array<const char*, kInkValueCount> kNames = {"width", "opacity", "offset", "color"};
+    constexpr std::array<const char*, NotNumbersOfStyle::kCount> kNames = {"width", "opacity", "offset", "color",
+                                                                           "strength"};
     for (std::size_t style = 0; style < sheet.styles().size(); ++style) {
         NotNumbersOfStyle sum;
         for (std::size_t i = 0; i < chunks.size(); ++i) {
             if (sheet.sets()[chunks[i].set].style != style) continue;
             for (const NotNumbersOfStyle& own : parts[i].not_numbers) {
-                for (std::size_t k = 0; k < kInkValueCount; ++k) {
+                for (std::size_t k = 0; k < kNames.size(); ++k) {
                     if (sum.counts[k] == 0) sum.places[k] = own.places[k];
                     sum.counts[k] += own.counts[k];
                 }
             }
         }
-        for (std::size_t k = 0; k < kInkValueCount; ++k) {
+        for (std::size_t k = 0; k < kNames.size(); ++k) {
             if (sum.counts[k] == 0) continue;
             notes.push_back("style " + sheet.styles()[style].name + ": " + kNames[k] + " is not a number at " +
                             std::to_string(sum.counts[k]) + " samples, first at pixel " +

@@ -167,9 +167,10 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
     }
 
     const bool is_moved = values.style().has_offset || values.style().has_wobble;
+    const bool may_move = values.may_move();
     const Across across(lines.runs());
     std::vector<SampledStroke> strokes;
-    for (std::size_t i = 0; i < stretches.size(); ++i) strokes.push_back({stretches[i], chains[i], {}});
+    for (std::size_t i = 0; i < stretches.size(); ++i) strokes.push_back({stretches[i], chains[i], {}, is_moved});
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Node& node = nodes[i];
         const LinePiece& piece = lines.runs().pieces[node.sample.piece].piece;
@@ -185,7 +186,8 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
         point.ink.color = node.values.color;
         point.ink.occludes = piece.occludes;
         point.ink.front_on_left = piece.front_on_left;
-        if (is_moved) point.ink.place += across.at(node.sample) * static_cast<double>(node.values.offset_px);
+        if (may_move) point.ink.place += across.at(node.sample) * static_cast<double>(node.values.offset_px);
+        if (may_move && node.values.offset_px != 0) strokes[node.stretch].is_moved = true;
         StrokePath& path = strokes[node.stretch].path;
         // Parts of one edge may overlap by a little; places never go back.
         if (!path.empty()) point.at_px = std::max(point.at_px, path.back().at_px);

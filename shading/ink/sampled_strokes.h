@@ -13,6 +13,7 @@ struct SampledStroke {
     LineStretch stretch;
     ChainValues chain;
     StrokePath path;
+    bool is_moved = false;  ///< it does not lie where the line is
 };
 
 /// Evaluates a style for stretches of lines: at the ends of pieces, at most 8 pixels apart, then in halves wherever

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "kernels/expression_kernels.h"
+#include "shading/ink/run_shader.h"
+#include "shading/line_shader.h"
 
 namespace burin {
 namespace {
@@ -12,6 +14,14 @@ VariableSet inputs_of(const ExpressionProgram& program) {
     VariableSet set;
     for (const ExpressionInput& input : program.inputs()) set.add(*variable_named(input.name), input.component);
     return set;
+}
+
+/// Whether any variable changes along a piece.
+bool any_varies(const VariableSet& variables) {
+    const auto& table = variable_table();
+    return std::any_of(table.begin(), table.end(), [&](const VariableRow& row) {
+        return row.rate == ValueRate::sample && variables.has(row.variable);
+    });
 }
 
 /// Shortens both lengths in proportion where a run has not room for them.
@@ -57,15 +67,20 @@ void compute(ExpressionOperation operation, std::size_t count, float* to, const 
 
 }  // namespace
 
-StrokeValues::StrokeValues(const LineColumns& lines, const CompiledStyle& style, const SampleVariant& variant)
+StrokeValues::StrokeValues(const LineColumns& lines, const CompiledStyle& style, const SampleVariant& variant,
+                           const LineTest* test)
     : lines_(lines),
       style_(style),
       variant_(variant),
+      test_(test),
       ink_inputs_(inputs_of(style.ink)),
       chain_inputs_(inputs_of(style.chain)) {
     varies_ = style.has_taper || style.has_wobble;
     for (const InkValue value : {InkValue::width, InkValue::opacity, InkValue::offset, InkValue::color})
         varies_ = varies_ || style.rate_of(value) == ValueRate::sample;
+    if (style.shader) ink_inputs_ |= style.shader->needs();
+    if (test != nullptr) ink_inputs_ |= test->needs();
+    if (style.shader || test != nullptr) varies_ = varies_ || any_varies(ink_inputs_);
 }
 
 void StrokeValues::run(const ExpressionProgram& program, std::span<const LineSample> samples,
@@ -117,13 +132,24 @@ float StrokeValues::taper(const LineRun& run, const ChainValues& chain, double f
     return tapered(from_begin_px, start, style_.taper_shape) * tapered(from_end_px, end, style_.taper_shape);
 }
 
+void StrokeValues::note(std::size_t value, const NotNumbers& found, std::span<const LineSample> samples) {
+    if (found.count == 0) return;
+    if (not_numbers_.counts[value] == 0) not_numbers_.places[value] = lines_.place_of(samples[found.first]);
+    not_numbers_.counts[value] += found.count;
+}
+
 void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
                             std::vector<InkValues>& values) {
     run(style_.ink, samples, kInkColumnCount);
-    for (std::size_t k = 0; k < kInkValueCount; ++k) {
-        if (counts_[k].count == 0) continue;
-        if (not_numbers_.counts[k] == 0) not_numbers_.places[k] = lines_.place_of(samples[counts_[k].first]);
-        not_numbers_.counts[k] += counts_[k].count;
+    for (std::size_t k = 0; k < kInkValueCount; ++k) note(k, counts_[k], samples);
+    if (style_.shader) {
+        const auto found = run_shader(style_, columns_.columns(), samples.size(), result_places_);
+        for (std::size_t k = 0; k < kInkValueCount; ++k) note(k, found[k], samples);
+    }
+    if (test_ != nullptr) {
+        strengths_.resize(samples.size());
+        note(NotNumbersOfStyle::kStrength, run_test(*test_, style_, columns_.columns(), strengths_), samples);
+        for (std::size_t i = 0; i < samples.size(); ++i) results_[1][i] *= strengths_[i];
     }
     const LineRuns& runs = lines_.runs();
     values.resize(samples.size());

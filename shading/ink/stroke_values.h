@@ -31,14 +31,18 @@ inline float value_of(const ChainValues& values, ChainValue v) { return values[s
 
 /// How often a value was not a number, and where first.
 struct NotNumbersOfStyle {
-    std::array<std::size_t, kInkValueCount> counts{};  ///< by InkValue
-    std::array<glm::dvec2, kInkValueCount> places{};   ///< in pixels
+    static constexpr std::size_t kStrength = kInkValueCount;  ///< of line tests, behind the values
+    static constexpr std::size_t kCount = kStrength + 1;
+    std::array<std::size_t, kCount> counts{};  ///< by InkValue
+    std::array<glm::dvec2, kCount> places{};   ///< in pixels
 };
 
 /// StrokeValues evaluates one style for stretches of lines. One thread uses it; buffers are used again.
 class StrokeValues {
   public:
-    StrokeValues(const LineColumns& lines, const CompiledStyle& style, const SampleVariant& variant);
+    /// `test`: of the line set; nullptr: none.
+    StrokeValues(const LineColumns& lines, const CompiledStyle& style, const SampleVariant& variant,
+                 const LineTest* test);
 
     /// For each stretch, what is the same along its chain.
     std::vector<ChainValues> chain_values(std::span<const LineStretch> stretches);
@@ -47,12 +51,15 @@ class StrokeValues {
                   std::vector<InkValues>& values);
     /// Whether anything changes along a piece, so that there must be samples between its ends.
     bool varies() const { return varies_; }
+    /// Whether lines may be drawn beside their places.
+    bool may_move() const { return style_.has_offset || style_.has_wobble || style_.shader; }
     const CompiledStyle& style() const { return style_; }
     const NotNumbersOfStyle& not_numbers() const { return not_numbers_; }
 
   private:
     using Columns = std::vector<std::vector<float>>;
     void run(const ExpressionProgram& program, std::span<const LineSample> samples, std::size_t column_count);
+    void note(std::size_t value, const NotNumbers& found, std::span<const LineSample> samples);
     void add_wobble(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
                     std::vector<InkValues>& values);
     float share_of_loop(const LineSample& sample) const;
@@ -61,6 +68,7 @@ class StrokeValues {
     const LineColumns& lines_;
     const CompiledStyle& style_;
     SampleVariant variant_;
+    const LineTest* test_;
     bool varies_;
     VariableSet ink_inputs_, chain_inputs_;
     SampleColumns columns_;
@@ -68,6 +76,7 @@ class StrokeValues {
     Columns results_;
     std::vector<float*> result_places_;
     std::vector<NotNumbers> counts_;
+    std::vector<float> strengths_;  // of the test
     NotNumbersOfStyle not_numbers_;
 };
 

@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "shading/expression.h"
+#include "shading/expression/error.h"
+#include "shading/expression/unknown_word.h"
+#include "shading/line_shader.h"
 #include "shading/sheet/sheet_symbols.h"
 
 namespace burin {
@@ -113,9 +116,31 @@ class ValueCompiler {
     ValueRate highest_;
 };
 
+/// What a sheet's name stands for. `kind`: "line shader"; `call`: of the library, that adds one.
+template <typename Named>
+typename Named::mapped_type named(const SheetText& name, const Named* known, const std::string& kind,
+                                  const std::string& call) {
+    if (known == nullptr)
+        name.fail("a " + kind + " is code of a program that draws with the library (" + call +
+                  "); this program has none");
+    if (const auto found = known->find(name.text); found != known->end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& one : *known) names.push_back(one.first);
+    const std::string suggestion = suggestion_of(name.text, names);
+    name.fail("there is no " + kind + " " + in_quotes(name.text) +
+              (suggestion.empty() ? "; the program that draws adds it by " + call : suggestion));
+}
+
 bool is_zero(const StyleValue& value) { return value.kind == Kind::number && value.number == 0; }
 
 }  // namespace
+
+std::shared_ptr<const LineShader> shader_named(const SheetText& name, const LineShaders* known) {
+    return named(name, known == nullptr ? nullptr : &known->shaders, "line shader", "burin_add_line_shader()");
+}
+std::shared_ptr<const LineTest> test_named(const SheetText& name, const LineShaders* known) {
+    return named(name, known == nullptr ? nullptr : &known->tests, "line test", "burin_add_line_test()");
+}
 
 VariableSet variables_of(const ExpressionProgram& program) {
     VariableSet set;
@@ -178,17 +203,22 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
 
     result.variables = variables_of(result.ink);
     result.variables |= variables_of(result.chain);
+    if (style.shader) {
+        result.shader = shader_named(*style.shader, context.shaders);
+        result.variables |= result.shader->needs();
+    }
     if (result.has_wobble && result.wobble_anchor == WobbleAnchor::object) {
         result.variables.add(Variable::PO);
         result.variables.add(Variable::px_size);
     }
     result.needs_chains = result.has_taper || result.has_wobble || result.has_overshoot || result.has_offset ||
-                          result.has_min_length || result.dash_lengths > 0 || result.smooth_px > 0 ||
+                          result.has_min_length || result.dash_lengths > 0 || result.smooth_px > 0 || result.shader ||
                           result.settings.copies > 1 || result.settings.caps == StrokeCaps::butt ||
                           result.variables.has_tier(VariableTier::chains);
-    result.most_reach_px = 0.5f * ink.most_of(style.width, kWidth) + ink.most_of(style.offset, kWay) +
-                           chain.most_of(style.overshoot, kWay) + chain.most_of(wobble.amplitude, kWidth) +
-                           chain.most_of(style.halo, kHalo);
+    const float most_width = style.shader ? kMostWidthPx : ink.most_of(style.width, kWidth);
+    const float most_offset = style.shader ? kMostWidthPx : ink.most_of(style.offset, kWay);
+    result.most_reach_px = 0.5f * most_width + most_offset + chain.most_of(style.overshoot, kWay) +
+                           chain.most_of(wobble.amplitude, kWidth) + chain.most_of(style.halo, kHalo);
     return result;
 }
 

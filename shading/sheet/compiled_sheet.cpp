@@ -6,6 +6,7 @@
 
 #include "shading/expression.h"
 #include "shading/expression/glob.h"
+#include "shading/line_shader.h"
 #include "shading/sheet/compile_style.h"
 #include "shading/sheet/sheet_symbols.h"
 
@@ -63,6 +64,7 @@ CompiledSet compile_set(const LineSet& set, const ExpressionSymbols& symbols, co
         }
         result.has_select = true;
     }
+    if (set.test) result.test = test_named(*set.test, context.shaders);
     return result;
 }
 
@@ -95,6 +97,7 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
         select_variables_ |= matched;
         needs_.variables |= matched;
         needs_.variables |= style.variables;
+        if (set.test) needs_.variables |= set.test->needs();
         if (style.needs_chains) needs_.chains = true;
         if (style.settings.side != StrokeSide::both) needs_.one_sided = true;
         needs_.most_reach_px = std::max(needs_.most_reach_px, style.most_reach_px);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,10 @@
 
 namespace burin {
 
+class LineShader;
+class LineTest;
+struct LineShaders;
+
 /// What compiling a sheet must know of the picture.
 struct SheetContext {
     std::vector<std::string> objects, materials;  ///< names; the first one has the number 1
@@ -24,6 +29,7 @@ struct SheetContext {
     double px_per_mm = 96 / 25.4;
     int frame = 0;
     double fps = 24;
+    const LineShaders* shaders = nullptr;  ///< that the sheet may name; nullptr: the program has none
 };
 
 /// Results of CompiledStyle::ink, in this order; `color` has three components.
@@ -68,14 +74,16 @@ struct CompiledStyle {
     ExpressionProgram ink;
     /// For each chain: ChainValue, kChainValueCount numbers. None of its inputs varies along a chain.
     ExpressionProgram chain;
+    std::shared_ptr<const LineShader> shader;  ///< changes what `ink` computes; nullptr: none
 
     ValueRate rate_of(InkValue value) const { return ink.outputs()[static_cast<std::size_t>(value)].rate; }
     bool is_constant(InkValue value) const { return ink.is_constant(static_cast<std::size_t>(value)); }
     /// Whether width, opacity and colour are the same everywhere.
     bool has_constant_ink() const {
-        return is_constant(InkValue::width) && is_constant(InkValue::opacity) && is_constant(InkValue::color);
+        return !shader && is_constant(InkValue::width) && is_constant(InkValue::opacity) &&
+               is_constant(InkValue::color);
     }
-    VariableSet variables;  ///< of both programs, and what carrying out the style reads
+    VariableSet variables;  ///< of both programs and the shader, and what carrying out the style reads
     bool needs_chains = false;
     float most_reach_px = 0;  ///< how far from a line its ink may be: half its width, and what moves it
 };
@@ -122,6 +130,7 @@ struct CompiledSet {
     bool has_object_globs = false, has_material_globs = false, has_select = false;
     std::vector<bool> objects, materials;  ///< for each number, from 0 = background: whether the globs take it
     ExpressionProgram select;              ///< one number: 0 = no
+    std::shared_ptr<const LineTest> test;  ///< weakens its lines; nullptr: none
 };
 
 class CompiledSheet {

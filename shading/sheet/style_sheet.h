@@ -112,6 +112,7 @@ struct SheetStyle {
     std::array<StyleValue, 2> min_length{StyleValue::of(0), StyleValue::of(0)};  ///< equal: a threshold
     std::optional<StyleWobble> wobble;
     StyleValue smooth = StyleValue::of(0);  ///< a constant
+    std::optional<SheetText> shader;        ///< the name of a LineShader
     StyleSettings settings;
 };
 
@@ -122,6 +123,7 @@ struct LineSet {
     LineClassSet classes;
     std::array<int, 2> qi{0, 0};  ///< from, to
     std::optional<SheetText> select;
+    std::optional<SheetText> test;                ///< the name of a LineTest
     std::vector<std::string> objects, materials;  ///< globs; empty: all
     std::size_t style = 0;                        ///< number in StyleSheet::styles
     bool also = false;                            ///< the search for sets goes on after it

@@ -2,7 +2,7 @@
 # Installs a build into a temporary folder, moves it, and has programs that were built against it draw a cube.
 #   install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
-build=$1 page=$2/docs/library.md
+build=$1 page=$2/docs/library.md shaders=$2/docs/shading/native-shaders.md
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "install_test: $1" >&2; exit 1; }
@@ -25,19 +25,28 @@ done
 # The examples of the page are the programs: find_package(burin) finds it.
 source=$folder/source
 mkdir "$source"
-block() { awk -v kind="$1" '$0 == "```" { on = 0 } on { print } $0 == "```" kind { on = 1 }' "$page"; }
-block c >"$source/cube.c"
-block cpp >"$source/cube.cpp"
-block cmake >"$source/CMakeLists.txt"
+block() { awk -v kind="$1" '$0 == "```" { on = 0 } on { print } $0 == "```" kind { on = 1 }' "$2"; }
+block c "$page" >"$source/cube.c"
+block cpp "$page" >"$source/cube.cpp"
+block cmake "$page" >"$source/CMakeLists.txt"
+# A line shader, from the page of them.
+block cpp "$shaders" >"$source/shaded.cpp"
+block c "$shaders" >"$source/halve.c"
+echo 'add_executable(shaded shaded.cpp halve.c)
+target_link_libraries(shaded PRIVATE burin::burin)' >>"$source/CMakeLists.txt"
 { cmake -S "$source" -B "$folder/cube" -DCMAKE_PREFIX_PATH="$prefix" && cmake --build "$folder/cube"; } >"$folder/log" 2>&1 || { cat "$folder/log" >&2; fail "find_package"; }
 "$folder/cube/cube_c" "$folder/c.png"
 "$folder/cube/cube_cpp" "$folder/cpp.png"
+"$folder/cube/shaded" "$folder/shaded.png" 2>"$folder/notes"
+[ ! -s "$folder/notes" ] || fail "the line shader: $(cat "$folder/notes")"
 
 # pkg-config, and a header that a strict C compiler takes.
 if command -v pkg-config >/dev/null; then
     export PKG_CONFIG_PATH=${library%/*}/pkgconfig
     # shellcheck disable=SC2046
     cc -std=c99 -pedantic-errors -Wall -Wextra -Wno-missing-field-initializers -Werror "$source/cube.c" $(pkg-config --cflags --libs burin) -o "$folder/cube_pc"
+    # shellcheck disable=SC2046
+    cc -std=c99 -pedantic-errors -Wall -Wextra -Werror -c "$source/halve.c" -o "$folder/halve.o" $(pkg-config --cflags burin)
     LD_LIBRARY_PATH=${library%/*} "$folder/cube_pc" "$folder/pc.png"
     cmp "$folder/c.png" "$folder/pc.png" || fail "pkg-config: another picture"
 fi
@@ -62,6 +71,29 @@ f 4 1 5 8
 END
 "$prefix/bin/burin" render -q "$folder/cube.obj" --size 320x240 --set lines.width=2 -o "$folder/program.png"
 for picture in c cpp; do cmp "$folder/$picture.png" "$folder/program.png" || fail "cube_$picture: another picture than the program's"; done
+
+# A line shader draws what expressions draw.
+cat >"$folder/shaded.toml" <<'END'
+[[set]]
+name = "inner"
+classes = ["crease"]
+style = "inner"
+[[set]]
+name = "outline"
+classes = ["silhouette", "border"]
+style = "ink"
+[let]
+far = "=depth - 2"
+[style.ink]
+width = "=4 * (1.5 - far)"
+color = "=rgb(1 - far, 0, far)"
+taper = { start = 12, end = 12 }
+[style.inner]
+base = "ink"
+opacity = "=1 - (N.x * N2.x + N.y * N2.y + N.z * N2.z)"
+END
+"$prefix/bin/burin" render -q "$folder/cube.obj" --size 320x240 --style "$folder/shaded.toml" -o "$folder/program_shaded.png"
+cmp "$folder/shaded.png" "$folder/program_shaded.png" || fail "the line shader: another picture than that of expressions"
 
 # Modules are found from the program and from the library, wherever the caller is.
 "$prefix/bin/burin" render -q "$folder/cube.obj" --size 320x240 --set lines.width=2 -o "$folder/program.tif"

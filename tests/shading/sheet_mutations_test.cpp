@@ -8,14 +8,26 @@
 
 #include "scene/sheet_library.h"
 #include "scene/sheet_toml.h"
+#include "shading/line_shader.h"
 #include "shading/sheet/compiled_sheet.h"
 #include "tests/support/random.h"
 
 namespace burin::test {
 namespace {
 
+struct NoShader final : LineShader {
+    VariableSet needs() const override { return {}; }
+    void shade(const StrokeSamples&, StrokeInk&) const override {}
+};
+struct NoTest final : LineTest {
+    VariableSet needs() const override { return {}; }
+    void test(const StrokeSamples&, std::span<float>) const override {}
+};
+
 SheetContext context() {
+    static const LineShaders shaders{{{"mine", std::make_shared<NoShader>()}}, {{"mine", std::make_shared<NoTest>()}}};
     SheetContext context;
+    context.shaders = &shaders;
     context.objects = {"wheel_left", "wheel_spare", "body"};
     context.materials = {"steel", "glass"};
     return context;
@@ -51,6 +63,7 @@ materials = ["*"]
 also = true
 layer = true
 style = "brush"
+test = "mine"
 [[set]]
 name = "hidden"
 classes = ["crease", "mark"]
@@ -78,6 +91,7 @@ blend = "multiply"
 seed = 7
 hold = 2
 boil = true
+shader = "mine"
 [style.dots]
 base = "brush"
 width = { over = "depth", stops = [[4, "1.2mm"], [40, "0.3mm"]] }

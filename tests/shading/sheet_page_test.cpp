@@ -65,7 +65,7 @@ TEST(SheetPage, KeysOfStylesAreKnownAndTakeTheirDefaults) {
         const std::string value = texts.empty() ? row.second : texts.front();
         EXPECT_EQ(error_of(kSet + kStyle + in_backticks(row.first).front() + " = " + value), "") << row.first;
     }
-    EXPECT_EQ(count, 22u);
+    EXPECT_EQ(count, 23u);
 }
 
 TEST(SheetPage, KeysOfSetsAndSheetsAreKnown) {
@@ -83,7 +83,7 @@ TEST(SheetPage, KeysOfSetsAndSheetsAreKnown) {
         ++count;
         EXPECT_EQ(error_of(key + " = [{}]\n" + kSet + kStyle).find("unknown key"), std::string::npos) << key;
     }
-    EXPECT_EQ(count, 16u);
+    EXPECT_EQ(count, 17u);
 }
 
 TEST(SheetPage, MessagesOfStylesAreThoseOfTheProgram) {
@@ -95,7 +95,7 @@ TEST(SheetPage, MessagesOfStylesAreThoseOfTheProgram) {
         const std::string error = error_of(kSet + kStyle + line);
         EXPECT_TRUE(error.ends_with(": " + message)) << error << "\n" << message;
     }
-    EXPECT_EQ(count, 6u);
+    EXPECT_EQ(count, 7u);
 }
 
 }  // namespace
