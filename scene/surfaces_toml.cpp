@@ -14,8 +14,8 @@ namespace {
 using Rule = SheetValueRule;
 
 constexpr std::size_t kMostLights = 16;
-constexpr auto kShadingNames = std::to_array<std::string_view>({"paper", "lambert", "none", "flat", "toon", "gooch",
-                                                                "hatch"});
+constexpr auto kShadingNames =
+    std::to_array<std::string_view>({"paper", "lambert", "none", "flat", "toon", "gooch", "hatch"});
 
 /// A key of [surfaces] that some shadings alone read.
 struct OwnKey {
@@ -51,6 +51,7 @@ class SurfacesReader {
         using S = SurfaceShading;
         static const OwnKey kKeys[] = {
             {"normals", {S::toon, S::gooch, S::hatch, S::expression}},
+            {"shadows", {S::toon, S::gooch, S::hatch}},
             {"tones", {S::toon}},
             {"softness", {S::toon}},
             {"detail", {S::toon}},
@@ -71,10 +72,10 @@ class SurfacesReader {
             for (const S owner : key.shadings) {
                 is_read = is_read || owner == shading;
                 if (owner == S::expression) continue;
-                owners += (owners.empty() ? "\"" : ", \"") + std::string(kShadingNames[static_cast<std::size_t>(owner)]) +
-                          "\"";
+                owners += (owners.empty() ? "\"" : ", \"") +
+                          std::string(kShadingNames[static_cast<std::size_t>(owner)]) + "\"";
             }
-            if (key.shadings.size() > 1) owners += ", or a color";
+            if (key.name == "normals") owners += ", or a color";
             if (!is_read && table_.has(key.name)) table_.fail(key.name, "is read with shading = " + owners + " only");
         }
     }
@@ -83,6 +84,7 @@ class SurfacesReader {
         SurfaceRecipe recipe;
         recipe.where = table_.position();
         recipe.has_smooth_normals = table_.choice("normals", {"flat", "smooth"}) == 1u;
+        recipe.has_shadows = table_.boolean("shadows").value_or(false);
         if (style.shading == SurfaceShading::expression)
             recipe.color = values_.value(table_, "color", {Rule::Of::color});
         if (style.shading == SurfaceShading::toon) read_toon(recipe);
@@ -99,7 +101,8 @@ class SurfacesReader {
             table.fail("tones", "must be a table, such as { stops = [[0, 0.4], [0.3, 1]], between = \"step\" }");
         TomlReader tones = *table.table("tones");
         if (tones.has("over")) tones.fail("over", "tones always go over the light of a place; remove this");
-        if (tones.has("outside")) tones.fail("outside", "in front of the first stop and behind the last one tones stay");
+        if (tones.has("outside"))
+            tones.fail("outside", "in front of the first stop and behind the last one tones stay");
         SheetUnit unit = SheetUnit::px;
         const bool has_between = tones.has("between");
         Ramp ramp = SheetValueReader::ramp(tones, {Rule::Of::number_or_color, 0, 65504}, unit);
@@ -128,10 +131,13 @@ class SurfacesReader {
 
     void read_hatch(const SurfaceStyle& style, SurfaceRecipe& recipe) {
         if (table_.has("tone")) {
+            if (recipe.has_shadows)
+                table_.fail("shadows",
+                            "cannot stand beside a tone; let the tone read lit, as in \"=0.2 + 0.8*light*lit\"");
             recipe.tone = values_.value(table_, "tone", {Rule::Of::number, 0, 1});
         } else {
             recipe.tone.kind = StyleValue::Kind::expression;
-            recipe.tone.source.text = "0.15 + 0.85 * light";
+            recipe.tone.source.text = recipe.has_shadows ? "0.15 + 0.85 * light * lit" : "0.15 + 0.85 * light";
         }
         recipe.ground = StyleValue::of_color({style.paper_color.r, style.paper_color.g, style.paper_color.b});
         if (table_.has("ground")) recipe.ground = values_.value(table_, "ground", {Rule::Of::color});
@@ -139,14 +145,17 @@ class SurfacesReader {
         if (table_.has("spacing"))
             recipe.spacing = values_.value(table_, "spacing", {Rule::Of::length, 0, 4096, false, true});
         check_no_world(recipe.spacing);
-        if (table_.is_text("space") && table_.text("space") == "uv") table_.fail("space", "\"uv\" is not in this version");
+        if (table_.is_text("space") && table_.text("space") == "uv")
+            table_.fail("space", "\"uv\" is not in this version");
         recipe.space = table_.choice("space", {"screen", "object"}) == 1u ? HatchSpace::object : HatchSpace::screen;
         const bool is_on_object = recipe.space == HatchSpace::object;
-        if (is_on_object && table_.has("angle")) table_.fail("angle", "is of lines on the screen; give an axis instead");
+        if (is_on_object && table_.has("angle"))
+            table_.fail("angle", "is of lines on the screen; give an axis instead");
         if (!is_on_object && table_.has("axis")) table_.fail("axis", "is of lines on objects; add space = \"object\"");
         recipe.angle_deg = table_.number("angle", {-360, 360}).value_or(recipe.angle_deg);
         recipe.axis = table_.vector("axis").value_or(recipe.axis);
-        if (!(glm::length(recipe.axis) > 1e-12 && glm::length(recipe.axis) <= 1e30)) table_.fail("axis", "must be a direction, such as [0, 1, 0]");
+        if (!(glm::length(recipe.axis) > 1e-12 && glm::length(recipe.axis) <= 1e30))
+            table_.fail("axis", "must be a direction, such as [0, 1, 0]");
         recipe.levels = table_.integer("levels", 1, 4).value_or(recipe.levels);
     }
 

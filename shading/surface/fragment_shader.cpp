@@ -12,9 +12,11 @@ using V = SurfaceVariable;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 
-/// Directions of level after level are as far from each other as few lines show: level 2 lies across level 1, or nearly
-/// so, and others between.
+/// By how much a level's direction differs from that of the first one.
 constexpr double kLevelTurnsDeg[] = {0, 90, 45, 135};
+
+/// At a shadow's edge, lit places are counted in so many rows and columns of a pixel.
+constexpr int kFineSide = 4;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     const bool reads_light = look_.shading == SurfaceShading::toon || look_.shading == SurfaceShading::gooch;
     SurfaceVariables of_pixel;
     for (const V v : {V::x, V::y, V::C, V::object, V::material}) of_pixel.set(number_of(v));
-    needs_places_ = reads_light || is_on_object || (look_.variables & ~of_pixel).any();
+    needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~of_pixel).any();
     needs_changes_ = look_.shading == SurfaceShading::toon || is_on_object;
     columns_.resize(look_.inputs.size() * kBlock);
     std::size_t results = 0;
@@ -32,7 +34,8 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     values_.resize(results * kBlock);
     triangles_.reserve(kBlock);
     const glm::dvec3 axis = unit(look_.hatch_axis);
-    const glm::dvec3 across = unit(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+    const glm::dvec3 across =
+        unit(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
     const glm::dvec3 other = glm::cross(across, axis);
     for (int level = 0; level < look_.hatch_levels; ++level) {
         const double turn = glm::radians(kLevelTurnsDeg[level]);
@@ -67,14 +70,22 @@ void FragmentShader::shade_block(std::span<const SurfaceFragment> fragments, glm
         triangle_at_[i] = is_known ? triangle_at_[i - 1] : triangle_number(fragments[i].surface);
         if (needs_places_) places_[i] = triangle_of(i).at(fragments[i].place, needs_changes_);
     }
+    if (look_.needs_lit) {
+        for (std::size_t i = 0; i < fragments.size(); ++i) lit_[i] = lit_share(i, fragments[i].place);
+    }
     if (!look_.program.outputs().empty()) evaluate(fragments);
+    const auto in_light = [&](std::size_t i, const auto& shade) -> glm::vec3 {
+        if (!look_.has_shadows || lit_[i] == 1) return shade(false);
+        if (lit_[i] == 0) return shade(true);
+        return glm::mix(shade(true), shade(false), lit_[i]);
+    };
     for (std::size_t i = 0; i < fragments.size(); ++i) {
         switch (look_.shading) {
             case SurfaceShading::toon:
-                colors[i] = toon(i);
+                colors[i] = in_light(i, [&](bool in_shadow) { return toon(i, in_shadow); });
                 break;
             case SurfaceShading::gooch:
-                colors[i] = gooch(i);
+                colors[i] = in_light(i, [&](bool in_shadow) { return gooch(i, in_shadow); });
                 break;
             case SurfaceShading::hatch:
                 colors[i] = hatch(i, fragments[i].place);
@@ -112,9 +123,8 @@ void FragmentShader::fill_column(const SurfaceInput& input, std::span<const Surf
         case V::depth:
             return each(depth);
         case V::distance:
-            return each([&](std::size_t i) {
-                return projection_.orthographic ? depth(i) : glm::length(places_[i].position);
-            });
+            return each(
+                [&](std::size_t i) { return projection_.orthographic ? depth(i) : glm::length(places_[i].position); });
         case V::px_size:
             return each([&](std::size_t i) { return projection_.pixel_size(depth(i)); });
         case V::P:
@@ -133,6 +143,8 @@ void FragmentShader::fill_column(const SurfaceInput& input, std::span<const Surf
                 const ViewLight& key = surfaces_.lights().front();
                 return std::clamp(glm::dot(places_[i].normal, key.towards(places_[i].position)), 0.0, 1.0);
             });
+        case V::lit:
+            return each([&](std::size_t i) { return lit_[i]; });
         case V::C:
             return each([&](std::size_t i) { return triangle_of(i).color()[c]; });
         case V::object:
@@ -160,12 +172,36 @@ void FragmentShader::evaluate(std::span<const SurfaceFragment> fragments) {
     if (count != 0) surfaces_.count_not_numbers(count);
 }
 
-FragmentShader::Light FragmentShader::light_at(const SurfacePlace& place) const {
+float FragmentShader::lit_share(std::size_t i, glm::dvec2 pixel) const {
+    const ShadowCasters& casters = *surfaces_.casters();
+    const ShadedTriangle& triangle = triangle_of(i);
+    const SurfacePlace& place = places_[i];
+    // A surface is in its own shadow where it is turned away.
+    if (glm::dot(place.normal, surfaces_.lights().front().towards(place.position)) <= 0) return 0;
+    const auto count_lit = [&](int side) {
+        int lit = 0;
+        for (int k = 0; k < side * side; ++k) {
+            const glm::dvec2 at((k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5);
+            lit += casters.is_lit(triangle.shadow_place(pixel + at), triangle.id()) ? 1 : 0;
+        }
+        return lit;
+    };
+    const int of_four = count_lit(2);
+    if (of_four == 0 || of_four == 4) return of_four == 0 ? 0.0f : 1.0f;
+    return static_cast<float>(count_lit(kFineSide)) / (kFineSide * kFineSide);
+}
+
+FragmentShader::Light FragmentShader::light_at(const SurfacePlace& place, bool in_shadow) const {
     Light brightest{-1, 0};
     bool is_first = true;
     for (const ViewLight& light : surfaces_.lights()) {
         const glm::dvec3 way = light.towards(place.position);
         const double value = std::clamp(glm::dot(place.normal, way), -1.0, 1.0);
+        if (in_shadow && is_first && value > 0) {
+            brightest = {0, 0};
+            is_first = false;
+            continue;
+        }
         if (!is_first && value <= brightest.value) continue;
         is_first = false;
         brightest.value = value;
@@ -183,9 +219,9 @@ FragmentShader::Light FragmentShader::light_at(const SurfacePlace& place) const 
     return brightest;
 }
 
-glm::vec3 FragmentShader::toon(std::size_t i) const {
+glm::vec3 FragmentShader::toon(std::size_t i, bool in_shadow) const {
     const glm::vec3& color = triangle_of(i).color();
-    const Light light = light_at(places_[i]);
+    const Light light = light_at(places_[i], in_shadow);
     const auto tone = [&](const ToneCurve& curve) {
         const glm::vec3 value = curve.at(light.value, light.change_per_px * look_.softness_px);
         return curve.is_color() ? value : value * color;
@@ -195,9 +231,9 @@ glm::vec3 FragmentShader::toon(std::size_t i) const {
     return main + (tone(look_.detail_tones) - main) * values_[i];
 }
 
-glm::vec3 FragmentShader::gooch(std::size_t i) const {
+glm::vec3 FragmentShader::gooch(std::size_t i, bool in_shadow) const {
     const glm::vec3& color = triangle_of(i).color();
-    const auto share = static_cast<float>(0.5 * (1 + light_at(places_[i]).value));
+    const auto share = static_cast<float>(0.5 * (1 + light_at(places_[i], in_shadow).value));
     return glm::mix(look_.cool + 0.25f * color, look_.warm + 0.5f * color, share);
 }
 
@@ -216,14 +252,16 @@ glm::vec3 FragmentShader::hatch(std::size_t i, glm::dvec2 pixel) const {
         }
         const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
         const glm::dvec3& axis = hatch_axes_[l];
-        const glm::dvec3 axis_in_view(glm::dot(axis, glm::dvec3(to_object[0])), glm::dot(axis, glm::dvec3(to_object[1])),
+        const glm::dvec3 axis_in_view(glm::dot(axis, glm::dvec3(to_object[0])),
+                                      glm::dot(axis, glm::dvec3(to_object[1])),
                                       glm::dot(axis, glm::dvec3(to_object[2])));
         const double place = glm::dot(axis_in_view, places_[i].position) + glm::dot(axis, glm::dvec3(to_object[3]));
         const glm::dvec2 change(glm::dot(axis_in_view, places_[i].position_change[0]),
                                 glm::dot(axis_in_view, places_[i].position_change[1]));
         // Where planes are nearly level with the surface, lines would crowd.
         const double least = 0.1 * glm::length(axis_in_view) * projection_.pixel_size(-places_[i].position.z);
-        free *= 1 - covered_by_adaptive_lines(place, std::max(glm::length(change), least), look_.hatch_spacing_px, width);
+        free *=
+            1 - covered_by_adaptive_lines(place, std::max(glm::length(change), least), look_.hatch_spacing_px, width);
     }
     const auto covered = static_cast<float>(1 - free);
     const glm::vec3 ink(values_[kBlock + i], values_[2 * kBlock + i], values_[3 * kBlock + i]);

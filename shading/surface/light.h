@@ -10,8 +10,8 @@ namespace burin {
 /// A light as a scene has it: at a point, or so far away that all of its light comes from one direction.
 struct SceneLight {
     bool is_at_point = false;
-    bool is_in_camera = false;           ///< in the camera's axes; else in the world's
-    glm::dvec3 place{0.0, 0.0, 1.0};     ///< its position, or a direction towards it
+    bool is_in_camera = false;        ///< in the camera's axes; else in the world's
+    glm::dvec3 place{0.0, 0.0, 1.0};  ///< its position, or a direction towards it
 };
 
 /// A light in view space.

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "lines/corner_normals.h"
 #include "mesh/polygon_soup.h"
 #include "shading/surface/light.h"
+#include "shading/surface/shadow_casters.h"
 #include "shading/surface/surface_look.h"
 #include "view/surface_set.h"
 
@@ -36,7 +38,11 @@ class ShadedSurfaces {
     const glm::dmat4& camera_to_world() const { return view_.camera_to_world; }
     std::span<const ViewLight> lights() const { return view_.lights; }
     /// Normals at the corners of an instance's mesh; nullptr: its polygons are flat.
-    const SmoothMesh* smooth(std::uint32_t instance) const { return smooth_of_.empty() ? nullptr : smooth_of_[instance]; }
+    const SmoothMesh* smooth(std::uint32_t instance) const {
+        return smooth_of_.empty() ? nullptr : smooth_of_[instance];
+    }
+    /// What casts shadows in the light of the key light; nullptr: shadows are not asked for.
+    const ShadowCasters* casters() const { return casters_ ? &*casters_ : nullptr; }
     /// A view-space position in the coordinates of an instance's object, before its transform.
     const glm::dmat4& to_object(std::uint32_t instance) const { return to_object_[instance]; }
 
@@ -50,6 +56,7 @@ class ShadedSurfaces {
     std::vector<SmoothMesh> smooth_meshes_;
     std::vector<const SmoothMesh*> smooth_of_;  // per instance
     std::vector<glm::dmat4> to_object_;         // per instance
+    std::optional<ShadowCasters> casters_;
     mutable std::atomic<std::uint64_t> not_numbers_{0};
 };
 

@@ -42,17 +42,32 @@ ShadedTriangle::ShadedTriangle(const ShadedSurfaces& shaded, SurfaceId id) : id_
     }
 }
 
-SurfacePlace ShadedTriangle::at(glm::dvec2 pixel, bool with_changes) const {
-    double weights[3], sum = 0;
+ShadedTriangle::Weights ShadedTriangle::weights_at(glm::dvec2 pixel) const {
+    Weights weights{};
+    double sum = 0;
     for (int k = 0; k < 3; ++k) {
-        weights[k] = std::max(weights_[k][0] + pixel.x * weights_[k][1] + pixel.y * weights_[k][2], 0.0);
-        sum += weights[k];
+        weights.of[k] = std::max(weights_[k][0] + pixel.x * weights_[k][1] + pixel.y * weights_[k][2], 0.0);
+        sum += weights.of[k];
     }
-    if (!(sum > 0)) {  // edge-on
-        std::fill(std::begin(weights), std::end(weights), 1.0 / 3);
-        sum = 1;
+    if (!(sum > 0)) return {{1.0 / 3, 1.0 / 3, 1.0 / 3}, 1};  // edge-on
+    weights.scale = 1 / sum;
+    return weights;
+}
+
+glm::dvec3 ShadedTriangle::shadow_place(glm::dvec2 pixel) const {
+    const auto [weights, scale] = weights_at(pixel);
+    const glm::dvec3 place = (weights[0] * corners_[0] + weights[1] * corners_[1] + weights[2] * corners_[2]) * scale;
+    if (!is_smooth_) return place;
+    glm::dvec3 moved = place;
+    for (int k = 0; k < 3; ++k) {
+        const double below = std::min(glm::dot(place - corners_[k], normals_[k]), 0.0);  // the plane at the corner
+        moved -= normals_[k] * (weights[k] * scale * below);
     }
-    const double scale = 1 / sum;
+    return moved;
+}
+
+SurfacePlace ShadedTriangle::at(glm::dvec2 pixel, bool with_changes) const {
+    const auto [weights, scale] = weights_at(pixel);
     SurfacePlace place{};
     place.position = (weights[0] * corners_[0] + weights[1] * corners_[1] + weights[2] * corners_[2]) * scale;
     if (with_changes) {

@@ -27,11 +27,20 @@ class ShadedTriangle {
     bool is_smooth() const { return is_smooth_; }
     /// At a place on the screen, in pixels.
     SurfacePlace at(glm::dvec2 pixel, bool with_changes) const;
+    /// Where a ray to a light begins that is to miss the neighbours of the triangle on a smooth surface: on that,
+    /// about, as it is in front of the triangle (Hanika 2021).
+    glm::dvec3 shadow_place(glm::dvec2 pixel) const;
     std::uint32_t object_id() const { return object_id_; }
     std::uint32_t material_id() const { return material_id_; }
     const glm::vec3& color() const { return color_; }
 
   private:
+    struct Weights {
+        double of[3];  ///< not negative
+        double scale;  ///< 1 / their sum
+    };
+    Weights weights_at(glm::dvec2 pixel) const;
+
     SurfaceId id_;
     bool is_smooth_ = false;
     std::uint32_t object_id_ = 0, material_id_ = 0;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr float kMostColor = 65504;  // the largest half
 constexpr std::array<std::string_view, kSurfaceVariableCount> kNames = {
-    "x", "y", "depth", "distance", "px_size", "P", "PO", "N", "facing", "light", "C", "object", "material"};
-constexpr auto kLater = std::to_array<std::string_view>({"u", "v", "Cv", "attr", "kr", "lit"});
+    "x", "y", "depth", "distance", "px_size", "P", "PO", "N", "facing", "light", "lit", "C", "object", "material"};
+constexpr auto kLater = std::to_array<std::string_view>({"u", "v", "Cv", "attr", "kr"});
 
 std::optional<SurfaceVariable> surface_variable_named(std::string_view name) {
     const auto* const at = std::find(kNames.begin(), kNames.end(), name);
@@ -29,6 +29,8 @@ std::optional<SurfaceVariable> surface_variable_named(std::string_view name) {
 ExpressionSymbols surface_symbols(const SheetContext& context) {
     ExpressionSymbols symbols = symbols_of(StyleSheet{}, context);
     std::erase_if(symbols.variables, [](const ExpressionVariable& v) { return !surface_variable_named(v.name); });
+    if (std::none_of(symbols.variables.begin(), symbols.variables.end(), [](const auto& v) { return v.name == "lit"; }))
+        symbols.variables.push_back({"lit"});
     for (ExpressionVariable& v : symbols.variables) v.rate = ValueRate::sample;
     symbols.later.clear();
     for (const std::string_view name : kLater) symbols.later.emplace_back(name);
@@ -170,6 +172,7 @@ SurfaceLook::SurfaceLook(SurfaceShading of, const SurfaceRecipe& recipe, const S
         inputs.push_back({variable, input.component});
         variables.set(number_of(variable));
     }
+    needs_lit = has_shadows || variables[number_of(SurfaceVariable::lit)];
 }
 
 Ramp default_tones() {

@@ -17,7 +17,22 @@
 namespace burin {
 
 /// What expressions may read of a place on a surface.
-enum class SurfaceVariable : std::uint8_t { x, y, depth, distance, px_size, P, PO, N, facing, light, C, object, material };
+enum class SurfaceVariable : std::uint8_t {
+    x,
+    y,
+    depth,
+    distance,
+    px_size,
+    P,
+    PO,
+    N,
+    facing,
+    light,
+    lit,
+    C,
+    object,
+    material
+};
 constexpr std::size_t kSurfaceVariableCount = static_cast<std::size_t>(SurfaceVariable::material) + 1;
 
 using SurfaceVariables = std::bitset<kSurfaceVariableCount>;
@@ -67,6 +82,7 @@ struct SurfaceLook {
     ExpressionProgram program;
     std::vector<SurfaceInput> inputs;  ///< of the program
     SurfaceVariables variables;        ///< that it reads
+    bool needs_lit = false;            ///< whether shadows are to be known
 };
 
 }  // namespace burin

@@ -42,8 +42,8 @@ struct SurfaceRecipe {
     StyleValue tone, ink = StyleValue::of_color({0, 0, 0}), ground;
     StyleValue spacing = StyleValue::of(6);  ///< a constant: from line to line, in pixels
     HatchSpace space = HatchSpace::screen;
-    double angle_deg = 45;            ///< of the first level on the picture, counter-clockwise
-    glm::dvec3 axis{0.0, 1.0, 0.0};   ///< in the object, across the planes of its first level
+    double angle_deg = 45;           ///< of the first level on the picture, counter-clockwise
+    glm::dvec3 axis{0.0, 1.0, 0.0};  ///< in the object, across the planes of its first level
     int levels = 3;
 };
 
