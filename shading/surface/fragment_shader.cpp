@@ -12,8 +12,13 @@ using V = SurfaceVariable;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 
-/// By how much a level's direction differs from that of the first one.
-constexpr double kLevelTurnsDeg[] = {0, 90, 45, 135};
+/// By how much a level's direction differs from that of the first one: no two are across each other, for then lines
+/// would leave rows of dots.
+constexpr double kLevelTurnsDeg[] = {0, 70, 125, 30};
+
+/// Planes that cut a surface at a smaller angle than the first of these make no lines on it, at a larger one than the
+/// second no others are needed. Sines.
+constexpr double kLevelPlanes[] = {0.12, 0.3};
 
 /// At a shadow's edge, lit places are counted in so many rows and columns of a pixel.
 constexpr int kFineSide = 4;
@@ -43,6 +48,9 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
         hatch_directions_.emplace_back(std::sin(angle), std::cos(angle));  // across the lines; y runs down
         hatch_axes_.push_back(level % 2 == 0 ? unit(axis * std::cos(turn) + across * std::sin(turn))
                                              : unit(axis * std::cos(turn) + other * std::sin(turn)));
+        const glm::dvec3 aside(0.36, 0.48, 0.8);
+        const bool is_aside = std::abs(glm::dot(hatch_axes_.back(), aside)) < 0.95;
+        other_axes_.push_back(unit(glm::cross(hatch_axes_.back(), is_aside ? aside : glm::dvec3(1, 0, 0))));
     }
 }
 
@@ -237,6 +245,40 @@ glm::vec3 FragmentShader::gooch(std::size_t i, bool in_shadow) const {
     return glm::mix(look_.cool + 0.25f * color, look_.warm + 0.5f * color, share);
 }
 
+double FragmentShader::covered_on_object(std::size_t i, const glm::dvec3& axis, double width) const {
+    const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
+    const SurfacePlace& p = places_[i];
+    const glm::dvec3 in_view = axis_in_view(i, axis);
+    const double place = glm::dot(in_view, p.position) + glm::dot(axis, glm::dvec3(to_object[3]));
+    const glm::dvec2 change(glm::dot(in_view, p.position_change[0]), glm::dot(in_view, p.position_change[1]));
+    // Where planes are nearly level with the surface, lines would crowd.
+    const double least = 0.1 * glm::length(in_view) * projection_.pixel_size(-p.position.z);
+    return covered_by_adaptive_lines(place, std::max(glm::length(change), least), look_.hatch_spacing_px, width);
+}
+
+glm::dvec3 FragmentShader::axis_in_view(std::size_t i, const glm::dvec3& axis) const {
+    const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
+    return {glm::dot(axis, glm::dvec3(to_object[0])), glm::dot(axis, glm::dvec3(to_object[1])),
+            glm::dot(axis, glm::dvec3(to_object[2]))};
+}
+
+double FragmentShader::free_of_level(std::size_t i, std::size_t level, double width, glm::dvec2 pixel) const {
+    if (look_.hatch_space == HatchSpace::screen) {
+        const double place = glm::dot(pixel, hatch_directions_[level]) / look_.hatch_spacing_px;
+        return 1 - covered_by_lines(place, 1 / look_.hatch_spacing_px, width);
+    }
+    // Where the planes of the level hardly cut the surface, others take over.
+    const glm::dvec3& axis = hatch_axes_[level];
+    const double cosine = std::min(std::abs(glm::dot(unit(axis_in_view(i, axis)), places_[i].normal)), 1.0);
+    const double sine = std::sqrt(1 - cosine * cosine);
+    const double u = std::clamp((sine - kLevelPlanes[0]) / (kLevelPlanes[1] - kLevelPlanes[0]), 0.0, 1.0);
+    const double own = width * u * u * (3 - 2 * u);
+    double free = 1;
+    if (own > 0) free *= 1 - covered_on_object(i, axis, own);
+    if (own < width) free *= 1 - covered_on_object(i, other_axes_[level], 1 - (1 - width) / (1 - own));
+    return free;
+}
+
 glm::vec3 FragmentShader::hatch(std::size_t i, glm::dvec2 pixel) const {
     const auto tone = static_cast<double>(values_[i]);
     const HatchLevels levels{look_.hatch_levels};
@@ -244,24 +286,7 @@ glm::vec3 FragmentShader::hatch(std::size_t i, glm::dvec2 pixel) const {
     for (int level = 0; level < look_.hatch_levels; ++level) {
         const double width = levels.coverage(level, tone);
         if (!(width > 0)) break;
-        const auto l = static_cast<std::size_t>(level);
-        if (look_.hatch_space == HatchSpace::screen) {
-            const double place = glm::dot(pixel, hatch_directions_[l]) / look_.hatch_spacing_px;
-            free *= 1 - covered_by_lines(place, 1 / look_.hatch_spacing_px, width);
-            continue;
-        }
-        const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
-        const glm::dvec3& axis = hatch_axes_[l];
-        const glm::dvec3 axis_in_view(glm::dot(axis, glm::dvec3(to_object[0])),
-                                      glm::dot(axis, glm::dvec3(to_object[1])),
-                                      glm::dot(axis, glm::dvec3(to_object[2])));
-        const double place = glm::dot(axis_in_view, places_[i].position) + glm::dot(axis, glm::dvec3(to_object[3]));
-        const glm::dvec2 change(glm::dot(axis_in_view, places_[i].position_change[0]),
-                                glm::dot(axis_in_view, places_[i].position_change[1]));
-        // Where planes are nearly level with the surface, lines would crowd.
-        const double least = 0.1 * glm::length(axis_in_view) * projection_.pixel_size(-places_[i].position.z);
-        free *=
-            1 - covered_by_adaptive_lines(place, std::max(glm::length(change), least), look_.hatch_spacing_px, width);
+        free *= free_of_level(i, static_cast<std::size_t>(level), width, pixel);
     }
     const auto covered = static_cast<float>(1 - free);
     const glm::vec3 ink(values_[kBlock + i], values_[2 * kBlock + i], values_[3 * kBlock + i]);

@@ -46,6 +46,11 @@ class FragmentShader {
     glm::vec3 toon(std::size_t i, bool in_shadow) const;
     glm::vec3 gooch(std::size_t i, bool in_shadow) const;
     glm::vec3 hatch(std::size_t i, glm::dvec2 pixel) const;
+    /// What the lines of a level leave free of a place when they cover so much.
+    double free_of_level(std::size_t i, std::size_t level, double width, glm::dvec2 pixel) const;
+    /// What planes across an axis of the object cover.
+    double covered_on_object(std::size_t i, const glm::dvec3& axis, double width) const;
+    glm::dvec3 axis_in_view(std::size_t i, const glm::dvec3& axis) const;
     const ShadedTriangle& triangle_of(std::size_t i) const { return triangles_[triangle_at_[i]]; }
 
     const ShadedSurfaces& surfaces_;
@@ -54,6 +59,7 @@ class FragmentShader {
     bool needs_places_, needs_changes_;
     std::vector<glm::dvec2> hatch_directions_;  // on the screen, per level
     std::vector<glm::dvec3> hatch_axes_;        // in the object, per level
+    std::vector<glm::dvec3> other_axes_;        // across these, for surfaces that lie in their planes
 
     // Of the block at work.
     std::vector<ShadedTriangle> triangles_;

@@ -72,7 +72,8 @@ ShadowCasters::ShadowCasters(const SurfaceSet& surfaces, const ViewLight& light,
         }
     } else {
         const glm::dvec3 l = light.place;
-        const glm::dvec3 right = glm::normalize(glm::cross(l, std::abs(l.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+        const glm::dvec3 right =
+            glm::normalize(glm::cross(l, std::abs(l.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
         views_.push_back({right, glm::cross(l, right), l, -1});
     }
     for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
@@ -108,9 +109,8 @@ ShadowCasters::ShadowCasters(const SurfaceSet& surfaces, const ViewLight& light,
             }
         }
         if (seen.empty()) continue;
-        std::stable_sort(seen.begin(), seen.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return casters_[a].nearness > casters_[b].nearness;
-        });
+        std::stable_sort(seen.begin(), seen.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return casters_[a].nearness > casters_[b].nearness; });
         const double size = std::max({high.x - low.x, high.y - low.y, 1e-30});
         views_[v].grid = static_cast<std::int64_t>(grids_.size());
         grids_.emplace_back();
@@ -125,7 +125,8 @@ double ShadowCasters::nearness_of(const glm::dvec3& place) const {
 glm::dvec2 ShadowCasters::in_view(const View& view, const glm::dvec3& place) const {
     if (!light_.is_at_point) return {glm::dot(view.right, place), glm::dot(view.up, place)};
     const glm::dvec3 way = place - light_.place;
-    return glm::dvec2(glm::dot(view.right, way), glm::dot(view.up, way)) / std::max(glm::dot(view.forward, way), 1e-300);
+    return glm::dvec2(glm::dot(view.right, way), glm::dot(view.up, way)) /
+           std::max(glm::dot(view.forward, way), 1e-300);
 }
 
 std::size_t ShadowCasters::view_of(const glm::dvec3& place) const {
@@ -207,7 +208,8 @@ void ShadowCasters::add_grid(std::uint32_t number, const View& view, glm::dvec2 
             add_grid(inner, view, corner + glm::dvec2(i % side, i / side) * cell_size, cell_size, own, depth + 1);
             continue;
         }
-        cells_[grid.first_cell + i] = {static_cast<std::uint32_t>(order_.size()), static_cast<std::uint32_t>(own.size())};
+        cells_[grid.first_cell + i] = {static_cast<std::uint32_t>(order_.size()),
+                                       static_cast<std::uint32_t>(own.size())};
         order_.insert(order_.end(), own.begin(), own.end());
     }
 }
@@ -253,7 +255,8 @@ bool ShadowCasters::is_lit(const glm::dvec3& place, SurfaceId own) const {
                 if (!light_.is_at_point) return false;
                 // What lies behind the light hides nothing.
                 const glm::dvec3 normal = glm::cross(caster.edges[0], caster.edges[1]);
-                const double to_plane = glm::dot(caster.corner - place, normal), to_light = glm::dot(light_.place - place, normal);
+                const double to_plane = glm::dot(caster.corner - place, normal),
+                             to_light = glm::dot(light_.place - place, normal);
                 if (std::abs(to_plane) < std::abs(to_light)) return false;
             }
         }
